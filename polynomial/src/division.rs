@@ -1,0 +1,85 @@
+//! Exact division.
+
+use crate::arithmetic::{common_symbols, spread_terms};
+use crate::binomial::factorial;
+use crate::polynomial::{Monomial, Polynomial, Term};
+use crate::symbol::Symbol;
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::sync::Arc;
+
+impl Polynomial {
+    /// The quotient `p / divisor` where it is a polynomial, else `None`. As many products of
+    /// terms as the quotient and the divisor have together, and no fraction: a primitive integer
+    /// polynomial divides an integer polynomial only with an integer quotient (Gauss's lemma).
+    ///
+    /// ```
+    /// use wavestep_polynomial::Polynomial;
+    /// let p: Polynomial = "x^2 - y^2".parse().unwrap();
+    /// let d: Polynomial = "x + y".parse().unwrap();
+    /// assert_eq!(p.divide(&d).unwrap().to_string(), "x - y");
+    /// assert!(p.divide(&"x + 1".parse().unwrap()).is_none());
+    /// ```
+    ///
+    /// # Panics
+    /// Where the divisor is zero.
+    pub fn divide(&self, divisor: &Polynomial) -> Option<Polynomial> {
+        assert!(!divisor.is_zero(), "division by the zero polynomial");
+        if let Some(value) = divisor.as_constant() {
+            return Some(self / &value);
+        }
+        if divisor.symbols.iter().any(|x| divisor.degree(x) > self.degree(x)) {
+            return self.is_zero().then(Polynomial::zero);
+        }
+        let symbols = common_symbols(&self.symbols, &divisor.symbols);
+        let (content, primitive) = divisor.primitive_part();
+        let (divisor, _) = ordinary(&primitive, &symbols);
+        let (mut rest, scale) = ordinary(self, &symbols);
+        let (lead, lead_value) = divisor.last_key_value().expect("the divisor is not zero");
+        let mut quotient = Vec::new();
+        while let Some((exponents, value)) = rest.last_key_value() {
+            let (factor, remainder) = value.div_rem(lead_value);
+            let differences = exponents.iter().zip(lead).map(|(e, l)| e.checked_sub(*l));
+            let step = differences.collect::<Option<Monomial>>()?;
+            if !remainder.is_zero() {
+                return None;
+            }
+            for (exponents, value) in &divisor {
+                let place = exponents.iter().zip(&step).map(|(a, b)| a + b).collect();
+                let mut entry = match rest.entry(place) {
+                    Entry::Occupied(entry) => entry,
+                    Entry::Vacant(entry) => entry.insert_entry(BigInt::zero()),
+                };
+                *entry.get_mut() -= value * &factor;
+                if entry.get().is_zero() {
+                    entry.remove();
+                }
+            }
+            quotient.push((step, factor));
+        }
+        let quotient = from_ordinary(symbols, quotient);
+        Some(&quotient / &(content * BigRational::from_integer(scale)))
+    }
+}
+
+/// The integer coefficients of `scale · p` in ordinary powers, with the smallest such scale.
+fn ordinary(p: &Polynomial, symbols: &Arc<[Symbol]>) -> (BTreeMap<Monomial, BigInt>, BigInt) {
+    let coefficients: Vec<BigRational> = p.terms().map(|(_, coefficient)| coefficient).collect();
+    let scale = coefficients.iter().fold(BigInt::one(), |d, c| d.lcm(c.denom()));
+    let integers = coefficients.iter().map(|c| c.numer() * (&scale / c.denom()));
+    let places = spread_terms(p, symbols).map(|(exponents, _)| exponents);
+    (places.zip(integers).collect(), scale)
+}
+
+/// The polynomial with these integer coefficients of ordinary powers, exponents descending.
+fn from_ordinary(symbols: Arc<[Symbol]>, terms: Vec<(Monomial, BigInt)>) -> Polynomial {
+    let divided = terms.into_iter().map(|(exponents, coefficient)| {
+        let numerator = exponents.iter().fold(coefficient, |c, e| c * factorial(*e));
+        Term { exponents, numerator }
+    });
+    Polynomial::from_parts(symbols, divided.collect(), BigInt::one())
+}
