@@ -1,0 +1,171 @@
+//! What is known of the symbols: conditions on their values, and factors that are not zero.
+
+use crate::expression::fraction::Fraction;
+use crate::expression::sum::Expression;
+use num_traits::{Signed, Zero};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
+
+/// How a symbol compares with a number.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Relation {
+    /// `>`
+    Greater,
+    /// `>=`
+    AtLeast,
+    /// `<`
+    Less,
+    /// `<=`
+    AtMost,
+    /// `!=`
+    Unequal,
+}
+
+/// A condition on the value of one symbol, such as `> 0`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Condition {
+    /// The comparison.
+    pub relation: Relation,
+    /// The number compared with.
+    pub bound: Rational,
+}
+
+impl Condition {
+    /// Whether `value` meets the condition.
+    pub fn holds(&self, value: &Rational) -> bool {
+        match self.relation {
+            Relation::Greater => value > &self.bound,
+            Relation::AtLeast => value >= &self.bound,
+            Relation::Less => value < &self.bound,
+            Relation::AtMost => value <= &self.bound,
+            Relation::Unequal => value != &self.bound,
+        }
+    }
+
+    /// Whether every number that meets the condition is above zero.
+    fn implies_positive(&self) -> bool {
+        match self.relation {
+            Relation::Greater => !self.bound.is_negative(),
+            Relation::AtLeast => self.bound.is_positive(),
+            _ => false,
+        }
+    }
+
+    fn implies_non_zero(&self) -> bool {
+        !self.holds(&Rational::zero())
+    }
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let relation = match self.relation {
+            Relation::Greater => ">",
+            Relation::AtLeast => ">=",
+            Relation::Less => "<",
+            Relation::AtMost => "<=",
+            Relation::Unequal => "!=",
+        };
+        write!(f, "{relation} {}", self.bound)
+    }
+}
+
+/// What answers may rely on: conditions on symbols, and irreducible factors taken to be non-zero.
+///
+/// Only declared factors are divided by. A symbolic answer therefore holds wherever the conditions
+/// hold and no factor vanishes; other values are put in before anything is derived.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Assumptions {
+    conditions: BTreeMap<Symbol, Option<Condition>>,
+    factors: BTreeSet<Polynomial>,
+}
+
+/// An expression that the declared factors do not allow to divide by.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum NotInvertible {
+    /// The expression is zero.
+    Zero,
+    /// This factor would have to be declared non-zero first.
+    Undeclared(Polynomial),
+    /// A sum of exponentials, which may vanish somewhere.
+    SumOfExponentials,
+}
+
+impl fmt::Display for NotInvertible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NotInvertible::Zero => f.write_str("division by zero"),
+            NotInvertible::Undeclared(factor) => {
+                write!(f, "division by {factor}, which is not known to be non-zero")
+            }
+            NotInvertible::SumOfExponentials => f.write_str("division by a sum of exponentials"),
+        }
+    }
+}
+
+impl std::error::Error for NotInvertible {}
+
+impl Assumptions {
+    /// Declares a symbol, with a condition on its values if there is one.
+    pub fn declare_symbol(&mut self, symbol: Symbol, condition: Option<Condition>) {
+        if condition.as_ref().is_some_and(Condition::implies_non_zero) {
+            self.factors.insert(Polynomial::symbol(&symbol));
+        }
+        self.conditions.insert(symbol, condition);
+    }
+
+    /// Declares the factors of the denominator of `unit` to be non-zero.
+    pub fn declare_factors(&mut self, unit: &Fraction) {
+        self.factors.extend(unit.factors().map(|(factor, _)| factor.clone()));
+    }
+
+    /// The declared symbols with their conditions, ascending by name.
+    pub fn symbols(&self) -> impl Iterator<Item = (&Symbol, Option<&Condition>)> + '_ {
+        self.conditions.iter().map(|(symbol, condition)| (symbol, condition.as_ref()))
+    }
+
+    /// The factors taken to be non-zero.
+    pub fn factors(&self) -> impl Iterator<Item = &Polynomial> + '_ {
+        self.factors.iter()
+    }
+
+    /// The inverse of `c · e^λ`, where `c` is a product of declared factors and a number.
+    ///
+    /// # Errors
+    /// [`NotInvertible`] with the part that stands in the way.
+    pub fn invert(&self, value: &Expression) -> Result<Expression, NotInvertible> {
+        let mut terms = value.terms();
+        let (exponent, coefficient) = terms.next().ok_or(NotInvertible::Zero)?;
+        if terms.next().is_some() {
+            return Err(NotInvertible::SumOfExponentials);
+        }
+        let mut inverse = Fraction::from(coefficient.denominator());
+        let mut rest = coefficient.numerator().clone();
+        for factor in &self.factors {
+            while let Some(quotient) = rest.divide(factor) {
+                rest = quotient;
+                let reciprocal = Fraction::reciprocal(factor);
+                inverse = &inverse * &reciprocal.expect("declared factors are irreducible");
+            }
+        }
+        let Some(number) = rest.as_constant() else {
+            return Err(NotInvertible::Undeclared(rest.primitive_part().1));
+        };
+        let inverse = inverse.scale(&number.recip());
+        Ok(Expression::from(inverse).times_exponential(&-exponent))
+    }
+
+    /// Whether the value is certainly positive under the conditions: a positive number, or a
+    /// quotient of sums of positive terms in symbols known to be positive.
+    pub fn is_positive(&self, value: &Fraction) -> bool {
+        let positive_symbol = |x: &Symbol| {
+            self.conditions.get(x).and_then(Option::as_ref).is_some_and(Condition::implies_positive)
+        };
+        let positive = |p: &Polynomial| {
+            !p.is_zero()
+                && p.symbols().iter().all(positive_symbol)
+                && p.terms().all(|(_, coefficient)| coefficient.is_positive())
+        };
+        positive(value.numerator()) && value.factors().all(|(factor, _)| positive(factor))
+    }
+}

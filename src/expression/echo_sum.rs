@@ -1,0 +1,48 @@
+//! Functions given as a sum of delayed echoes.
+
+use crate::expression::fraction::{Fraction, NotAUnit};
+use crate::expression::sum::Expression;
+use num_traits::ToPrimitive;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// A function of all time as a sum of echoes, one arriving every period `D`:
+///
+/// ```text
+/// w(T) = Σ_{k: kD ≤ T} φ_k(T − kD)
+/// ```
+///
+/// One short polynomial an echo, and no symbol of the period in it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EchoSum {
+    period: Fraction,
+    local: Symbol,
+    echoes: Vec<Expression>,
+}
+
+impl EchoSum {
+    /// The sum of `echoes`, functions of `local`, one period apart.
+    pub fn new(period: Fraction, local: Symbol, echoes: Vec<Expression>) -> EchoSum {
+        EchoSum { period, local, echoes }
+    }
+
+    /// The echoes `φ_0, φ_1, …`.
+    pub fn echoes(&self) -> &[Expression] {
+        &self.echoes
+    }
+
+    /// The piece on the n-th period, in the local variable: `Σ_{k ≤ n} φ_k(s + (n−k)D)`.
+    ///
+    /// # Errors
+    /// [`NotAUnit`] where the period has a denominator that cannot be carried.
+    ///
+    /// # Panics
+    /// Where an echo up to the n-th is not known.
+    pub fn piece(&self, n: usize) -> Result<Expression, NotAUnit> {
+        let mut sum = Expression::zero();
+        for (k, echo) in self.echoes[..=n].iter().enumerate() {
+            let delay = Rational::from_integer((n - k).to_u64().expect("a count").into());
+            sum += &echo.shift(&self.local, &self.period.scale(&delay))?;
+        }
+        Ok(sum)
+    }
+}

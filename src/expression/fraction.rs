@@ -1,0 +1,353 @@
+//! Polynomials localised at irreducible factors.
+
+use num_traits::{One, Zero};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::{Add, Mul, Neg, Sub};
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
+
+/// A polynomial over a product of irreducible factors,
+///
+/// ```text
+/// p / Π_i d_i^{k_i}
+/// ```
+///
+/// Each `d_i` is *primitive* (coprime integer coefficients, the leading one positive) and linear
+/// in some symbol with a coefficient that shares no factor with the rest, hence irreducible.
+/// Exact division then cancels all that can be cancelled, and no general gcd is needed.
+///
+/// # Invariants
+/// - `k_i > 0`, and no `d_i` divides `p`;
+/// - zero has no factors.
+///
+/// Equal values have one representation. The order (`Ord`) is total and without algebraic meaning.
+///
+/// ```
+/// use wavestep::expression::Fraction;
+/// let r: wavestep_polynomial::Polynomial = "r + 1".parse().unwrap();
+/// let inverse = Fraction::reciprocal(&r).unwrap();
+/// assert_eq!(&inverse * &Fraction::from(r), Fraction::one());
+/// ```
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Fraction {
+    numerator: Polynomial,
+    factors: BTreeMap<Polynomial, u32>,
+}
+
+/// A polynomial that cannot be divided by: zero, or not a product of symbols and at most one
+/// further factor that is linear in some symbol.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct NotAUnit(pub Polynomial);
+
+impl fmt::Display for NotAUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_zero() {
+            f.write_str("division by zero")
+        } else {
+            write!(f, "cannot divide by {}: it is not linear in any symbol", self.0)
+        }
+    }
+}
+
+impl std::error::Error for NotAUnit {}
+
+impl Fraction {
+    /// The value 0.
+    pub fn zero() -> Fraction {
+        Polynomial::zero().into()
+    }
+
+    /// The value 1.
+    pub fn one() -> Fraction {
+        Polynomial::one().into()
+    }
+
+    /// A rational constant.
+    pub fn constant(value: &Rational) -> Fraction {
+        Polynomial::constant(value).into()
+    }
+
+    /// A symbol.
+    pub fn symbol(x: &Symbol) -> Fraction {
+        Polynomial::symbol(x).into()
+    }
+
+    /// `1/p`, where `p` is a constant times symbols times at most one factor that is linear in
+    /// some symbol with a constant or a single term as its coefficient.
+    ///
+    /// # Errors
+    /// [`NotAUnit`] for zero and for every other polynomial.
+    pub fn reciprocal(p: &Polynomial) -> Result<Fraction, NotAUnit> {
+        if p.is_zero() {
+            return Err(NotAUnit(p.clone()));
+        }
+        let (content, mut rest) = p.primitive_part();
+        let mut factors = BTreeMap::new();
+        for x in p.symbols() {
+            let lowest = rest.coefficients(x).last().map_or(0, |(power, _)| *power);
+            if lowest > 0 {
+                let symbol = Polynomial::symbol(x);
+                rest = rest.divide(&symbol.pow(lowest)).expect("x divides every term");
+                factors.insert(symbol, lowest);
+            }
+        }
+        if !rest.is_one() {
+            if !is_irreducible(&rest) {
+                return Err(NotAUnit(p.clone()));
+            }
+            factors.insert(rest, 1);
+        }
+        Ok(Fraction { numerator: Polynomial::constant(&content.recip()), factors })
+    }
+
+    /// The numerator.
+    pub fn numerator(&self) -> &Polynomial {
+        &self.numerator
+    }
+
+    /// The factors of the denominator with their powers.
+    pub fn factors(&self) -> impl Iterator<Item = (&Polynomial, u32)> + '_ {
+        self.factors.iter().map(|(factor, power)| (factor, *power))
+    }
+
+    /// The denominator, multiplied out.
+    pub fn denominator(&self) -> Polynomial {
+        self.factors.iter().fold(Polynomial::one(), |d, (factor, power)| &d * &factor.pow(*power))
+    }
+
+    /// Whether this is 0.
+    pub fn is_zero(&self) -> bool {
+        self.numerator.is_zero()
+    }
+
+    /// Whether this is 1.
+    pub fn is_one(&self) -> bool {
+        self.factors.is_empty() && self.numerator.is_one()
+    }
+
+    /// The polynomial, where there is no denominator.
+    pub fn as_polynomial(&self) -> Option<&Polynomial> {
+        self.factors.is_empty().then_some(&self.numerator)
+    }
+
+    /// The value, where no symbol occurs.
+    pub fn as_constant(&self) -> Option<Rational> {
+        self.as_polynomial().and_then(Polynomial::as_constant)
+    }
+
+    /// Whether `x` occurs.
+    pub fn contains(&self, x: &Symbol) -> bool {
+        let occurs = |p: &Polynomial| p.symbols().binary_search(x).is_ok();
+        occurs(&self.numerator) || self.factors.keys().any(occurs)
+    }
+
+    /// The symbols that occur, ascending.
+    pub fn symbols(&self) -> Vec<Symbol> {
+        let all = std::iter::once(&self.numerator).chain(self.factors.keys());
+        let mut symbols: Vec<_> = all.flat_map(|p| p.symbols().iter().cloned()).collect();
+        symbols.sort();
+        symbols.dedup();
+        symbols
+    }
+
+    /// `numerator` over the denominator of this fraction.
+    pub fn with_numerator(&self, numerator: Polynomial) -> Fraction {
+        Fraction::normal(numerator, self.factors.clone())
+    }
+
+    /// Normal form of `numerator / Π factors`: cancels every factor that divides the numerator.
+    fn normal(numerator: Polynomial, factors: BTreeMap<Polynomial, u32>) -> Fraction {
+        if factors.is_empty() || numerator.is_zero() {
+            return numerator.into();
+        }
+        let mut fraction = Fraction { numerator, factors: BTreeMap::new() };
+        for (factor, mut power) in factors {
+            while power > 0 {
+                let Some(quotient) = fraction.numerator.divide(&factor) else { break };
+                fraction.numerator = quotient;
+                power -= 1;
+            }
+            if power > 0 {
+                fraction.factors.insert(factor, power);
+            }
+        }
+        fraction
+    }
+
+    /// The product with a rational number. O(terms).
+    pub fn scale(&self, by: &Rational) -> Fraction {
+        if by.is_zero() {
+            return Fraction::zero();
+        }
+        Fraction { numerator: &self.numerator * by, factors: self.factors.clone() }
+    }
+
+    /// `self^exponent`.
+    pub fn pow(&self, exponent: u32) -> Fraction {
+        if exponent == 0 {
+            return Fraction::one();
+        }
+        let factors = self.factors.iter().map(|(factor, power)| (factor.clone(), power * exponent));
+        Fraction { numerator: self.numerator.pow(exponent), factors: factors.collect() }
+    }
+
+    /// The partial derivative with respect to `x`.
+    pub fn derivative(&self, x: &Symbol) -> Fraction {
+        let mut sum = self.with_numerator(self.numerator.derivative(x));
+        for (factor, power) in &self.factors {
+            let inner = factor.derivative(x);
+            if !inner.is_zero() {
+                let mut factors = self.factors.clone();
+                *factors.get_mut(factor).expect("a factor of this fraction") += 1;
+                let power = Rational::from_integer((*power).into());
+                let numerator = &(&self.numerator * &inner) * &power;
+                sum = &sum - &Fraction::normal(numerator, factors);
+            }
+        }
+        sum
+    }
+
+    /// The value with `value` in place of `x`.
+    ///
+    /// # Errors
+    /// [`NotAUnit`] where a factor of the denominator becomes zero, or no product of factors
+    /// that can be divided by.
+    pub fn substitute(&self, x: &Symbol, value: &Fraction) -> Result<Fraction, NotAUnit> {
+        let mut result = substitute_in(&self.numerator, x, value);
+        for (factor, power) in &self.factors {
+            let factor = substitute_in(factor, x, value);
+            let inverse = Fraction::reciprocal(&factor.numerator)?;
+            let inverse = &inverse * &Fraction::from(factor.denominator());
+            result = &result * &inverse.pow(*power);
+        }
+        Ok(result)
+    }
+
+    /// The value where every symbol has one.
+    ///
+    /// # Errors
+    /// The first symbol for which `values` answers `None`.
+    ///
+    /// # Panics
+    /// Where a factor of the denominator is zero there.
+    pub fn evaluate(
+        &self,
+        values: &impl Fn(&Symbol) -> Option<Rational>,
+    ) -> Result<Rational, Symbol> {
+        let mut value = self.numerator.evaluate(values)?;
+        for (factor, power) in &self.factors {
+            let power = i32::try_from(*power).expect("powers of factors are small");
+            value /= factor.evaluate(values)?.pow(power);
+        }
+        Ok(value)
+    }
+}
+
+/// Whether a primitive polynomial is linear in some symbol, with a single term as that symbol's
+/// coefficient, no symbol of which divides the rest: then it has no factors but itself.
+fn is_irreducible(p: &Polynomial) -> bool {
+    p.symbols().iter().any(|x| match &p.coefficients(x)[..] {
+        [(1, slope), (0, rest)] => {
+            let divides = |y: &Symbol| rest.coefficients(y).last().is_none_or(|(e, _)| *e > 0);
+            slope.term_count() == 1 && !slope.symbols().iter().any(divides)
+        }
+        [(1, slope)] => slope.as_constant().is_some(),
+        _ => false,
+    })
+}
+
+fn substitute_in(p: &Polynomial, x: &Symbol, value: &Fraction) -> Fraction {
+    if let Some(value) = value.as_polynomial() {
+        return p.substitute(x, value).into();
+    }
+    let powers = p.coefficients(x).into_iter();
+    powers.fold(Fraction::zero(), |sum, (power, coefficient)| {
+        &sum + &(&value.pow(power) * &coefficient.into())
+    })
+}
+
+impl From<Polynomial> for Fraction {
+    fn from(numerator: Polynomial) -> Fraction {
+        Fraction { numerator, factors: BTreeMap::new() }
+    }
+}
+
+/// `left ± right` over the least common denominator.
+fn combine(left: &Fraction, right: &Fraction, subtract: bool) -> Fraction {
+    let add = |l: &Polynomial, r: &Polynomial| if subtract { l - r } else { l + r };
+    if left.factors.is_empty() && right.factors.is_empty() {
+        return add(&left.numerator, &right.numerator).into();
+    }
+    let mut common = left.factors.clone();
+    for (factor, power) in &right.factors {
+        let entry = common.entry(factor.clone()).or_insert(0);
+        *entry = (*entry).max(*power);
+    }
+    let over_common = |fraction: &Fraction| {
+        common.iter().fold(fraction.numerator.clone(), |numerator, (factor, power)| {
+            let missing = power - fraction.factors.get(factor).unwrap_or(&0);
+            if missing == 0 { numerator } else { &numerator * &factor.pow(missing) }
+        })
+    };
+    Fraction::normal(add(&over_common(left), &over_common(right)), common)
+}
+
+impl Add for &Fraction {
+    type Output = Fraction;
+    fn add(self, other: &Fraction) -> Fraction {
+        combine(self, other, false)
+    }
+}
+
+impl Sub for &Fraction {
+    type Output = Fraction;
+    fn sub(self, other: &Fraction) -> Fraction {
+        combine(self, other, true)
+    }
+}
+
+impl Mul for &Fraction {
+    type Output = Fraction;
+    fn mul(self, other: &Fraction) -> Fraction {
+        if self.is_one() {
+            return other.clone();
+        }
+        if other.is_one() {
+            return self.clone();
+        }
+        let mut factors = self.factors.clone();
+        for (factor, power) in &other.factors {
+            *factors.entry(factor.clone()).or_insert(0) += power;
+        }
+        Fraction::normal(&self.numerator * &other.numerator, factors)
+    }
+}
+
+impl Neg for &Fraction {
+    type Output = Fraction;
+    fn neg(self) -> Fraction {
+        self.scale(&-Rational::one())
+    }
+}
+
+impl fmt::Display for Fraction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.factors.is_empty() {
+            return write!(f, "{}", self.numerator);
+        }
+        write!(f, "({})", self.numerator)?;
+        for (factor, power) in &self.factors {
+            write!(f, "/({factor})")?;
+            if *power > 1 {
+                write!(f, "^{power}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Debug for Fraction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}

@@ -1,0 +1,24 @@
+//! Exact values: exponential polynomials with one normal form, and what is built of them.
+//!
+//! [`Expression`] is a sum `Σ_j p_j e^{λ_j}` whose coefficients and exponents are [`Fraction`]s:
+//! polynomials in named symbols, localised at factors known to be non-zero. A wave function on one
+//! period is an `Expression` in the local time; its coefficients, such as `1 + e^{−2μ}`, are
+//! expressions too. [`Assumptions`] says what may be divided by. [`Transform`] is the same kind of
+//! function in the Laplace domain. [`Piecewise`] and [`EchoSum`] are functions of all time.
+//!
+//! Nothing here knows of bars or of text.
+
+mod assumptions;
+mod calculus;
+mod echo_sum;
+mod fraction;
+mod piecewise;
+mod sum;
+mod transform;
+
+pub use assumptions::{Assumptions, Condition, NotInvertible, Relation};
+pub use echo_sum::EchoSum;
+pub use fraction::{Fraction, NotAUnit};
+pub use piecewise::Piecewise;
+pub use sum::{ExponentialSum, Expression};
+pub use transform::Transform;

@@ -1,0 +1,299 @@
+//! The exponential polynomial `Σ_j p_j e^{λ_j}` and its ring operations.
+
+use crate::expression::fraction::{Fraction, NotAUnit};
+use num_traits::Zero;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fmt;
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
+
+/// A sum of fractions times exponentials of fractions,
+///
+/// ```text
+/// Σ_j p_j e^{λ_j}          λ_j pairwise different
+/// ```
+///
+/// in any symbols; time is a symbol like any other. Exponentials of different exponents are
+/// linearly independent over the rational functions: choose rational values for the symbols that
+/// keep the `λ_j` apart, and this is the theorem of Lindemann and Weierstrass. So the form is
+/// canonical: two expressions are equal as functions exactly when `==` says so.
+///
+/// # Invariants
+/// - exponents pairwise different, no coefficient zero.
+///
+/// # Room for more
+/// Complex poles and `√d` enter as further symbols that carry a relation (`i² = −1`, `x² = d`)
+/// to be reduced by; the exponents then contain them and nothing else here changes.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Expression {
+    terms: BTreeMap<Fraction, Fraction>,
+}
+
+/// A number `Σ_j r_j e^{λ_j}`: rational exponents (pairwise different) with rational, non-zero
+/// coefficients. By the theorem of Lindemann and Weierstrass it is rational exactly when no
+/// exponent but 0 is left.
+pub type ExponentialSum = BTreeMap<Rational, Rational>;
+
+impl Expression {
+    /// The value 0.
+    pub fn zero() -> Expression {
+        Expression::default()
+    }
+
+    /// The value 1.
+    pub fn one() -> Expression {
+        Fraction::one().into()
+    }
+
+    /// A rational constant.
+    pub fn constant(value: &Rational) -> Expression {
+        Fraction::constant(value).into()
+    }
+
+    /// An integer constant.
+    pub fn integer(value: i64) -> Expression {
+        Polynomial::integer(value).into()
+    }
+
+    /// A symbol.
+    pub fn symbol(x: &Symbol) -> Expression {
+        Polynomial::symbol(x).into()
+    }
+
+    /// `e^{exponent}`.
+    pub fn exponential(exponent: Fraction) -> Expression {
+        Expression { terms: BTreeMap::from([(exponent, Fraction::one())]) }
+    }
+
+    /// Whether this is 0.
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// Whether this is 1.
+    pub fn is_one(&self) -> bool {
+        self.as_fraction().is_some_and(|value| value.is_one())
+    }
+
+    /// The terms: exponent and coefficient, in the order of the exponents' representation.
+    pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Fraction, &Fraction)> + '_ {
+        self.terms.iter()
+    }
+
+    /// The number of terms, each coefficient's numerator counted out.
+    pub fn term_count(&self) -> usize {
+        self.terms.values().map(|coefficient| coefficient.numerator().term_count()).sum()
+    }
+
+    /// The value without exponentials, where there are none.
+    pub fn as_fraction(&self) -> Option<Fraction> {
+        match self.terms.len() {
+            0 => Some(Fraction::zero()),
+            1 => self.terms.get(&Fraction::zero()).cloned(),
+            _ => None,
+        }
+    }
+
+    /// The value, where it is a rational number.
+    pub fn as_constant(&self) -> Option<Rational> {
+        self.as_fraction().and_then(|value| value.as_constant())
+    }
+
+    /// Whether `x` occurs.
+    pub fn contains(&self, x: &Symbol) -> bool {
+        self.terms.iter().any(|(exponent, p)| exponent.contains(x) || p.contains(x))
+    }
+
+    /// The symbols that occur, ascending.
+    pub fn symbols(&self) -> Vec<Symbol> {
+        let both = self.terms.iter().flat_map(|(exponent, p)| [exponent, p]);
+        let mut symbols: Vec<_> = both.flat_map(Fraction::symbols).collect();
+        symbols.sort();
+        symbols.dedup();
+        symbols
+    }
+
+    /// Adds `coefficient · e^{exponent}`.
+    pub fn add_term(&mut self, exponent: Fraction, coefficient: Fraction) {
+        if coefficient.is_zero() {
+            return;
+        }
+        match self.terms.entry(exponent) {
+            Entry::Vacant(place) => {
+                place.insert(coefficient);
+            }
+            Entry::Occupied(mut place) => {
+                let sum = place.get() + &coefficient;
+                if sum.is_zero() {
+                    place.remove();
+                } else {
+                    place.insert(sum);
+                }
+            }
+        }
+    }
+
+    /// The product with `e^{exponent}`: coefficients are moved, not computed.
+    pub fn times_exponential(self, exponent: &Fraction) -> Expression {
+        if exponent.is_zero() {
+            return self;
+        }
+        let moved = self.terms.into_iter().map(|(own, p)| (&own + exponent, p));
+        Expression { terms: moved.collect() }
+    }
+
+    /// The product with a fraction.
+    pub fn times(&self, factor: &Fraction) -> Expression {
+        if factor.is_zero() {
+            return Expression::zero();
+        }
+        if factor.is_one() {
+            return self.clone();
+        }
+        self.map(|p| p * factor)
+    }
+
+    /// The product with a rational number.
+    pub fn scale(&self, factor: &Rational) -> Expression {
+        if factor.is_zero() { Expression::zero() } else { self.map(|p| p.scale(factor)) }
+    }
+
+    /// Applies `change`, which must not turn a coefficient into zero.
+    fn map(&self, change: impl Fn(&Fraction) -> Fraction) -> Expression {
+        let terms = self.terms.iter().map(|(exponent, p)| (exponent.clone(), change(p)));
+        Expression { terms: terms.collect() }
+    }
+
+    /// `self^exponent`, by repeated squaring.
+    pub fn pow(&self, exponent: u32) -> Expression {
+        let mut power = Expression::one();
+        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
+            power = &power * &power;
+            if exponent >> bit & 1 == 1 {
+                power = &power * self;
+            }
+        }
+        power
+    }
+
+    /// The value with `value` in place of `x`, in coefficients and exponents.
+    ///
+    /// # Errors
+    /// [`NotAUnit`] where a denominator becomes zero or cannot be divided by any more.
+    pub fn substitute(&self, x: &Symbol, value: &Fraction) -> Result<Expression, NotAUnit> {
+        let mut result = Expression::zero();
+        for (exponent, p) in &self.terms {
+            result.add_term(exponent.substitute(x, value)?, p.substitute(x, value)?);
+        }
+        Ok(result)
+    }
+
+    /// The value with `x + step` in place of `x`.
+    ///
+    /// # Errors
+    /// As for [`Expression::substitute`].
+    pub fn shift(&self, x: &Symbol, step: &Fraction) -> Result<Expression, NotAUnit> {
+        if step.is_zero() {
+            return Ok(self.clone());
+        }
+        self.substitute(x, &(&Fraction::symbol(x) + step))
+    }
+
+    /// The exact number `Σ r_j e^{λ_j}` where every symbol has a rational value.
+    ///
+    /// # Errors
+    /// The first symbol for which `values` answers `None`.
+    ///
+    /// # Panics
+    /// Where a denominator is zero there.
+    pub fn evaluate(
+        &self,
+        values: &impl Fn(&Symbol) -> Option<Rational>,
+    ) -> Result<ExponentialSum, Symbol> {
+        let mut sum = ExponentialSum::new();
+        for (exponent, p) in &self.terms {
+            *sum.entry(exponent.evaluate(values)?).or_default() += p.evaluate(values)?;
+        }
+        sum.retain(|_, coefficient| !coefficient.is_zero());
+        Ok(sum)
+    }
+}
+
+impl From<Fraction> for Expression {
+    fn from(value: Fraction) -> Expression {
+        let mut sum = Expression::zero();
+        sum.add_term(Fraction::zero(), value);
+        sum
+    }
+}
+
+impl From<Polynomial> for Expression {
+    fn from(value: Polynomial) -> Expression {
+        Fraction::from(value).into()
+    }
+}
+
+impl AddAssign<&Expression> for Expression {
+    fn add_assign(&mut self, other: &Expression) {
+        for (exponent, p) in &other.terms {
+            self.add_term(exponent.clone(), p.clone());
+        }
+    }
+}
+
+impl SubAssign<&Expression> for Expression {
+    fn sub_assign(&mut self, other: &Expression) {
+        for (exponent, p) in &other.terms {
+            self.add_term(exponent.clone(), -p);
+        }
+    }
+}
+
+impl Add for &Expression {
+    type Output = Expression;
+    fn add(self, other: &Expression) -> Expression {
+        let mut sum = self.clone();
+        sum += other;
+        sum
+    }
+}
+
+impl Sub for &Expression {
+    type Output = Expression;
+    fn sub(self, other: &Expression) -> Expression {
+        let mut difference = self.clone();
+        difference -= other;
+        difference
+    }
+}
+
+impl Mul for &Expression {
+    type Output = Expression;
+    fn mul(self, other: &Expression) -> Expression {
+        let mut product = Expression::zero();
+        for (left_exponent, left) in &self.terms {
+            for (right_exponent, right) in &other.terms {
+                product.add_term(left_exponent + right_exponent, left * right);
+            }
+        }
+        product
+    }
+}
+
+impl Neg for &Expression {
+    type Output = Expression;
+    fn neg(self) -> Expression {
+        self.map(|p| -p)
+    }
+}
+
+impl fmt::Debug for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.terms.is_empty() {
+            return f.write_str("0");
+        }
+        let terms = self.terms.iter().map(|(exponent, p)| format!("({p})*exp({exponent})"));
+        f.write_str(&terms.collect::<Vec<_>>().join(" + "))
+    }
+}

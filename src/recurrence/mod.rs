@@ -1,0 +1,19 @@
+//! Linear recurrences between the pieces of wave functions on successive periods.
+//!
+//! A [`Statement`] is what a person writes down: equations, continuity, observables. A
+//! [`Recurrence`] is a statement that has been checked and put in solving order: each [`Step`]
+//! determines one wave on the n-th period from what is known by then, algebraically or by one
+//! first-order differential equation.
+
+mod form;
+mod ordering;
+mod statement;
+
+pub use form::{LinearForm, Operator};
+pub use ordering::{Start, Step};
+pub use statement::{
+    Continuity, Fault, InvalidRecurrence, Observable, Observation, Part, Recurrence, Statement,
+};
+
+/// The place of a wave among the waves of a recurrence.
+pub type WaveIndex = usize;

@@ -1,0 +1,213 @@
+//! Elimination on one period: from equations in any order to steps that solve one wave each.
+//!
+//! Only what happens on the current period matters here; earlier pieces are known whatever they
+//! are. An algebraic equation may be added, with a factor and also differentiated, to another one,
+//! until each equation has one unknown left.
+
+use crate::expression::{Assumptions, Expression, Fraction};
+use crate::recurrence::WaveIndex;
+use crate::recurrence::form::LinearForm;
+use crate::recurrence::statement::{Fault, InvalidRecurrence, Part, Statement};
+use std::collections::BTreeSet;
+
+/// The equation of one wave on the n-th period.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Step {
+    /// The wave that this step determines.
+    pub wave: WaveIndex,
+    /// A form that is zero, without sums. At lag 0 it holds `wave`, with coefficient 1 on its
+    /// slope (differential) or, without a slope, on its value (algebraic), and waves of earlier
+    /// steps.
+    pub equation: LinearForm,
+    /// The start on each period; `None` for an algebraic step.
+    pub start: Option<Start>,
+}
+
+/// How a differential step starts on each period.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Start {
+    /// The rate `a` in `w' + a w`.
+    pub rate: Fraction,
+    /// A continuous form; at lag 0 it holds the step's wave with coefficient 1 and waves of
+    /// earlier steps.
+    pub continuous: LinearForm,
+    /// The value of that form at `t = 0+`.
+    pub initial: Expression,
+}
+
+type Outcome<T> = Result<T, InvalidRecurrence>;
+
+fn refuse<T>(part: Part, fault: Fault) -> Outcome<T> {
+    Err(InvalidRecurrence { part, fault })
+}
+
+fn invert(assumptions: &Assumptions, value: &Expression, part: Part) -> Outcome<Expression> {
+    assumptions
+        .invert(value)
+        .map_err(|reason| InvalidRecurrence { part, fault: Fault::NotInvertible(reason) })
+}
+
+/// One row of the elimination: a form, and the part of the statement it stands for.
+struct Row {
+    form: LinearForm,
+    part: Part,
+}
+
+/// The steps of a statement, in solving order.
+pub(crate) fn order(statement: &Statement) -> Outcome<Vec<Step>> {
+    let count = Fault::Count { equations: statement.equations.len(), waves: statement.waves.len() };
+    match statement.equations.len().cmp(&statement.waves.len()) {
+        std::cmp::Ordering::Less => {
+            return refuse(Part::Wave(statement.waves.len().saturating_sub(1)), count);
+        }
+        std::cmp::Ordering::Greater => return refuse(Part::Equation(statement.waves.len()), count),
+        std::cmp::Ordering::Equal => {}
+    }
+    let equations = statement.equations.iter().enumerate();
+    let mut rows = equations
+        .map(|(i, form)| Row { form: form.without_sums(), part: Part::Equation(i) })
+        .collect();
+    let rules = statement.continuity.iter().enumerate();
+    let mut rules: Vec<(Row, Expression)> = rules
+        .map(|(i, rule)| {
+            let row = Row { form: rule.form.clone(), part: Part::Continuity(i) };
+            let bare = rule.form.operators().all(|(_, o)| o.slope.is_empty() && o.sum.is_empty());
+            if bare {
+                Ok((row, rule.start.clone()))
+            } else {
+                refuse(row.part, Fault::ContinuityOfSlope)
+            }
+        })
+        .collect::<Outcome<_>>()?;
+    let steps = order_equations(statement, &mut rows)?;
+    assign_starts(statement, steps, &mut rules)
+}
+
+/// Takes a row that has one unknown on the current period, while there is one; else eliminates an
+/// unknown with an algebraic row.
+fn order_equations(statement: &Statement, rows: &mut Vec<Row>) -> Outcome<Vec<Step>> {
+    let mut unknown: BTreeSet<WaveIndex> = (0..statement.waves.len()).collect();
+    let mut eliminated = BTreeSet::new();
+    let mut steps = Vec::new();
+    while !rows.is_empty() {
+        let unknowns = |row: &Row| -> Vec<_> {
+            row.form.waves_now().filter(|wave| unknown.contains(wave)).collect()
+        };
+        let open: Vec<Vec<WaveIndex>> = rows.iter().map(unknowns).collect();
+        if let Some(i) = open.iter().position(Vec::is_empty) {
+            return refuse(rows[i].part, Fault::DeterminesNothing);
+        }
+        if let Some(i) = open.iter().position(|waves| waves.len() == 1) {
+            let wave = open[i][0];
+            let row = rows.remove(i);
+            let operator = row.form.operator(wave);
+            let slope = operator.slope_now();
+            let leading = if slope.is_zero() { operator.value_now() } else { slope };
+            let inverse = invert(&statement.assumptions, &leading, row.part)?;
+            steps.push((Step { wave, equation: row.form.scaled(&inverse), start: None }, row.part));
+            unknown.remove(&wave);
+            continue;
+        }
+        let usable = |row: &Row| !row.form.has_slopes() && !eliminated.contains(&part_key(row));
+        let pivot =
+            open.iter().enumerate().filter(|(i, _)| usable(&rows[*i])).find_map(|(i, waves)| {
+                let invertible = |wave: &&WaveIndex| {
+                    statement.assumptions.invert(&rows[i].form.operator(**wave).value_now()).is_ok()
+                };
+                waves.iter().find(invertible).map(|wave| (i, *wave))
+            });
+        let Some((pivot, wave)) = pivot else {
+            let names = |waves: &[WaveIndex]| {
+                waves.iter().map(|wave| statement.waves[*wave].clone()).collect()
+            };
+            return refuse(rows[0].part, Fault::Coupled(names(&open[0])));
+        };
+        eliminated.insert(part_key(&rows[pivot]));
+        let leading = rows[pivot].form.operator(wave).value_now();
+        let inverse = invert(&statement.assumptions, &leading, rows[pivot].part)?;
+        let solved = rows[pivot].form.scaled(&-&inverse);
+        let derived = solved.derivative(&statement.time);
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i != pivot {
+                let operator = row.form.operator(wave);
+                row.form.add_scaled(&solved, &operator.value_now(), 0);
+                row.form.add_scaled(&derived, &operator.slope_now(), 0);
+            }
+        }
+    }
+    steps.into_iter().map(|(step, part)| with_rate(step, part)).collect()
+}
+
+fn part_key(row: &Row) -> usize {
+    match row.part {
+        Part::Equation(i) => i,
+        _ => unreachable!("rows of the elimination are equations"),
+    }
+}
+
+/// Gives a differential step its rate; its start is still to be found.
+fn with_rate(mut step: Step, part: Part) -> Outcome<Step> {
+    if !step.equation.operator(step.wave).slope_now().is_zero() {
+        let rate = step.equation.rate_now(step.wave);
+        let rate = rate.ok_or(InvalidRecurrence { part, fault: Fault::RateNotPolynomial })?;
+        let (continuous, initial) = (LinearForm::zero(), Expression::zero());
+        step.start = Some(Start { rate, continuous, initial });
+    }
+    Ok(step)
+}
+
+/// Solves the continuity rules, on the current period, for the waves with differential steps.
+fn assign_starts(
+    statement: &Statement,
+    mut steps: Vec<Step>,
+    rules: &mut Vec<(Row, Expression)>,
+) -> Outcome<Vec<Step>> {
+    // Algebraic waves leave the rules by their own equations, which hold on every period.
+    for step in
+        steps.iter().rev().filter(|step| step.start.is_none() && !step.equation.has_slopes())
+    {
+        for (row, _) in rules.iter_mut() {
+            let coefficient = row.form.operator(step.wave).value_now();
+            row.form.add_scaled(&step.equation, &-&coefficient, 0);
+        }
+    }
+    let mut found = Vec::new();
+    for (place, step) in steps.iter().enumerate() {
+        if step.start.is_none() {
+            continue;
+        }
+        let holds =
+            |(row, _): &(Row, Expression)| !row.form.operator(step.wave).value_now().is_zero();
+        let Some(i) = rules.iter().position(holds) else {
+            let fault = Fault::NoStart(statement.waves[step.wave].clone());
+            return refuse(Part::Wave(step.wave), fault);
+        };
+        let (row, initial) = rules.remove(i);
+        let leading = row.form.operator(step.wave).value_now();
+        let inverse = invert(&statement.assumptions, &leading, row.part)?;
+        let (form, initial) = (row.form.scaled(&inverse), &initial * &inverse);
+        let others = rules.iter_mut().map(|(row, start)| (&mut row.form, start));
+        let before = found.iter_mut().map(|(_, form, start, _)| (form, start));
+        for (other, start) in others.chain(before) {
+            let factor = -&other.operator(step.wave).value_now();
+            other.add_scaled(&form, &factor, 0);
+            *start += &(&initial * &factor);
+        }
+        found.push((place, form, initial, row.part));
+    }
+    if let Some((row, _)) = rules.first() {
+        return refuse(row.part, Fault::StartsNothing);
+    }
+    for (place, form, initial, part) in found {
+        let known: Vec<WaveIndex> = steps[..=place].iter().map(|step| step.wave).collect();
+        if let Some(wave) = form.waves_now().find(|wave| !known.contains(wave)) {
+            let names = [steps[place].wave, wave].map(|wave| statement.waves[wave].clone());
+            return refuse(part, Fault::Coupled(names.into()));
+        }
+        if let Some(start) = &mut steps[place].start {
+            start.continuous = form;
+            start.initial = initial;
+        }
+    }
+    Ok(steps)
+}

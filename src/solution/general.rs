@@ -1,0 +1,123 @@
+//! What is known of a wave for every n at once.
+
+use crate::expression::{Assumptions, Expression};
+use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
+use crate::solution::echo::EchoByEcho;
+use crate::solution::elimination::{Reduced, reduce};
+use crate::solution::geometric::{Generating, Geometric, constant_forcing, product};
+use crate::solution::template::{EchoTemplate, OnePole, multiplier};
+use wavestep_polynomial::Symbol;
+
+/// A wave in general n.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum GeneralForm {
+    /// Its values are constant on each period, and this sequence.
+    Geometric(Geometric),
+    /// Its echoes are of this form.
+    Echoes(EchoTemplate),
+}
+
+/// How a general form was proved.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Proof {
+    /// It satisfies the recurrence with each `λ^n` a symbol of its own, and the first values.
+    Substitution,
+    /// It rests on an identity between the coefficients of `T_k` and `T_{k−1}`: Pascal's rule.
+    CoefficientIdentity,
+}
+
+/// No closed form in n was found: the equation that stood in the way.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Unknown {
+    /// The equation, a form that is zero, after elimination of explicit waves.
+    pub equation: LinearForm,
+}
+
+impl GeneralForm {
+    /// How the form was proved.
+    pub fn proof(&self) -> Proof {
+        match self {
+            GeneralForm::Geometric(_) => Proof::Substitution,
+            GeneralForm::Echoes(_) => Proof::CoefficientIdentity,
+        }
+    }
+
+    /// The general form of a wave.
+    ///
+    /// # Errors
+    /// [`Unknown`] with the equation for which none is found.
+    pub fn of(recurrence: &Recurrence, wave: WaveIndex) -> Result<GeneralForm, Unknown> {
+        let step = recurrence.steps().iter().find(|step| step.wave == wave);
+        let own = || step.map(|step| step.equation.clone()).unwrap_or_default();
+        let Some(reduced) = reduce(recurrence) else { return Err(Unknown { equation: own() }) };
+        let form = reduced.form_of(wave);
+        let bases: Vec<WaveIndex> = form.operators().map(|(base, _)| base).collect();
+        let found = match &bases[..] {
+            [] => constant_sequence(&form, recurrence),
+            [base] => match reduced.lone_step(*base) {
+                Some(step) if step.start.is_none() => sequence(step, &form, recurrence),
+                Some(step) => echoes(step, &form, recurrence, wave),
+                None => None,
+            },
+            _ => None,
+        };
+        found.ok_or_else(|| Unknown { equation: equation_of(&reduced, &bases).unwrap_or_else(own) })
+    }
+}
+
+fn equation_of(reduced: &Reduced, bases: &[WaveIndex]) -> Option<LinearForm> {
+    let base = bases.first()?;
+    let step = reduced.base.iter().find(|step| step.wave == *base)?;
+    Some(step.equation.clone())
+}
+
+fn context(recurrence: &Recurrence) -> (&Assumptions, &Symbol) {
+    let statement = recurrence.statement();
+    (&statement.assumptions, &statement.time)
+}
+
+/// A wave given by forcing alone.
+fn constant_sequence(form: &LinearForm, recurrence: &Recurrence) -> Option<GeneralForm> {
+    let (assumptions, time) = context(recurrence);
+    let none = Generating { numerator: Vec::new(), denominator: vec![Expression::one()] };
+    let constants = constant_forcing(form.forcing_terms(), time)?;
+    none.combined(&[], &constants).closed_form(assumptions).map(GeneralForm::Geometric)
+}
+
+/// `A(q) w + F(q)/(1−q) = 0`, and the wave asked for a combination of `w`.
+fn sequence(step: &Step, form: &LinearForm, recurrence: &Recurrence) -> Option<GeneralForm> {
+    let (assumptions, time) = context(recurrence);
+    let operator = step.equation.operator(step.wave);
+    if step.equation.has_slopes() {
+        return None;
+    }
+    let forcing = constant_forcing(step.equation.forcing_terms(), time)?;
+    let one_minus_q = [Expression::one(), Expression::integer(-1)];
+    let base = Generating {
+        numerator: forcing.iter().map(|value| -value).collect(),
+        denominator: product(operator.value(), &one_minus_q),
+    };
+    let constants = constant_forcing(form.forcing_terms(), time)?;
+    let combined = base.combined(&multiplier(form, step.wave)?, &constants);
+    combined.closed_form(assumptions).map(GeneralForm::Geometric)
+}
+
+/// One pole and one lag, and the wave asked for a combination of delayed copies.
+fn echoes(
+    step: &Step,
+    form: &LinearForm,
+    recurrence: &Recurrence,
+    wave: WaveIndex,
+) -> Option<GeneralForm> {
+    let (assumptions, time) = context(recurrence);
+    let period = &recurrence.statement().period;
+    let pole = OnePole::of(step, assumptions, time, period)?;
+    let (mut template, from) = pole.template(&multiplier(form, step.wave)?)?;
+    let count = from.max(form.forcing_terms().len());
+    let mut solver = EchoByEcho::new(recurrence);
+    for _ in 0..count {
+        solver.advance().ok()?;
+    }
+    template.first = solver.sum(wave).echoes().to_vec();
+    Some(GeneralForm::Echoes(template))
+}

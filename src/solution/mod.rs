@@ -1,0 +1,23 @@
+//! Recurrences solved, twice: period by period, and echo by echo; and in general n where it can be.
+//!
+//! [`PeriodByPeriod`] works in time with the integrating factor and constants by continuity;
+//! [`EchoByEcho`] works in the Laplace domain and expands in the shift `q = e^{−pD}`. They share
+//! the ring arithmetic and nothing else, so that their agreement proves both. [`GeneralForm`]
+//! holds what is known for every n at once. [`Solution`] puts them together.
+
+mod echo;
+mod elimination;
+mod general;
+mod geometric;
+mod period;
+mod rows;
+mod solved;
+mod template;
+
+pub use echo::EchoByEcho;
+pub use general::{GeneralForm, Proof, Unknown};
+pub use geometric::{Geometric, GeometricTerm};
+pub use period::PeriodByPeriod;
+pub use rows::{EchoRow, ExpandedTerm, expand_piece};
+pub use solved::{Solution, SolveError, Unsolvable};
+pub use template::{EchoTemplate, Family};

@@ -1,0 +1,195 @@
+//! A recurrence with its solution: pieces, echoes and general forms, each the cheapest way.
+
+use crate::expression::{EchoSum, Expression, NotAUnit, NotInvertible, Transform};
+use crate::recurrence::{Recurrence, WaveIndex};
+use crate::solution::echo::EchoByEcho;
+use crate::solution::general::{GeneralForm, Unknown};
+use crate::solution::rows::EchoRow;
+use crate::solution::template::EchoTemplate;
+use num_traits::Zero;
+use std::fmt;
+use wavestep_polynomial::{Integer, Rational, Univariate};
+
+/// Why a piece or an echo cannot be given exactly.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Unsolvable {
+    /// Something would have to be divided by that is not known to be non-zero.
+    NotInvertible(NotInvertible),
+    /// A denominator cannot be carried through a substitution.
+    NotAUnit(NotAUnit),
+}
+
+impl From<NotInvertible> for Unsolvable {
+    fn from(reason: NotInvertible) -> Unsolvable {
+        Unsolvable::NotInvertible(reason)
+    }
+}
+
+impl From<NotAUnit> for Unsolvable {
+    fn from(reason: NotAUnit) -> Unsolvable {
+        Unsolvable::NotAUnit(reason)
+    }
+}
+
+/// A wave that cannot be solved for exactly on some period.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SolveError {
+    /// The wave.
+    pub wave: String,
+    /// The period or echo.
+    pub order: usize,
+    /// What stands in the way.
+    pub reason: Unsolvable,
+}
+
+impl SolveError {
+    pub(crate) fn new(
+        recurrence: &Recurrence,
+        wave: WaveIndex,
+        order: usize,
+        reason: Unsolvable,
+    ) -> SolveError {
+        SolveError { wave: recurrence.statement().waves[wave].clone(), order, reason }
+    }
+}
+
+impl fmt::Display for SolveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let SolveError { wave, order, reason } = self;
+        write!(f, "{wave}[{order}] cannot be given exactly: it needs ")?;
+        match reason {
+            Unsolvable::NotInvertible(reason) => write!(f, "{reason}"),
+            Unsolvable::NotAUnit(reason) => write!(f, "{reason}"),
+        }
+    }
+}
+
+impl std::error::Error for SolveError {}
+
+/// A recurrence together with what is known of its waves in general n.
+///
+/// Pieces and echoes are derived echo by echo; where the echoes have a closed form in k, that is
+/// used, and nothing depends on which scene it is.
+pub struct Solution {
+    recurrence: Recurrence,
+    general: Vec<Result<GeneralForm, Unknown>>,
+}
+
+impl Solution {
+    /// Looks for general forms; pieces and echoes are derived when asked for.
+    pub fn new(recurrence: Recurrence) -> Solution {
+        let waves = 0..recurrence.statement().waves.len();
+        let general = waves.map(|wave| GeneralForm::of(&recurrence, wave)).collect();
+        Solution { recurrence, general }
+    }
+
+    /// The recurrence that is solved.
+    pub fn recurrence(&self) -> &Recurrence {
+        &self.recurrence
+    }
+
+    /// The wave in general n.
+    ///
+    /// # Errors
+    /// [`Unknown`] where no closed form in n was found.
+    pub fn general(&self, wave: WaveIndex) -> Result<&GeneralForm, &Unknown> {
+        self.general[wave].as_ref()
+    }
+
+    /// The template of the echoes, where there is one.
+    fn template(&self, wave: WaveIndex) -> Option<&EchoTemplate> {
+        match &self.general[wave] {
+            Ok(GeneralForm::Echoes(template)) => Some(template),
+            _ => None,
+        }
+    }
+
+    /// The echoes `φ_0 … φ_through` of a wave.
+    ///
+    /// # Errors
+    /// [`SolveError`] where an echo cannot be given exactly.
+    ///
+    /// # Cost
+    /// O(through²) operations on coefficients.
+    pub fn echoes(&self, wave: WaveIndex, through: usize) -> Result<EchoSum, SolveError> {
+        let statement = self.recurrence.statement();
+        if let Some(template) = self.template(wave) {
+            let echoes = (0..=through).map(|k| template.echo(k, &statement.local)).collect();
+            return Ok(EchoSum::new(statement.period.clone(), statement.local.clone(), echoes));
+        }
+        Ok(self.expanded(through)?.sum(wave))
+    }
+
+    fn expanded(&self, through: usize) -> Result<EchoByEcho<'_>, SolveError> {
+        let mut solver = EchoByEcho::new(&self.recurrence);
+        for _ in 0..=through {
+            solver.advance()?;
+        }
+        Ok(solver)
+    }
+
+    /// The pieces `first … last` of a wave, each in the local variable.
+    ///
+    /// # Errors
+    /// [`SolveError`] where a piece cannot be given exactly.
+    ///
+    /// # Cost
+    /// For one pole about one product for each term of the pieces, and O(last²) for the echoes.
+    pub fn pieces(
+        &self,
+        wave: WaveIndex,
+        first: usize,
+        last: usize,
+    ) -> Result<Vec<Expression>, SolveError> {
+        let sum = self.echoes(wave, last)?;
+        let piece = |n: usize| {
+            let explain = |e: NotAUnit| SolveError::new(&self.recurrence, wave, n, e.into());
+            sum.piece(n).map_err(explain)
+        };
+        (first..=last).map(piece).collect()
+    }
+
+    /// The echoes `φ_0 … φ_through` as rows of integers; `None` where a constant is no rational
+    /// number.
+    ///
+    /// # Errors
+    /// [`SolveError`] where an echo cannot be given exactly.
+    pub fn rows(
+        &self,
+        wave: WaveIndex,
+        through: usize,
+    ) -> Result<Option<Vec<EchoRow>>, SolveError> {
+        if let Some(template) = self.template(wave) {
+            let local = &self.recurrence.statement().local;
+            let row = |k: usize| match template.first.get(k) {
+                Some(echo) => row_of(&Transform::of(echo, local)),
+                None => template.numeric_row(k).map(|(rate, polynomial)| EchoRow {
+                    parts: if polynomial.is_zero() {
+                        Vec::new()
+                    } else {
+                        vec![(-rate, polynomial)]
+                    },
+                }),
+            };
+            return Ok((0..=through).map(row).collect());
+        }
+        Ok(self.expanded(through)?.transforms(wave).iter().map(row_of).collect())
+    }
+}
+
+/// The echo with this transform as a row, where its constants are rational numbers.
+fn row_of(transform: &Transform) -> Option<EchoRow> {
+    let parts = transform.poles().map(|(pole, coefficients)| {
+        let values = coefficients.iter().map(|c| c.as_constant());
+        let values = values.collect::<Option<Vec<Rational>>>()?;
+        let common = values
+            .iter()
+            .fold(Integer::from(1), |d, value| num_integer::Integer::lcm(&d, value.denom()));
+        let integers = values.iter().map(|value| value.numer() * (&common / value.denom()));
+        Some((pole.as_constant()?, Univariate::new(integers.collect(), common)))
+    });
+    let mut row = EchoRow { parts: parts.collect::<Option<_>>()? };
+    row.parts.retain(|(_, polynomial)| !polynomial.coefficients().is_empty());
+    debug_assert!(row.parts.iter().all(|(_, p)| !p.coefficients().iter().all(Zero::is_zero)));
+    Some(row)
+}

@@ -1,0 +1,302 @@
+//! Echoes in closed form: the operator `((p−a)/(p+b))^k` and its Laguerre polynomials.
+//!
+//! A wave whose equation has one pole and one lag has the transform
+//! `W = S(p,q) / [(p+b) − ρ q (p−a)]`, and
+//!
+//! ```text
+//! (p−a)^k / (p+b)^{k+1}   ↔   e^{−bx} L_k((a+b)x) = e^{−bx} Σ_j C(k,j) (−(a+b))^j x^j/j!
+//!       1 / (p+b)^{k+1}   ↔   e^{−bx} x^k/k!
+//! ```
+
+use crate::expression::{Assumptions, Expression, Fraction, Transform};
+use crate::recurrence::{LinearForm, Step, WaveIndex};
+use crate::solution::geometric::{product, sum};
+use num_traits::{One, Zero};
+use std::collections::BTreeMap;
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, Univariate, binomial, factorial};
+
+/// The family of functions `T_k` that the echoes are made of.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Family {
+    /// `T_k(x) = L_k(c x)`, Laguerre polynomials, with `c = a + b`.
+    Laguerre(Fraction),
+    /// `T_k(x) = x^k/k!`.
+    Power,
+}
+
+/// Echoes in general k,
+///
+/// ```text
+/// φ_k(x) = first[k](x)                              for k < first.len()
+///        = ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)           for k ≥ first.len()
+/// ```
+///
+/// with `i` at most `first.len()` for every term.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EchoTemplate {
+    /// The functions `T_k`.
+    pub family: Family,
+    /// The rate `b`.
+    pub rate: Fraction,
+    /// The ratio `ρ`.
+    pub ratio: Fraction,
+    /// The terms: lag `i` (−1 where `T_{k+1}` occurs) and coefficient `c_i`, by ascending lag;
+    /// none is zero.
+    pub terms: Vec<(isize, Fraction)>,
+    /// The echoes before the sum holds, in the local variable.
+    pub first: Vec<Expression>,
+}
+
+impl EchoTemplate {
+    /// The k-th echo as a function of `x`. O(k) operations on coefficients.
+    pub fn echo(&self, k: usize, x: &Symbol) -> Expression {
+        if let Some(echo) = self.first.get(k) {
+            return echo.clone();
+        }
+        let mut sum = Fraction::zero();
+        for (lag, coefficient) in &self.terms {
+            sum = &sum + &(coefficient * &self.family.function(index(k, *lag), x));
+        }
+        let power = u32::try_from(k).expect("orders fit 32 bits");
+        let sum = &sum * &self.ratio.pow(power);
+        let exponent = &self.rate * &Fraction::symbol(x);
+        Expression::from(sum).times_exponential(&-&exponent)
+    }
+
+    /// Where all constants are rational numbers: the rate `b`, and the k-th echo without its
+    /// exponential `e^{−bx}`, for `k ≥ first.len()`. One row of integers a term.
+    pub fn numeric_row(&self, k: usize) -> Option<(Rational, Univariate)> {
+        let rate = self.rate.as_constant()?;
+        let ratio = self.ratio.as_constant()?;
+        let scale = ratio.pow(i32::try_from(k).ok()?);
+        let mut row: Option<Univariate> = None;
+        for (lag, coefficient) in &self.terms {
+            let factor = coefficient.as_constant()? * &scale;
+            let term = self.family.row(index(k, *lag))?;
+            let term = if factor.is_one() { term } else { &term * &Univariate::constant(&factor) };
+            row = Some(match row {
+                None => term,
+                Some(sum) => &sum + &term,
+            });
+        }
+        Some((rate, row.unwrap_or_else(Univariate::zero)))
+    }
+}
+
+/// `k − lag`.
+///
+/// # Panics
+/// Where that is negative: the sum holds from the largest lag on.
+fn index(k: usize, lag: isize) -> usize {
+    k.checked_add_signed(-lag).expect("the sum holds from the largest lag on")
+}
+
+impl Family {
+    /// `T_k(x)`.
+    fn function(&self, k: usize, x: &Symbol) -> Fraction {
+        let k = u32::try_from(k).expect("orders fit 32 bits");
+        match self {
+            Family::Power => {
+                let coefficient = Rational::new(Integer::one(), factorial(k));
+                Polynomial::monomial(&coefficient, &[(x, k)]).into()
+            }
+            Family::Laguerre(c) => (0..=k).fold(Fraction::zero(), |sum, j| {
+                let coefficient = Rational::new(binomial(k, j), factorial(j));
+                let monomial = Polynomial::monomial(&coefficient, &[(x, j)]);
+                &sum + &(&(-c).pow(j) * &monomial.into())
+            }),
+        }
+    }
+
+    /// The divided-power coefficients of `T_k`, where they are numbers.
+    fn row(&self, k: usize) -> Option<Univariate> {
+        let mut coefficients = Vec::with_capacity(k + 1);
+        match self {
+            Family::Power => {
+                coefficients.resize(k, Integer::zero());
+                coefficients.push(Integer::one());
+                Some(Univariate::new(coefficients, Integer::one()))
+            }
+            Family::Laguerre(c) => {
+                // C(k,j) (−u/v)^j over the denominator v^k.
+                let c = c.as_constant()?;
+                let power = u32::try_from(k).ok()?;
+                let mut value = c.denom().pow(power);
+                let denominator = value.clone();
+                let minus_u = -c.numer();
+                for j in 0..power {
+                    let next = &value * &minus_u * (power - j) / (c.denom() * (j + 1));
+                    coefficients.push(std::mem::replace(&mut value, next));
+                }
+                coefficients.push(value);
+                Some(Univariate::new(coefficients, denominator))
+            }
+        }
+    }
+}
+
+/// A wave with one pole and one lag: `W = S(p,q) / [(p+b) − ρq(p−a)]`.
+pub(crate) struct OnePole<'a> {
+    assumptions: &'a Assumptions,
+    rate: Fraction,
+    ratio: Fraction,
+    /// `a`, or `None` for the power family.
+    zero: Option<Fraction>,
+    /// `S`, by lag: a constant and a proper function of p.
+    source: Vec<(Expression, Transform)>,
+}
+
+impl<'a> OnePole<'a> {
+    /// Reads a step that involves its own wave alone; `None` where it has another form.
+    pub fn of(
+        step: &Step,
+        assumptions: &'a Assumptions,
+        time: &Symbol,
+        period: &Fraction,
+    ) -> Option<OnePole<'a>> {
+        let start = step.start.as_ref()?;
+        let operator = step.equation.operator(step.wave);
+        if operator.reach() > 2 {
+            return None;
+        }
+        let at = |row: &[Expression], lag: usize| row.get(lag).cloned().unwrap_or_default();
+        let (slope, value) = (at(operator.slope(), 1), at(operator.value(), 1));
+        let (ratio, zero) = if slope.is_zero() {
+            ((-&value).as_fraction()?, None)
+        } else {
+            let inverse = assumptions.invert(&slope).ok()?;
+            ((-&slope).as_fraction()?, Some((-&(&value * &inverse)).as_fraction()?))
+        };
+        let source = source(step, time, period)?;
+        Some(OnePole { assumptions, rate: start.rate.clone(), ratio, zero, source })
+    }
+
+    fn family(&self) -> Family {
+        self.zero.as_ref().map_or(Family::Power, |a| Family::Laguerre(a + &self.rate))
+    }
+
+    /// The echoes of `multiplier(q) W` in general k, and the k from which the sum holds; `None`
+    /// where a pole of the source meets neither `a` nor `−b`. A pole of the source is absorbed by
+    ///
+    /// ```text
+    /// T_k/(p−a) = (T_{k−1} − T_k)/(a+b),   T_k/(p+b) = (T_k − T_{k+1})/(a+b)     Laguerre, k ≥ 1
+    /// T_k/(p+b) = T_{k+1}                                                        Power
+    /// ```
+    pub fn template(&self, multiplier: &[Expression]) -> Option<(EchoTemplate, usize)> {
+        let mut sum = WeightedLags::default();
+        for (lag, (constant, transform)) in self.source.iter().enumerate() {
+            for (extra, factor) in multiplier.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
+                // T_{k−lag} comes with ρ^{k−lag}, which is written ρ^k ρ^{−lag}.
+                let lag = lag + extra;
+                let weight = factor * &self.power_of_inverse_ratio(lag)?;
+                let lag = isize::try_from(lag).ok()?;
+                sum.add(lag, &(constant * &weight));
+                for (pole, coefficients) in transform.poles() {
+                    let [coefficient] = coefficients else { return None };
+                    self.absorb(pole, &(coefficient * &weight), lag, &mut sum)?;
+                }
+            }
+        }
+        let from = sum.0.keys().next_back().map_or(0, |lag| usize::try_from(*lag).unwrap_or(0));
+        let terms = sum.0.into_iter().filter(|(_, value)| !value.is_zero());
+        let terms = terms.map(|(lag, value)| Some((lag, value.as_fraction()?)));
+        let template = EchoTemplate {
+            family: self.family(),
+            rate: self.rate.clone(),
+            ratio: self.ratio.clone(),
+            terms: terms.collect::<Option<_>>()?,
+            first: Vec::new(),
+        };
+        Some((template, from))
+    }
+
+    /// Adds `value · T_{k−lag} / (p − pole)`.
+    fn absorb(
+        &self,
+        pole: &Fraction,
+        value: &Expression,
+        lag: isize,
+        sum: &mut WeightedLags,
+    ) -> Option<()> {
+        let at_own_pole = *pole == -&self.rate;
+        match &self.zero {
+            None if at_own_pole => sum.add(lag - 1, value),
+            Some(a) if a == pole || at_own_pole => {
+                let argument = a + &self.rate;
+                let part = value * &self.assumptions.invert(&argument.into()).ok()?;
+                let (minus, plus) = if at_own_pole { (lag - 1, lag) } else { (lag, lag + 1) };
+                sum.add(minus, &-&part);
+                sum.add(plus, &part);
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    fn power_of_inverse_ratio(&self, exponent: usize) -> Option<Expression> {
+        if exponent == 0 {
+            return Some(Expression::one());
+        }
+        let inverse = self.assumptions.invert(&self.ratio.clone().into()).ok()?;
+        Some(inverse.pow(u32::try_from(exponent).ok()?))
+    }
+}
+
+/// Coefficients of `T_{k−i}`, by lag `i`.
+#[derive(Default)]
+struct WeightedLags(BTreeMap<isize, Expression>);
+
+impl WeightedLags {
+    fn add(&mut self, lag: isize, value: &Expression) {
+        *self.0.entry(lag).or_default() += value;
+    }
+}
+
+/// `S = −Q + D(q) J(q)`, `J = (start − jumps of forcing)/C(q)`, where it is a polynomial in q.
+fn source(step: &Step, time: &Symbol, period: &Fraction) -> Option<Vec<(Expression, Transform)>> {
+    let start = step.start.as_ref()?;
+    let arrival = |lag: usize| period.scale(&Rational::from_integer(lag.into()));
+    let mut jumps = vec![start.initial.clone()];
+    for (lag, function) in start.continuous.forcing_terms().iter().enumerate() {
+        let jump = function.substitute(time, &arrival(lag)).ok()?;
+        let mut row = vec![Expression::zero(); lag];
+        row.push(-&jump);
+        jumps = sum(&jumps, &row);
+    }
+    let operator = step.equation.operator(step.wave);
+    let numerator = product(operator.slope(), &jumps);
+    let constants = divide(&numerator, start.continuous.operator(step.wave).value())?;
+    let forcing = step.equation.forcing_terms();
+    let mut source = Vec::new();
+    for lag in 0..constants.len().max(forcing.len()) {
+        let mut transform = Transform::zero();
+        if let Some(function) = forcing.get(lag) {
+            let moved = function.shift(time, &arrival(lag)).ok()?;
+            transform.add_scaled(&Transform::of(&moved, time), &Expression::integer(-1));
+        }
+        source.push((constants.get(lag).cloned().unwrap_or_default(), transform));
+    }
+    Some(source)
+}
+
+/// `p / d` as polynomials in q, `d(0) = 1`, where that is exact.
+fn divide(p: &[Expression], d: &[Expression]) -> Option<Vec<Expression>> {
+    let mut rest = p.to_vec();
+    let mut quotient = Vec::new();
+    while rest.len() >= d.len() {
+        let lead = rest[0].clone();
+        for (r, c) in rest.iter_mut().zip(d) {
+            *r -= &(c * &lead);
+        }
+        rest.remove(0);
+        quotient.push(lead);
+    }
+    rest.iter().all(Expression::is_zero).then_some(quotient)
+}
+
+/// The coefficients of the value operator of the only wave in a form, where it has no slopes.
+pub(crate) fn multiplier(form: &LinearForm, wave: WaveIndex) -> Option<Vec<Expression>> {
+    let operator = form.operator(wave);
+    let alone = form.operators().all(|(other, _)| other == wave);
+    (alone && operator.slope().is_empty()).then(|| operator.value().to_vec())
+}
