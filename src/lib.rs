@@ -1,3 +1,24 @@
-//! Exact solutions of wave propagation in bars with lumped ends.
+//! Exact solutions of wave propagation in bars with lumped ends: derived, evaluated, explained.
+//!
+//! Data flows one way: text ([`language`]) → [`recurrence`] → [`solution`] → numbers ([`evaluate`])
+//! and formulas ([`export`]), all in exact [`expression`]s; [`ball`] encloses what is not rational.
+//!
+//! ```
+//! use wavestep::{language, solution::Solution};
+//!
+//! let source = language::Source::new("rigid-mass", wavestep::scenes::find("rigid-mass").unwrap().text)?;
+//! let recurrence = language::read_recurrence(&source, &Default::default())?;
+//! let pieces = Solution::new(recurrence).pieces(0, 1, 1).unwrap();
+//! let f_1 = language::Source::new("6.80", "exp(-s)*(-2*s + 1 + exp(-2*mu))")?;
+//! assert_eq!(pieces[0], language::read_expression(&f_1)?);
+//! # Ok::<(), language::Diagnostic>(())
+//! ```
+
 pub mod ball;
+pub mod evaluate;
+pub mod export;
+pub mod expression;
 pub mod language;
+pub mod recurrence;
+pub mod scenes;
+pub mod solution;

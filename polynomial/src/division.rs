@@ -1,7 +1,8 @@
 //! Exact division.
 
-use crate::arithmetic::{common_symbols, spread_terms};
-use crate::binomial::factorial;
+use crate::alignment::{Places, common_symbols};
+use crate::binomial::multiply_by_factorial;
+use crate::integer::lcm;
 use crate::polynomial::{Monomial, Polynomial, Term};
 use crate::symbol::Symbol;
 use num_bigint::BigInt;
@@ -13,9 +14,9 @@ use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 impl Polynomial {
-    /// The quotient `p / divisor` where it is a polynomial, else `None`. As many products of
-    /// terms as the quotient and the divisor have together, and no fraction: a primitive integer
-    /// polynomial divides an integer polynomial only with an integer quotient (Gauss's lemma).
+    /// The quotient `p / divisor` where it is a polynomial, else `None`. O(terms of the
+    /// quotient × terms of the divisor × log), and no fraction: a primitive integer polynomial
+    /// divides an integer polynomial only with an integer quotient (Gauss's lemma).
     ///
     /// ```
     /// use wavestep_polynomial::Polynomial;
@@ -32,20 +33,23 @@ impl Polynomial {
         if let Some(value) = divisor.as_constant() {
             return Some(self / &value);
         }
-        if divisor.symbols.iter().any(|x| divisor.degree(x) > self.degree(x)) {
-            return self.is_zero().then(Polynomial::zero);
+        if self.is_zero() {
+            return Some(Polynomial::zero());
         }
         let symbols = common_symbols(&self.symbols, &divisor.symbols);
+        // Degrees of a product are sums of degrees: these are the quotient's.
+        let degrees = symbols.iter().map(|x| self.degree(x).checked_sub(divisor.degree(x)));
+        let degrees: Monomial = degrees.collect::<Option<_>>()?;
         let (content, primitive) = divisor.primitive_part();
         let (divisor, _) = ordinary(&primitive, &symbols);
         let (mut rest, scale) = ordinary(self, &symbols);
         let (lead, lead_value) = divisor.last_key_value().expect("the divisor is not zero");
         let mut quotient = Vec::new();
         while let Some((exponents, value)) = rest.last_key_value() {
-            let (factor, remainder) = value.div_rem(lead_value);
             let differences = exponents.iter().zip(lead).map(|(e, l)| e.checked_sub(*l));
             let step = differences.collect::<Option<Monomial>>()?;
-            if !remainder.is_zero() {
+            let (factor, remainder) = value.div_rem(lead_value);
+            if !remainder.is_zero() || step.iter().zip(&degrees).any(|(e, degree)| e > degree) {
                 return None;
             }
             for (exponents, value) in &divisor {
@@ -67,18 +71,19 @@ impl Polynomial {
 }
 
 /// The integer coefficients of `scale · p` in ordinary powers, with the smallest such scale.
-fn ordinary(p: &Polynomial, symbols: &Arc<[Symbol]>) -> (BTreeMap<Monomial, BigInt>, BigInt) {
+fn ordinary(p: &Polynomial, symbols: &[Symbol]) -> (BTreeMap<Monomial, BigInt>, BigInt) {
     let coefficients: Vec<BigRational> = p.terms().map(|(_, coefficient)| coefficient).collect();
-    let scale = coefficients.iter().fold(BigInt::one(), |d, c| d.lcm(c.denom()));
+    let scale = coefficients.iter().fold(BigInt::one(), |d, c| lcm(&d, c.denom()));
     let integers = coefficients.iter().map(|c| c.numer() * (&scale / c.denom()));
-    let places = spread_terms(p, symbols).map(|(exponents, _)| exponents);
-    (places.zip(integers).collect(), scale)
+    let places = Places::new(&p.symbols, symbols);
+    let exponents = p.terms.iter().map(|term| places.spread(&term.exponents));
+    (exponents.zip(integers).collect(), scale)
 }
 
 /// The polynomial with these integer coefficients of ordinary powers, exponents descending.
 fn from_ordinary(symbols: Arc<[Symbol]>, terms: Vec<(Monomial, BigInt)>) -> Polynomial {
-    let divided = terms.into_iter().map(|(exponents, coefficient)| {
-        let numerator = exponents.iter().fold(coefficient, |c, e| c * factorial(*e));
+    let divided = terms.into_iter().map(|(exponents, mut numerator)| {
+        exponents.iter().for_each(|e| multiply_by_factorial(&mut numerator, *e));
         Term { exponents, numerator }
     });
     Polynomial::from_parts(symbols, divided.collect(), BigInt::one())

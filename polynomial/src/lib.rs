@@ -3,7 +3,8 @@
 //! [`Polynomial`] is sparse, in any number of named symbols; [`Univariate`] is dense, in one
 //! variable. Both keep integer coefficients of *divided powers* `x^j/j!` over one shared
 //! denominator. In that basis the derivative and the antiderivative move coefficients without
-//! changing them and a Taylor shift makes no fractions; products pay with a binomial coefficient.
+//! changing them, and a Taylor shift by a symbol makes no fractions; products pay with a binomial
+//! coefficient.
 //! Reduced rationals appear at the edge: in coefficients asked for, in printing, in evaluation.
 //!
 //! Every value has one representation, so `==` is equality of polynomials.
@@ -16,11 +17,16 @@
 //! assert_eq!(p.antiderivative(&x).derivative(&x), p);
 //! ```
 
-mod arithmetic;
+mod alignment;
 mod binomial;
 mod calculus;
 mod division;
+mod integer;
 mod polynomial;
+mod product;
+mod query;
+mod substitution;
+mod sum;
 mod symbol;
 mod text;
 mod univariate;

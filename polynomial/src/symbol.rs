@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub struct Symbol(Arc<str>);
 
 impl Symbol {
-    /// The symbol called `name`, or `None` where `name` is no name.
+    /// The symbol called `name`, or `None` where `name` is no name. O(length).
     pub fn new(name: &str) -> Option<Symbol> {
         let mut characters = name.chars();
         let starts = characters.next().is_some_and(char::is_alphabetic);
@@ -25,7 +25,7 @@ impl Symbol {
         (starts && goes_on).then(|| Symbol(name.into()))
     }
 
-    /// The name.
+    /// The name. O(1).
     pub fn name(&self) -> &str {
         &self.0
     }

@@ -1,15 +1,17 @@
 //! Printing in the documented order, and reading back.
 
+use crate::integer::{fraction, product};
 use crate::polynomial::Polynomial;
 use crate::symbol::Symbol;
 use num_bigint::BigInt;
-use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
 impl fmt::Display for Polynomial {
     /// Terms in the documented order, as `-3/2*mu^2*s + 1`; reads back as the same polynomial.
+    /// One gcd a term.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_zero() {
             return f.write_str("0");
@@ -21,34 +23,43 @@ impl fmt::Display for Polynomial {
                 (_, false) => f.write_str(" + ")?,
                 (_, true) => f.write_str(" - ")?,
             }
-            let mut factors = Vec::new();
             let size = coefficient.abs();
-            let powers = self.symbols().iter().zip(exponents).filter(|(_, e)| **e > 0);
-            for (symbol, exponent) in powers {
-                factors.push(match exponent {
-                    1 => symbol.to_string(),
-                    _ => format!("{symbol}^{exponent}"),
-                });
+            let mut separator = "";
+            if !size.is_one() || exponents.iter().all(|e| *e == 0) {
+                write!(f, "{size}")?;
+                separator = "*";
             }
-            if !size.is_one() || factors.is_empty() {
-                factors.insert(0, size.to_string());
+            for (symbol, exponent) in self.symbols().iter().zip(exponents) {
+                match exponent {
+                    0 => continue,
+                    1 => write!(f, "{separator}{symbol}")?,
+                    _ => write!(f, "{separator}{symbol}^{exponent}")?,
+                }
+                separator = "*";
             }
-            f.write_str(&factors.join("*"))?;
         }
         Ok(())
     }
 }
 
 impl fmt::Debug for Polynomial {
+    /// As [`Display`](fmt::Display).
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }
 }
 
 /// What [`Polynomial::from_str`] could not read, and where.
+///
+/// ```
+/// use wavestep_polynomial::{Expected, Polynomial};
+/// let error = "x + 3/0".parse::<Polynomial>().unwrap_err();
+/// assert_eq!((error.offset, error.expected), (6, Expected::Denominator));
+/// assert_eq!(error.to_string(), "at byte 6: expected a denominator other than zero");
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ReadError {
-    /// Byte offset of the place.
+    /// Byte offset of the place in the text.
     pub offset: usize,
     /// What would have been right there.
     pub expected: Expected,
@@ -61,7 +72,8 @@ pub enum Expected {
     Factor,
     /// `+`, `-`, `*` or the end.
     Operator,
-    /// A non-negative integer exponent below 2^31.
+    /// An integer exponent, with which the symbol has one of at most
+    /// [`Polynomial::MAX_EXPONENT`] in its term.
     Exponent,
     /// A denominator other than zero.
     Denominator,
@@ -69,13 +81,15 @@ pub enum Expected {
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let expected = match self.expected {
-            Expected::Factor => "a number or a name",
-            Expected::Operator => "`+`, `-`, `*` or the end",
-            Expected::Exponent => "an exponent: an integer from 0 to 2147483647",
-            Expected::Denominator => "a denominator other than zero",
-        };
-        write!(f, "at byte {}: expected {expected}", self.offset)
+        write!(f, "at byte {}: expected ", self.offset)?;
+        match self.expected {
+            Expected::Factor => f.write_str("a number or a name"),
+            Expected::Operator => f.write_str("`+`, `-`, `*` or the end"),
+            Expected::Exponent => {
+                write!(f, "an exponent that makes at most {}", Polynomial::MAX_EXPONENT)
+            }
+            Expected::Denominator => f.write_str("a denominator other than zero"),
+        }
     }
 }
 
@@ -85,29 +99,35 @@ impl FromStr for Polynomial {
     type Err = ReadError;
 
     /// Reads a sum of products of integers, fractions, names and powers of names, such as
-    /// `-3/2*mu^2*s + 1`: all that printing writes, in any order. O(terms²) at worst.
+    /// `-3/2*mu^2*s + 1`: all that printing writes, in any order, with white space anywhere
+    /// between the parts.
+    ///
+    /// O(n log n) for `n` terms with short numbers, and at worst the square of the length. The
+    /// numerators held are longer than the text where exponents are high (5 kB for the highest)
+    /// or fractions have many different denominators: limit the length of a text of unknown
+    /// origin.
+    ///
+    /// # Errors
+    /// What was expected, and where, at the first place that does not fit.
     fn from_str(text: &str) -> Result<Polynomial, ReadError> {
         let mut reader = Reader { text, offset: 0 };
-        let mut sum = Polynomial::zero();
-        let mut first = true;
+        let mut terms = Vec::new();
+        let mut negative = reader.take_if('-');
         loop {
-            let negative = match reader.peek() {
-                Some('-') => true,
-                Some('+') if !first => false,
-                None if !first => return Ok(sum),
-                Some(_) if !first => return Err(reader.error(Expected::Operator)),
-                _ => false,
-            };
-            if !first || negative {
-                reader.take();
-            }
-            first = false;
             let term = reader.term()?;
-            if negative { sum -= &term } else { sum += &term }
+            terms.push(if negative { -term } else { term });
+            negative = match reader.peek() {
+                None => return Ok(terms.into_iter().sum()),
+                Some('+') => false,
+                Some('-') => true,
+                Some(_) => return Err(reader.error(Expected::Operator)),
+            };
+            reader.offset += 1;
         }
     }
 }
 
+/// The text and how far it is read.
 struct Reader<'a> {
     text: &'a str,
     offset: usize,
@@ -121,12 +141,14 @@ impl<'a> Reader<'a> {
         self.text[self.offset..].chars().next()
     }
 
-    fn take(&mut self) {
-        if let Some(character) = self.peek() {
-            self.offset += character.len_utf8();
-        }
+    /// Whether `character`, one byte long, comes next; if so, it is taken.
+    fn take_if(&mut self, character: char) -> bool {
+        let found = self.peek() == Some(character);
+        self.offset += usize::from(found);
+        found
     }
 
+    /// The characters accepted from here on, without leading white space.
     fn take_while(&mut self, accept: impl Fn(char) -> bool) -> &'a str {
         self.peek();
         let rest = &self.text[self.offset..];
@@ -139,49 +161,56 @@ impl<'a> Reader<'a> {
         ReadError { offset: self.offset, expected }
     }
 
+    /// A product of numbers and powers.
     fn term(&mut self) -> Result<Polynomial, ReadError> {
-        let mut coefficient = BigRational::one();
-        let mut powers = Vec::new();
+        let (mut numerators, mut denominators) = (Vec::new(), Vec::new());
+        let mut powers = BTreeMap::new();
         loop {
             match self.peek() {
-                Some(c) if c.is_ascii_digit() => coefficient *= self.number()?,
+                Some(c) if c.is_ascii_digit() => {
+                    numerators.extend(self.integer());
+                    if self.take_if('/') {
+                        denominators.push(self.denominator()?);
+                    }
+                }
                 Some(c) if c.is_alphabetic() => {
                     let name = self.take_while(|c| c.is_alphanumeric() || c == '_');
-                    let symbol = Symbol::new(name).ok_or(self.error(Expected::Factor))?;
-                    powers.push((symbol, self.exponent()?));
+                    let symbol = Symbol::new(name).expect("a letter starts a name");
+                    let exponent = powers.entry(symbol).or_insert(0);
+                    *exponent += self.exponent(Polynomial::MAX_EXPONENT - *exponent)?;
                 }
                 _ => return Err(self.error(Expected::Factor)),
             }
-            if self.peek() != Some('*') {
+            if !self.take_if('*') {
                 break;
             }
-            self.take();
         }
+        let coefficient = fraction(product(numerators), product(denominators));
         let powers: Vec<_> = powers.iter().map(|(symbol, e)| (symbol, *e)).collect();
         Ok(Polynomial::monomial(&coefficient, &powers))
     }
 
-    fn number(&mut self) -> Result<BigRational, ReadError> {
-        let digits = |text: &str| text.parse::<BigInt>().ok();
-        let numerator = digits(self.take_while(|c| c.is_ascii_digit()));
-        let numerator = numerator.ok_or(self.error(Expected::Factor))?;
-        if self.peek() != Some('/') {
-            return Ok(BigRational::from_integer(numerator));
-        }
-        self.take();
-        let denominator = digits(self.take_while(|c| c.is_ascii_digit()));
-        match denominator.filter(|d| !d.is_zero()) {
-            Some(denominator) => Ok(BigRational::new(numerator, denominator)),
-            None => Err(self.error(Expected::Denominator)),
-        }
+    fn integer(&mut self) -> Option<BigInt> {
+        self.take_while(|c| c.is_ascii_digit()).parse().ok()
     }
 
-    fn exponent(&mut self) -> Result<u32, ReadError> {
-        if self.peek() != Some('^') {
-            return Ok(1);
-        }
-        self.take();
-        let exponent = self.take_while(|c| c.is_ascii_digit()).parse::<u32>().ok();
-        exponent.filter(|e| *e < 1 << 31).ok_or(self.error(Expected::Exponent))
+    /// The positive integer after `/`.
+    fn denominator(&mut self) -> Result<BigInt, ReadError> {
+        self.peek();
+        let error = self.error(Expected::Denominator);
+        self.integer().filter(|value| !value.is_zero()).ok_or(error)
+    }
+
+    /// The exponent of a name just read, 1 where none is written.
+    fn exponent(&mut self, largest: u32) -> Result<u32, ReadError> {
+        let mut error = self.error(Expected::Exponent);
+        let exponent = if self.take_if('^') {
+            self.peek();
+            error = self.error(Expected::Exponent);
+            self.take_while(|c| c.is_ascii_digit()).parse().ok()
+        } else {
+            Some(1)
+        };
+        exponent.filter(|e| *e <= largest).ok_or(error)
     }
 }

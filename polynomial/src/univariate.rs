@@ -1,13 +1,15 @@
 //! Dense polynomials in one unnamed variable, in the divided-power basis.
 
-use crate::binomial::factorial;
-use crate::polynomial::Polynomial;
+use crate::binomial::{multiply_by_binomial, multiply_by_factorial};
+use crate::integer::{fraction, gcd, lcm};
+use crate::polynomial::{Polynomial, Term, add_exponents};
 use crate::symbol::Symbol;
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
+use smallvec::smallvec;
 use std::ops::{Add, Mul, Neg, Sub};
+use std::sync::Arc;
 
 /// A dense polynomial in one variable,
 ///
@@ -34,7 +36,8 @@ pub struct Univariate {
 }
 
 impl Univariate {
-    /// `(1/denominator) Σ_j coefficients_j x^j/j!`. One gcd a coefficient, while they are not 1.
+    /// `(1/denominator) Σ_j coefficients_j x^j/j!`. O(degree), and gcds while they are
+    /// not 1.
     ///
     /// # Panics
     /// Where the denominator is zero.
@@ -49,7 +52,7 @@ impl Univariate {
             if common.is_one() {
                 break;
             }
-            common = common.gcd(value);
+            common = gcd(&common, value);
         }
         if p.denominator.is_negative() {
             common = -common.abs();
@@ -64,22 +67,38 @@ impl Univariate {
         p
     }
 
-    /// The polynomial 0.
+    /// The polynomial 0. O(1).
     pub fn zero() -> Univariate {
         Univariate { coefficients: Vec::new(), denominator: BigInt::one() }
     }
 
-    /// A constant.
+    /// A constant. O(1).
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Rational, Univariate};
+    /// let half = Rational::new(1.into(), 2.into());
+    /// assert_eq!(Univariate::constant(&half).evaluate(&half), half);
+    /// ```
     pub fn constant(value: &BigRational) -> Univariate {
         Univariate::new(vec![value.numer().clone()], value.denom().clone())
     }
 
-    /// `p` read as a polynomial in `x`, or `None` where another symbol occurs. O(terms).
+    /// `p` read as a polynomial in `x`, or `None` where another symbol occurs. O(degree).
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Symbol, Univariate};
+    /// let x = Symbol::new("x").unwrap();
+    /// let p: Polynomial = "x^3 - 1/2".parse().unwrap();
+    /// let dense = Univariate::from_polynomial(&p, &x).unwrap();
+    /// assert_eq!(dense.degree(), Some(3));
+    /// assert_eq!(dense.to_polynomial(&x), p);
+    /// assert!(Univariate::from_polynomial(&p, &Symbol::new("y").unwrap()).is_none());
+    /// ```
     pub fn from_polynomial(p: &Polynomial, x: &Symbol) -> Option<Univariate> {
-        let mut coefficients = vec![BigInt::zero(); p.degree(x) as usize + 1];
         if p.symbols().iter().any(|symbol| symbol != x) {
             return None;
         }
+        let mut coefficients = vec![BigInt::zero(); p.degree(x) as usize + 1];
         let (denominator, terms) = p.divided_terms();
         for (exponents, numerator) in terms {
             let power = exponents.first().copied().unwrap_or(0);
@@ -89,11 +108,26 @@ impl Univariate {
     }
 
     /// The same polynomial in the symbol `x`. O(degree).
+    ///
+    /// # Panics
+    /// Where the degree exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn to_polynomial(&self, x: &Symbol) -> Polynomial {
-        Polynomial::from_divided(x, &self.coefficients, &self.denominator)
+        let descending = self.coefficients.iter().enumerate().rev().map(|(j, numerator)| {
+            let power = index(j);
+            Term { exponents: smallvec![add_exponents(power, 0)], numerator: numerator.clone() }
+        });
+        let symbols = Arc::from([x.clone()]);
+        Polynomial::from_parts(symbols, descending.collect(), self.denominator.clone())
     }
 
-    /// Whether this is 0.
+    /// Whether the invariants of the type hold, for tests. O(degree), and gcds while they are
+    /// not 1.
+    pub fn is_valid(&self) -> bool {
+        self.denominator.is_positive()
+            && Univariate::new(self.coefficients.clone(), self.denominator.clone()) == *self
+    }
+
+    /// Whether this is 0. O(1).
     pub fn is_zero(&self) -> bool {
         self.coefficients.is_empty()
     }
@@ -103,21 +137,28 @@ impl Univariate {
         self.coefficients.len().checked_sub(1)
     }
 
-    /// The integers `c_0, c_1, …` of the divided-power form; the last is not zero.
+    /// The integers `c_0, c_1, …` of the divided-power form; the last is not zero. O(1).
     pub fn coefficients(&self) -> &[BigInt] {
         &self.coefficients
     }
 
-    /// The shared denominator `d > 0`.
+    /// The shared denominator `d > 0`. O(1).
     pub fn denominator(&self) -> &BigInt {
         &self.denominator
     }
 
-    /// The reduced coefficient of `x^j` (ordinary powers). One gcd.
+    /// The reduced coefficient of `x^j` (ordinary powers), 0 beyond the degree. One gcd.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Rational, Univariate};
+    /// let exponential = Univariate::new(vec![1.into(); 5], 1.into());
+    /// assert_eq!(exponential.coefficient(4), Rational::new(1.into(), 24.into()));
+    /// ```
     pub fn coefficient(&self, j: usize) -> BigRational {
-        let index = u32::try_from(j).expect("an exponent fits 32 bits");
-        let value = self.coefficients.get(j).cloned().unwrap_or_default();
-        BigRational::new(value, &self.denominator * factorial(index))
+        let Some(numerator) = self.coefficients.get(j) else { return BigRational::zero() };
+        let mut denominator = self.denominator.clone();
+        multiply_by_factorial(&mut denominator, index(j));
+        fraction(numerator.clone(), denominator)
     }
 
     /// The derivative: the coefficients go down by one place. O(degree).
@@ -132,20 +173,28 @@ impl Univariate {
         Univariate::new(raised.collect(), self.denominator.clone())
     }
 
-    /// The Taylor shift `p(x + h)`: `c_i' = Σ_{j ≥ i} c_j h^{j−i}/(j−i)!`. O(degree²).
+    /// The Taylor shift `p(x + h)`: `c_i' = Σ_{j ≥ i} c_j h^{j−i}/(j−i)!`. O(degree²)
+    /// products.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Rational, Univariate};
+    /// let square = Univariate::new(vec![0.into(), 0.into(), 2.into()], 1.into());
+    /// let shifted = square.shift(&Rational::from_integer(3.into())); // x² + 6x + 9
+    /// assert_eq!(shifted.coefficients(), &[9.into(), 6.into(), 2.into()]);
+    /// ```
     pub fn shift(&self, h: &BigRational) -> Univariate {
-        let degree = self.coefficients.len();
+        let length = self.coefficients.len();
         // Powers h^m/m! over the one denominator den(h)^n n!.
         let mut powers = vec![BigInt::one()];
         let mut scale = BigInt::one();
-        for m in 1..degree {
+        for m in 1..length {
             let step = h.denom() * BigInt::from(m);
             powers.iter_mut().for_each(|power| *power *= &step);
             let last = &powers[m - 1] / &step;
             powers.push(last * h.numer());
             scale *= step;
         }
-        let shifted = (0..degree).map(|i| {
+        let shifted = (0..length).map(|i| {
             let products = self.coefficients[i..].iter().zip(&powers).map(|(c, power)| c * power);
             products.sum()
         });
@@ -163,13 +212,18 @@ impl Univariate {
             scale *= step;
             numerator += coefficient * &scale;
         }
-        BigRational::new(numerator, scale * &self.denominator)
+        fraction(numerator, scale * &self.denominator)
     }
 }
 
-/// `left + right` with the second scaled by `sign`.
-fn combine(left: &Univariate, right: &Univariate, negate: bool) -> Univariate {
-    let denominator = left.denominator.lcm(&right.denominator);
+/// A place among the coefficients as an exponent. Memory ends long before 2^32 coefficients.
+fn index(j: usize) -> u32 {
+    u32::try_from(j).expect("an exponent fits 32 bits")
+}
+
+/// `left + right`, or `left − right`.
+fn combine(left: &Univariate, right: &Univariate, subtract: bool) -> Univariate {
+    let denominator = lcm(&left.denominator, &right.denominator);
     let scale_left = &denominator / &left.denominator;
     let scale_right = &denominator / &right.denominator;
     let length = left.coefficients.len().max(right.coefficients.len());
@@ -178,7 +232,7 @@ fn combine(left: &Univariate, right: &Univariate, negate: bool) -> Univariate {
     };
     let sums = (0..length).map(|j| {
         let (l, r) = (at(left, j, &scale_left), at(right, j, &scale_right));
-        if negate { l - r } else { l + r }
+        if subtract { l - r } else { l + r }
     });
     Univariate::new(sums.collect(), denominator)
 }
@@ -201,8 +255,10 @@ impl Sub for &Univariate {
 
 impl Neg for &Univariate {
     type Output = Univariate;
+    /// O(degree).
     fn neg(self) -> Univariate {
-        combine(&Univariate::zero(), self, true)
+        let coefficients = self.coefficients.iter().map(|value| -value).collect();
+        Univariate { coefficients, denominator: self.denominator.clone() }
     }
 }
 
@@ -215,7 +271,7 @@ impl Mul for &Univariate {
         for (a, left) in self.coefficients.iter().enumerate() {
             for (b, right) in other.coefficients.iter().enumerate() {
                 let mut product = left * right;
-                crate::binomial::multiply_by_binomial(&mut product, a as u32, b as u32);
+                multiply_by_binomial(&mut product, index(a), index(b));
                 products[a + b] += product;
             }
         }

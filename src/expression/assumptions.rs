@@ -72,7 +72,7 @@ impl fmt::Display for Condition {
 
 /// What answers may rely on: conditions on symbols, and irreducible factors taken to be non-zero.
 ///
-/// Only declared factors are divided by. A symbolic answer therefore holds wherever the conditions
+/// Only declared factors, and such as cannot vanish under the conditions, are divided by. A symbolic answer therefore holds wherever the conditions
 /// hold and no factor vanishes; other values are put in before anything is derived.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Assumptions {
@@ -129,7 +129,8 @@ impl Assumptions {
         self.factors.iter()
     }
 
-    /// The inverse of `c · e^λ`, where `c` is a product of declared factors and a number.
+    /// The inverse of `c · e^λ`, where `c` is a product of declared factors, a number, and at most
+    /// one irreducible factor that is certainly positive or certainly negative.
     ///
     /// # Errors
     /// [`NotInvertible`] with the part that stands in the way.
@@ -148,10 +149,15 @@ impl Assumptions {
                 inverse = &inverse * &reciprocal.expect("declared factors are irreducible");
             }
         }
-        let Some(number) = rest.as_constant() else {
-            return Err(NotInvertible::Undeclared(rest.primitive_part().1));
-        };
-        let inverse = inverse.scale(&number.recip());
+        if let Some(number) = rest.as_constant() {
+            inverse = inverse.scale(&number.recip());
+        } else {
+            let rest = Fraction::from(rest);
+            let known = self.is_positive(&rest) || self.is_positive(&-&rest);
+            let reciprocal = Fraction::reciprocal(rest.numerator()).ok().filter(|_| known);
+            let undeclared = || NotInvertible::Undeclared(rest.numerator().primitive_part().1);
+            inverse = &inverse * &reciprocal.ok_or_else(undeclared)?;
+        }
         Ok(Expression::from(inverse).times_exponential(&-exponent))
     }
 

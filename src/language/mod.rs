@@ -1,0 +1,174 @@
+//! Text to syntax tree. A *recurrence* states equations between the wave functions of successive
+//! periods as one would on paper; a *listing* states the functions themselves; every error says
+//! where it is and what to do.
+//!
+//! ```
+//! use wavestep::language::{Source, parse_recurrence};
+//!
+//! let source = Source::new("mass.wave", r#"
+//!     recurrence "Rigid mass on a fixed bar"
+//!     symbol μ > 0
+//!     period 2*μ, local s, time t
+//!     wave f, g                                   # zero for n < 0
+//!     equation g[n] = -f[n-1]
+//!     equation f[n]' + g[n]' = -(f[n] - g[n])
+//!     continuous f[n] + g[n] starts at 1
+//!     observe velocity = f[n] + g[n]
+//! "#)?;
+//! let recurrence = parse_recurrence(&source)?;
+//! assert_eq!(recurrence.title.value, "Rigid mass on a fixed bar");
+//! assert_eq!(recurrence.statements[0].to_string(), "symbol mu > 0");
+//! # Ok::<(), wavestep::language::Diagnostic>(())
+//! ```
+//!
+//! The way of a text: [`Source`] checks bytes, `layout` finds statements, `parser` builds the tree
+//! in [`syntax`], and [`Diagnostic`] is the one error of all of them. Names mean nothing here yet.
+//! The grammar is `grammar/wavestep.ebnf`, with accepted and rejected texts beside it.
+//!
+//! All work is linear in the length of the text. The parser does not recurse, and nothing that walks
+//! the tree recurses deeper than three times [`MAX_DEPTH`].
+
+mod constant;
+mod diagnostic;
+mod layout;
+mod lowering;
+mod name;
+mod number;
+mod parser;
+mod print;
+mod scope;
+mod source;
+pub mod syntax;
+
+use std::collections::BTreeMap;
+
+use num_rational::BigRational;
+
+use crate::expression;
+use crate::recurrence;
+
+pub use constant::{MAX_CONSTANT_BITS, constant};
+pub use diagnostic::{Diagnostic, Label, Style, closest};
+pub use lowering::ExactFormula;
+pub use number::{MAX_DECIMAL_EXPONENT, MAX_DIGITS};
+pub use scope::{MAX_EXPONENT, MAX_LAG};
+pub use source::{MAX_SOURCE_BYTES, Source};
+pub use syntax::Span;
+
+use syntax::{Expression, Listing, Recurrence};
+
+/// How deep parentheses, arguments, unary minuses and exponents may nest, all together.
+pub const MAX_DEPTH: u16 = 200;
+
+/// The largest index of a wave, and the largest number added to one.
+pub const MAX_INDEX: u32 = 1_000_000;
+
+/// Reads a recurrence: a title, then statements in any order.
+///
+/// Whether names are declared, equations suffice, or a period is stated is not checked here.
+///
+/// # Errors
+/// The first place where the text does not follow the grammar or exceeds a limit.
+pub fn parse_recurrence(source: &Source) -> Result<Recurrence, Diagnostic> {
+    parser::recurrence(source)
+}
+
+/// Reads a listing of formulas `f[3](s) = …`, the form in which exact solutions are printed.
+///
+/// # Errors
+/// As [`parse_recurrence`].
+///
+/// ```
+/// use wavestep::language::{Source, parse_listing};
+///
+/// let text = "f[0](s) = 1/2*exp(-s)\nf[1](s) = s*exp(-s)\n    - 1/4\n";
+/// let listing = parse_listing(&Source::new("listing", text)?)?;
+/// assert_eq!(listing.formulas[1].to_string(), "f[1](s) = s*exp(-s) - 1/4");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn parse_listing(source: &Source) -> Result<Listing, Diagnostic> {
+    parser::listing(source)
+}
+
+/// Reads a text that is one expression.
+///
+/// # Errors
+/// As [`parse_recurrence`].
+pub fn parse_expression(source: &Source) -> Result<Expression, Diagnostic> {
+    parser::expression(source)
+}
+
+/// Reads one exact rational number, such as a value on a command line: `33/10`, `12.34`, `1e3`.
+///
+/// # Errors
+/// As [`parse_expression`] and [`constant`].
+///
+/// ```
+/// use wavestep::language::parse_number;
+///
+/// assert_eq!(parse_number("2*3/4")?, parse_number("1.5")?);
+/// assert_eq!(parse_number("-0.25")?.to_string(), "-1/4");
+/// assert!(parse_number("inf").is_err());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn parse_number(text: &str) -> Result<BigRational, Diagnostic> {
+    let source = Source::new("number", text)?;
+    constant(&parser::number(&source)?, &source)
+}
+
+/// The name as it is kept: Greek letters spelt out, `μ` as `mu`.
+#[must_use]
+pub fn normalise_name(written: &str) -> String {
+    name::normalise(written)
+}
+
+/// Reads a recurrence and gives its names their meaning, with `values` in place of symbols from the
+/// start.
+///
+/// # Errors
+/// The first place where the text has no meaning, or states what cannot be solved step by step.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let source = Source::new("pushed.wave", r#"
+///     recurrence "Constant force"
+///     period 2, local s, time t
+///     wave f
+///     equation f[n] = f[n-1] + 1
+/// "#)?;
+/// let recurrence = read_recurrence(&source, &BTreeMap::new())?;
+/// assert_eq!(recurrence.statement().waves, ["f"]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn read_recurrence(
+    source: &Source,
+    values: &BTreeMap<String, BigRational>,
+) -> Result<recurrence::Recurrence, Diagnostic> {
+    lowering::recurrence(&parse_recurrence(source)?, values)
+}
+
+/// Reads a listing of formulas as exact expressions; every name is a symbol.
+///
+/// # Errors
+/// The first place where the text does not follow the grammar, or divides by what it cannot.
+pub fn read_listing(source: &Source) -> Result<Vec<ExactFormula>, Diagnostic> {
+    lowering::listing(&parse_listing(source)?)
+}
+
+/// Reads one exact expression; every name is a symbol.
+///
+/// # Errors
+/// As [`read_listing`].
+///
+/// ```
+/// use wavestep::language::{Source, read_expression};
+///
+/// let read = |text| read_expression(&Source::new("text", text).unwrap());
+/// assert_eq!(read("exp(-mu)*exp(mu)")?, read("1")?);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn read_expression(source: &Source) -> Result<expression::Expression, Diagnostic> {
+    lowering::expression(&parse_expression(source)?, source)
+}

@@ -190,6 +190,15 @@ impl Recurrence {
         self.statement.observables.iter().find(|observable| observable.name == name)
     }
 
+    /// The wave or the observable called `name`, as what is observed.
+    pub fn observation(&self, name: &str) -> Option<Observation> {
+        if let Some(wave) = self.wave(name) {
+            let term = (Expression::one(), wave, 0, Fraction::zero());
+            return Some(Observation { terms: vec![term], forcing: Expression::zero() });
+        }
+        self.observable(name).map(|observable| observable.observation.clone())
+    }
+
     /// The symbols of the recurrence, times apart, in the order of their names.
     pub fn symbols(&self) -> impl Iterator<Item = &Symbol> + '_ {
         self.statement.assumptions.symbols().map(|(symbol, _)| symbol)

@@ -6,7 +6,7 @@ use crate::solution::echo::EchoByEcho;
 use crate::solution::general::{GeneralForm, Unknown};
 use crate::solution::rows::EchoRow;
 use crate::solution::template::EchoTemplate;
-use num_traits::Zero;
+use std::borrow::Cow;
 use std::fmt;
 use wavestep_polynomial::{Integer, Rational, Univariate};
 
@@ -149,31 +149,55 @@ impl Solution {
         (first..=last).map(piece).collect()
     }
 
-    /// The echoes `φ_0 … φ_through` as rows of integers; `None` where a constant is no rational
-    /// number.
+    /// The echoes of a wave as rows of integers, up to `through`; `None` where a constant is no
+    /// rational number.
     ///
     /// # Errors
     /// [`SolveError`] where an echo cannot be given exactly.
-    pub fn rows(
-        &self,
-        wave: WaveIndex,
-        through: usize,
-    ) -> Result<Option<Vec<EchoRow>>, SolveError> {
-        if let Some(template) = self.template(wave) {
-            let local = &self.recurrence.statement().local;
-            let row = |k: usize| match template.first.get(k) {
-                Some(echo) => row_of(&Transform::of(echo, local)),
-                None => template.numeric_row(k).map(|(rate, polynomial)| EchoRow {
-                    parts: if polynomial.is_zero() {
-                        Vec::new()
-                    } else {
-                        vec![(-rate, polynomial)]
-                    },
-                }),
-            };
-            return Ok((0..=through).map(row).collect());
+    ///
+    /// # Cost
+    /// None at first where the echoes have a closed form: each row is made when it is asked for,
+    /// with O(k) products by a word. Else all echoes are derived.
+    pub fn rows(&self, wave: WaveIndex, through: usize) -> Result<Option<Rows<'_>>, SolveError> {
+        let Some(template) = self.template(wave) else {
+            let solver = self.expanded(through)?;
+            let known = solver.transforms(wave).iter().map(row_of).collect::<Option<Vec<_>>>();
+            return Ok(known.map(|known| Rows { template: None, known }));
+        };
+        let local = &self.recurrence.statement().local;
+        let first = template.first.iter().map(|echo| row_of(&Transform::of(echo, local)));
+        let known = first.collect::<Option<Vec<_>>>();
+        let numeric = template.numeric_row(template.first.len()).is_some();
+        let known = known.filter(|_| numeric);
+        Ok(known.map(|known| Rows { template: Some(template), known }))
+    }
+
+    /// Whether the echoes of a wave have a closed form.
+    pub fn has_template(&self, wave: WaveIndex) -> bool {
+        self.template(wave).is_some()
+    }
+}
+
+/// Echoes as rows of integers: some known, the others made by a closed form.
+pub struct Rows<'a> {
+    template: Option<&'a EchoTemplate>,
+    known: Vec<EchoRow>,
+}
+
+impl Rows<'_> {
+    /// The k-th row.
+    ///
+    /// # Panics
+    /// Where the row is neither known nor given by a closed form.
+    pub fn row(&self, k: usize) -> Cow<'_, EchoRow> {
+        if let Some(row) = self.known.get(k) {
+            return Cow::Borrowed(row);
         }
-        Ok(self.expanded(through)?.transforms(wave).iter().map(row_of).collect())
+        let template = self.template.expect("a row beyond those that were derived");
+        let (rate, polynomial) = template.numeric_row(k).expect("the constants are numbers");
+        let mut parts = vec![(-rate, polynomial)];
+        parts.retain(|(_, polynomial)| !polynomial.is_zero());
+        Cow::Owned(EchoRow { parts })
     }
 }
 
@@ -189,7 +213,6 @@ fn row_of(transform: &Transform) -> Option<EchoRow> {
         Some((pole.as_constant()?, Univariate::new(integers.collect(), common)))
     });
     let mut row = EchoRow { parts: parts.collect::<Option<_>>()? };
-    row.parts.retain(|(_, polynomial)| !polynomial.coefficients().is_empty());
-    debug_assert!(row.parts.iter().all(|(_, p)| !p.coefficients().iter().all(Zero::is_zero)));
+    row.parts.retain(|(_, polynomial)| !polynomial.is_zero());
     Some(row)
 }

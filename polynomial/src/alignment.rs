@@ -1,0 +1,63 @@
+//! Two polynomials over one list of symbols.
+
+use crate::polynomial::Monomial;
+use crate::symbol::Symbol;
+use std::sync::Arc;
+
+/// The union of two lists of symbols, and the way from each of them into it.
+pub(crate) struct Alignment {
+    pub symbols: Arc<[Symbol]>,
+    pub left: Places,
+    pub right: Places,
+}
+
+/// Where the symbols of a list stand in a longer one, or `None` where the lists are the same.
+/// Spreading exponents keeps the order of terms.
+pub(crate) struct Places(Option<Vec<usize>>, usize);
+
+impl Places {
+    /// Where the symbols of `list` stand in `union`, which has them all. O(symbols · log).
+    pub fn new(list: &[Symbol], union: &[Symbol]) -> Places {
+        let place = |symbol| union.binary_search(symbol).expect("the union has every symbol");
+        let places = (list.len() < union.len()).then(|| list.iter().map(place).collect());
+        Places(places, union.len())
+    }
+
+    /// `exponents` with each entry moved to its place in the longer list. O(symbols).
+    pub fn spread(&self, exponents: &Monomial) -> Monomial {
+        let mut spread = Monomial::from_slice(exponents);
+        self.widen(&mut spread);
+        spread
+    }
+
+    /// [`Places::spread`] in place; nothing to do where the lists are the same.
+    pub fn widen(&self, exponents: &mut Monomial) {
+        if let Some(places) = &self.0 {
+            let mut wide = Monomial::from_elem(0, self.1);
+            places.iter().zip(exponents.iter()).for_each(|(place, e)| wide[*place] = *e);
+            *exponents = wide;
+        }
+    }
+}
+
+/// The alignment of two lists of symbols. O(symbols · log); O(1) where they are one allocation.
+pub(crate) fn align(left: &Arc<[Symbol]>, right: &Arc<[Symbol]>) -> Alignment {
+    let symbols = common_symbols(left, right);
+    let (left, right) = (Places::new(left, &symbols), Places::new(right, &symbols));
+    Alignment { symbols, left, right }
+}
+
+/// The union of two lists of symbols; one of them itself where it has the other's symbols.
+pub(crate) fn common_symbols(left: &Arc<[Symbol]>, right: &Arc<[Symbol]>) -> Arc<[Symbol]> {
+    if Arc::ptr_eq(left, right) || left == right {
+        return left.clone();
+    }
+    let mut union: Vec<Symbol> = left.iter().chain(right.iter()).cloned().collect();
+    union.sort();
+    union.dedup();
+    match union.len() {
+        length if length == left.len() => left.clone(),
+        length if length == right.len() => right.clone(),
+        _ => union.into(),
+    }
+}

@@ -1,0 +1,68 @@
+//! Integers: greatest common divisors of unequal lengths, long products, reduced fractions.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+/// The greatest common divisor, not negative. One remainder makes the lengths equal before the
+/// binary algorithm, whose cost is the square of the *longer* length.
+pub(crate) fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
+    let (short, long) = if a.bits() < b.bits() { (a, b) } else { (b, a) };
+    if short.is_zero() { long.abs() } else { short.gcd(&(long % short)) }
+}
+
+/// The least common multiple of positive integers.
+pub(crate) fn lcm(a: &BigInt, b: &BigInt) -> BigInt {
+    if a == b || b.is_one() { a.clone() } else { a / gcd(a, b) * b }
+}
+
+/// The fraction in lowest terms. `denominator` is positive.
+pub(crate) fn fraction(numerator: BigInt, denominator: BigInt) -> BigRational {
+    let common = gcd(&numerator, &denominator);
+    if common.is_one() {
+        BigRational::new_raw(numerator, denominator)
+    } else {
+        BigRational::new_raw(numerator / &common, denominator / common)
+    }
+}
+
+/// The product of all factors, neighbours first: lengths stay equal, and long products are fast.
+pub(crate) fn product(mut factors: Vec<BigInt>) -> BigInt {
+    while factors.len() > 1 {
+        factors = factors.chunks(2).map(|pair| pair.iter().product()).collect();
+    }
+    factors.pop().unwrap_or_else(BigInt::one)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agrees_with_the_plain_algorithms() {
+        let values = [0_i64, 1, -1, 6, -35, 1 << 40, 3 << 50];
+        let powers = values.map(|value| BigInt::from(value).pow(7));
+        for a in values.map(BigInt::from).iter().chain(&powers) {
+            for b in &powers {
+                assert_eq!(gcd(a, b), a.gcd(b));
+                assert_eq!(gcd(b, a), a.gcd(b));
+                if b.is_positive() {
+                    assert_eq!(
+                        fraction(a.clone(), b.clone()),
+                        BigRational::new(a.clone(), b.clone())
+                    );
+                    assert_eq!(lcm(&(a.abs() + 1), b), (a.abs() + 1_u32).lcm(b));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn product_of_any_number_of_factors() {
+        for n in 0..20_u32 {
+            let factors: Vec<BigInt> = (1..=n).map(|i| BigInt::from(i) - 7).collect();
+            assert_eq!(product(factors.clone()), factors.iter().product());
+        }
+    }
+}

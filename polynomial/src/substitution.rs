@@ -1,0 +1,151 @@
+//! Substitution, Taylor shift, evaluation.
+
+use crate::alignment::{Places, common_symbols};
+use crate::binomial::falling_factorial;
+use crate::integer::{fraction, lcm};
+use crate::polynomial::{Polynomial, Term};
+use crate::product::Accumulator;
+use crate::symbol::Symbol;
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::One;
+use std::collections::{BTreeMap, BTreeSet};
+
+impl Polynomial {
+    /// `p` with the polynomial `value` in place of `x`. The divided powers of `value` that occur
+    /// are formed once; then as many products of terms as the answer adds up.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    /// let p: Polynomial = "s^2 + mu".parse().unwrap();
+    /// let at = p.substitute(&Symbol::new("s").unwrap(), &"2*mu".parse().unwrap());
+    /// assert_eq!(at.to_string(), "4*mu^2 + mu");
+    /// ```
+    ///
+    /// # Panics
+    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
+    pub fn substitute(&self, x: &Symbol, value: &Polynomial) -> Polynomial {
+        let Some(column) = self.column(x) else { return self.clone() };
+        let symbols = common_symbols(&self.symbols, &value.symbols);
+        let powers = divided_powers(value, self.exponents_in(column));
+        let denominator = powers.values().fold(BigInt::one(), |d, p| lcm(&d, &p.denominator));
+        let over_one_denominator = |(e, power): (&u32, &Polynomial)| {
+            let mut terms = power.terms_over(&symbols);
+            let scale = &denominator / &power.denominator;
+            if !scale.is_one() {
+                terms.iter_mut().for_each(|term| term.numerator *= &scale);
+            }
+            (*e, terms)
+        };
+        let powers: BTreeMap<_, _> = powers.iter().map(over_one_denominator).collect();
+
+        let places = Places::new(&self.symbols, &symbols);
+        let wide_column = symbols.binary_search(x).expect("x is among the common symbols");
+        let mut sums = Accumulator::default();
+        for term in &self.terms {
+            let mut others = places.spread(&term.exponents);
+            let power = std::mem::take(&mut others[wide_column]);
+            sums.add_product(&others, &term.numerator, &powers[&power]);
+        }
+        sums.finish(symbols, denominator * &self.denominator)
+    }
+
+    /// The Taylor shift `p(x + step)`. Cost as for [`Polynomial::substitute`]. A shift by an
+    /// integer multiple of a symbol makes no denominator: `(x + ka)^[n] = Σ_j k^j a^[j] x^[n−j]`.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    /// let p: Polynomial = "x^2".parse().unwrap();
+    /// let shifted = p.shift(&Symbol::new("x").unwrap(), &"h".parse().unwrap());
+    /// assert_eq!(shifted.to_string(), "h^2 + 2*h*x + x^2");
+    /// ```
+    ///
+    /// # Panics
+    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
+    pub fn shift(&self, x: &Symbol, step: &Polynomial) -> Polynomial {
+        self.substitute(x, &(&Polynomial::symbol(x) + step))
+    }
+
+    /// The value where every symbol has a value, or the first symbol that has none. At most one
+    /// product for each symbol of each term, and one gcd.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Rational, Symbol};
+    /// let p: Polynomial = "x^2 - 1/4".parse().unwrap();
+    /// let half = Rational::new(1.into(), 2.into());
+    /// let value = p.evaluate(|_: &Symbol| Some(half.clone())).unwrap();
+    /// assert_eq!(value, Rational::from_integer(0.into()));
+    /// ```
+    ///
+    /// # Errors
+    /// The symbol for which `values` answers `None`.
+    pub fn evaluate(
+        &self,
+        values: impl Fn(&Symbol) -> Option<BigRational>,
+    ) -> Result<BigRational, Symbol> {
+        let mut denominator = self.denominator.clone();
+        let mut tables = Vec::new();
+        for (column, symbol) in self.symbols.iter().enumerate() {
+            let value = values(symbol).ok_or_else(|| symbol.clone())?;
+            let (powers, scale) = divided_powers_of_number(&value, &self.exponents_in(column));
+            denominator *= scale;
+            tables.push(powers);
+        }
+        let numerator = sum_of_products(&self.terms, 0, &tables);
+        Ok(fraction(numerator, denominator))
+    }
+
+    /// The exponents that occur in one column.
+    fn exponents_in(&self, column: usize) -> BTreeSet<u32> {
+        self.terms.iter().map(|term| term.exponents[column]).collect()
+    }
+}
+
+/// `q^[e] = q^e/e!` for these exponents.
+fn divided_powers(q: &Polynomial, exponents: BTreeSet<u32>) -> BTreeMap<u32, Polynomial> {
+    let (mut last, mut power) = (0, Polynomial::one());
+    let next = exponents.into_iter().map(|e| {
+        let quotient = BigRational::new(BigInt::one(), falling_factorial(e, e - last));
+        power = &(&power * &q.pow(e - last)) * &quotient;
+        last = e;
+        (e, power.clone())
+    });
+    next.collect()
+}
+
+/// The numerators of `x^[e] = x^e/e!` for these exponents over one denominator, and that.
+///
+/// With `x = a/b` and the largest exponent `n`, they are `a^e · b^(n−e) n!/e!` over `b^n n!`.
+fn divided_powers_of_number(
+    x: &BigRational,
+    exponents: &BTreeSet<u32>,
+) -> (BTreeMap<u32, BigInt>, BigInt) {
+    let (mut last, mut power) = (0, BigInt::one());
+    let mut numerators: BTreeMap<u32, BigInt> = BTreeMap::new();
+    for e in exponents {
+        power *= x.numer().pow(e - last);
+        numerators.insert(*e, power.clone());
+        last = *e;
+    }
+    let mut scale = BigInt::one();
+    for (e, numerator) in numerators.iter_mut().rev() {
+        scale *= x.denom().pow(last - e) * falling_factorial(last, last - e);
+        *numerator *= &scale;
+        last = *e;
+    }
+    scale *= x.denom().pow(last) * falling_factorial(last, last);
+    (numerators, scale)
+}
+
+/// `Σ c Π_i v_i` over the terms, where `v_i` is the entry of the table of column `i ≥ column` for
+/// the exponent. Terms that agree in a column stand together, so its entry is multiplied once.
+fn sum_of_products(terms: &[Term], column: usize, tables: &[BTreeMap<u32, BigInt>]) -> BigInt {
+    let Some(table) = tables.get(column) else {
+        return terms.iter().map(|term| &term.numerator).sum();
+    };
+    let groups = terms.chunk_by(|a, b| a.exponents[column] == b.exponents[column]);
+    let product = |group: &[Term]| {
+        sum_of_products(group, column + 1, tables) * &table[&group[0].exponents[column]]
+    };
+    groups.map(product).sum()
+}

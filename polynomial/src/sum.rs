@@ -1,0 +1,168 @@
+//! Sums, differences, negatives.
+
+use crate::alignment::align;
+use crate::integer::lcm;
+use crate::polynomial::{Polynomial, Term};
+use crate::symbol::Symbol;
+use num_bigint::BigInt;
+use num_traits::One;
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Neg, Sub, SubAssign};
+use std::sync::Arc;
+
+/// `left + right`, or `left − right`, by merging two descending lists. `lefts` are the terms of the
+/// left side, moved or copied as the caller likes; the numerators of the right side are added to
+/// them in place, and copied only where the left side has no such term.
+fn merge(
+    (symbols, denominator, lefts): (&Arc<[Symbol]>, &BigInt, impl Iterator<Item = Term>),
+    right: &Polynomial,
+    subtract: bool,
+) -> Polynomial {
+    let aligned = align(symbols, &right.symbols);
+    let common = lcm(denominator, &right.denominator);
+    let scale_left = &common / denominator;
+    let scale_right = &common / &right.denominator;
+    let (rescale_left, rescale_right) = (!scale_left.is_one(), !scale_right.is_one());
+
+    let mut terms = Vec::with_capacity(lefts.size_hint().0.max(right.terms.len()));
+    let mut lefts = lefts.map(|mut term| {
+        aligned.left.widen(&mut term.exponents);
+        if rescale_left {
+            term.numerator *= &scale_left;
+        }
+        term
+    });
+    let mut rights = right.terms.iter().map(|term| {
+        let numerator = &term.numerator;
+        let scaled = if rescale_right {
+            Cow::Owned(numerator * &scale_right)
+        } else {
+            Cow::Borrowed(numerator)
+        };
+        (aligned.right.spread(&term.exponents), scaled)
+    });
+    let new_term = |(exponents, value): (_, Cow<'_, BigInt>)| {
+        let value = value.into_owned();
+        Term { exponents, numerator: if subtract { -value } else { value } }
+    };
+    let (mut next_left, mut next_right) = (lefts.next(), rights.next());
+    loop {
+        match (next_left, next_right) {
+            (Some(mut l), Some(r)) => match l.exponents.cmp(&r.0) {
+                Ordering::Greater => {
+                    terms.push(l);
+                    (next_left, next_right) = (lefts.next(), Some(r));
+                }
+                Ordering::Less => {
+                    terms.push(new_term(r));
+                    (next_left, next_right) = (Some(l), rights.next());
+                }
+                Ordering::Equal => {
+                    if subtract {
+                        l.numerator -= &*r.1
+                    } else {
+                        l.numerator += &*r.1
+                    }
+                    terms.push(l);
+                    (next_left, next_right) = (lefts.next(), rights.next());
+                }
+            },
+            (l, r) => {
+                terms.extend(l.into_iter().chain(lefts));
+                terms.extend(r.into_iter().chain(rights).map(new_term));
+                break;
+            }
+        }
+    }
+    Polynomial::from_parts(aligned.symbols, terms, common)
+}
+
+/// [`merge`] into a copy of `left`.
+fn merge_copied(left: &Polynomial, right: &Polynomial, subtract: bool) -> Polynomial {
+    merge((&left.symbols, &left.denominator, left.terms.iter().cloned()), right, subtract)
+}
+
+/// [`merge`] into `left` itself.
+fn merge_owned(left: Polynomial, right: &Polynomial, subtract: bool) -> Polynomial {
+    if right.is_zero() {
+        return left;
+    }
+    merge((&left.symbols, &left.denominator, left.terms.into_iter()), right, subtract)
+}
+
+impl Add for &Polynomial {
+    type Output = Polynomial;
+    /// O(terms of both).
+    fn add(self, other: &Polynomial) -> Polynomial {
+        merge_copied(self, other, false)
+    }
+}
+
+impl Sub for &Polynomial {
+    type Output = Polynomial;
+    /// O(terms of both).
+    fn sub(self, other: &Polynomial) -> Polynomial {
+        merge_copied(self, other, true)
+    }
+}
+
+impl AddAssign<&Polynomial> for Polynomial {
+    /// O(terms of both); the numerators of `self` are not copied.
+    fn add_assign(&mut self, other: &Polynomial) {
+        *self = merge_owned(std::mem::take(self), other, false);
+    }
+}
+
+impl SubAssign<&Polynomial> for Polynomial {
+    /// O(terms of both); the numerators of `self` are not copied.
+    fn sub_assign(&mut self, other: &Polynomial) {
+        *self = merge_owned(std::mem::take(self), other, true);
+    }
+}
+
+impl Sum for Polynomial {
+    /// Neighbours are added first, so that `n` polynomials of one term each take
+    /// O(n log n), where one addition after the other would take O(n²).
+    ///
+    /// ```
+    /// use wavestep_polynomial::Polynomial;
+    /// let terms = ["x", "y", "-x"].map(|text| text.parse::<Polynomial>().unwrap());
+    /// assert_eq!(terms.into_iter().sum::<Polynomial>().to_string(), "y");
+    /// ```
+    fn sum<I: Iterator<Item = Polynomial>>(polynomials: I) -> Polynomial {
+        let mut sums: Vec<Polynomial> = polynomials.collect();
+        while sums.len() > 1 {
+            let mut rest = sums.into_iter();
+            let pair = || {
+                let left = rest.next()?;
+                Some(match rest.next() {
+                    Some(right) => merge_owned(left, &right, false),
+                    None => left,
+                })
+            };
+            sums = std::iter::from_fn(pair).collect();
+        }
+        sums.pop().unwrap_or_default()
+    }
+}
+
+impl Neg for Polynomial {
+    type Output = Polynomial;
+    /// O(terms), in place.
+    fn neg(mut self) -> Polynomial {
+        for term in &mut self.terms {
+            term.numerator = -std::mem::take(&mut term.numerator);
+        }
+        self
+    }
+}
+
+impl Neg for &Polynomial {
+    type Output = Polynomial;
+    /// O(terms).
+    fn neg(self) -> Polynomial {
+        -self.clone()
+    }
+}

@@ -1,0 +1,309 @@
+//! The ball: a number known to lie within a radius of a midpoint.
+//!
+//! The midpoint is a binary number of any length and the radius a cheap upper bound. Operations
+//! round the midpoint to a precision the caller states and add to the radius all that this may
+//! have changed.
+
+use std::fmt;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::binary::Binary;
+use super::error::BallError;
+use super::magnitude::Magnitude;
+
+/// Where an exact endpoint would need more bits than this below its midpoint, the radius is widened
+/// instead.
+const ENDPOINT_BITS: i64 = 1 << 20;
+
+/// All reals `x` with `|x − midpoint| ≤ radius`.
+///
+/// # Invariants
+/// - A ball made by an operation contains the exact result for every choice of points in its
+///   operands (*inclusion*).
+/// - A precision `p` is a number of bits: it bounds the length of the midpoint, and the rounding
+///   adds at most `2^(2−p)` of the larger operand (sums) or of the result (products, quotients).
+///   Fewer than two bits count as two.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep::ball::Ball;
+/// let third = BigRational::new(1.into(), 3.into());
+/// let ball = Ball::from_rational(&third, 64);
+/// let one = ball.add(&ball, 64).add(&ball, 64);
+/// assert!(one.contains(&BigRational::from_integer(1.into())));
+/// assert!(one.radius().to_f64() < 1e-18);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ball {
+    midpoint: Binary,
+    radius: Magnitude,
+}
+
+impl Ball {
+    /// The ball of this midpoint and radius.
+    #[must_use]
+    pub const fn new(midpoint: Binary, radius: Magnitude) -> Self {
+        Self { midpoint, radius }
+    }
+
+    /// The ball of one point, zero.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self::new(Binary::zero(), Magnitude::ZERO)
+    }
+
+    /// The ball of one point, the integer itself.
+    #[must_use]
+    pub fn from_integer(value: &BigInt) -> Self {
+        Self::new(Binary::new(value.clone(), 0), Magnitude::ZERO)
+    }
+
+    /// A ball around a rational: `radius ≤ 2^(2−p)·|value|`, and zero when `p` bits hold the value.
+    #[must_use]
+    pub fn from_rational(value: &BigRational, precision: u64) -> Self {
+        let (midpoint, radius) = Binary::quotient(value.numer(), value.denom(), 0, precision);
+        Self::new(midpoint, radius)
+    }
+
+    /// The midpoint.
+    #[must_use]
+    pub const fn midpoint(&self) -> &Binary {
+        &self.midpoint
+    }
+
+    /// The radius.
+    #[must_use]
+    pub const fn radius(&self) -> &Magnitude {
+        &self.radius
+    }
+
+    /// Whether the ball is a single point.
+    #[must_use]
+    pub const fn is_exact(&self) -> bool {
+        self.radius.is_zero()
+    }
+
+    /// Whether zero is in the ball.
+    #[must_use]
+    pub fn contains_zero(&self) -> bool {
+        let below = |midpoint: Binary| midpoint <= self.radius.to_binary();
+        if self.midpoint.is_negative() {
+            below(self.midpoint.clone().negate())
+        } else {
+            below(self.midpoint.clone())
+        }
+    }
+
+    /// Whether this rational is in the ball, decided exactly. The cost grows with the exponents.
+    #[must_use]
+    pub fn contains(&self, value: &BigRational) -> bool {
+        let distance = value - BigRational::from(&self.midpoint);
+        let radius = BigRational::from(&self.radius);
+        distance <= radius && -distance <= radius
+    }
+
+    /// An upper bound of `|x|` over the ball.
+    #[must_use]
+    pub fn magnitude(&self) -> Magnitude {
+        self.midpoint.magnitude().add(&self.radius)
+    }
+
+    /// `(a, b)` with `a ≤ x ≤ b` for all `x` of the ball.
+    ///
+    /// They are the exact ends unless the ball contains zero, where they may lie up to one radius
+    /// further out, or the radius is more than `2^20` bits below the last bit of the midpoint,
+    /// where they lie that far out.
+    #[must_use]
+    pub fn endpoints(&self) -> (Binary, Binary) {
+        if self.is_exact() {
+            return (self.midpoint.clone(), self.midpoint.clone());
+        }
+        if self.contains_zero() {
+            let both = self.radius.scale(1).to_binary();
+            return (both.clone().negate(), both);
+        }
+        let floor = Magnitude::power_of_two(self.midpoint.exponent().saturating_sub(ENDPOINT_BITS));
+        let radius = self.radius.max(floor);
+        let radius = radius.to_binary();
+        (self.midpoint.add(&radius.clone().negate()), self.midpoint.add(&radius))
+    }
+
+    /// The same points and at most a few more, with a midpoint of at most `precision` bits.
+    #[must_use]
+    pub fn round(self, precision: u64) -> Self {
+        let (midpoint, error) = self.midpoint.round(precision);
+        Self::new(midpoint, self.radius.add(&error))
+    }
+
+    /// `−x`, exactly.
+    #[must_use]
+    pub fn negate(self) -> Self {
+        Self::new(self.midpoint.negate(), self.radius)
+    }
+
+    /// `x·2^exponent`, exactly.
+    #[must_use]
+    pub fn scale(self, exponent: i64) -> Self {
+        Self::new(self.midpoint.scale(exponent), self.radius.scale(exponent))
+    }
+
+    /// `x + y`: `radius ≤ r_x + r_y + ε`, `ε` the rounding error of the midpoint.
+    #[must_use]
+    pub fn add(&self, other: &Self, precision: u64) -> Self {
+        let (midpoint, error) = self.midpoint.add_rounded(&other.midpoint, precision);
+        Self::new(midpoint, self.radius.add(&other.radius).add(&error))
+    }
+
+    /// `x − y`, with the radius of [`Self::add`].
+    #[must_use]
+    pub fn subtract(&self, other: &Self, precision: u64) -> Self {
+        self.add(&other.clone().negate(), precision)
+    }
+
+    /// `x·y`: `radius ≤ |m_x| r_y + |m_y| r_x + r_x r_y + ε`, `ε` the rounding error of the
+    /// midpoint.
+    #[must_use]
+    pub fn multiply(&self, other: &Self, precision: u64) -> Self {
+        let (midpoint, error) = self.midpoint.multiply(&other.midpoint).round(precision);
+        let mut radius = error;
+        if !other.is_exact() {
+            radius = radius.add(&self.magnitude().multiply(&other.radius));
+        }
+        if !self.is_exact() {
+            radius = radius.add(&other.midpoint.magnitude().multiply(&self.radius));
+        }
+        Self::new(midpoint, radius)
+    }
+
+    /// `x²`: `radius ≤ (2|m| + r) r + ε`.
+    #[must_use]
+    pub fn square(&self, precision: u64) -> Self {
+        let (midpoint, error) = self.midpoint.multiply(&self.midpoint).round(precision);
+        let sum = self.midpoint.magnitude().scale(1).add(&self.radius);
+        Self::new(midpoint, sum.multiply(&self.radius).add(&error))
+    }
+
+    /// `x·n`: `radius ≤ |n| r + ε`.
+    #[must_use]
+    pub fn multiply_integer(&self, factor: &BigInt, precision: u64) -> Self {
+        self.multiply(&Self::from_integer(factor), precision)
+    }
+
+    /// `x/n`: `radius ≤ r/|n| + ε`.
+    ///
+    /// # Errors
+    /// [`BallError::DivisionByZero`] if `n = 0`.
+    pub fn divide_integer(&self, divisor: &BigInt, precision: u64) -> Result<Self, BallError> {
+        if divisor.is_zero() {
+            return Err(BallError::DivisionByZero);
+        }
+        Ok(self.multiply_quotient(&BigInt::one(), divisor, precision))
+    }
+
+    /// `x·q`: `radius ≤ |q| r + ε`.
+    #[must_use]
+    pub fn multiply_rational(&self, factor: &BigRational, precision: u64) -> Self {
+        self.multiply_quotient(factor.numer(), factor.denom(), precision)
+    }
+
+    /// `x·a/b`; `b` is not zero.
+    fn multiply_quotient(&self, numerator: &BigInt, denominator: &BigInt, precision: u64) -> Self {
+        let product = self.midpoint.mantissa() * numerator;
+        let (midpoint, error) =
+            Binary::quotient(&product, denominator, self.midpoint.exponent(), precision);
+        if self.is_exact() {
+            return Self::new(midpoint, error);
+        }
+        let scaled = self.radius.multiply(&Magnitude::from_integer(numerator, 0));
+        let radius = match denominator.magnitude().to_u64() {
+            Some(divisor) => scaled.divide(divisor),
+            None => {
+                let inverse = BigRational::new(BigInt::one(), denominator.clone());
+                scaled.multiply(&Magnitude::from_rational(&inverse))
+            }
+        };
+        Self::new(midpoint, radius.add(&error))
+    }
+}
+
+impl fmt::Display for Ball {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.to_decimal(50).fmt(formatter)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Signed;
+    use proptest::prelude::*;
+
+    use super::super::samples;
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn operations_include_the_exact_result(
+            ((a, x), (b, y)) in (samples::ball_and_point(), samples::ball_and_point()),
+            (factor, divisor) in (samples::rational(20), samples::integer(20)),
+            precision in 2_u64..200,
+        ) {
+            let (a, b) = (&a, &b);
+            prop_assert!(a.contains(&x));
+            prop_assert!(a.add(b, precision).contains(&(&x + &y)));
+            prop_assert!(a.subtract(b, precision).contains(&(&x - &y)));
+            prop_assert!(a.multiply(b, precision).contains(&(&x * &y)));
+            prop_assert!(a.square(precision).contains(&(&x * &x)));
+            prop_assert!(a.multiply_rational(&factor, precision).contains(&(&x * &factor)));
+            prop_assert!(a.multiply_integer(&divisor, precision).contains(&(&x * &divisor)));
+            match a.divide_integer(&divisor, precision) {
+                Ok(ball) => prop_assert!(ball.contains(&(&x / &divisor))),
+                Err(error) => prop_assert!(divisor.is_zero() && error == BallError::DivisionByZero),
+            }
+            prop_assert!(a.clone().round(precision).contains(&x));
+            prop_assert!(a.clone().negate().contains(&-&x));
+            prop_assert!(Ball::from_rational(&factor, precision).contains(&factor));
+            prop_assert!(BigRational::from(&a.magnitude()) >= x.abs());
+            let (lower, upper) = a.endpoints();
+            prop_assert!(BigRational::from(&lower) <= x && x <= BigRational::from(&upper));
+            prop_assert_eq!(a.contains_zero(), a.contains(&BigInt::ZERO.into()));
+        }
+    }
+
+    #[test]
+    fn exact_operations_stay_exact() {
+        let ball = |value: i64| Ball::from_integer(&value.into());
+        assert_eq!(ball(12).add(&ball(-5), 8), ball(7));
+        assert_eq!(ball(12).multiply(&ball(-5), 8), ball(-60));
+        assert_eq!(ball(12).divide_integer(&3.into(), 8), Ok(ball(4)));
+        assert_eq!(ball(3).scale(-5).scale(5), ball(3));
+        assert!(!ball(257).round(8).is_exact());
+    }
+
+    #[test]
+    fn radii_are_tight() {
+        let radius = Magnitude::power_of_two(-50);
+        let ball = Ball::new(Binary::new(3.into(), 0), radius);
+        // (3 + r)² − 9 = 6r + r².
+        let bound = BigRational::from(ball.square(200).radius());
+        let r = BigRational::from(&radius);
+        let six = BigRational::from_integer(6.into());
+        assert!(bound >= &six * &r + &r * &r);
+        assert!(bound < six * &r * BigRational::new(1_000_001.into(), 1_000_000.into()));
+    }
+
+    #[test]
+    fn distant_exponents_cost_nothing() {
+        let far = 1 << 50;
+        let high = Ball::new(Binary::new(1.into(), far), Magnitude::power_of_two(-far));
+        let low = Ball::new(Binary::new(1.into(), -far), Magnitude::power_of_two(far));
+        let sum = high.add(&low, 64);
+        assert!(sum.contains_zero());
+        let (lower, upper) = high.endpoints();
+        assert!(&lower < high.midpoint() && high.midpoint() < &upper);
+        let (lower, upper) = low.endpoints();
+        assert!(lower.is_negative() && !upper.is_negative());
+    }
+}

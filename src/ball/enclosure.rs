@@ -1,0 +1,165 @@
+//! A ball written in decimals: a midpoint and a radius that still enclose the true value.
+
+use std::fmt;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Zero;
+
+use super::ball::Ball;
+use super::decimal::{
+    Decimal, decimal_exponent, half_even, power_of_ten_bound, rounded_up, scale_by_ten,
+};
+use super::magnitude::Magnitude;
+
+/// Decimal places of the midpoint kept below the leading digit of the radius.
+const EXTRA_PLACES: i64 = 2;
+/// Midpoints whose exponents are within this are compared with their decimals exactly.
+const EXACT_EXPONENT: u64 = 1 << 16;
+
+/// A decimal midpoint and radius: every point of the ball they stand for lies within
+/// `midpoint ± radius`.
+///
+/// The radius includes what the printing of the midpoint rounded away, and is itself rounded up.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep::ball::Ball;
+/// let ball = Ball::from_rational(&BigRational::new(2.into(), 3.into()), 32);
+/// assert_eq!(ball.to_decimal(100).to_string(), "0.666666666744 ± 2.4e-10");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct DecimalEnclosure {
+    midpoint: Decimal,
+    radius: Decimal,
+}
+
+impl DecimalEnclosure {
+    /// The midpoint.
+    #[must_use]
+    pub const fn midpoint(&self) -> &Decimal {
+        &self.midpoint
+    }
+
+    /// The radius, two significant digits; zero when the midpoint is the number. Print it with
+    /// `{:e}`.
+    #[must_use]
+    pub const fn radius(&self) -> &Decimal {
+        &self.radius
+    }
+}
+
+/// `0.6667 ± 1.0e-4`, or the midpoint alone when it is exact.
+impl fmt::Display for DecimalEnclosure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.radius.is_zero() {
+            write!(formatter, "{}", self.midpoint)
+        } else {
+            write!(formatter, "{} ± {:e}", self.midpoint, self.radius)
+        }
+    }
+}
+
+impl Ball {
+    /// The ball in decimals: the midpoint down to two places below the leading digit of the radius,
+    /// thus with every digit that the ball proves, but with `most` digits at most.
+    ///
+    /// For each `x` of the ball: `|x − midpoint| ≤ radius`.
+    ///
+    /// # Panics
+    /// Panics if `most` is zero.
+    #[must_use]
+    pub fn to_decimal(&self, most: usize) -> DecimalEnclosure {
+        assert!(most > 0, "a decimal has at least one digit");
+        let place = if self.is_exact() {
+            None
+        } else {
+            Some(rounded_up(self.radius()).exponent() - EXTRA_PLACES)
+        };
+        let (midpoint, rounding) = self.printed_midpoint(place, most);
+        DecimalEnclosure { midpoint, radius: rounded_up(&self.radius().add(&rounding)) }
+    }
+
+    /// The midpoint rounded to the place, or to `most` digits, whichever are fewer, and a bound of
+    /// its distance from the midpoint.
+    fn printed_midpoint(&self, place: Option<i64>, most: usize) -> (Decimal, Magnitude) {
+        let value = self.midpoint();
+        let Some(top) = value.top() else {
+            return (Decimal::from_scaled(&BigInt::zero(), 0), Magnitude::ZERO);
+        };
+        let coarsest = decimal_exponent(top - 1) + 1 - most as i64;
+        let mut place = place.map_or(coarsest, |place| place.max(coarsest));
+        let (midpoint, low, high) = loop {
+            let (low, high) = scale_by_ten(value, -place, half_even);
+            let midpoint = Decimal::from_scaled(&low, place);
+            if midpoint.significant() <= most {
+                break (midpoint, low, high);
+            }
+            place += 1;
+        };
+        let units = Magnitude::from_integer(&(high - low + 1), 0);
+        let comparable = value.exponent().unsigned_abs() <= EXACT_EXPONENT;
+        if self.is_exact() && comparable && midpoint.to_rational() == BigRational::from(value) {
+            return (midpoint.without_zeros(), Magnitude::ZERO);
+        }
+        (midpoint, units.multiply(&power_of_ten_bound(place)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Signed;
+    use proptest::prelude::*;
+
+    use super::super::binary::Binary;
+    use super::super::proven_digits;
+    use super::super::samples;
+    use super::*;
+
+    fn point(mantissa: i64, exponent: i64) -> Ball {
+        Ball::new(Binary::new(mantissa.into(), exponent), Magnitude::ZERO)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #[test]
+        fn printed_numbers_enclose_every_point(
+            (ball, value) in samples::ball_and_point(), most in 1_usize..60,
+        ) {
+            let printed = ball.to_decimal(most);
+            let distance = (printed.midpoint().to_rational() - value).abs();
+            prop_assert!(distance <= printed.radius().to_rational(), "{printed} for {ball:?}");
+            prop_assert!(printed.midpoint().significant() <= most);
+        }
+
+        #[test]
+        fn every_proven_digit_is_printed(
+            (ball, _) in samples::ball_and_point(), significant in 1_usize..30,
+        ) {
+            if let Some(decimal) = proven_digits(&ball, significant) {
+                let printed = ball.to_decimal(200);
+                let exact = printed.radius().is_zero();
+                prop_assert!(exact || printed.midpoint().significant() >= significant, "{printed} {decimal}");
+            }
+        }
+    }
+
+    #[test]
+    fn exact_midpoints_print_alone() {
+        assert_eq!(point(0, 0).to_decimal(10).to_string(), "0");
+        assert_eq!(point(-3, -2).to_decimal(10).to_string(), "-0.75");
+        assert_eq!(point(1, 10).to_decimal(10).to_string(), "1024");
+        assert_eq!(point(1, 10).to_decimal(4).to_string(), "1024");
+        assert_eq!(point(1, 10).to_decimal(3).to_string(), "1.02e3 ± 1.0e1");
+    }
+
+    #[test]
+    fn distant_exponents_print() {
+        let far = 1 << 40;
+        let wide = Ball::new(Binary::new(1.into(), -far), Magnitude::from_u64(1));
+        assert_eq!(wide.to_decimal(10).to_string(), "0 ± 1.1e0");
+        // 5·2^(−2^40) = 6.2056…·10^(−330985980542), and a fifth of it.
+        let tiny = Ball::new(Binary::new(5.into(), -far), Magnitude::power_of_two(-far));
+        assert_eq!(tiny.to_decimal(10).to_string(), "6.21e-330985980542 ± 1.3e-330985980542");
+    }
+}

@@ -1,0 +1,270 @@
+//! Enclosures of the exponential function.
+//!
+//! The argument is halved until it is small, a Taylor sum in integers gives the exponential of
+//! that, and squaring balls undoes the halving: neither a logarithm nor a library's claim enters
+//! the proof, and the exponent of the result is unbounded.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use super::ball::Ball;
+use super::binary::{Binary, LEAST_PRECISION};
+use super::error::BallError;
+use super::magnitude::Magnitude;
+
+/// Arguments up to `2^40` in absolute value are supported.
+pub const ARGUMENT_BITS: u32 = 40;
+
+/// How an argument of size below `2^t` is reduced for a result of `p` bits.
+#[derive(Clone, Copy)]
+struct Reduction {
+    /// The number `k` of halvings: `|x|/2^k < 2^(−r)`, `r ≥ 2`.
+    halvings: u64,
+    /// The Taylor sum works in units of `2^(−w)`.
+    working: u64,
+    /// The asked precision `p`.
+    precision: u64,
+}
+
+impl Reduction {
+    fn new(top: i64, precision: u64) -> Self {
+        let precision = precision.max(LEAST_PRECISION);
+        // A halving costs a squaring and saves a share of the terms; about √p they balance.
+        let smallness = precision.isqrt().max(2) as i64;
+        let halvings = top.saturating_add(smallness).max(0) as u64;
+        // A squaring doubles the relative error; the rest covers the terms and the roundings.
+        let guard = u64::from(precision.ilog2()) + 8;
+        Self { halvings, working: precision + halvings + guard, precision }
+    }
+
+    /// Encloses `e^x`, given an integer `Y` with `|x·2^(w−k) − Y| ≤ 1`.
+    ///
+    /// With `y = Y·2^(−w)`, `|y| ≤ 1/4`, the computed terms `t_i ≈ y^i/i!·2^w` follow
+    /// `t_(i+1) = trunc(⌊t_i·Y/2^w⌋/(i+1))` from `t_0 = 2^w`, `t_1 = Y` without error. Their errors
+    /// obey `ε_(i+1) ≤ (ε_i·|y| + 1)/(i+1) + 1`, hence `ε_i ≤ 2`. The sum stops at `t_n = 0`, where
+    /// `|y^n/n!|·2^w ≤ 2` and what follows adds up to less than 3. The unit of `Y` moves `e^y` by
+    /// less than 2 units. Altogether
+    /// `|e^(x/2^k)·2^w − Σ_(i<n) t_i| ≤ 2n + 5`.
+    fn exponential(self, argument: &BigInt) -> Ball {
+        let mut term = argument.clone();
+        let mut sum = (BigInt::one() << self.working) + argument;
+        let mut count = 1_u64;
+        while !term.is_zero() {
+            count += 1;
+            term *= argument;
+            term >>= self.working;
+            term /= count;
+            sum += &term;
+        }
+        // Here t_count = 0: n = count when the loop ran, and n ≤ count = 1 when Y = 0.
+        let unit = -(self.working as i64);
+        let radius = Magnitude::from_u64(2 * count + 5).scale(unit);
+        let mut power = Ball::new(Binary::new(sum, unit), radius);
+        for _ in 0..self.halvings {
+            power = power.square(self.working);
+        }
+        power.round(self.precision + 2)
+    }
+}
+
+/// Encloses `e^x`: the true value lies in the ball, and `radius ≤ 2^(−p)·e^x` for precision `p`.
+///
+/// Results of any size are represented: `e^(−10^6)` is not zero.
+///
+/// # Errors
+/// [`BallError::ArgumentTooLarge`] if `|x| > 2^40`.
+///
+/// # Cost
+/// About `2√p` products of `p` bits, and one of `p` bits for each bit of `⌊x⌋`.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep::ball::exp_of_rational;
+/// let e = exp_of_rational(&BigRational::from_integer(1.into()), 128).unwrap();
+/// assert!(e.to_string().starts_with("2.7182818284590452353602874713526624977"));
+/// ```
+pub fn exp_of_rational(x: &BigRational, precision: u64) -> Result<Ball, BallError> {
+    let (numerator, denominator) = (x.numer(), x.denom());
+    if numerator.magnitude() > &(denominator.magnitude() << ARGUMENT_BITS) {
+        return Err(BallError::ArgumentTooLarge);
+    }
+    // |a| < 2^bits(a) and b ≥ 2^(bits(b)−1).
+    let top = numerator.bits() as i64 - denominator.bits() as i64 + 1;
+    let reduction = Reduction::new(top, precision);
+    // The working precision exceeds the number of halvings.
+    let scaled = numerator << (reduction.working - reduction.halvings);
+    Ok(reduction.exponential(&scaled.div_floor(denominator)))
+}
+
+impl Ball {
+    /// Encloses `e^x` for every `x` of the ball.
+    ///
+    /// With `m` the midpoint, `r` the radius of `x` and `ε ≤ 2^(−p)·e^m` for precision `p`:
+    /// `radius ≤ ε + 2r·(1 + 2^(−p))·e^m` up to the roundings of magnitudes while `r ≤ 1`, since
+    /// `e^r − 1 ≤ 2r` there; beyond, the ball is that of the interval from 0 to `e^(m+r)`.
+    ///
+    /// # Errors
+    /// [`BallError::ArgumentTooLarge`] if `|m|` or `r` exceeds `2^40`.
+    ///
+    /// ```
+    /// use num_rational::BigRational;
+    /// use wavestep::ball::Ball;
+    /// let third = Ball::from_rational(&BigRational::new(1.into(), 3.into()), 128);
+    /// assert!(third.exp(128).unwrap().to_string().starts_with("1.39561242508608952862812531960"));
+    /// ```
+    pub fn exp(&self, precision: u64) -> Result<Self, BallError> {
+        let ball = exp_of_binary(self.midpoint(), precision)?;
+        let radius = self.radius();
+        if radius.is_zero() {
+            return Ok(ball);
+        }
+        if *radius <= Magnitude::from_u64(1) {
+            let moved = ball.magnitude().multiply(&radius.scale(1));
+            return Ok(Self::new(ball.midpoint().clone(), ball.radius().add(&moved)));
+        }
+        let factor = exp_of_binary(&radius.to_binary(), u64::from(u32::BITS))?;
+        let half = ball.magnitude().multiply(&factor.magnitude()).scale(-1);
+        Ok(Self::new(half.to_binary(), half))
+    }
+}
+
+/// Encloses `e^x` with the bound of [`exp_of_rational`].
+fn exp_of_binary(x: &Binary, precision: u64) -> Result<Ball, BallError> {
+    if x.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
+        return Err(BallError::ArgumentTooLarge);
+    }
+    let reduction = Reduction::new(x.top().unwrap_or(i64::MIN), precision);
+    let scale = reduction.working as i64 - reduction.halvings as i64;
+    let (argument, _) = x.clone().scale(scale).floor();
+    Ok(reduction.exponential(&argument))
+}
+
+#[cfg(test)]
+mod tests {
+    use astro_float::{BigFloat, Consts, RoundingMode, Sign};
+    use num_bigint::BigUint;
+    use proptest::prelude::*;
+
+    use super::super::samples;
+    use super::*;
+
+    /// An enclosure of `e^x` from another library's value of `bits` bits.
+    fn second_opinion(x: &Binary, bits: usize) -> Ball {
+        let digits: Vec<u64> = x.mantissa().iter_u64_digits().collect();
+        let sign = if x.is_negative() { Sign::Neg } else { Sign::Pos };
+        let mut argument = BigFloat::from_words(&digits, sign, 0);
+        // The library's numbers are 0.m·2^e with the first bit of m set.
+        argument.set_exponent(x.top().unwrap_or(0) as i32);
+        let mut constants = Consts::new().unwrap();
+        let value = argument.exp(bits, RoundingMode::ToEven, &mut constants);
+        let (words, _, _, exponent, _) = value.as_raw_parts().unwrap();
+        let digits = words.iter().flat_map(|word| [*word as u32, (*word >> 32) as u32]).collect();
+        let unit = i64::from(exponent) - 64 * words.len() as i64;
+        let midpoint = Binary::new(BigInt::from(BigUint::new(digits)), unit);
+        let radius = midpoint.magnitude().scale(2 - bits as i64);
+        Ball::new(midpoint, radius)
+    }
+
+    /// Whether all of `inner` lies in `outer`.
+    fn includes(outer: &Ball, inner: &Ball) -> bool {
+        let distance = outer.midpoint().add(&inner.midpoint().clone().negate());
+        let distance = if distance.is_negative() { distance.negate() } else { distance };
+        distance.add(&inner.radius().to_binary()) <= outer.radius().to_binary()
+    }
+
+    fn assert_small(ball: &Ball, precision: u64) {
+        // The radius is below 2^(−p) of the least value.
+        let (lower, _) = ball.endpoints();
+        assert!(!lower.is_negative() && !ball.contains_zero());
+        assert!(ball.radius().to_binary() <= lower.scale(-(precision as i64)), "{ball}");
+    }
+
+    fn integer(value: i64) -> BigRational {
+        BigRational::from_integer(value.into())
+    }
+
+    proptest! {
+        #[test]
+        fn agrees_with_another_library(
+            mantissa in samples::integer(12), exponent in -120_i64..8, precision in 2_u64..400,
+        ) {
+            let x = Binary::new(mantissa, exponent);
+            prop_assume!(!x.is_zero() && x.top().unwrap() < 20);
+            let opinion = second_opinion(&x, precision as usize + 128);
+            let ball = Ball::new(x.clone(), Magnitude::ZERO).exp(precision).unwrap();
+            prop_assert!(includes(&ball, &opinion), "{x:?} {ball} {opinion}");
+            assert_small(&ball, precision);
+            let ball = exp_of_rational(&BigRational::from(&x), precision).unwrap();
+            prop_assert!(includes(&ball, &opinion), "{x:?} {ball} {opinion}");
+            assert_small(&ball, precision);
+        }
+
+        #[test]
+        fn twice_the_precision_lies_within(x in samples::rational(6), precision in 2_u64..300) {
+            prop_assume!(Magnitude::from_rational(&x) < Magnitude::power_of_two(30));
+            let ball = exp_of_rational(&x, precision).unwrap();
+            prop_assert!(includes(&ball, &exp_of_rational(&x, 2 * precision + 64).unwrap()));
+            assert_small(&ball, precision);
+        }
+
+        #[test]
+        fn every_point_of_a_ball_is_included(
+            mantissa in -1000_i64..1000, radius in 0_u64..300, scale in -20_i64..2, share in -4_i64..=4,
+        ) {
+            let radius = Magnitude::from_u64(radius).scale(scale);
+            let ball = Ball::new(Binary::new(mantissa.into(), -4), radius);
+            let point = BigRational::from(ball.midpoint())
+                + BigRational::from(&radius) * BigRational::new(share.into(), 4.into());
+            let value = exp_of_rational(&point, 200).unwrap();
+            prop_assert!(includes(&ball.exp(64).unwrap(), &value));
+        }
+    }
+
+    #[test]
+    fn special_arguments() {
+        let one = exp_of_rational(&integer(0), 100).unwrap();
+        assert!(one.contains(&integer(1)));
+        assert!(Ball::zero().exp(100).unwrap().contains(&integer(1)));
+        let tiny = BigRational::new(1.into(), BigInt::one() << 5000_u32);
+        for (x, sign) in [(tiny.clone(), 1), (-tiny, -1)] {
+            // 1 + x < e^x < 1 + x + x² for these.
+            let ball = exp_of_rational(&x, 64).unwrap();
+            assert!(
+                ball.contains(&(integer(1) + &x)) && ball.contains(&(integer(1) + &x + &x * &x))
+            );
+            let fine =
+                exp_of_rational(&x, 6000).unwrap().subtract(&Ball::from_integer(&1.into()), 6000);
+            assert!(!fine.contains_zero());
+            assert_eq!(fine.midpoint().is_negative(), sign < 0);
+        }
+    }
+
+    #[test]
+    fn the_exponent_of_the_result_is_unbounded() {
+        let start = |x: i64, count: usize| {
+            let ball = exp_of_rational(&integer(x), 128).unwrap();
+            assert_small(&ball, 128);
+            let decimal = super::super::proven_digits(&ball, count).unwrap();
+            format!("{decimal:e}")
+        };
+        assert_eq!(start(-900, 12), "1.36447721237e-391");
+        assert_eq!(start(-1_000_000, 12), "3.29683147809e-434295");
+        assert_eq!(start(1_000_000, 12), "3.03321539680e434294");
+        // 2^40·log_10 e = 477511832731.57…
+        assert!(start(1 << 40, 3).ends_with("e477511832731"));
+        assert!(start(-(1 << 40), 3).ends_with("e-477511832732"));
+    }
+
+    #[test]
+    fn arguments_beyond_the_limit_are_an_error() {
+        let over = integer((1 << 40) + 1);
+        assert_eq!(exp_of_rational(&over, 64), Err(BallError::ArgumentTooLarge));
+        assert_eq!(exp_of_rational(&-over, 64), Err(BallError::ArgumentTooLarge));
+        let wide = Ball::new(Binary::zero(), Magnitude::power_of_two(41));
+        assert_eq!(wide.exp(64), Err(BallError::ArgumentTooLarge));
+        let far = Ball::new(Binary::new(1.into(), 1 << 50), Magnitude::ZERO);
+        assert_eq!(far.exp(64), Err(BallError::ArgumentTooLarge));
+    }
+}

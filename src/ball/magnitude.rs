@@ -1,0 +1,292 @@
+//! Upper bounds of non-negative reals.
+//!
+//! A radius needs few digits but a huge range: 32 bits of mantissa and an exponent of 64 bits are
+//! small, cheap, and neither overflow nor underflow on the way. Every operation rounds up, so a
+//! bound put together from bounds is a bound again.
+
+use std::cmp::Ordering;
+
+use num_bigint::{BigInt, BigUint};
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive};
+
+use super::binary::Binary;
+
+/// Bits of a mantissa.
+const BITS: u32 = 32;
+
+/// A non-negative number `m·2^e` that bounds another from above.
+///
+/// # Invariants
+/// - `m` has exactly 32 bits, or `m = e = 0` for zero; equal values have one representation.
+///
+/// Products and quotients exceed the exact value by less than one part in 2^31, sums likewise.
+///
+/// # Panics
+/// Every operation panics when the exponent of its result leaves `i64`, that is beyond
+/// `2^(2^63)`: no sum of exponentials whose arguments [`Ball::exp`](super::Ball::exp) admits comes
+/// near.
+///
+/// ```
+/// use wavestep::ball::Magnitude;
+/// let third = Magnitude::from_u64(1).divide(3);
+/// assert!(third.scale(1).add(&third) >= Magnitude::from_u64(1));
+/// assert_eq!(Magnitude::power_of_two(-100).to_string(), "7.9e-31");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Magnitude {
+    mantissa: u64,
+    exponent: i64,
+}
+
+impl Magnitude {
+    /// Zero, the bound of an exact value.
+    pub const ZERO: Self = Self { mantissa: 0, exponent: 0 };
+
+    /// The least magnitude of at least `mantissa·2^exponent`.
+    fn round_up(mantissa: u128, exponent: i64) -> Self {
+        if mantissa == 0 {
+            return Self::ZERO;
+        }
+        let excess = 128 - i64::from(mantissa.leading_zeros()) - i64::from(BITS);
+        let mut exponent = shifted(exponent, excess);
+        let mut short = if excess <= 0 {
+            mantissa << -excess
+        } else {
+            (mantissa >> excess) + u128::from(mantissa.trailing_zeros() < excess as u32)
+        };
+        if short >> BITS != 0 {
+            // Rounding up carried into a new bit: the mantissa is 2^32 exactly.
+            short >>= 1;
+            exponent = shifted(exponent, 1);
+        }
+        Self { mantissa: short as u64, exponent }
+    }
+
+    /// The least magnitude of at least `value`.
+    #[must_use]
+    pub fn from_u64(value: u64) -> Self {
+        Self::round_up(u128::from(value), 0)
+    }
+
+    /// `2^exponent`, exactly.
+    #[must_use]
+    pub fn power_of_two(exponent: i64) -> Self {
+        Self::round_up(1, exponent)
+    }
+
+    /// An upper bound of `|value|·2^exponent`, within one part in 2^31.
+    #[must_use]
+    pub fn from_integer(value: &BigInt, exponent: i64) -> Self {
+        Self::from_natural(value.magnitude(), exponent)
+    }
+
+    /// An upper bound of `value·2^exponent`, within one part in 2^31.
+    fn from_natural(value: &BigUint, exponent: i64) -> Self {
+        let mut digits = value.iter_u64_digits();
+        let length = digits.len();
+        let high = digits.next_back().unwrap_or(0);
+        let low = digits.next_back();
+        // The two leading digits, and one more unit for whatever follows them.
+        let (top, kept) = match low {
+            None => (u128::from(high), 1),
+            Some(low) => ((u128::from(high) << 64) | u128::from(low), 2),
+        };
+        if length <= kept {
+            return Self::round_up(top, exponent);
+        }
+        let exponent = shifted(exponent, 64 * (length - kept) as i64);
+        // Half the digits at once so that the unit cannot overflow.
+        Self::round_up((top >> 1) + 1, shifted(exponent, 1))
+    }
+
+    /// An upper bound of `|value|`, within one part in 2^30.
+    #[must_use]
+    pub fn from_rational(value: &BigRational) -> Self {
+        let (numerator, denominator) = (value.numer().magnitude(), value.denom().magnitude());
+        if let (Some(numerator), Some(denominator)) = (numerator.to_u64(), denominator.to_u64()) {
+            return Self::from_u64(numerator).divide(denominator);
+        }
+        // A quotient of 34 bits or more, so that its unit is below one part in 2^33.
+        let shift = (denominator.bits() as i64 - numerator.bits() as i64 + 34).max(0);
+        let quotient = (numerator << shift as u64).div_ceil(denominator);
+        Self::from_natural(&quotient, -shift)
+    }
+
+    /// Whether the bound is zero, that is the bounded number is.
+    #[must_use]
+    pub const fn is_zero(&self) -> bool {
+        self.mantissa == 0
+    }
+
+    /// An upper bound of the sum.
+    #[must_use]
+    pub fn add(&self, other: &Self) -> Self {
+        let (large, small) = if self < other { (other, self) } else { (self, other) };
+        if small.is_zero() {
+            return *large;
+        }
+        // 64 further bits below the larger mantissa hold the smaller one; whatever falls below
+        // them counts as one unit.
+        let gap = i128::from(large.exponent) - i128::from(small.exponent);
+        let high = u128::from(large.mantissa) << 64;
+        let low = u128::from(small.mantissa) << 64;
+        let low = if gap < 64 + i128::from(BITS) {
+            (low >> gap) + u128::from(i128::from(low.trailing_zeros()) < gap)
+        } else {
+            1
+        };
+        Self::round_up(high + low, shifted(large.exponent, -64))
+    }
+
+    /// An upper bound of the product.
+    #[must_use]
+    pub fn multiply(&self, other: &Self) -> Self {
+        let mantissa = u128::from(self.mantissa) * u128::from(other.mantissa);
+        if mantissa == 0 {
+            return Self::ZERO;
+        }
+        Self::round_up(mantissa, shifted(self.exponent, other.exponent))
+    }
+
+    /// An upper bound of the quotient by `divisor`.
+    ///
+    /// # Panics
+    /// Panics if `divisor` is zero.
+    #[must_use]
+    pub fn divide(&self, divisor: u64) -> Self {
+        if self.is_zero() {
+            assert!(divisor != 0, "division of a magnitude by zero");
+            return Self::ZERO;
+        }
+        let quotient = (u128::from(self.mantissa) << 95).div_ceil(u128::from(divisor));
+        Self::round_up(quotient, shifted(self.exponent, -95))
+    }
+
+    /// `self·2^exponent`, exactly.
+    #[must_use]
+    pub fn scale(&self, exponent: i64) -> Self {
+        if self.is_zero() {
+            return Self::ZERO;
+        }
+        Self { mantissa: self.mantissa, exponent: shifted(self.exponent, exponent) }
+    }
+
+    /// The `t` with `2^(t−1) ≤ self < 2^t`, or `None` for zero.
+    #[must_use]
+    pub fn top(&self) -> Option<i64> {
+        (!self.is_zero()).then(|| shifted(self.exponent, i64::from(BITS)))
+    }
+
+    /// The bound itself as an exact binary number.
+    #[must_use]
+    pub fn to_binary(&self) -> Binary {
+        Binary::new(BigInt::from(self.mantissa), self.exponent)
+    }
+
+    /// The bound itself as a double, rounded up; infinite beyond the range of doubles.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        let Some(top) = self.top() else { return 0.0 };
+        if top > 1024 {
+            return f64::INFINITY;
+        }
+        if top < -1021 {
+            return f64::MIN_POSITIVE;
+        }
+        // Both factors and the product are exact: 32 bits within the normal range.
+        let half = self.exponent / 2;
+        self.mantissa as f64 * 2f64.powi(half as i32) * 2f64.powi((self.exponent - half) as i32)
+    }
+}
+
+/// `exponent + by`.
+pub(super) fn shifted(exponent: i64, by: i64) -> i64 {
+    exponent.checked_add(by).expect("a binary exponent stays within 64 bits")
+}
+
+impl PartialOrd for Magnitude {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Magnitude {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let key = |value: &Self| (!value.is_zero(), value.exponent, value.mantissa);
+        key(self).cmp(&key(other))
+    }
+}
+
+/// The exact value of a bound, for exact comparisons.
+impl From<&Magnitude> for BigRational {
+    fn from(value: &Magnitude) -> Self {
+        let power = BigInt::one() << value.exponent.unsigned_abs();
+        let mantissa = BigInt::from(value.mantissa);
+        if value.exponent < 0 {
+            Self::new(mantissa, power)
+        } else {
+            Self::from_integer(mantissa * power)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Signed;
+    use proptest::prelude::*;
+
+    use super::super::samples;
+    use super::*;
+
+    fn exact(value: &Magnitude) -> BigRational {
+        let normal = if value.is_zero() { value.exponent == 0 } else { value.mantissa >> 31 == 1 };
+        assert!(normal, "not normalised: {value:?}");
+        BigRational::from(value)
+    }
+
+    /// `exact ≤ bound ≤ exact·(1 + 2^(−30))`.
+    fn assert_tight(bound: &Magnitude, value: &BigRational) {
+        let slack = BigRational::new((BigInt::one() << 30) + 1, BigInt::one() << 30);
+        let bound = exact(bound);
+        assert!(&bound >= value && bound <= value * slack, "{bound} for {value}");
+    }
+
+    proptest! {
+        #[test]
+        fn operations_round_up(a in samples::magnitude(), b in samples::magnitude(), n in 1_u64..) {
+            let (x, y) = (exact(&a), exact(&b));
+            assert_tight(&a.add(&b), &(&x + &y));
+            assert_tight(&a.multiply(&b), &(&x * &y));
+            assert_tight(&a.divide(n), &(&x / BigInt::from(n)));
+            prop_assert_eq!(a.cmp(&b), x.cmp(&y));
+            prop_assert_eq!(BigRational::from(&a.to_binary()), x);
+        }
+
+        #[test]
+        fn conversions_round_up(n in samples::integer(40), q in samples::rational(40)) {
+            assert_tight(&Magnitude::from_integer(&n, 0), &BigRational::from_integer(n.clone()).abs());
+            assert_tight(&Magnitude::from_rational(&q), &q.abs());
+        }
+    }
+
+    #[test]
+    fn extreme_exponents_are_kept() {
+        let tiny = Magnitude::power_of_two(-(1 << 60));
+        assert!(!tiny.is_zero());
+        assert!(Magnitude::from_u64(1).add(&tiny) > Magnitude::from_u64(1));
+        assert_eq!(Magnitude::from_u64(u64::MAX), Magnitude::power_of_two(64));
+        assert_eq!(Magnitude::power_of_two(-5).top(), Some(-4));
+    }
+
+    #[test]
+    fn doubles_bound_from_above() {
+        assert_eq!(Magnitude::from_u64(3).to_f64(), 3.0);
+        assert_eq!(Magnitude::ZERO.to_f64(), 0.0);
+        assert_eq!(Magnitude::power_of_two(-1022).to_f64(), f64::MIN_POSITIVE);
+        assert_eq!(Magnitude::power_of_two(-5000).to_f64(), f64::MIN_POSITIVE);
+        assert_eq!(Magnitude::power_of_two(1023).to_f64(), 2f64.powi(1023));
+        assert_eq!(Magnitude::power_of_two(1024).to_f64(), f64::INFINITY);
+    }
+}

@@ -1,0 +1,49 @@
+//! Random operands for the tests of this folder: balls, and a point of each, now and then an end.
+
+use num_bigint::{BigInt, Sign};
+use num_rational::BigRational;
+use num_traits::One;
+use proptest::prelude::*;
+
+use super::ball::Ball;
+use super::binary::Binary;
+use super::magnitude::Magnitude;
+
+/// Integers of up to `bytes` bytes; short ones and powers of two are frequent.
+pub(super) fn integer(bytes: usize) -> impl Strategy<Value = BigInt> {
+    let any_length = prop::collection::vec(any::<u8>(), 0..=bytes);
+    prop_oneof![
+        4 => (any::<bool>(), any_length).prop_map(|(negative, bytes)| {
+            BigInt::from_bytes_le(if negative { Sign::Minus } else { Sign::Plus }, &bytes)
+        }),
+        1 => (-3_i64..=3).prop_map(BigInt::from),
+        1 => (0..8 * bytes, -1_i64..=1).prop_map(|(bits, more)| (BigInt::one() << bits) + more),
+    ]
+}
+
+/// Rationals whose terms have up to `bytes` bytes.
+pub(super) fn rational(bytes: usize) -> impl Strategy<Value = BigRational> {
+    let denominator = integer(bytes).prop_filter("not zero", |value| value != &BigInt::ZERO);
+    (integer(bytes), denominator).prop_map(|(above, below)| BigRational::new(above, below))
+}
+
+pub(super) fn magnitude() -> impl Strategy<Value = Magnitude> {
+    prop_oneof![
+        1 => Just(Magnitude::ZERO),
+        6 => (any::<u32>(), -200_i64..100)
+            .prop_map(|(value, scale)| Magnitude::from_u64(u64::from(value)).scale(scale)),
+    ]
+}
+
+/// A ball and one of its points; a third of the points are ends.
+pub(super) fn ball_and_point() -> impl Strategy<Value = (Ball, BigRational)> {
+    let share = prop_oneof![Just(-256), Just(256), -256_i64..=256, -256_i64..=256];
+    (integer(24), -220_i64..60, magnitude(), share).prop_map(
+        |(mantissa, exponent, radius, share)| {
+            let ball = Ball::new(Binary::new(mantissa, exponent), radius);
+            let offset = BigRational::from(&radius) * BigRational::new(share.into(), 256.into());
+            let point = BigRational::from(ball.midpoint()) + offset;
+            (ball, point)
+        },
+    )
+}

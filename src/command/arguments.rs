@@ -1,0 +1,174 @@
+//! The arguments of the command, with their help.
+
+use clap::{Args, Parser, Subcommand as Subcommands, ValueEnum};
+
+/// Exact solutions of wave propagation in bars with lumped ends.
+#[derive(Parser)]
+#[command(
+    name = "wavestep",
+    version,
+    about,
+    after_help = "Examples:\n  \
+        wavestep derive rigid-mass\n  \
+        wavestep derive rigid-mass --wave f --through 8 --format latex\n  \
+        wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n\n\
+        Exit codes: 0 done, 1 could not compute, 2 usage or bad scene, 3 accuracy not reached."
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub subcommand: Subcommand,
+}
+
+/// What the command can do.
+#[derive(Subcommands)]
+pub enum Subcommand {
+    /// Derive wave functions exactly: pieces, echoes, or the general form
+    Derive(Derive),
+    /// Evaluate a wave or an observable with certified digits
+    Eval(Eval),
+    /// Check a scene: read it, order its equations, and derive it in two ways
+    Check(Check),
+    /// List the built-in scenes
+    Scenes,
+}
+
+/// A scene, with values in place of symbols.
+#[derive(Args)]
+pub struct Scene {
+    /// A file, or the name of a built-in scene (see `wavestep scenes`)
+    pub scene: String,
+    /// Put an exact value in place of a symbol, before anything is derived
+    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub set: Vec<String>,
+}
+
+/// Options of `derive`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep derive rigid-mass                              f[0] … f[3] and g[0] … g[3]\n  \
+    wavestep derive rigid-mass --wave f --through 8 --format latex\n  \
+    wavestep derive rigid-mass --wave f --piece 80 --format json\n  \
+    wavestep derive rigid-mass --form echo --through 5\n  \
+    wavestep derive two-bars --general\n  \
+    wavestep derive rigid-mass --set mu=1/4 --wave f")]
+pub struct Derive {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Derive this wave only
+    #[arg(long, value_name = "NAME")]
+    pub wave: Option<String>,
+    /// Derive the periods 0 … N
+    #[arg(long, value_name = "N", default_value_t = 3, conflicts_with_all = ["piece", "general"])]
+    pub through: usize,
+    /// Derive period N only
+    #[arg(long, value_name = "N", conflicts_with = "general")]
+    pub piece: Option<usize>,
+    /// Derive the form for every n
+    #[arg(long)]
+    pub general: bool,
+    /// In which form
+    #[arg(long, value_enum, default_value_t = Form::Period, conflicts_with = "general")]
+    pub form: Form,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = DeriveFormat::Text)]
+    pub format: DeriveFormat,
+}
+
+/// The form in which wave functions are given.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    /// One function of local time for each period
+    Period,
+    /// The echoes that arrive period by period, and add up
+    Echo,
+    /// The pieces with the half-open intervals on which they hold
+    Piecewise,
+}
+
+/// How formulas are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DeriveFormat {
+    /// Plain text that can be read back
+    Text,
+    /// An `align*` environment for amsmath
+    Latex,
+    /// Terms with reduced rationals
+    Json,
+}
+
+/// Options of `eval`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity strain_fixed --from 0 --to 6 --points 13\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity velocity --at 2 --side left\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json\n\n\
+    Times and values are exact: 33/10, 12.34, 1e3. Rational values are printed exactly where\n\
+    they have no more digits than asked for; all others are rounded correctly.")]
+pub struct Eval {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// A wave or an observable
+    #[arg(long, value_name = "NAME")]
+    pub quantity: String,
+    /// At this scene time; may be given several times
+    #[arg(long, value_name = "T", allow_hyphen_values = true,
+          conflicts_with_all = ["from", "to", "points", "piece", "local"])]
+    pub at: Vec<String>,
+    /// First of evenly spaced times
+    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["to", "points"])]
+    pub from: Option<String>,
+    /// Last of evenly spaced times
+    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["from", "points"])]
+    pub to: Option<String>,
+    /// How many evenly spaced times
+    #[arg(long, value_name = "N", requires_all = ["from", "to"])]
+    pub points: Option<usize>,
+    /// On this period, at the local time given by --local
+    #[arg(long, value_name = "N", requires = "local", conflicts_with_all = ["from", "to", "points"])]
+    pub piece: Option<usize>,
+    /// Local time on the period given by --piece
+    #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "piece")]
+    pub local: Option<String>,
+    /// How many significant digits
+    #[arg(long, value_name = "D", default_value_t = 15)]
+    pub digits: usize,
+    /// Which limit is meant where an echo arrives
+    #[arg(long, value_enum, default_value_t = SideOption::Right)]
+    pub side: SideOption,
+    /// The most bits of working precision
+    #[arg(long, value_name = "BITS", default_value_t = 1 << 18)]
+    pub max_bits: u64,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
+    pub format: EvalFormat,
+}
+
+/// Which limit is meant.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SideOption {
+    /// From earlier times
+    Left,
+    /// From later times
+    Right,
+}
+
+/// How values are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum EvalFormat {
+    /// A line a time
+    Text,
+    /// Decimal strings with proven radii
+    Json,
+    /// Columns with a heading
+    Csv,
+}
+
+/// Options of `check`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  wavestep check my.wave\n  wavestep check rigid-mass")]
+pub struct Check {
+    #[command(flatten)]
+    pub scene: Scene,
+}

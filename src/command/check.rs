@@ -1,0 +1,60 @@
+//! `check`: a scene is read, ordered, and derived in two ways that must agree.
+
+use super::arguments::Check;
+use super::failure::Failure;
+use super::input;
+use wavestep::export;
+use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
+
+/// The periods for which both derivations are compared.
+const PERIODS: usize = 6;
+
+/// Checks a scene and says what was found.
+pub fn run(options: &Check) -> Result<String, Failure> {
+    let recurrence = input::recurrence(&options.scene)?;
+    let statement = recurrence.statement();
+    let mut by_period = PeriodByPeriod::new(&recurrence);
+    let mut by_echo = EchoByEcho::new(&recurrence);
+    for n in 0..=PERIODS {
+        by_period.advance()?;
+        by_echo.advance()?;
+        for (wave, name) in statement.waves.iter().enumerate() {
+            let piece = by_echo.sum(wave).piece(n);
+            if piece.as_ref() != Ok(&by_period.waves()[wave].pieces()[n]) {
+                let message = format!("the two derivations of {name}[{n}] disagree");
+                let remedy = "please report this scene: it is a fault of wavestep".to_owned();
+                return Err(Failure::Computation(message, remedy));
+            }
+        }
+    }
+    let mut report = format!("{}: correct\n", statement.title);
+    for (symbol, condition) in statement.assumptions.symbols() {
+        let condition = condition.map_or_else(String::new, |condition| format!(" {condition}"));
+        report.push_str(&format!("  symbol {symbol}{condition}\n"));
+    }
+    let factors = export::assumed_factors(&statement.assumptions);
+    if !factors.is_empty() {
+        report.push_str(&format!("  taken to be non-zero: {}\n", factors.join(", ")));
+    }
+    for step in recurrence.steps() {
+        let kind = if step.start.is_some() { "first-order differential" } else { "algebraic" };
+        report.push_str(&format!("  wave {}: {kind}\n", statement.waves[step.wave]));
+    }
+    let observables: Vec<&str> =
+        statement.observables.iter().map(|observable| observable.name.as_str()).collect();
+    if !observables.is_empty() {
+        report.push_str(&format!("  observables: {}\n", observables.join(", ")));
+    }
+    report.push_str(&format!("  derived in two ways, equal on periods 0 to {PERIODS}\n"));
+    let names = statement.waves.clone();
+    let solution = Solution::new(recurrence);
+    for (wave, name) in names.iter().enumerate() {
+        let found = match solution.general(wave) {
+            Ok(GeneralForm::Geometric(_)) => "a sum of powers",
+            Ok(GeneralForm::Echoes(_)) => "echoes in closed form",
+            Err(_) => "no closed form found",
+        };
+        report.push_str(&format!("  general n of {name}: {found}\n"));
+    }
+    Ok(report)
+}

@@ -1,0 +1,194 @@
+//! `eval`: values with proven digits.
+
+use super::arguments::{Eval, EvalFormat, SideOption};
+use super::failure::Failure;
+use super::input;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use num_rational::BigRational;
+use num_traits::Signed as _;
+use serde_json::{Value as Json, json};
+use std::time::Duration;
+use wavestep::ball::{Decimal, Exactness};
+use wavestep::evaluate::{Evaluator, MAX_DIGITS, Side, Value};
+use wavestep::export::SCHEMA_VERSION;
+use wavestep::language;
+use wavestep::recurrence::Recurrence;
+use wavestep::solution::Solution;
+
+/// The most times that are evaluated at once.
+const MAX_POINTS: usize = 1_000_000;
+
+/// One value with its time.
+struct Row {
+    time: BigRational,
+    value: Value,
+}
+
+/// Evaluates what is asked for.
+pub fn run(options: &Eval) -> Result<String, Failure> {
+    if options.digits == 0 || options.digits > MAX_DIGITS {
+        let message = format!("{} significant digits cannot be certified", options.digits);
+        return Err(Failure::usage(message, format!("ask for 1 to {MAX_DIGITS} digits")));
+    }
+    let recurrence = input::recurrence(&options.scene)?;
+    let observation = recurrence.observation(&language::normalise_name(&options.quantity));
+    let Some(observation) = observation else { return Err(unknown_quantity(&recurrence, options)) };
+    let solution = Solution::new(recurrence);
+    let evaluator = Evaluator::new(&solution)?;
+    let side = match options.side {
+        SideOption::Left => Side::Left,
+        SideOption::Right => Side::Right,
+    };
+    let times = times(options, evaluator.period(), side)?;
+    let progress = progress(times.len());
+    let mut rows = Vec::with_capacity(times.len());
+    for time in times {
+        let value = evaluator.value(&observation, &time, side, options.digits, options.max_bits)?;
+        rows.push(Row { time, value });
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    Ok(match options.format {
+        EvalFormat::Text => text(&rows, options),
+        EvalFormat::Csv => csv(&rows, options.digits),
+        EvalFormat::Json => json_document(&solution, &rows, options),
+    })
+}
+
+/// A bar on standard error that shows itself when the work takes long.
+fn progress(count: usize) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} points, {eta} left");
+    bar.set_style(style.expect("a template without errors"));
+    bar.enable_steady_tick(Duration::from_secs(1));
+    bar
+}
+
+fn unknown_quantity(recurrence: &Recurrence, options: &Eval) -> Failure {
+    let statement = recurrence.statement();
+    let observables = statement.observables.iter().map(|observable| observable.name.as_str());
+    let names: Vec<&str> = statement.waves.iter().map(String::as_str).chain(observables).collect();
+    let message = format!("`{}` is neither a wave nor an observable here", options.quantity);
+    let remedy = match language::closest(&options.quantity, names.iter().copied()) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => format!("ask for one of {}", names.join(", ")),
+    };
+    Failure::usage(message, remedy)
+}
+
+/// The scene times asked for.
+fn times(options: &Eval, period: &BigRational, side: Side) -> Result<Vec<BigRational>, Failure> {
+    let early = |time: &BigRational| {
+        Failure::usage(format!("the time {time} lies before the start"), "give times from 0 on")
+    };
+    if let (Some(n), Some(local)) = (options.piece, &options.local) {
+        let local = input::number(local)?;
+        let inside =
+            !local.is_negative() && (local < *period || (local == *period && side == Side::Left));
+        if !inside {
+            let message = format!("the local time {local} lies outside the period");
+            let remedy = format!("give 0 <= S < {period}, or S = {period} with --side left");
+            return Err(Failure::usage(message, remedy));
+        }
+        return Ok(vec![period * BigRational::from_integer(n.into()) + local]);
+    }
+    if let (Some(from), Some(to), Some(points)) = (&options.from, &options.to, options.points) {
+        let (from, to) = (input::number(from)?, input::number(to)?);
+        if from.is_negative() {
+            return Err(early(&from));
+        }
+        if to < from {
+            let message = format!("the window from {from} to {to} is empty");
+            return Err(Failure::usage(message, "give --from before --to"));
+        }
+        if points == 0 || points > MAX_POINTS {
+            let message = format!("{points} points cannot be evaluated at once");
+            return Err(Failure::usage(message, format!("ask for 1 to {MAX_POINTS} points")));
+        }
+        let step = (&to - &from) / BigRational::from_integer((points.max(2) - 1).into());
+        let time = |i: usize| &from + &step * BigRational::from_integer(i.into());
+        return Ok((0..points).map(time).collect());
+    }
+    if options.at.is_empty() {
+        let remedy = "give --at T, or --from T --to T --points N, or --piece N --local S";
+        return Err(Failure::usage("no time is given", remedy));
+    }
+    let time = |text: &String| {
+        let time = input::number(text)?;
+        if time.is_negative() { Err(early(&time)) } else { Ok(time) }
+    };
+    options.at.iter().map(time).collect()
+}
+
+/// The digits of a value, and whether they are all of it.
+fn decimal(value: &Value, digits: usize) -> (Decimal, Exactness) {
+    match value {
+        Value::Exact(value) => Decimal::from_rational(value, digits),
+        Value::Certified(certified) => (certified.decimal.clone(), Exactness::Rounded),
+    }
+}
+
+/// A value in plain text; an exact value that has more digits is given as a fraction as well.
+fn value_text(value: &Value, digits: usize) -> String {
+    match (value, decimal(value, digits)) {
+        (Value::Exact(value), (_, Exactness::Exact)) => value.to_string(),
+        (Value::Exact(value), (decimal, _)) => format!("{decimal} = {value}"),
+        (_, (decimal, _)) => decimal.to_string(),
+    }
+}
+
+fn text(rows: &[Row], options: &Eval) -> String {
+    let limit = if options.side == SideOption::Left { "-" } else { "" };
+    let line = |row: &Row| {
+        let value = value_text(&row.value, options.digits);
+        format!("{}({}{limit}) = {value}\n", options.quantity, row.time)
+    };
+    rows.iter().map(line).collect()
+}
+
+fn csv(rows: &[Row], digits: usize) -> String {
+    let line = |row: &Row| {
+        let (decimal, exactness) = decimal(&row.value, digits);
+        let exact = exactness == Exactness::Exact;
+        let time = Decimal::from_rational(&row.time, digits.max(17)).0;
+        format!("{},{time},{decimal},{exact}\n", row.time)
+    };
+    std::iter::once("time,time_decimal,value,exact\n".to_owned())
+        .chain(rows.iter().map(line))
+        .collect()
+}
+
+fn json_document(solution: &Solution, rows: &[Row], options: &Eval) -> String {
+    let values: Vec<Json> = rows.iter().map(|row| json_value(row, options.digits)).collect();
+    let document = json!({
+        "schema_version": SCHEMA_VERSION,
+        "title": solution.recurrence().statement().title,
+        "quantity": options.quantity,
+        "set": options.scene.set,
+        "digits": options.digits,
+        "side": if options.side == SideOption::Left { "left" } else { "right" },
+        "values": values,
+    });
+    format!("{document}\n")
+}
+
+/// `value` has the digits asked for, correctly rounded. `midpoint` and `radius` enclose the number
+/// with every digit that is proven; an exact value is given as a fraction instead.
+fn json_value(row: &Row, digits: usize) -> Json {
+    let (decimal, _) = decimal(&row.value, digits);
+    let (time, decimal) = (row.time.to_string(), decimal.to_string());
+    match &row.value {
+        Value::Exact(value) => {
+            json!({"time": time, "value": decimal, "exact": value.to_string(), "radius": "0"})
+        }
+        Value::Certified(certified) => {
+            let enclosure = certified.ball.to_decimal(usize::MAX);
+            json!({
+                "time": time,
+                "value": decimal,
+                "midpoint": enclosure.midpoint().to_string(),
+                "radius": format!("{:e}", enclosure.radius()),
+            })
+        }
+    }
+}

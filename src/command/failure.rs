@@ -1,0 +1,82 @@
+//! Failures with their exit codes.
+
+use wavestep::evaluate::EvaluateError;
+use wavestep::language::{Diagnostic, Style};
+use wavestep::solution::SolveError;
+
+/// Exit code: could not compute.
+pub const COMPUTATION: u8 = 1;
+/// Exit code: usage, or a bad scene.
+pub const USAGE: u8 = 2;
+/// Exit code: accuracy not reached.
+pub const ACCURACY: u8 = 3;
+
+/// Why the command ends without a result.
+pub enum Failure {
+    /// The text of a scene or a number is at fault.
+    Text(Diagnostic),
+    /// What is asked for is at fault: what is wrong, and the remedy.
+    Usage(String, String),
+    /// It cannot be computed: what, and the remedy.
+    Computation(String, String),
+    /// The accuracy asked for is not reached: what, and the remedy.
+    Accuracy(String, String),
+}
+
+impl Failure {
+    /// The exit code.
+    pub fn code(&self) -> u8 {
+        match self {
+            Failure::Text(_) | Failure::Usage(..) => USAGE,
+            Failure::Computation(..) => COMPUTATION,
+            Failure::Accuracy(..) => ACCURACY,
+        }
+    }
+
+    /// What is shown to the person.
+    pub fn render(&self, style: Style) -> String {
+        match self {
+            Failure::Text(diagnostic) => diagnostic.render(style).trim_end().to_owned(),
+            Failure::Usage(message, remedy)
+            | Failure::Computation(message, remedy)
+            | Failure::Accuracy(message, remedy) => format!("error: {message}\nhelp: {remedy}"),
+        }
+    }
+
+    /// A fault of usage.
+    pub fn usage(message: impl Into<String>, remedy: impl Into<String>) -> Failure {
+        Failure::Usage(message.into(), remedy.into())
+    }
+}
+
+impl From<Diagnostic> for Failure {
+    fn from(diagnostic: Diagnostic) -> Failure {
+        Failure::Text(diagnostic)
+    }
+}
+
+impl From<SolveError> for Failure {
+    fn from(error: SolveError) -> Failure {
+        let remedy = "give values with --set, or state `nonzero …` for what is divided by";
+        Failure::Computation(error.to_string(), remedy.to_owned())
+    }
+}
+
+impl From<EvaluateError> for Failure {
+    fn from(error: EvaluateError) -> Failure {
+        let message = error.to_string();
+        match error {
+            EvaluateError::MissingValue(symbol) => {
+                Failure::usage(message, format!("give it one: --set {symbol}=1"))
+            }
+            EvaluateError::TooManyPeriods { .. } => {
+                Failure::Computation(message, "ask for an earlier time".to_owned())
+            }
+            EvaluateError::Solve(error) => error.into(),
+            EvaluateError::AccuracyNotReached { .. } => {
+                Failure::Accuracy(message, "raise --max-bits, or ask for fewer digits".to_owned())
+            }
+            _ => Failure::Computation(message, "ask for an earlier time".to_owned()),
+        }
+    }
+}

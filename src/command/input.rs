@@ -1,0 +1,60 @@
+//! What the arguments point at: scenes, values, times.
+
+use super::arguments::Scene;
+use super::failure::Failure;
+use num_rational::BigRational;
+use std::collections::BTreeMap;
+use std::io::Read as _;
+use wavestep::language::{self, MAX_SOURCE_BYTES, Source};
+use wavestep::recurrence::Recurrence;
+use wavestep::scenes;
+
+/// Reads the scene that the arguments name, with the values put in.
+pub fn recurrence(arguments: &Scene) -> Result<Recurrence, Failure> {
+    let values = values(&arguments.set)?;
+    Ok(language::read_recurrence(&source(&arguments.scene)?, &values)?)
+}
+
+fn source(name: &str) -> Result<Source, Failure> {
+    if let Some(scene) = scenes::find(name) {
+        return Ok(Source::new(scene.name, scene.text)?);
+    }
+    let read = || {
+        // One byte more than allowed is enough to see that a file is too long.
+        let mut bytes = Vec::new();
+        let limit = MAX_SOURCE_BYTES as u64 + 1;
+        std::fs::File::open(name)?.take(limit).read_to_end(&mut bytes)?;
+        Ok::<_, std::io::Error>(bytes)
+    };
+    let bytes = read().map_err(|error| {
+        let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
+        let remedy = match language::closest(name, names.iter().copied()) {
+            Some(scene) => format!("did you mean the built-in scene `{scene}`?"),
+            None => format!("name a file, or a built-in scene: {}", names.join(", ")),
+        };
+        Failure::usage(format!("the scene `{name}` cannot be read: {error}"), remedy)
+    })?;
+    Ok(Source::new(name, bytes)?)
+}
+
+fn values(settings: &[String]) -> Result<BTreeMap<String, BigRational>, Failure> {
+    let mut values = BTreeMap::new();
+    for setting in settings {
+        let Some((name, value)) = setting.split_once('=') else {
+            let message = format!("`--set {setting}` gives no value");
+            return Err(Failure::usage(message, format!("write --set {setting}=1")));
+        };
+        // A Greek letter is normalised in the same way as in a scene.
+        let name = language::normalise_name(name.trim());
+        if values.insert(name.clone(), number(value)?).is_some() {
+            let message = format!("two values are given for `{name}`");
+            return Err(Failure::usage(message, "give each symbol one value"));
+        }
+    }
+    Ok(values)
+}
+
+/// Reads an exact number.
+pub fn number(text: &str) -> Result<BigRational, Failure> {
+    Ok(language::parse_number(text)?)
+}

@@ -1,0 +1,70 @@
+//! The command line: what is asked for, and how failures are told.
+//!
+//! Standard output carries results alone; errors and progress go to standard error. Exit codes:
+//! 0 done, 1 could not compute, 2 usage or bad scene, 3 accuracy not reached.
+
+mod arguments;
+mod check;
+mod derive;
+mod eval;
+mod failure;
+mod input;
+
+use arguments::{Arguments, Subcommand};
+use clap::Parser as _;
+use std::io::{self, IsTerminal as _, Write as _};
+use std::process::ExitCode;
+use wavestep::language::Style;
+use wavestep::scenes::SCENES;
+
+/// Runs the command that the arguments name.
+pub fn run() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no failures; clap prints them to standard output.
+            let code = if error.use_stderr() { failure::USAGE } else { 0 };
+            return match error.print() {
+                Ok(()) => ExitCode::from(code),
+                Err(error) => written(Err(error)),
+            };
+        }
+    };
+    let result = match &arguments.subcommand {
+        Subcommand::Derive(options) => derive::run(options),
+        Subcommand::Eval(options) => eval::run(options),
+        Subcommand::Check(options) => check::run(options),
+        Subcommand::Scenes => Ok(scenes()),
+    };
+    match result {
+        Ok(output) => written(io::stdout().lock().write_all(output.as_bytes())),
+        Err(failure) => {
+            let coloured = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+            let style = if coloured { Style::Coloured } else { Style::Plain };
+            let _ = writeln!(io::stderr(), "{}", failure.render(style));
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+/// The exit code after writing: a reader that has gone away ends the command quietly.
+fn written(result: io::Result<()>) -> ExitCode {
+    let result = result.and_then(|()| io::stdout().flush());
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(io::stderr(), "error: the output cannot be written: {error}");
+            ExitCode::from(failure::COMPUTATION)
+        }
+    }
+}
+
+/// The built-in scenes with their titles.
+fn scenes() -> String {
+    let title = |text: &str| {
+        let line = text.lines().find_map(|line| line.strip_prefix("recurrence "));
+        line.unwrap_or_default().trim_matches('"').to_owned()
+    };
+    SCENES.iter().map(|scene| format!("{:<16}{}\n", scene.name, title(scene.text))).collect()
+}

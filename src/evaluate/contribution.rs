@@ -1,0 +1,97 @@
+//! A value as a sum of contributions, each a rational amount times an exponential.
+
+use crate::ball::{Ball, BallError, evaluate_divided, exp_of_rational};
+use crate::evaluate::modular::{self, Residue};
+use num_traits::Zero;
+use std::collections::BTreeMap;
+use wavestep_polynomial::{Rational, Univariate};
+
+/// `factor · amount · e^{exponent}`.
+pub(crate) struct Contribution {
+    pub factor: Rational,
+    pub amount: Amount,
+    pub exponent: Rational,
+}
+
+/// A rational number, given or as the value of a polynomial.
+pub(crate) enum Amount {
+    Number(Rational),
+    Polynomial(Univariate, Rational),
+}
+
+impl Amount {
+    fn exact(&self) -> Rational {
+        match self {
+            Amount::Number(value) => value.clone(),
+            Amount::Polynomial(polynomial, x) => polynomial.evaluate(x),
+        }
+    }
+
+    fn residue(&self) -> Option<Residue> {
+        match self {
+            Amount::Number(value) => Residue::of_rational(value),
+            Amount::Polynomial(polynomial, x) => {
+                let x = Residue::of_rational(x)?;
+                let value = modular::evaluate_divided(polynomial.coefficients(), x);
+                Some(value.times(Residue::of_integer(polynomial.denominator()).inverse()?))
+            }
+        }
+    }
+
+    fn enclose(&self, bits: u64) -> Result<Ball, BallError> {
+        match self {
+            Amount::Number(value) => Ok(Ball::from_rational(value, bits)),
+            Amount::Polynomial(polynomial, x) => {
+                let value = evaluate_divided(polynomial.coefficients(), x, bits);
+                value.divide_integer(polynomial.denominator(), bits)
+            }
+        }
+    }
+}
+
+impl Contribution {
+    fn exact(&self) -> Rational {
+        &self.factor * self.amount.exact()
+    }
+
+    fn residue(&self) -> Option<Residue> {
+        Some(Residue::of_rational(&self.factor)?.times(self.amount.residue()?))
+    }
+}
+
+/// The sum, where it is a rational number; `None` where it is not.
+///
+/// Contributions of one exponent belong together. By the theorem of Lindemann and Weierstrass the
+/// sum is rational exactly when every group with an exponent other than 0 adds up to 0; a residue
+/// that is not 0 settles that it does not, without long numbers.
+pub(crate) fn rational_value(contributions: &[Contribution]) -> Option<Rational> {
+    let mut groups = BTreeMap::<&Rational, Vec<&Contribution>>::new();
+    for contribution in contributions {
+        groups.entry(&contribution.exponent).or_default().push(contribution);
+    }
+    let constant = groups.remove(&Rational::zero()).unwrap_or_default();
+    let residue_is_not_zero = |group: &Vec<&Contribution>| {
+        let mut residues = group.iter().map(|contribution| contribution.residue());
+        let sum = residues.try_fold(Residue::default(), |sum, part| Some(sum.plus(part?)));
+        sum.is_some_and(|sum| !sum.is_zero())
+    };
+    if groups.values().any(residue_is_not_zero) {
+        return None;
+    }
+    let exact = |group: &Vec<&Contribution>| -> Rational {
+        group.iter().map(|contribution| contribution.exact()).sum()
+    };
+    groups.values().all(|group| exact(group).is_zero()).then(|| exact(&constant))
+}
+
+/// A ball around the sum.
+pub(crate) fn enclose(contributions: &[Contribution], bits: u64) -> Result<Ball, BallError> {
+    let mut sum = Ball::zero();
+    for contribution in contributions {
+        let exponential = exp_of_rational(&contribution.exponent, bits)?;
+        let amount = contribution.amount.enclose(bits)?;
+        let product = amount.multiply(&exponential, bits);
+        sum = sum.add(&product.multiply_rational(&contribution.factor, bits), bits);
+    }
+    Ok(sum)
+}

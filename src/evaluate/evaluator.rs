@@ -1,0 +1,299 @@
+//! The value of a wave or an observable at a time, certified.
+
+use crate::ball::{Ball, BallError, Certified, CertifyError, certify};
+use crate::evaluate::contribution::{Amount, Contribution, enclose, rational_value};
+use crate::expression::{EchoSum, ExponentialSum, Expression};
+use crate::recurrence::{Observation, WaveIndex};
+use crate::solution::{EchoRow, Rows, Solution, SolveError};
+use num_traits::{Signed, ToPrimitive, Zero};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::rc::Rc;
+use wavestep_polynomial::{Integer, Rational, Symbol};
+
+/// The most significant digits that are certified.
+pub const MAX_DIGITS: usize = 10_000;
+
+/// The most periods before a time, where echoes have a closed form.
+pub const MAX_ORDER: usize = 5_000;
+
+/// The most periods before a time, where echoes are derived one from another.
+pub const MAX_ORDER_WITHOUT_FORM: usize = 400;
+
+/// Which limit is meant at an arrival.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Side {
+    /// The limit from earlier times.
+    Left,
+    /// The limit from later times, which is the value on the half-open period.
+    #[default]
+    Right,
+}
+
+/// A value at one time.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Value {
+    /// A rational number, exactly.
+    Exact(Rational),
+    /// A number that is not rational, with proven digits.
+    Certified(Certified),
+}
+
+/// Why there is no value.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum EvaluateError {
+    /// A symbol without a value.
+    MissingValue(Symbol),
+    /// The time has more periods before it than are worked out.
+    TooManyPeriods {
+        /// How many periods lie before the time.
+        periods: Integer,
+        /// How many are allowed.
+        limit: usize,
+    },
+    /// An echo cannot be given exactly.
+    Solve(SolveError),
+    /// The precision allowed does not do.
+    AccuracyNotReached {
+        /// The best enclosure.
+        best: Box<Ball>,
+        /// The precision tried last, in bits.
+        bits: u64,
+    },
+    /// An enclosure could not be computed.
+    Ball(BallError),
+}
+
+impl fmt::Display for EvaluateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            EvaluateError::MissingValue(symbol) => write!(f, "the symbol {symbol} has no value"),
+            EvaluateError::TooManyPeriods { periods, limit } => write!(
+                f,
+                "{periods} periods lie before this time, and at most {limit} are worked out"
+            ),
+            EvaluateError::Solve(error) => error.fmt(f),
+            EvaluateError::AccuracyNotReached { best, bits } => write!(
+                f,
+                "accuracy not reached with {bits} bits; the best enclosure has radius {}",
+                best.radius()
+            ),
+            EvaluateError::Ball(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for EvaluateError {}
+
+impl From<SolveError> for EvaluateError {
+    fn from(error: SolveError) -> EvaluateError {
+        EvaluateError::Solve(error)
+    }
+}
+
+/// The echoes of a wave, in the cheapest exact form.
+enum Echoes<'a> {
+    Rows(Rows<'a>),
+    Expressions(EchoSum),
+}
+
+/// Evaluates waves and observables of a solution in which every symbol has a value.
+pub struct Evaluator<'a> {
+    solution: &'a Solution,
+    period: Rational,
+    /// The echoes of waves asked for, with the order they are known to.
+    echoes: RefCell<BTreeMap<WaveIndex, (usize, Rc<Echoes<'a>>)>>,
+}
+
+impl<'a> Evaluator<'a> {
+    /// An evaluator of `solution`.
+    ///
+    /// # Errors
+    /// [`EvaluateError::MissingValue`] where a symbol is left.
+    pub fn new(solution: &'a Solution) -> Result<Evaluator<'a>, EvaluateError> {
+        let recurrence = solution.recurrence();
+        if let Some(symbol) = recurrence.symbols().next() {
+            return Err(EvaluateError::MissingValue(symbol.clone()));
+        }
+        let period = recurrence.statement().period.as_constant();
+        let period = period.expect("a period without symbols is a number");
+        Ok(Evaluator { solution, period, echoes: RefCell::new(BTreeMap::new()) })
+    }
+
+    /// The length of a period.
+    pub fn period(&self) -> &Rational {
+        &self.period
+    }
+
+    /// The value of `observation` at scene time `at`, zero before time 0: exactly where it is
+    /// rational, else correctly rounded to `digits` significant digits, with at most `limit_bits`
+    /// bits of working precision.
+    ///
+    /// # Errors
+    /// [`EvaluateError`], with the reached radius where the precision allowed does not do.
+    ///
+    /// # Panics
+    /// Where `digits` is zero.
+    ///
+    /// # Cost
+    /// O(n²) operations of the working precision for a time after n periods.
+    pub fn value(
+        &self,
+        observation: &Observation,
+        at: &Rational,
+        side: Side,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Value, EvaluateError> {
+        let contributions = self.contributions(observation, at, side)?;
+        if let Some(value) = rational_value(&contributions) {
+            return Ok(Value::Exact(value));
+        }
+        match certify(digits, limit_bits, |bits| enclose(&contributions, bits)) {
+            Ok(certified) => Ok(Value::Certified(certified)),
+            Err(CertifyError::AccuracyNotReached { best, bits }) => {
+                Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits })
+            }
+            Err(CertifyError::Enclosure(error)) => Err(EvaluateError::Ball(error)),
+        }
+    }
+
+    fn contributions(
+        &self,
+        observation: &Observation,
+        at: &Rational,
+        side: Side,
+    ) -> Result<Vec<Contribution>, EvaluateError> {
+        let mut contributions = Vec::new();
+        for (coefficient, wave, order, delay) in &observation.terms {
+            let coefficient = number(coefficient, |_| None)?;
+            let delay = delay.as_constant().expect("a delay without symbols is a number");
+            let time = at - delay;
+            for (extra, factor) in &coefficient {
+                let first = contributions.len();
+                self.add_wave(*wave, *order, &time, side, &mut contributions)?;
+                for contribution in &mut contributions[first..] {
+                    contribution.factor *= factor;
+                    contribution.exponent += extra;
+                }
+            }
+        }
+        let before_start = at.is_negative() || (at.is_zero() && side == Side::Left);
+        if !observation.forcing.is_zero() && !before_start {
+            let time = &self.solution.recurrence().statement().time;
+            let forcing = number(&observation.forcing, |x| (x == time).then(|| at.clone()))?;
+            contributions.extend(forcing.into_iter().map(|(exponent, value)| Contribution {
+                factor: Rational::from_integer(1.into()),
+                amount: Amount::Number(value),
+                exponent,
+            }));
+        }
+        Ok(contributions)
+    }
+
+    /// Adds `w(time)`, or the derivative of the pieces: the echoes that have arrived.
+    fn add_wave(
+        &self,
+        wave: WaveIndex,
+        order: u32,
+        time: &Rational,
+        side: Side,
+        contributions: &mut Vec<Contribution>,
+    ) -> Result<(), EvaluateError> {
+        let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
+        let echoes = self.echoes(wave, last)?;
+        let local = &self.solution.recurrence().statement().local;
+        for k in 0..=last {
+            let x = time - &self.period * Rational::from_integer(k.into());
+            match &*echoes {
+                Echoes::Rows(rows) => add_row(&rows.row(k), order, x, contributions),
+                Echoes::Expressions(sum) => {
+                    let mut echo = sum.echoes()[k].clone();
+                    for _ in 0..order {
+                        echo = echo.derivative(local);
+                    }
+                    let value = number(&echo, |symbol| (symbol == local).then(|| x.clone()))?;
+                    contributions.extend(value.into_iter().map(|(exponent, value)| Contribution {
+                        factor: Rational::from_integer(1.into()),
+                        amount: Amount::Number(value),
+                        exponent,
+                    }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of the last echo that has arrived; `None` before the first.
+    fn last_arrival(
+        &self,
+        wave: WaveIndex,
+        time: &Rational,
+        side: Side,
+    ) -> Result<Option<usize>, EvaluateError> {
+        let periods = time / &self.period;
+        let last = match side {
+            Side::Right => periods.floor().to_integer(),
+            Side::Left => periods.ceil().to_integer() - 1,
+        };
+        if last.is_negative() {
+            return Ok(None);
+        }
+        let limit = match self.solution.has_template(wave) {
+            true => MAX_ORDER,
+            false => MAX_ORDER_WITHOUT_FORM,
+        };
+        match last.to_usize().filter(|last| *last <= limit) {
+            Some(last) => Ok(Some(last)),
+            None => Err(EvaluateError::TooManyPeriods { periods: last, limit }),
+        }
+    }
+
+    fn echoes(&self, wave: WaveIndex, last: usize) -> Result<Rc<Echoes<'a>>, EvaluateError> {
+        if let Some((known, echoes)) = self.echoes.borrow().get(&wave) {
+            if *known >= last {
+                return Ok(echoes.clone());
+            }
+        }
+        // Derived one from another, echoes are made with some in reserve.
+        let through =
+            if self.solution.has_template(wave) { MAX_ORDER } else { last.next_multiple_of(16) };
+        let echoes = Rc::new(match self.solution.rows(wave, through)? {
+            Some(rows) => Echoes::Rows(rows),
+            None => Echoes::Expressions(self.solution.echoes(wave, last)?),
+        });
+        let known = if matches!(*echoes, Echoes::Rows(_)) { through } else { last };
+        self.echoes.borrow_mut().insert(wave, (known, echoes.clone()));
+        Ok(echoes)
+    }
+}
+
+/// Adds the echo, or with `order` 1 its derivative `Σ e^{λx} (P' + λP)`, at `x`.
+fn add_row(row: &EchoRow, order: u32, x: Rational, contributions: &mut Vec<Contribution>) {
+    for (rate, polynomial) in &row.parts {
+        let mut add = |polynomial, factor| {
+            contributions.push(Contribution {
+                factor,
+                amount: Amount::Polynomial(polynomial, x.clone()),
+                exponent: rate * &x,
+            });
+        };
+        let one = || Rational::from_integer(1.into());
+        if order == 0 {
+            add(polynomial.clone(), one());
+        } else {
+            add(polynomial.derivative(), one());
+            add(polynomial.clone(), rate.clone());
+        }
+    }
+}
+
+/// An expression as a number.
+fn number(
+    expression: &Expression,
+    values: impl Fn(&Symbol) -> Option<Rational>,
+) -> Result<ExponentialSum, EvaluateError> {
+    expression.evaluate(&values).map_err(EvaluateError::MissingValue)
+}

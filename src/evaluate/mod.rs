@@ -1,0 +1,13 @@
+//! Numbers from exact forms, with every digit proven.
+//!
+//! A wave at a time is a finite sum `Σ_i r_i e^{λ_i}` with rational numbers. Whether it is itself a
+//! rational number is decided exactly, first; else balls of rising precision enclose it until the
+//! digits asked for are certain.
+
+mod contribution;
+mod evaluator;
+mod modular;
+
+pub use evaluator::{
+    EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_WITHOUT_FORM, Side, Value,
+};

@@ -1,0 +1,96 @@
+//! Arithmetic modulo the prime `2^61 − 1`: a residue that is not zero proves a number is not zero.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+/// The modulus, a Mersenne prime.
+const PRIME: u64 = (1 << 61) - 1;
+
+/// A residue class modulo [`PRIME`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) struct Residue(u64);
+
+impl Residue {
+    /// The residue of an integer.
+    pub fn of_integer(value: &BigInt) -> Residue {
+        let rest = value.mod_floor(&BigInt::from(PRIME));
+        Residue(rest.to_u64().expect("a residue fits a word"))
+    }
+
+    /// The residue of a rational number, `None` where the prime divides its denominator.
+    pub fn of_rational(value: &BigRational) -> Option<Residue> {
+        let denominator = Residue::of_integer(value.denom());
+        Some(Residue::of_integer(value.numer()).times(denominator.inverse()?))
+    }
+
+    pub fn is_zero(self) -> bool {
+        self.0 == 0
+    }
+
+    pub fn plus(self, other: Residue) -> Residue {
+        Residue((self.0 + other.0) % PRIME)
+    }
+
+    pub fn times(self, other: Residue) -> Residue {
+        let product = u128::from(self.0) * u128::from(other.0);
+        Residue((product % u128::from(PRIME)) as u64)
+    }
+
+    /// The inverse by Fermat's theorem; `None` for zero.
+    pub fn inverse(self) -> Option<Residue> {
+        if self.is_zero() {
+            return None;
+        }
+        let (mut power, mut base, mut exponent) = (Residue(1), self, PRIME - 2);
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                power = power.times(base);
+            }
+            base = base.times(base);
+            exponent >>= 1;
+        }
+        Some(power)
+    }
+}
+
+/// The residue of `Σ_j c_j x^j/j!`.
+pub(crate) fn evaluate_divided(coefficients: &[BigInt], x: Residue) -> Residue {
+    // Inverses of 1, 2, …, by (p mod i)^{−1} = −(p div i) i^{−1}.
+    let mut inverses = vec![Residue(1); coefficients.len() + 1];
+    for i in 2..inverses.len() {
+        let word = i as u64;
+        let rest = inverses[(PRIME % word) as usize];
+        inverses[i] = Residue(PRIME - PRIME / word).times(rest);
+    }
+    coefficients.iter().enumerate().rev().fold(Residue(0), |value, (j, c)| {
+        value.times(x).times(inverses[j + 1]).plus(Residue::of_integer(c))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wavestep_polynomial::{Rational, Univariate};
+
+    #[test]
+    fn residues_agree_with_exact_values() {
+        let x = Rational::new((-7).into(), 12.into());
+        for degree in 0..40 {
+            let coefficients: Vec<BigInt> =
+                (0..=degree).map(|j| BigInt::from(3 * j - 50)).collect();
+            let exact = Univariate::new(coefficients.clone(), 1.into()).evaluate(&x);
+            let residue = evaluate_divided(&coefficients, Residue::of_rational(&x).unwrap());
+            assert_eq!(Residue::of_rational(&exact), Some(residue));
+        }
+    }
+
+    #[test]
+    fn inverses_multiply_to_one() {
+        assert_eq!(Residue(0).inverse(), None);
+        for value in [1, 2, 3, PRIME - 1, 1 << 60] {
+            assert_eq!(Residue(value).times(Residue(value).inverse().unwrap()), Residue(1));
+        }
+    }
+}

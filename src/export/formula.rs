@@ -1,0 +1,172 @@
+//! Formulas with their heads, one a line, as text or LaTeX.
+
+use crate::export::arrangement::{Term, arrange};
+use crate::export::lines::fill;
+use crate::export::notation::{Latex, Notation, Text, write, write_flat};
+use crate::expression::{Expression, Fraction};
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The width of a line of plain text.
+pub const TEXT_WIDTH: usize = 100;
+
+/// The width of a line of LaTeX, in characters on the page.
+pub const LATEX_WIDTH: usize = 84;
+
+/// What the left-hand side of a formula names.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Head {
+    /// `f[3](s)`: a wave on one period.
+    Piece {
+        /// The wave.
+        wave: String,
+        /// The period.
+        n: usize,
+        /// The local variable.
+        local: Symbol,
+    },
+    /// `phi_f[3](s)`: an echo of a wave.
+    Echo {
+        /// The wave.
+        wave: String,
+        /// The echo.
+        k: usize,
+        /// The local variable.
+        local: Symbol,
+    },
+    /// Written as it is, in text and in LaTeX.
+    Written(String, String),
+}
+
+impl Head {
+    fn text(&self) -> String {
+        match self {
+            Head::Piece { wave, n, local } => format!("{wave}[{n}]({local})"),
+            Head::Echo { wave, k, local } => format!("phi_{wave}[{k}]({local})"),
+            Head::Written(text, _) => text.clone(),
+        }
+    }
+
+    fn latex(&self) -> String {
+        match self {
+            Head::Piece { wave, n, local } => {
+                format!("{}({})", indexed(wave, &n.to_string()), Latex.symbol(local))
+            }
+            Head::Echo { wave, k, local } => {
+                let wave = Latex::name(wave);
+                format!("\\varphi^{{{wave}}}_{{{k}}}({})", Latex.symbol(local))
+            }
+            Head::Written(_, latex) => latex.clone(),
+        }
+    }
+}
+
+/// A name with an index, in LaTeX; a name that has a subscript already is put in braces.
+pub(crate) fn indexed(name: &str, index: &str) -> String {
+    let name = Latex::name(name);
+    let name = if name.contains('_') { format!("{{{name}}}") } else { name };
+    format!("{name}_{{{index}}}")
+}
+
+/// One formula: `head = terms`, and a remark.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Formula {
+    /// The left-hand side.
+    pub head: Head,
+    /// The right-hand side.
+    pub terms: Vec<Term>,
+    /// A remark in text, and in LaTeX.
+    pub remark: Option<(String, String)>,
+}
+
+impl Formula {
+    /// `head = expression`, arranged by `variable`.
+    pub fn new(head: Head, expression: &Expression, variable: &Symbol) -> Formula {
+        Formula { head, terms: arrange(expression, Some(variable)), remark: None }
+    }
+
+    /// The formula with the interval on which a piece holds as its remark:
+    /// `nD <= t < (n+1)D, s = t - nD`.
+    pub fn on_period(
+        mut self,
+        n: usize,
+        period: &Fraction,
+        local: &Symbol,
+        time: &Symbol,
+    ) -> Formula {
+        let written = |notation: &dyn Notation, at_most: &str| {
+            let bound = |n: usize| {
+                let bound = period.scale(&Rational::from_integer(n.into()));
+                write_flat(&arrange(&bound.into(), None), notation)
+            };
+            let (t, s) = (notation.symbol(time), notation.symbol(local));
+            let shift = if n == 0 { t.clone() } else { format!("{t} - {}", bound(n)) };
+            (format!("{} {at_most} {t} < {}", bound(n), bound(n + 1)), format!("{s} = {shift}"))
+        };
+        let (interval, local) = written(&Text, "<=");
+        let text = format!("{interval}, {local}");
+        let (interval, local) = written(&Latex, "\\le");
+        self.remark = Some((text, format!("{interval},\\ {local}")));
+        self
+    }
+
+    /// Plain text, one formula a line; continuation lines and a remark are indented.
+    pub fn to_text(&self) -> String {
+        let head = format!("{} = ", self.head.text());
+        let lines = fill(&write(&self.terms, &Text), TEXT_WIDTH, head.len(), 4);
+        let mut text = format!("{head}{}\n", lines.join("\n    "));
+        if let Some((remark, _)) = &self.remark {
+            text.push_str(&format!("    # {remark}\n"));
+        }
+        text
+    }
+
+    /// The lines of the formula in an `align*` environment, without the environment.
+    fn latex_rows(&self, width: usize) -> Vec<String> {
+        let head = self.head.latex();
+        let used = Latex.width(&head) + 3;
+        let lines = fill(&write(&self.terms, &Latex), width, used, used + 2);
+        let mut rows = Vec::new();
+        for (i, line) in lines.into_iter().enumerate() {
+            rows.push(match i {
+                0 => format!("{head} &= {line}"),
+                _ => format!("&\\quad {{}}{line}"),
+            });
+        }
+        rows
+    }
+
+    /// The lines of a case: the right-hand side in one cell, the remark in the next.
+    fn latex_case(&self, width: usize) -> String {
+        let lines = fill(&write(&self.terms, &Latex), width, 0, 2);
+        let remark = self.remark.as_ref().map_or("", |(_, latex)| latex);
+        let body = match &lines[..] {
+            [line] => line.clone(),
+            _ => format!(
+                "\\begin{{aligned}}[t] &{} \\end{{aligned}}",
+                lines.join(" \\\\ &\\quad {}")
+            ),
+        };
+        format!("{body}, & {remark}")
+    }
+}
+
+/// Formulas as plain text, one a line.
+pub fn text(formulas: &[Formula]) -> String {
+    formulas.iter().map(Formula::to_text).collect()
+}
+
+/// Formulas in an `align*` environment; lines of at most `width` characters on the page.
+pub fn latex(formulas: &[Formula], width: usize) -> String {
+    let rows: Vec<String> = formulas.iter().flat_map(|formula| formula.latex_rows(width)).collect();
+    format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", rows.join(" \\\\\n"))
+}
+
+/// Formulas with remarks as the cases of one function, `name(variable) = …`.
+pub fn latex_cases(name: &str, variable: &Symbol, formulas: &[Formula], width: usize) -> String {
+    let cases: Vec<String> = formulas.iter().map(|formula| formula.latex_case(width)).collect();
+    let head = format!("{}({})", Latex::name(name), Latex.symbol(variable));
+    let cases = cases.join(" \\\\\n");
+    format!(
+        "\\begin{{align*}}\n{head} &= \\begin{{cases}}\n{cases}\n\\end{{cases}}\n\\end{{align*}}\n"
+    )
+}

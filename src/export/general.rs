@@ -1,0 +1,247 @@
+//! General forms, and the equations for which none was found, as formulas.
+
+use crate::export::arrangement::{Node, Sign, Term, arrange};
+use crate::export::formula::{Formula, Head, indexed};
+use crate::export::notation::{Latex, Notation, Text, write_flat};
+use crate::expression::{Assumptions, Expression, Fraction};
+use crate::recurrence::{Recurrence, WaveIndex};
+use crate::solution::{
+    EchoTemplate, Family, GeneralForm, Geometric, GeometricTerm, Proof, Unknown,
+};
+use num_traits::{One, Zero};
+use std::collections::BTreeSet;
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
+
+fn name(name: &str) -> Symbol {
+    Symbol::new(name).expect("a name")
+}
+
+/// The formulas that give a wave in general n, each proved as its remark says.
+pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm) -> Vec<Formula> {
+    let mut formulas = match form {
+        GeneralForm::Geometric(form) => geometric(recurrence, wave, form),
+        GeneralForm::Echoes(template) => echoes(recurrence, wave, template),
+    };
+    if let Some(last) = formulas.last_mut() {
+        last.remark = Some(match form.proof() {
+            Proof::Substitution => {
+                written("proved for every n by substitution into the recurrence")
+            }
+            Proof::CoefficientIdentity => written(
+                "proved for every k by Pascal's rule for the coefficients; L[k] are the Laguerre polynomials",
+            ),
+        });
+    }
+    formulas
+}
+
+fn written(text: &str) -> (String, String) {
+    (text.to_owned(), format!("\\text{{{text}}}"))
+}
+
+fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<Formula> {
+    let statement = recurrence.statement();
+    let wave = &statement.waves[wave];
+    let n = name("n");
+    let formula = |index: &str, terms: Vec<Term>| Formula {
+        head: Head::Written(format!("{wave}[{index}]"), indexed(wave, index)),
+        terms,
+        remark: None,
+    };
+    let first = form.first.iter().enumerate();
+    let mut formulas: Vec<Formula> =
+        first.map(|(i, value)| formula(&i.to_string(), arrange(value, None))).collect();
+    let mut terms = Vec::new();
+    let polynomial = form.terms.iter().filter(|term| term.ratio.is_one());
+    let polynomial = polynomial.fold(Expression::zero(), |sum, term| {
+        let power = Polynomial::symbol(&n).pow(term.power);
+        &sum + &(&term.coefficient * &power.into())
+    });
+    terms.extend(arrange(&polynomial, Some(&n)));
+    for term in form.terms.iter().filter(|term| !term.ratio.is_one()) {
+        terms.push(geometric_term(term, &n, &statement.assumptions));
+    }
+    formulas.push(formula("n", terms));
+    formulas
+}
+
+/// `c n^j λ^n`; where `c/λ` is a number, `(c/λ) n^j λ^{n+1}`.
+fn geometric_term(term: &GeometricTerm, n: &Symbol, assumptions: &Assumptions) -> Term {
+    let inverse = assumptions.invert(&term.ratio).ok();
+    let over_ratio = inverse.and_then(|inverse| (&term.coefficient * &inverse).as_constant());
+    let own = term.coefficient.as_constant();
+    let (coefficient, more) = match (own, over_ratio) {
+        (None, Some(number)) => (Expression::constant(&number), 1),
+        _ => (term.coefficient.clone(), 0),
+    };
+    let exponent = &Polynomial::symbol(n) + &Polynomial::integer(more);
+    let exponent = Node::sum(arrange(&exponent.into(), Some(n))).1;
+    let base = ratio_node(&term.ratio);
+    let power = Node::Power(Box::new(base), Box::new(exponent));
+    let (sign, coefficient) = Node::sum(arrange(&coefficient, None));
+    let mut factors = match coefficient {
+        Node::Number(one) if one.is_one() => Vec::new(),
+        Node::Product(factors) => factors,
+        other => vec![other],
+    };
+    if term.power > 0 {
+        factors.push(Node::power(Node::Symbol(n.clone()), term.power));
+    }
+    factors.push(power);
+    (sign, Node::product(factors))
+}
+
+/// A ratio as the base of a power, without a sign in front where a sum can take it.
+fn ratio_node(ratio: &Expression) -> Node {
+    let terms = arrange(ratio, None);
+    match &terms[..] {
+        [(Sign::Minus, Node::Quotient(top, bottom))] => {
+            let flipped = match &**top {
+                Node::Sum(terms) => {
+                    let turned = |(sign, node): &Term| (sign.times(Sign::Minus), node.clone());
+                    let mut terms: Vec<Term> = terms.iter().map(turned).collect();
+                    terms.sort_by_key(|(sign, _)| *sign == Sign::Minus);
+                    Node::Sum(terms)
+                }
+                other => return negative(Node::Quotient(Box::new(other.clone()), bottom.clone())),
+            };
+            Node::Quotient(Box::new(flipped), bottom.clone())
+        }
+        [(Sign::Minus, other)] => negative(other.clone()),
+        _ => Node::sum(terms).1,
+    }
+}
+
+/// `−x` as a base: a sum of one term, which is written with brackets.
+fn negative(node: Node) -> Node {
+    Node::Sum(vec![(Sign::Minus, node)])
+}
+
+fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> Vec<Formula> {
+    let statement = recurrence.statement();
+    let wave = &statement.waves[wave];
+    let (x, k) = (&statement.local, name("k"));
+    let mut formulas = vec![sum_of_echoes(recurrence, wave)];
+    for (i, echo) in template.first.iter().enumerate() {
+        let head = Head::Echo { wave: wave.clone(), k: i, local: x.clone() };
+        formulas.push(Formula::new(head, echo, x));
+    }
+    let latex_wave = Latex::name(wave);
+    let head = Head::Written(
+        format!("phi_{wave}[k]({x})"),
+        format!("\\varphi^{{{latex_wave}}}_{{k}}({})", Latex.symbol(x)),
+    );
+    formulas.push(Formula { head, terms: template_terms(template, x, &k), remark: None });
+    formulas
+}
+
+/// `f(t) = sum(phi_f[k](t - D*k), 0 <= D*k <= t)`.
+fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
+    let statement = recurrence.statement();
+    let (t, k) = (&statement.time, name("k"));
+    let delay = Expression::from(&statement.period * &Fraction::symbol(&k));
+    let delay = |notation: &dyn Notation| write_flat(&arrange(&delay, None), notation);
+    let (text, latex) = (delay(&Text), delay(&Latex));
+    let (latex_wave, latex_time) = (Latex::name(wave), Latex.symbol(t));
+    let head = Head::Written(
+        format!("{wave}({t}) = sum(phi_{wave}[k]({t} - {text}), 0 <= {text} <= {t}); phi_{wave}"),
+        format!(
+            "{latex_wave}({latex_time}) &= \\sum_{{0 \\le {latex} \\le {latex_time}}} \
+             \\varphi^{{{latex_wave}}}_{{k}}({latex_time} - {latex})"
+        ),
+    );
+    Formula { head, terms: Vec::new(), remark: None }
+}
+
+/// `ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)`.
+fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> {
+    let mut sum = Vec::new();
+    for (lag, coefficient) in &template.terms {
+        let index = &Polynomial::symbol(k) - &Polynomial::integer(*lag);
+        let index = Node::sum(arrange(&index.into(), Some(k))).1;
+        let function = match &template.family {
+            Family::Laguerre(c) => {
+                let argument = Expression::from(c * &Fraction::symbol(x));
+                vec![laguerre(index, &argument, x)]
+            }
+            Family::Power => vec![
+                Node::Power(Box::new(Node::Symbol(x.clone())), Box::new(index.clone())),
+                Node::Factorial(Box::new(index)),
+            ],
+        };
+        sum.push(scaled(coefficient, function, &template.family));
+    }
+    let mut front = Vec::new();
+    if !template.ratio.is_one() {
+        let base = ratio_node(&template.ratio.clone().into());
+        front.push(Node::Power(Box::new(base), Box::new(Node::Symbol(k.clone()))));
+    }
+    if !template.rate.is_zero() {
+        let exponent = -&(&template.rate * &Fraction::symbol(x));
+        let (sign, exponent) = Node::sum(arrange(&exponent.into(), Some(x)));
+        front.push(Node::Exponential(sign, Box::new(exponent)));
+    }
+    let (sign, body) = Node::sum(sum);
+    match body {
+        Node::Product(factors) => front.extend(factors),
+        Node::Number(value) if value.is_zero() => return Vec::new(),
+        Node::Number(value) if value.is_one() => {}
+        other => front.push(other),
+    }
+    vec![(sign, Node::product(front))]
+}
+
+fn laguerre(index: Node, argument: &Expression, x: &Symbol) -> Node {
+    let argument = match &arrange(argument, Some(x))[..] {
+        [(Sign::Plus, node)] => node.clone(),
+        [] => Node::Number(Rational::zero()),
+        terms => Node::Sum(terms.to_vec()),
+    };
+    Node::Laguerre(Box::new(index), Box::new(argument))
+}
+
+/// `coefficient · function`, where the function's last factor divides for powers (`x^k/k!`).
+fn scaled(coefficient: &Fraction, mut function: Vec<Node>, family: &Family) -> Term {
+    let (sign, factor) = Node::sum(arrange(&coefficient.clone().into(), None));
+    let mut factors = match factor {
+        Node::Number(one) if one.is_one() => Vec::new(),
+        Node::Product(factors) => factors,
+        other => vec![other],
+    };
+    if *family == Family::Power {
+        let bottom = function.pop().expect("a power over a factorial");
+        let top = function.pop().expect("a power over a factorial");
+        function.push(Node::Quotient(Box::new(top), Box::new(bottom)));
+    }
+    factors.extend(function);
+    (sign, Node::product(factors))
+}
+
+/// The equation for which no closed form was found, with `p` for the derivative and `q` for the
+/// delay by one period: `(p + 1 + (1 - p)*q)*f`.
+pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
+    let (p, q) = (Expression::symbol(&name("p")), Expression::symbol(&name("q")));
+    let mut parts = Vec::new();
+    for (wave, operator) in unknown.equation.operators() {
+        let mut sum = Expression::zero();
+        let mut power = Expression::one();
+        for lag in 0..operator.reach() {
+            let at = |row: &[Expression]| row.get(lag).cloned().unwrap_or_default();
+            let both = &at(operator.value()) + &(&at(operator.slope()) * &p);
+            sum += &(&both * &power);
+            power = &power * &q;
+        }
+        let text = write_flat(&arrange(&sum, Some(&name("q"))), &Text);
+        parts.push(format!("({text})*{}", recurrence.statement().waves[wave]));
+    }
+    let forcing = unknown.equation.forcing_terms().iter().any(|function| !function.is_zero());
+    parts.extend(forcing.then(|| "forcing".to_owned()));
+    format!("{} = 0", parts.join(" + "))
+}
+
+/// The symbols that a general form relies on being non-zero, as text; empty where there are none.
+pub fn assumed_factors(assumptions: &Assumptions) -> Vec<String> {
+    let factors: BTreeSet<&Polynomial> = assumptions.factors().collect();
+    let factor = |p: &&Polynomial| write_flat(&arrange(&(*p).clone().into(), None), &Text);
+    factors.iter().filter(|p| p.term_count() > 1).map(factor).collect()
+}

@@ -1,0 +1,19 @@
+//! Exact results as text, LaTeX and JSON.
+//!
+//! [`arrange`] puts an expression in the order a person would write it; one walk with two
+//! notations then writes plain text, which the language reads back, or LaTeX. Breaking of long
+//! lines is shared as well. JSON gives reduced rationals, term by term.
+
+mod arrangement;
+mod formula;
+mod general;
+mod json;
+mod lines;
+mod notation;
+
+pub use arrangement::{Node, Sign, Term, arrange};
+pub use formula::{Formula, Head, LATEX_WIDTH, TEXT_WIDTH, latex, latex_cases, text};
+pub use general::{assumed_factors, general_form, operator_of};
+pub use json::{SCHEMA_VERSION, expression_json, fraction_json, pieces_json};
+pub use lines::{Atom, fill};
+pub use notation::{Latex, Notation, Text, write};

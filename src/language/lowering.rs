@@ -1,0 +1,428 @@
+//! From syntax tree to recurrence: names are looked up, values given for symbols are put in, and
+//! every refusal of the layers below is brought back to its place in the text.
+
+use std::collections::BTreeMap;
+
+use wavestep_polynomial::{Rational, Symbol};
+
+use super::constant::constant;
+use super::diagnostic::Diagnostic;
+use super::scope::{Linear, Place, Reference, Scope};
+use super::source::Source;
+use super::syntax::{self, Span, Spanned, StatementKind};
+use crate::expression::{Assumptions, Condition, Expression, Fraction, Relation};
+use crate::recurrence::{
+    Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation, Part, Recurrence,
+    Statement,
+};
+
+type Outcome<T> = Result<T, Diagnostic>;
+
+/// Lowers a recurrence, with `values` in place of symbols from the start: two poles that become
+/// equal give the confluent answer.
+///
+/// # Errors
+/// The first statement that has no meaning, or that the recurrence refuses.
+pub(super) fn recurrence(
+    tree: &syntax::Recurrence,
+    values: &BTreeMap<String, Rational>,
+) -> Outcome<Recurrence> {
+    let mut lowering = Lowering::new(tree, values);
+    lowering.symbols()?;
+    lowering.waves()?;
+    lowering.factors()?;
+    let (period, local, time) = lowering.period()?;
+    let spans = lowering.spans();
+    let mut statement = Statement {
+        title: tree.title.value.clone(),
+        assumptions: Assumptions::default(),
+        period,
+        local,
+        time,
+        waves: lowering.wave_names.iter().map(|name| name.value.clone()).collect(),
+        equations: lowering.equations()?,
+        continuity: lowering.continuity()?,
+        observables: Vec::new(),
+    };
+    statement.observables = lowering.observables(&statement)?;
+    statement.assumptions = lowering.scope.assumptions.clone();
+    Recurrence::new(statement).map_err(|invalid| lowering.refusal(&invalid, &spans))
+}
+
+struct Lowering<'a> {
+    tree: &'a syntax::Recurrence,
+    values: &'a BTreeMap<String, Rational>,
+    scope: Scope,
+    wave_names: Vec<Spanned<String>>,
+    /// Where each name was declared.
+    declared: BTreeMap<String, Span>,
+}
+
+/// Where the parts of a recurrence stand in the text.
+struct Spans {
+    period: Span,
+    equations: Vec<Span>,
+    continuity: Vec<Span>,
+    waves: Vec<Span>,
+}
+
+fn symbol(name: &str) -> Symbol {
+    Symbol::new(name).expect("names of the language are names of symbols")
+}
+
+impl<'a> Lowering<'a> {
+    fn new(tree: &'a syntax::Recurrence, values: &'a BTreeMap<String, Rational>) -> Self {
+        let scope = Scope::new(&tree.source);
+        Lowering { tree, values, scope, wave_names: Vec::new(), declared: BTreeMap::new() }
+    }
+
+    fn statements(&self) -> impl Iterator<Item = (&'a StatementKind, Span)> + use<'a> {
+        self.tree.statements.iter().map(|statement| (&statement.value, statement.span))
+    }
+
+    fn declare(&mut self, name: &Spanned<String>) -> Outcome<()> {
+        if name.value == "n" {
+            return Err(self
+                .scope
+                .error("`n` always counts periods", name.span, "cannot be declared")
+                .with_remedy("choose another name"));
+        }
+        match self.declared.insert(name.value.clone(), name.span) {
+            None => Ok(()),
+            Some(first) => Err(self
+                .scope
+                .error(format!("`{}` is declared twice", name.value), name.span, "again here")
+                .with_secondary(first, "first declared here")
+                .with_remedy("choose another name, or remove one of the two")),
+        }
+    }
+
+    fn symbols(&mut self) -> Outcome<()> {
+        for (statement, _) in self.statements() {
+            let StatementKind::Symbols(symbols) = statement else { continue };
+            for syntax::Symbol { name, condition } in symbols {
+                self.declare(name)?;
+                let condition = match condition {
+                    None => None,
+                    Some(condition) => Some(Condition {
+                        relation: relation(condition.relation.value),
+                        bound: constant(&condition.bound, &self.scope.source)
+                            .map_err(|error| error.or_remedy("compare with a number"))?,
+                    }),
+                };
+                let value = self.values.get(&name.value).cloned();
+                if let (Some(value), Some(condition)) = (&value, &condition) {
+                    if !condition.holds(value) {
+                        return Err(self.outside(name, value, condition));
+                    }
+                }
+                if value.is_none() {
+                    self.scope.assumptions.declare_symbol(symbol(&name.value), condition);
+                }
+                self.scope.symbols.insert(name.value.clone(), value);
+            }
+        }
+        match self.values.keys().find(|name| !self.scope.symbols.contains_key(*name)) {
+            None => Ok(()),
+            Some(unknown) => {
+                let names: Vec<String> = self.scope.symbols.keys().cloned().collect();
+                let choice = match &names[..] {
+                    [] => "this recurrence has no symbols".to_owned(),
+                    _ => format!("its symbols are {}", names.join(", ")),
+                };
+                Err(self
+                    .scope
+                    .error(
+                        format!("a value is given for `{unknown}`, which is no symbol here"),
+                        self.tree.title.span,
+                        "of this recurrence",
+                    )
+                    .with_closest(unknown, names.iter().map(String::as_str))
+                    .or_remedy(choice))
+            }
+        }
+    }
+
+    fn outside(
+        &self,
+        name: &Spanned<String>,
+        value: &Rational,
+        condition: &Condition,
+    ) -> Diagnostic {
+        let message = format!("{} = {value} is outside the range of the symbol", name.value);
+        self.scope
+            .error(message, name.span, "declared here")
+            .with_remedy(format!("give a value with {} {condition}", name.value))
+    }
+
+    fn waves(&mut self) -> Outcome<()> {
+        for (statement, _) in self.statements() {
+            let StatementKind::Waves(names) = statement else { continue };
+            for name in names {
+                self.declare(name)?;
+                self.scope.waves.insert(name.value.clone(), self.wave_names.len());
+                self.wave_names.push(name.clone());
+            }
+        }
+        if self.wave_names.is_empty() {
+            return Err(self
+                .scope
+                .error(
+                    "no wave is declared",
+                    self.tree.title.span,
+                    "this recurrence has no unknown",
+                )
+                .with_remedy("name the unknown waves, as in `wave f, g`"));
+        }
+        Ok(())
+    }
+
+    /// Factors that are stated to be non-zero. Where values given make one a number, it says
+    /// nothing: the answer is derived with the values in.
+    fn factors(&mut self) -> Outcome<()> {
+        for (statement, _) in self.statements() {
+            let StatementKind::Nonzero(tree) = statement else { continue };
+            let value = self.scope.lower_constant(tree, "a non-zero factor")?;
+            let polynomial = value.as_fraction().map(|fraction| fraction.numerator().clone());
+            let reciprocal = match &polynomial {
+                Some(p) if p.as_constant().is_some() && !self.values.is_empty() => continue,
+                Some(p) => Fraction::reciprocal(p).ok(),
+                None => None,
+            };
+            let Some(unit) = reciprocal else {
+                let zero = value.is_zero();
+                let label = if zero { "this is zero" } else { "not linear in any symbol" };
+                return Err(self
+                    .scope
+                    .error("this cannot be declared non-zero", tree.span, label)
+                    .with_remedy(
+                        "declare factors that are linear in some symbol, one a statement",
+                    ));
+            };
+            self.scope.assumptions.declare_factors(&unit);
+        }
+        Ok(())
+    }
+
+    fn period(&mut self) -> Outcome<(Fraction, Symbol, Symbol)> {
+        let mut found: Option<Span> = None;
+        let mut result = None;
+        for (statement, span) in self.statements() {
+            let StatementKind::Period { length, local, time } = statement else { continue };
+            if let Some(first) = found {
+                return Err(self
+                    .scope
+                    .error("the period is stated twice", span, "again here")
+                    .with_secondary(first, "first stated here")
+                    .with_remedy("remove one of the two"));
+            }
+            found = Some(span);
+            let period = self.scope.lower_constant(length, "a period")?;
+            let Some(period) = period.as_fraction() else {
+                return Err(self
+                    .scope
+                    .error("a period holds no exponential", length.span, "holds an exponential")
+                    .with_remedy("introduce a symbol for it"));
+            };
+            self.declare(local)?;
+            self.declare(time)?;
+            result = Some((period, symbol(&local.value), symbol(&time.value)));
+        }
+        let Some((period, local, time)) = result else {
+            return Err(self
+                .scope
+                .error("no period is stated", self.tree.title.span, "of this recurrence")
+                .with_remedy("state it, as in `period 2*mu, local s, time t`"));
+        };
+        self.scope.local = Some(local.clone());
+        self.scope.time = Some(time.clone());
+        Ok((period, local, time))
+    }
+
+    fn spans(&self) -> Spans {
+        let mut spans = Spans {
+            period: self.tree.title.span,
+            equations: Vec::new(),
+            continuity: Vec::new(),
+            waves: self.wave_names.iter().map(|name| name.span).collect(),
+        };
+        for (statement, span) in self.statements() {
+            match statement {
+                StatementKind::Period { length, .. } => spans.period = length.span,
+                StatementKind::Equation { .. } => spans.equations.push(span),
+                StatementKind::Continuous { .. } => spans.continuity.push(span),
+                _ => {}
+            }
+        }
+        spans
+    }
+
+    fn form(&self, linear: &Linear) -> LinearForm {
+        let mut form = LinearForm::forcing(linear.rest.clone());
+        for term in &linear.waves {
+            let wave = match term.reference {
+                Reference::Lagged { lag, primes: 0 } => LinearForm::wave(term.wave, lag),
+                Reference::Lagged { lag, .. } => LinearForm::slope(term.wave, lag),
+                Reference::Summed { lag } => LinearForm::sum(term.wave, lag),
+                Reference::Delayed { .. } => unreachable!("only observables hold delayed waves"),
+            };
+            form.add_scaled(&wave, &term.coefficient, 0);
+        }
+        form
+    }
+
+    fn equations(&self) -> Outcome<Vec<LinearForm>> {
+        let mut equations = Vec::new();
+        for (statement, span) in self.statements() {
+            let StatementKind::Equation { left, right } = statement else { continue };
+            let mut form = self.form(&self.scope.lower(left, Place::Equation)?);
+            let right = self.form(&self.scope.lower(right, Place::Equation)?);
+            form.add_scaled(&right, &Expression::integer(-1), 0);
+            if form.is_zero() {
+                return Err(self
+                    .scope
+                    .error("this equation says nothing", span, "both sides are the same")
+                    .with_remedy("state a relation that determines a wave"));
+            }
+            equations.push(form);
+        }
+        Ok(equations)
+    }
+
+    fn continuity(&self) -> Outcome<Vec<Continuity>> {
+        let mut rules = Vec::new();
+        for (statement, _) in self.statements() {
+            let StatementKind::Continuous { quantity, start } = statement else { continue };
+            let form = self.form(&self.scope.lower(quantity, Place::Equation)?);
+            let start = self.scope.lower_constant(start, "a start")?;
+            rules.push(Continuity { form, start });
+        }
+        Ok(rules)
+    }
+
+    fn observables(&mut self, statement: &Statement) -> Outcome<Vec<Observable>> {
+        let mut observables = Vec::new();
+        for (kind, _) in self.statements() {
+            let StatementKind::Observe { name, value } = kind else { continue };
+            self.declare(name)?;
+            let linear = self.scope.lower(value, Place::Observable)?;
+            let mut observation = Observation { forcing: linear.rest, terms: Vec::new() };
+            for term in linear.waves {
+                let (order, delay) = match term.reference {
+                    Reference::Lagged { lag, primes } => {
+                        (primes, statement.period.scale(&Rational::from_integer(lag.into())))
+                    }
+                    Reference::Delayed { delay } => (0, delay),
+                    Reference::Summed { .. } => {
+                        return Err(self
+                            .scope
+                            .error("a sum over periods cannot be observed", term.span, "a sum")
+                            .with_remedy("give the sum a wave of its own, by an equation"));
+                    }
+                };
+                observation.terms.push((term.coefficient, term.wave, order, delay));
+            }
+            observables.push(Observable { name: name.value.clone(), observation });
+        }
+        Ok(observables)
+    }
+
+    /// What the recurrence refused, at its place in the text.
+    fn refusal(&self, invalid: &InvalidRecurrence, spans: &Spans) -> Diagnostic {
+        let span = match invalid.part {
+            Part::Period => spans.period,
+            Part::Equation(i) => spans.equations[i],
+            Part::Continuity(i) => spans.continuity[i],
+            Part::Wave(i) => spans.waves[i],
+        };
+        let (label, remedy) = match &invalid.fault {
+            Fault::PeriodNotPositive => (
+                "may be zero or negative",
+                "make it a sum of positive terms, with symbols declared `> 0`".to_owned(),
+            ),
+            Fault::Count { equations, waves } if equations < waves => {
+                ("not determined", "add an equation for each wave".to_owned())
+            }
+            Fault::Count { .. } => {
+                ("one too many", "state one equation for each wave, and no more".to_owned())
+            }
+            Fault::DeterminesNothing => (
+                "nothing left to determine",
+                "let each equation hold a wave `[n]` that no other equation gives".to_owned(),
+            ),
+            Fault::Coupled(_) => (
+                "cannot be solved one by one",
+                "solve these equations for one wave each".to_owned(),
+            ),
+            Fault::NotInvertible(_) => (
+                "the factor of the newest wave may be zero",
+                "state that it is not, with `nonzero …`".to_owned(),
+            ),
+            Fault::RateNotPolynomial => {
+                ("a rate with an exponential", "introduce a symbol for it".to_owned())
+            }
+            Fault::NoStart(wave) => (
+                "has a differential equation and no start",
+                format!("add a rule such as `continuous {wave}[n] starts at 0`"),
+            ),
+            Fault::StartsNothing => (
+                "no wave needs it",
+                "remove it: only waves with a differential equation need one start each".to_owned(),
+            ),
+            Fault::ContinuityOfSlope => {
+                ("holds a derivative or a sum", "state what is continuous by the waves".to_owned())
+            }
+        };
+        self.scope.error(invalid.to_string(), span, label).with_remedy(remedy)
+    }
+}
+
+fn relation(relation: syntax::Relation) -> Relation {
+    match relation {
+        syntax::Relation::Greater => Relation::Greater,
+        syntax::Relation::GreaterOrEqual => Relation::AtLeast,
+        syntax::Relation::Less => Relation::Less,
+        syntax::Relation::LessOrEqual => Relation::AtMost,
+        syntax::Relation::NotEqual => Relation::Unequal,
+    }
+}
+
+/// One formula of a listing: the wave, the period, the variable, and the exact expression.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ExactFormula {
+    /// The wave.
+    pub wave: String,
+    /// The period.
+    pub n: usize,
+    /// The local variable.
+    pub variable: Symbol,
+    /// The wave function on that period.
+    pub expression: Expression,
+}
+
+/// Lowers a listing; every name but those of functions is a symbol.
+///
+/// # Errors
+/// The first formula that holds a wave, or divides by what cannot be divided by.
+pub(super) fn listing(tree: &syntax::Listing) -> Outcome<Vec<ExactFormula>> {
+    let scope = Scope::new(&tree.source);
+    let lower = |formula: &Spanned<syntax::Formula>| {
+        let syntax::Formula { wave, index, argument, value } = &formula.value;
+        Ok(ExactFormula {
+            wave: wave.value.clone(),
+            n: usize::try_from(index.value).expect("an index fits"),
+            variable: symbol(&argument.value),
+            expression: scope.lower(value, Place::Formula)?.rest,
+        })
+    };
+    tree.formulas.iter().map(lower).collect()
+}
+
+/// Lowers an expression in which every name is a symbol.
+///
+/// # Errors
+/// As for a listing.
+pub(super) fn expression(tree: &syntax::Expression, source: &Source) -> Outcome<Expression> {
+    let scope = Scope::new(source);
+    Ok(scope.lower(tree, Place::Formula)?.rest)
+}

@@ -1,0 +1,87 @@
+//! How names are spelt: ASCII and Greek letters, digits and `_`. A Greek letter is only another way
+//! to write its English name, so `μ` and `mu` are one name, and all output is ASCII.
+
+/// Words with a meaning of their own in expressions, which cannot name anything else.
+pub(super) const RESERVED: [&str; 2] = ["exp", "sum"];
+
+const LOWER: [&str; 25] = [
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
+    "lambda", "mu", "nu", "xi", "omicron", "pi", "rho", "sigma", "sigma", "tau", "upsilon", "phi",
+    "chi", "psi", "omega",
+];
+
+const UPPER: [&str; 25] = [
+    "Alpha", "Beta", "Gamma", "Delta", "Epsilon", "Zeta", "Eta", "Theta", "Iota", "Kappa",
+    "Lambda", "Mu", "Nu", "Xi", "Omicron", "Pi", "Rho", "Sigma", "Sigma", "Tau", "Upsilon", "Phi",
+    "Chi", "Psi", "Omega",
+];
+
+/// The English name of a Greek letter, including the variants and the micro and ohm signs that
+/// keyboards and word processors put in its place.
+fn greek(letter: char) -> Option<&'static str> {
+    Some(match letter {
+        'α'..='ω' => LOWER[letter as usize - 'α' as usize],
+        // U+03A2, where a capital final sigma would be, is not assigned.
+        '\u{3A2}' => return None,
+        'Α'..='Ω' => UPPER[letter as usize - 'Α' as usize],
+        '\u{B5}' => "mu",
+        '\u{2126}' => "Omega",
+        'ϑ' => "theta",
+        'ϕ' => "phi",
+        'ϖ' => "pi",
+        'ϰ' => "kappa",
+        'ϱ' => "rho",
+        'ϵ' => "epsilon",
+        _ => return None,
+    })
+}
+
+/// Whether a name can start with this character.
+pub(super) fn is_letter(character: char) -> bool {
+    character.is_ascii_alphabetic() || greek(character).is_some()
+}
+
+/// Whether a name can go on with this character.
+pub(super) fn continues(character: char) -> bool {
+    is_letter(character) || character.is_ascii_digit() || character == '_'
+}
+
+/// The name with its Greek letters spelt out.
+pub(super) fn normalise(written: &str) -> String {
+    let mut name = String::with_capacity(written.len());
+    for character in written.chars() {
+        match greek(character) {
+            Some(english) => name.push_str(english),
+            None => name.push(character),
+        }
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn greek_letters_are_spelt_out() {
+        for (written, name) in [
+            ("μ", "mu"),
+            ("\u{B5}", "mu"),
+            ("α", "alpha"),
+            ("ω_0", "omega_0"),
+            ("Ω", "Omega"),
+            ("ς", "sigma"),
+            ("Σ", "Sigma"),
+            ("Ρ2", "Rho2"),
+            ("Δt", "Deltat"),
+        ] {
+            assert!(written.chars().all(continues), "{written}");
+            assert_eq!(normalise(written), name);
+        }
+    }
+
+    #[test]
+    fn other_letters_are_refused() {
+        assert!(!"é ж ά ª ² ₁ _ 1 \u{3A2}".chars().any(is_letter));
+    }
+}

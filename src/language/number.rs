@@ -1,0 +1,200 @@
+//! Number literals, read exactly: `0.25` is one quarter, never the double nearest to it.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{Pow, ToPrimitive, Zero};
+
+/// The most digits a literal may have before its exponent.
+pub const MAX_DIGITS: usize = 1000;
+
+/// The largest power of ten, up or down, by which a literal may be scaled.
+pub const MAX_DECIMAL_EXPONENT: i64 = 1000;
+
+/// Why a literal is not accepted although its form is right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LiteralError {
+    /// More than [`MAX_DIGITS`] digits.
+    TooManyDigits,
+    /// The last digit stands further than [`MAX_DECIMAL_EXPONENT`] from the decimal point.
+    ExponentTooLarge,
+}
+
+/// The value of `digits [. digits] [e [sign] digits]`, with digits on at least one side of the point.
+///
+/// Trailing zeros of the fraction do not count towards the exponent, so `1.0e-1000` is accepted and
+/// `1.5e-1000`, which has 1001 decimal places, is not.
+///
+/// Takes time linear in the length for literals within the limits, which are checked first.
+pub(super) fn literal(text: &str) -> Result<BigRational, LiteralError> {
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    if whole.len() + fraction.len() > MAX_DIGITS {
+        return Err(LiteralError::TooManyDigits);
+    }
+    let fraction = fraction.trim_end_matches('0');
+    let integer = digits(&format!("{whole}{fraction}"));
+    let exponent = signed_exponent(exponent).ok_or(LiteralError::ExponentTooLarge)?;
+    let scale = exponent - fraction.len().to_i64().expect("at most MAX_DIGITS");
+    if scale.abs() > MAX_DECIMAL_EXPONENT {
+        return Err(LiteralError::ExponentTooLarge);
+    }
+    let power = u32::try_from(scale.unsigned_abs()).expect("at most MAX_DECIMAL_EXPONENT");
+    Ok(if scale >= 0 {
+        BigRational::from_integer(integer * BigInt::from(10).pow(power))
+    } else {
+        over_power_of_ten(integer, power)
+    })
+}
+
+fn digits(text: &str) -> BigInt {
+    BigInt::parse_bytes(text.as_bytes(), 10).expect("at least one digit, and nothing else")
+}
+
+/// None if the exponent is out of bounds, however many digits it has.
+fn signed_exponent(text: &str) -> Option<i64> {
+    let (negative, magnitude) = match text.strip_prefix(['-', '−']) {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let magnitude = magnitude.trim_start_matches('0');
+    // An empty magnitude was all zeros; nineteen digits and more do not fit.
+    let magnitude = match magnitude.len() {
+        0 => 0,
+        1..=4 => magnitude.parse().ok()?,
+        _ => return None,
+    };
+    (magnitude <= MAX_DECIMAL_EXPONENT).then_some(if negative { -magnitude } else { magnitude })
+}
+
+/// `numerator / 10^power` in lowest terms. Only twos and fives can cancel; taking these out is far
+/// cheaper than the greatest common divisor that `BigRational::new` would compute.
+fn over_power_of_ten(mut numerator: BigInt, power: u32) -> BigRational {
+    if numerator.is_zero() {
+        return BigRational::zero();
+    }
+    let twos = numerator.trailing_zeros().unwrap_or(0).min(u64::from(power));
+    numerator >>= twos;
+    let five = BigInt::from(5);
+    let mut fives_left = power;
+    while fives_left > 0 {
+        let (quotient, remainder) = numerator.div_rem(&five);
+        if !remainder.is_zero() {
+            break;
+        }
+        numerator = quotient;
+        fives_left -= 1;
+    }
+    let denominator = five.pow(fives_left) << (u64::from(power) - twos);
+    BigRational::new_raw(numerator, denominator)
+}
+
+/// The shortest literal of a value that one literal can say, such that reading it gives the value.
+/// A value that is no terminating decimal is written as a quotient in parentheses.
+pub(super) fn written(value: &BigRational) -> String {
+    match decimal_places(value.denom()) {
+        Some(0) => written_integer(value.numer()),
+        Some(places) => {
+            let scaled = value.numer() * BigInt::from(10).pow(places) / value.denom();
+            written_fraction(&scaled.to_string(), places as usize)
+        }
+        None => format!("({}/{})", value.numer(), value.denom()),
+    }
+}
+
+/// How many decimal places a fraction with this denominator needs, if finitely many.
+fn decimal_places(denominator: &BigInt) -> Option<u32> {
+    let twos = denominator.trailing_zeros().unwrap_or(0);
+    let mut odd = denominator >> twos;
+    let mut fives = 0;
+    let five = BigInt::from(5);
+    while odd > BigInt::from(1) {
+        let (quotient, remainder) = odd.div_rem(&five);
+        if !remainder.is_zero() {
+            return None;
+        }
+        odd = quotient;
+        fives += 1;
+    }
+    twos.max(fives).to_u32()
+}
+
+/// More digits than this are written with an exponent if that is shorter.
+const PLAIN_DIGITS: usize = 20;
+
+fn written_integer(value: &BigInt) -> String {
+    let all = value.to_string();
+    let significant = all.trim_end_matches('0');
+    let zeros = all.len() - significant.len();
+    if all.len() <= PLAIN_DIGITS || zeros <= PLAIN_DIGITS {
+        return all;
+    }
+    let exponent = zeros.min(MAX_DECIMAL_EXPONENT as usize);
+    format!("{}e{exponent}", &all[..all.len() - exponent])
+}
+
+fn written_fraction(digits: &str, places: usize) -> String {
+    if places > PLAIN_DIGITS {
+        return format!("{digits}e-{places}");
+    }
+    let padded = format!("{digits:0>width$}", width = places + 1);
+    let (whole, fraction) = padded.split_at(padded.len() - places);
+    format!("{whole}.{fraction}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn ratio(numerator: i64, denominator: i64) -> BigRational {
+        BigRational::new(numerator.into(), denominator.into())
+    }
+
+    #[test]
+    fn literals_are_exact() {
+        for (text, value) in [
+            ("3", ratio(3, 1)),
+            ("0.25", ratio(1, 4)),
+            (".5", ratio(1, 2)),
+            ("7.", ratio(7, 1)),
+            ("1e3", ratio(1000, 1)),
+            ("2.5e-3", ratio(1, 400)),
+            ("2.5E−3", ratio(1, 400)),
+            ("0.1", ratio(1, 10)),
+            ("1.50e+1", ratio(15, 1)),
+            ("0.000", ratio(0, 1)),
+            ("125e-4", ratio(1, 80)),
+        ] {
+            assert_eq!(literal(text), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn limits_are_sharp() {
+        assert!(literal(&"9".repeat(MAX_DIGITS)).is_ok());
+        assert_eq!(literal(&"9".repeat(MAX_DIGITS + 1)), Err(LiteralError::TooManyDigits));
+        for accepted in ["1e1000", "1e-1000", "1.0e-1000", "1e+0001000"] {
+            assert!(literal(accepted).is_ok(), "{accepted}");
+        }
+        for refused in ["1e1001", "1e-1001", "1.5e-1000", "1e99999999999999999999999"] {
+            assert_eq!(literal(refused), Err(LiteralError::ExponentTooLarge), "{refused}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn reading_is_in_lowest_terms_and_writing_reads_back(
+            whole in "[0-9]{1,30}", fraction in "[0-9]{0,30}", exponent in -900_i64..900,
+        ) {
+            let value = literal(&format!("{whole}.{fraction}e{exponent}")).unwrap();
+            let reduced = BigRational::new(value.numer().clone(), value.denom().clone());
+            prop_assert_eq!(value.numer(), reduced.numer());
+            prop_assert_eq!(value.denom(), reduced.denom());
+            let digits = BigInt::parse_bytes(format!("{whole}{fraction}").as_bytes(), 10).unwrap();
+            let scale = exponent as i32 - fraction.len() as i32;
+            prop_assert_eq!(&value, &(BigRational::from_integer(digits) * ratio(10, 1).pow(scale)));
+            prop_assert_eq!(literal(&written(&value)), Ok(value));
+        }
+    }
+}

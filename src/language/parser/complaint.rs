@@ -1,0 +1,565 @@
+//! What the parser says about texts it refuses. Every function here ends the parse.
+
+use super::super::diagnostic::{Diagnostic, closest};
+use super::super::number::{LiteralError, MAX_DECIMAL_EXPONENT, MAX_DIGITS};
+use super::super::source::Source;
+use super::super::syntax::{Expression, Name, Node, Span};
+use super::super::{MAX_DEPTH, MAX_INDEX};
+use super::expression::FOLLOWING;
+use super::lexical::{digits, next_word, skip_blank, token};
+use super::statement::{FORMS, SYMBOL_FORM};
+use super::{Context, Input, Problem, between, here};
+
+use nom::Parser;
+
+type Refusal = nom::Err<Problem>;
+
+fn refuse(diagnostic: Diagnostic) -> Refusal {
+    nom::Err::Failure(Problem::Refused(diagnostic))
+}
+
+fn at(
+    input: Input<'_>,
+    message: impl Into<String>,
+    span: Span,
+    label: impl Into<String>,
+) -> Diagnostic {
+    Diagnostic::new(input.extra.source, message, span, label)
+}
+
+/// What stands next, as a reader would call it, and its place. The end is just behind the last token.
+struct Found {
+    description: String,
+    span: Span,
+    kind: FoundKind,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum FoundKind {
+    End,
+    /// A word that begins statements, at the start of a line.
+    Keyword,
+    Word,
+    Number,
+    Character(char),
+}
+
+fn found(input: Input<'_>) -> Found {
+    let start = skip_blank(input);
+    let Some(next) = start.fragment().chars().next() else {
+        return Found {
+            description: format!("the end of the {}", input.extra.unit),
+            span: here(input),
+            kind: FoundKind::End,
+        };
+    };
+    if let Some(word) = next_word(start) {
+        let skipped = &input.fragment()[..between(input, start).end - input.location_offset()];
+        let opens_line = skipped.contains('\n');
+        let is_keyword = FORMS.iter().any(|(keyword, _)| *keyword == word.value);
+        return Found {
+            description: quoted(word.value),
+            span: word.span,
+            kind: if opens_line && is_keyword { FoundKind::Keyword } else { FoundKind::Word },
+        };
+    }
+    if let Ok((_, number)) = token(digits).parse(start) {
+        return Found {
+            description: quoted(number.value),
+            span: number.span,
+            kind: FoundKind::Number,
+        };
+    }
+    let offset = start.location_offset();
+    let pair = PAIRS.iter().find(|pair| start.fragment().starts_with(**pair));
+    let (description, length) = match pair {
+        Some(pair) => (format!("`{pair}`"), pair.len()),
+        None => (character(next), next.len_utf8()),
+    };
+    Found {
+        description,
+        span: Span::new(offset, offset + length),
+        kind: FoundKind::Character(next),
+    }
+}
+
+/// Signs of two characters, which messages name as a whole.
+const PAIRS: [&str; 9] = ["<=", ">=", "!=", "==", ":=", "=>", "=<", "..", "//"];
+
+/// A word in quotation marks, cut if it is long.
+fn quoted(word: &str) -> String {
+    const SHOWN: usize = 40;
+    match word.char_indices().nth(SHOWN) {
+        None => format!("`{word}`"),
+        Some((cut, _)) => format!("`{}…`", &word[..cut]),
+    }
+}
+
+fn character(character: char) -> String {
+    if character.is_ascii() {
+        format!("`{character}`")
+    } else {
+        let code = u32::from(character);
+        if character.is_whitespace() || !is_visible(character) {
+            format!("U+{code:04X}, which is invisible")
+        } else {
+            format!("`{character}` (U+{code:04X})")
+        }
+    }
+}
+
+fn is_visible(character: char) -> bool {
+    !matches!(character, '\u{AD}' | '\u{200B}'..='\u{200F}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
+}
+
+/// What to write instead of a character that has no meaning here.
+fn replacement(character: char) -> Option<&'static str> {
+    Some(match character {
+        '²' => "write `^2`",
+        '³' => "write `^3`",
+        '⁰' | '¹' | '⁴'..='⁹' | 'ⁿ' => "write powers with `^`: `x^4`",
+        '₀'..='₉' => "write indices of names with `_`: `x_1`",
+        '–' | '—' | '‐' | '‑' => "this is a dash; write the minus sign `-`",
+        '÷' => "write `/`",
+        '∞' => "only finite numbers can be used",
+        '√' => "roots have no notation; introduce a symbol for the root instead",
+        '“' | '”' | '„' | '«' | '»' => "write straight quotation marks: \"…\"",
+        '{' | '}' => "group with parentheses: `(…)`",
+        '!' => "there is no factorial; `!` only stands in `!=`",
+        '%' => "there is no percent sign; write `0.05` for 5 %",
+        ';' => "end a statement by ending the line; separate names by `,`",
+        '"' => "only the title is quoted",
+        '|' => "there is no absolute value",
+        '\\' => "this is no LaTeX: write `mu`, `exp(…)`, `a/b`",
+        ':' => "write `=`, not `:=`",
+        _ => return None,
+    })
+}
+
+fn form_remedy(input: Input<'_>) -> Option<String> {
+    input.extra.form.map(|form| format!("write it like `{form}`"))
+}
+
+/// Something else is needed than what stands here.
+pub(super) fn expected(input: Input<'_>, what: &str) -> Refusal {
+    refuse(stray(input).unwrap_or_else(|| expected_diagnostic(input, what, form_remedy(input))))
+}
+
+/// A name is needed.
+pub(super) fn expected_name(input: Input<'_>, what: &str) -> Refusal {
+    let remedy = match (found(input).kind, form_remedy(input)) {
+        (FoundKind::Number, Some(form)) => Some(format!("a name begins with a letter; {form}")),
+        (_, remedy) => remedy,
+    };
+    refuse(expected_diagnostic(input, what, remedy))
+}
+
+/// Something follows what is already complete.
+pub(super) fn expected_end(input: Input<'_>) -> Refusal {
+    if let Some(diagnostic) = stray(input) {
+        return refuse(diagnostic);
+    }
+    let next = skip_blank(input);
+    let unit = input.extra.unit;
+    let one_equals = input.extra.form.is_none_or(|form| form.contains('='));
+    if next.fragment().starts_with('=') && one_equals {
+        let diagnostic = at(input, "one `=` too many", found(input).span, "not expected here");
+        return refuse(match input.extra.form {
+            Some(_) => diagnostic.with_remedy("write `a = b = c` as two equations"),
+            None => diagnostic.with_remedy(format!("write only the {unit} itself, without `=`")),
+        });
+    }
+    let mut after = next.fragment().chars();
+    let decimal_comma = before(input).is_some_and(|last| last.is_ascii_digit())
+        && after.next() == Some(',')
+        && after.next().is_some_and(|digit| digit.is_ascii_digit());
+    let is_value = next.fragment().starts_with('=') && input.extra.form == Some(SYMBOL_FORM);
+    let remedy = if is_value {
+        Some(
+            "a symbol stands for every value that meets its condition, such as `mu > 0`".to_owned(),
+        )
+    } else if decimal_comma {
+        Some("decimals are written with a point: `0.5`".to_owned())
+    } else {
+        form_remedy(input)
+    };
+    refuse(expected_diagnostic(input, &format!("the end of the {unit}"), remedy))
+}
+
+/// The character just before.
+fn before(input: Input<'_>) -> Option<char> {
+    input.extra.source.text()[..input.location_offset()].chars().next_back()
+}
+
+/// Signs that are wrong after any complete expression.
+fn stray(input: Input<'_>) -> Option<Diagnostic> {
+    let Found { span, kind: FoundKind::Character(next), .. } = found(input) else {
+        return None;
+    };
+    match next {
+        ')' | ']' => {
+            let opening = if next == ')' { '(' } else { '[' };
+            let message = format!("`{next}` without `{opening}`");
+            let remedy = format!("delete it, or add the missing `{opening}` before it");
+            Some(at(input, message, span, "closes nothing").with_remedy(remedy))
+        }
+        '[' if before(input) == Some(')') => Some(
+            at(input, "only a wave has an index", span, "this index belongs to no name")
+                .with_remedy("write the index after each wave: `f[n] + g[n]`"),
+        ),
+        '\'' | '′' | '’' | '″' => Some(misplaced_prime(input, span, "f")),
+        _ => None,
+    }
+}
+
+/// The remedy is the one given, unless the text suggests a better one.
+fn expected_diagnostic(input: Input<'_>, what: &str, remedy: Option<String>) -> Diagnostic {
+    let Found { description, span, kind } = found(input);
+    let better = match kind {
+        FoundKind::Keyword => Some(
+            "this line is indented deeper than the first statement, so it continues the line \
+             before; remove the indentation to start a statement",
+        ),
+        FoundKind::Character(found) => replacement(found),
+        FoundKind::End | FoundKind::Word | FoundKind::Number => None,
+    };
+    let diagnostic = match kind {
+        FoundKind::Character(found) if is_foreign(found) => {
+            let message = format!("unexpected character {description}");
+            at(input, message, span, format!("expected {what}"))
+                .with_remedy(better.unwrap_or(ALPHABET))
+        }
+        _ => {
+            let message = format!("expected {what}, found {description}");
+            at(input, message, span, format!("expected {what}"))
+        }
+    };
+    match better.map(str::to_owned).or(remedy) {
+        Some(remedy) if diagnostic.remedy().is_none() => diagnostic.with_remedy(remedy),
+        _ => diagnostic,
+    }
+}
+
+const ALPHABET: &str = "outside the title and comments, write ASCII and Greek letters, digits, `_` \
+                        and the signs of arithmetic";
+
+/// Whether a character stands nowhere in the language but in titles and comments.
+fn is_foreign(character: char) -> bool {
+    !"()[]+-−*·×⋅∗/^=<>≤≥!≠,.:'′’″\"".contains(character)
+}
+
+/// An operand is missing.
+pub(super) fn expected_expression(input: Input<'_>) -> Refusal {
+    let start = skip_blank(input);
+    let previous = before(input).filter(|_| input.location_offset() > 0);
+    if start.fragment().starts_with('=') && previous == Some('=') {
+        let span = Span::new(input.location_offset() - 1, start.location_offset() + 1);
+        return refuse(
+            at(input, "`==` is no sign of the language", span, "an equation?")
+                .with_remedy("write one `=`"),
+        );
+    }
+    let remedy = match previous {
+        Some(operator @ ('+' | '-' | '*' | '/' | '^')) => {
+            Some(format!("write an operand after `{operator}`, or delete the `{operator}`"))
+        }
+        Some('(') => Some("write an expression between the parentheses".to_owned()),
+        _ => form_remedy(input),
+    };
+    refuse(expected_diagnostic(input, "a number, a name or `(`", remedy))
+}
+
+/// A text without anything in it, where one expression was expected.
+pub(super) fn nothing(source: &Source, unit: &str) -> Diagnostic {
+    let remedy = if unit == "number" { NUMBERS } else { "write an expression such as `2*mu`" };
+    Diagnostic::new(source, format!("no {unit} is given"), Span::new(0, 0), "nothing here")
+        .with_remedy(remedy)
+}
+
+/// What numbers look like.
+const NUMBERS: &str = "write a plain number such as `3`, `0.25`, `33/10` or `1e-3`";
+
+/// A parenthesis or bracket is not closed before something else comes.
+pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Refusal {
+    let opening = input.extra.source.slice(opener);
+    let next = found(input);
+    let remedy = format!("add the missing `{closing}`");
+    if matches!(next.kind, FoundKind::End | FoundKind::Keyword) {
+        let stop = next.description;
+        return refuse(
+            at(input, format!("`{opening}` is never closed"), opener, "opened here")
+                .with_secondary(here(input), format!("`{closing}` expected before {stop}"))
+                .with_remedy(remedy),
+        );
+    }
+    let what = format!("an operator or `{closing}`");
+    refuse(expected_diagnostic(input, &what, Some(remedy)).with_secondary(opener, "opened here"))
+}
+
+/// Two factors stand side by side.
+pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Refusal {
+    const SHOWN: usize = 20;
+    let next = found(input);
+    let Context { source, unit, form } = input.extra;
+    if next.kind == FoundKind::Keyword {
+        return expected(input, "an operator or the end of the statement");
+    }
+    let (before, after) = (source.slice(left.span), source.slice(next.span));
+    let wanted = closest(after, FOLLOWING).filter(|&word| form.is_some_and(|f| f.contains(word)));
+    if let Some(word) = wanted {
+        let message = format!("expected `{word}`, found {}", next.description);
+        let label = format!("expected `{word}`");
+        let remedy = format!("did you mean `{word}`?");
+        return refuse(at(input, message, next.span, label).with_remedy(remedy));
+    }
+    let numbers = matches!(left.value, Node::Number(_)) && next.kind == FoundKind::Number;
+    let applied = source.text()[next.span.end..].starts_with('(');
+    let remedy = if numbers {
+        format!("join the digits, or write an operator between `{before}` and `{after}`")
+    } else if unit == "number" {
+        format!("{NUMBERS}, without a unit")
+    } else if before.len() > SHOWN || after.len() > SHOWN {
+        "write `*` between them".to_owned()
+    } else if after == "(" {
+        format!("write `{before}*(…)`")
+    } else if applied {
+        format!("write `{before}*{after}(…)`")
+    } else {
+        format!("write `{before}*{after}`")
+    };
+    refuse(
+        at(
+            input,
+            format!("an operator is missing before {}", next.description),
+            next.span,
+            "multiplication is always written",
+        )
+        .with_secondary(left.span, "the factor before")
+        .with_remedy(remedy),
+    )
+}
+
+/// `**`
+pub(super) fn double_star(input: Input<'_>, span: Span) -> Refusal {
+    refuse(
+        at(input, "`**` is no operator", span, "a power?")
+            .with_remedy("write powers with `^`: `x^2`"),
+    )
+}
+
+/// `f'` or `f'[n]`
+pub(super) fn early_prime(input: Input<'_>, span: Span, name: &str) -> Refusal {
+    refuse(misplaced_prime(input, span, name))
+}
+
+fn misplaced_prime(input: Input<'_>, span: Span, name: &str) -> Diagnostic {
+    at(input, "a prime stands only after the index of a wave", span, "not after an index")
+        .with_remedy(format!("write the derivative of a wave as `{name}[n]'`"))
+}
+
+/// `exp` or `sum` where a name is needed.
+pub(super) fn reserved(input: Input<'_>, name: &str, span: Span) -> Refusal {
+    refuse(
+        at(
+            input,
+            format!("`{name}` is a function of the language, so nothing else can have this name"),
+            span,
+            "reserved",
+        )
+        .with_remedy("choose another name"),
+    )
+}
+
+/// `exp` or `sum` without argument.
+pub(super) fn function_alone(input: Input<'_>, name: &str, span: Span) -> Refusal {
+    let form = if name == "exp" { "exp(-2*t)" } else { "sum(f[i], i < n)" };
+    refuse(
+        at(
+            input,
+            format!("`{name}` needs an argument in parentheses"),
+            span,
+            "`(` expected after this",
+        )
+        .with_remedy(format!("write it like `{form}`")),
+    )
+}
+
+/// `sum(a[i])`
+pub(super) fn sum_without_range(input: Input<'_>, opener: Span) -> Refusal {
+    const RANGE: &str = "a sum says over what it runs: `sum(f[i], i < n)`";
+    refuse(
+        expected_diagnostic(input, "`,` and the range of the sum", Some(RANGE.to_owned()))
+            .with_secondary(opener, "the sum opens here"),
+    )
+}
+
+/// `sum(a[i], i = 0..n)`
+pub(super) fn sum_range(input: Input<'_>, index: &Name) -> Refusal {
+    let index = &index.value;
+    let remedy =
+        format!("the range of a sum is written `{index} < n`; it starts at 0 and ends at n-1");
+    refuse(expected_diagnostic(input, "`<`", Some(remedy)))
+}
+
+const INDEX_REMEDY: &str = "an index is written `n`, `n-1`, `n+1`, or as a whole number";
+
+/// `f[2*n]`, `f[]`
+pub(super) fn index_form(input: Input<'_>) -> Refusal {
+    refuse(expected_diagnostic(input, "a wave index", Some(INDEX_REMEDY.to_owned())))
+}
+
+/// `f[n-1-1]`, `f[n`
+pub(super) fn index_end(input: Input<'_>, opener: Span) -> Refusal {
+    if found(input).kind == FoundKind::End {
+        return unclosed(input, opener, "]");
+    }
+    refuse(
+        expected_diagnostic(input, "`]`", Some(INDEX_REMEDY.to_owned()))
+            .with_secondary(opener, "the index opens here"),
+    )
+}
+
+/// `f[n-99999999]`
+pub(super) fn index_too_large(input: Input<'_>, span: Span) -> Refusal {
+    refuse(
+        at(input, format!("the index is larger than {MAX_INDEX}"), span, "too large")
+            .with_remedy("use a smaller index"),
+    )
+}
+
+/// `f[n](t)`
+pub(super) fn index_and_argument(input: Input<'_>, name: &str) -> Refusal {
+    let start = skip_blank(input);
+    let offset = start.location_offset();
+    refuse(
+        at(
+            input,
+            "a wave has an index or an argument, not both",
+            Span::new(offset, offset + 1),
+            "an argument after an index",
+        )
+        .with_remedy(format!(
+            "write `{name}[n]` for a period, `{name}(t)` for a time; for a product write `*`"
+        )),
+    )
+}
+
+/// `1.2.3`
+pub(super) fn two_points(input: Input<'_>, span: Span) -> Refusal {
+    let second = Span::new(span.end, span.end + 1);
+    refuse(
+        at(input, "a number with two decimal points", second, "second point")
+            .with_remedy("write one point: `0.25`"),
+    )
+}
+
+/// `1_000`
+pub(super) fn grouped_digits(input: Input<'_>, place: Span) -> Refusal {
+    let span = Span::new(place.start, place.start + 1);
+    refuse(
+        at(input, "`_` inside a number", span, "not a digit")
+            .with_remedy("write digits without separators: `1000`, `1e3`"),
+    )
+}
+
+/// A literal beyond the limits.
+pub(super) fn literal(input: Input<'_>, span: Span, error: LiteralError) -> Refusal {
+    refuse(match error {
+        LiteralError::TooManyDigits => {
+            at(input, format!("a number with more than {MAX_DIGITS} digits"), span, "too long")
+                .with_remedy("write fewer digits, or a fraction")
+        }
+        LiteralError::ExponentTooLarge => at(
+            input,
+            format!("the decimal exponent is beyond ±{MAX_DECIMAL_EXPONENT}"),
+            span,
+            "out of range",
+        )
+        .with_remedy("choose units in which the numbers are of moderate size"),
+    })
+}
+
+/// Too many levels.
+pub(super) fn too_deep(input: Input<'_>, span: Span) -> Refusal {
+    refuse(
+        at(input, format!("nested deeper than {MAX_DEPTH} levels"), span, "one level too many")
+            .with_remedy("remove needless parentheses and signs, or name a part with a symbol"),
+    )
+}
+
+/// A quotation mark without partner.
+pub(super) fn unclosed_string(input: Input<'_>, opener: Span, end: Span) -> Refusal {
+    refuse(
+        at(input, "the quotation mark is never closed", opener, "opened here")
+            .with_secondary(end, "`\"` expected before the end of the line")
+            .with_remedy("a title stands on one line, and contains no quotation mark"),
+    )
+}
+
+/// `recurrence` without a string.
+pub(super) fn expected_title(input: Input<'_>) -> Refusal {
+    expected(input, "a title in quotation marks")
+}
+
+/// The first statement is another than `recurrence`.
+pub(super) fn title_missing(input: Input<'_>, span: Span) -> Refusal {
+    refuse(
+        at(input, "the text does not begin with its title", span, "the first statement")
+            .with_remedy("put a first line before it: `recurrence \"Title\"`"),
+    )
+}
+
+/// A second `recurrence`.
+pub(super) fn second_title(input: Input<'_>, span: Span, first: Span) -> Refusal {
+    refuse(
+        at(input, "a second title", span, "another recurrence begins here")
+            .with_secondary(first, "the first title")
+            .with_remedy("a text holds one recurrence; put the other into a file of its own"),
+    )
+}
+
+/// A statement that begins with no word at all.
+pub(super) fn no_keyword(input: Input<'_>) -> Refusal {
+    let Found { description, span, kind } = found(input);
+    let remedy = match kind {
+        FoundKind::Character(found) if !is_foreign(found) => {
+            "to continue the line before, indent this one deeper than the first statement"
+                .to_owned()
+        }
+        _ => keywords(),
+    };
+    let message = format!("a statement cannot begin with {description}");
+    refuse(at(input, message, span, "expected a statement").with_remedy(remedy))
+}
+
+/// A statement that begins with an unknown word.
+pub(super) fn unknown_keyword(input: Input<'_>, word: &str, span: Span) -> Refusal {
+    let diagnostic =
+        at(input, format!("no statement begins with {}", quoted(word)), span, "unknown statement");
+    let after = input.fragment()[span.end - input.location_offset()..].trim_start();
+    let lower = word.to_ascii_lowercase();
+    let remedy = if let Some(keyword) = closest(&lower, FORMS.map(|(keyword, _)| keyword)) {
+        format!("did you mean `{keyword}`?")
+    } else if after.starts_with(['[', '\'', '(', '=', '+', '-', '*', '/']) {
+        format!("an equation begins with `equation`: write `equation {word}…`")
+    } else {
+        keywords()
+    };
+    refuse(diagnostic.with_remedy(remedy))
+}
+
+fn keywords() -> String {
+    let words = FORMS.map(|(keyword, _)| format!("`{keyword}`"));
+    format!("statements begin with one of {}", words.join(", "))
+}
+
+/// A text of blanks and comments.
+pub(super) fn no_statement(source: &Source, form: &str) -> Diagnostic {
+    Diagnostic::new(source, "the text holds no statement", Span::new(0, 0), "no statement here")
+        .with_remedy(format!("begin with a line like `{form}`"))
+}
+
+/// A failure that no parser explained.
+pub(super) fn incomprehensible(source: &Source, span: Span) -> Diagnostic {
+    Diagnostic::new(source, "the text cannot be read from here on", span, "not understood")
+}

@@ -1,0 +1,139 @@
+//! Source to tree: the only module that knows nom. Parsers follow the grammar rule by rule; they
+//! return as soon as anything is wrong, with a message written for the place where it is wrong.
+//!
+//! A parser comes before its blanks: what it returns ends with the last character of its last token,
+//! so that "expected here" points behind the text, not behind the comment after it.
+
+mod complaint;
+mod expression;
+mod lexical;
+mod statement;
+
+use nom::error::{ErrorKind, ParseError};
+use nom::{IResult, Input as _};
+use nom_locate::LocatedSpan;
+
+use super::diagnostic::Diagnostic;
+use super::layout;
+use super::source::Source;
+use super::syntax::{Expression, Listing, Recurrence, Span, Spanned};
+
+/// The rest of a text, aware of its place in the whole.
+type Input<'a> = LocatedSpan<&'a str, Context<'a>>;
+
+type Parsed<'a, T> = IResult<Input<'a>, T, Problem>;
+
+/// What a parser knows about its surroundings.
+#[derive(Clone, Copy)]
+struct Context<'a> {
+    source: &'a Source,
+    /// What the text is called in "the end of the …".
+    unit: &'static str,
+    /// How the whole unit is written, for a remedy.
+    form: Option<&'static str>,
+}
+
+/// Why a parser failed.
+#[derive(Debug)]
+enum Problem {
+    /// It does not apply here, and another may be tried.
+    Inapplicable(Span),
+    /// The text is wrong.
+    Refused(Diagnostic),
+}
+
+impl ParseError<Input<'_>> for Problem {
+    fn from_error_kind(input: Input<'_>, _: ErrorKind) -> Self {
+        Self::Inapplicable(here(input))
+    }
+
+    fn append(_: Input<'_>, _: ErrorKind, other: Self) -> Self {
+        other
+    }
+}
+
+/// The place where the input starts, of no width.
+fn here(input: Input<'_>) -> Span {
+    Span::new(input.location_offset(), input.location_offset())
+}
+
+/// From the start of one input to the start of a later one.
+fn between(from: Input<'_>, to: Input<'_>) -> Span {
+    Span::new(from.location_offset(), to.location_offset())
+}
+
+/// The boundary to nom: what a parser found, or what is wrong.
+fn finish<T>(source: &Source, parsed: Parsed<'_, T>) -> Result<T, Diagnostic> {
+    match parsed {
+        Ok((_, value)) => Ok(value),
+        Err(nom::Err::Failure(Problem::Refused(diagnostic)))
+        | Err(nom::Err::Error(Problem::Refused(diagnostic))) => Err(diagnostic),
+        Err(nom::Err::Failure(Problem::Inapplicable(span)))
+        | Err(nom::Err::Error(Problem::Inapplicable(span))) => {
+            Err(complaint::incomprehensible(source, span))
+        }
+        // Only parsers of streams ask for more input, and there are none here.
+        Err(nom::Err::Incomplete(_)) => {
+            let end = source.text().len();
+            Err(complaint::incomprehensible(source, Span::new(end, end)))
+        }
+    }
+}
+
+fn whole<'a>(source: &'a Source, unit: &'static str) -> Input<'a> {
+    Input::new_extra(source.text(), Context { source, unit, form: None })
+}
+
+/// The statements of a text, one input each.
+fn statements(source: &Source) -> impl Iterator<Item = Input<'_>> {
+    let mut rest = whole(source, "statement");
+    layout::statements(source.text()).into_iter().map(move |Span { start, end }| {
+        // Always moving on from the statement before keeps the count of lines linear.
+        rest = rest.take_from(start - rest.location_offset());
+        let (after, statement) = rest.take_split(end - start);
+        rest = after;
+        statement
+    })
+}
+
+/// See [`parse_recurrence`](super::parse_recurrence).
+pub(super) fn recurrence(source: &Source) -> Result<Recurrence, Diagnostic> {
+    let mut inputs = statements(source);
+    let first =
+        inputs.next().ok_or_else(|| complaint::no_statement(source, "recurrence \"Title\""))?;
+    let title = finish(source, statement::title(first))?;
+    let statements = inputs
+        .map(|input| finish(source, statement::statement(input, &title)))
+        .collect::<Result<_, _>>()?;
+    Ok(Recurrence { source: source.clone(), title, statements })
+}
+
+/// See [`parse_listing`](super::parse_listing).
+pub(super) fn listing(source: &Source) -> Result<Listing, Diagnostic> {
+    let formulas: Vec<Spanned<_>> = statements(source)
+        .map(|input| finish(source, statement::formula(input)))
+        .collect::<Result<_, _>>()?;
+    if formulas.is_empty() {
+        return Err(complaint::no_statement(source, statement::FORMULA_FORM));
+    }
+    Ok(Listing { source: source.clone(), formulas })
+}
+
+/// See [`parse_expression`](super::parse_expression).
+pub(super) fn expression(source: &Source) -> Result<Expression, Diagnostic> {
+    alone(source, "expression")
+}
+
+/// See [`parse_number`](super::parse_number).
+pub(super) fn number(source: &Source) -> Result<Expression, Diagnostic> {
+    alone(source, "number")
+}
+
+/// A text that is one expression; messages call it `unit`.
+fn alone(source: &Source, unit: &'static str) -> Result<Expression, Diagnostic> {
+    let input = whole(source, unit);
+    if lexical::skip_blank(input).fragment().is_empty() {
+        return Err(complaint::nothing(source, unit));
+    }
+    finish(source, expression::alone(input))
+}

@@ -1,0 +1,563 @@
+//! Names and their meaning, and expressions lowered to linear combinations of waves.
+//!
+//! Everything a person may write between two signs becomes a [`Linear`]: an exact expression
+//! without waves, and waves with coefficients. What is allowed where is the scope's to say.
+
+use std::collections::BTreeMap;
+
+use num_traits::ToPrimitive;
+use wavestep_polynomial::{Rational, Symbol};
+
+use super::constant::constant;
+use super::diagnostic::Diagnostic;
+use super::source::Source;
+use super::syntax::{Expression as Tree, Factor, Index, Node, Operator, Sign, Span, Spanned, Wave};
+use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
+use crate::recurrence::WaveIndex;
+
+/// The furthest a recurrence may look back.
+pub const MAX_LAG: i64 = 1000;
+
+/// The largest whole exponent of a power in an expression.
+pub const MAX_EXPONENT: u32 = 1000;
+
+/// The most terms that a product or power in an expression may be worked out to.
+const MAX_TERMS: usize = 100_000;
+
+type Outcome<T> = Result<T, Diagnostic>;
+
+/// How a wave is referred to.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) enum Reference {
+    /// `w[n−lag]` with a number of primes, 0 or 1.
+    Lagged { lag: usize, primes: u32 },
+    /// `Σ_{i<n} w[i−lag]`.
+    Summed { lag: usize },
+    /// `w(t − delay)`.
+    Delayed { delay: Fraction },
+}
+
+/// One wave with its coefficient, and where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct WaveTerm {
+    pub coefficient: Expression,
+    pub wave: WaveIndex,
+    pub reference: Reference,
+    pub span: Span,
+}
+
+/// A linear combination of waves, and what is added to it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Linear {
+    pub rest: Expression,
+    pub waves: Vec<WaveTerm>,
+}
+
+impl From<Expression> for Linear {
+    fn from(rest: Expression) -> Linear {
+        Linear { rest, waves: Vec::new() }
+    }
+}
+
+impl Linear {
+    fn scaled(mut self, factor: &Expression) -> Linear {
+        self.rest = &self.rest * factor;
+        self.waves.iter_mut().for_each(|term| term.coefficient = &term.coefficient * factor);
+        self.waves.retain(|term| !term.coefficient.is_zero());
+        self
+    }
+}
+
+/// The place that an expression stands in, which decides what it may hold.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Place {
+    /// No waves and no time: a period, a start, a factor.
+    Constant(&'static str),
+    /// An equation or a continuity rule: waves by period, scene time.
+    Equation,
+    /// An observable: waves by period or at a delayed scene time, scene time.
+    Observable,
+    /// A formula that was printed: its own variable, and any symbol.
+    Formula,
+}
+
+/// What names mean, and what is known of symbols.
+pub(super) struct Scope {
+    pub source: Source,
+    pub waves: BTreeMap<String, WaveIndex>,
+    pub symbols: BTreeMap<String, Option<Rational>>,
+    pub local: Option<Symbol>,
+    pub time: Option<Symbol>,
+    pub assumptions: Assumptions,
+}
+
+/// An expression in the course of being lowered: where it stands, and the index of a sum around it.
+struct Lowering<'a> {
+    scope: &'a Scope,
+    place: Place,
+    summed: Option<&'a str>,
+}
+
+impl Scope {
+    /// No names yet.
+    pub fn new(source: &Source) -> Scope {
+        Scope {
+            source: source.clone(),
+            waves: BTreeMap::new(),
+            symbols: BTreeMap::new(),
+            local: None,
+            time: None,
+            assumptions: Assumptions::default(),
+        }
+    }
+
+    /// Lowers an expression.
+    pub fn lower(&self, tree: &Tree, place: Place) -> Outcome<Linear> {
+        Lowering { scope: self, place, summed: None }.lower(tree)
+    }
+
+    /// Lowers an expression that may hold neither waves nor time; `what` names it in errors.
+    pub fn lower_constant(&self, tree: &Tree, what: &'static str) -> Outcome<Expression> {
+        let linear = self.lower(tree, Place::Constant(what))?;
+        match linear.waves.first() {
+            None => Ok(linear.rest),
+            Some(term) => Err(self
+                .error(format!("{what} cannot depend on a wave"), term.span, "a wave stands here")
+                .with_remedy("use numbers and declared symbols")),
+        }
+    }
+
+    pub fn error(
+        &self,
+        message: impl Into<String>,
+        span: Span,
+        label: impl Into<String>,
+    ) -> Diagnostic {
+        Diagnostic::new(&self.source, message, span, label)
+    }
+
+    /// Every name that an expression could have meant.
+    fn known_names(&self) -> impl Iterator<Item = &str> {
+        let times = self.local.iter().chain(&self.time).map(Symbol::name);
+        self.waves.keys().chain(self.symbols.keys()).map(String::as_str).chain(times)
+    }
+}
+
+fn symbol(name: &str) -> Symbol {
+    Symbol::new(name).expect("names of the language are names of symbols")
+}
+
+impl<'a> Lowering<'a> {
+    fn error(
+        &self,
+        message: impl Into<String>,
+        span: Span,
+        label: impl Into<String>,
+    ) -> Diagnostic {
+        self.scope.error(message, span, label)
+    }
+
+    fn lower(&self, tree: &Tree) -> Outcome<Linear> {
+        match &tree.value {
+            Node::Number(value) => Ok(Expression::constant(value).into()),
+            Node::Name(name) => self.name(name, tree.span).map(Linear::from),
+            Node::Wave(wave) => self.wave(wave, tree.span),
+            Node::Call { name, argument } => self.call(name, argument, tree.span),
+            Node::Exponential(argument) => self.exponential(argument).map(Linear::from),
+            Node::Summation { term, index, bound } => self.summation(term, index, bound, tree.span),
+            Node::Sum(terms) => {
+                let mut sum = Linear::default();
+                for term in terms {
+                    let mut value = self.lower(&term.value)?;
+                    if term.sign == Sign::Minus {
+                        value = value.scaled(&Expression::integer(-1));
+                    }
+                    sum.rest += &value.rest;
+                    sum.waves.append(&mut value.waves);
+                }
+                Ok(sum)
+            }
+            Node::Product(factors) => self.product(factors),
+            Node::Negate(operand) => Ok(self.lower(operand)?.scaled(&Expression::integer(-1))),
+            Node::Power { base, exponent } => self.power(base, exponent).map(Linear::from),
+        }
+    }
+
+    /// An expression without waves.
+    fn plain(&self, tree: &Tree, instead: &str) -> Outcome<Expression> {
+        let linear = self.lower(tree)?;
+        match linear.waves.first() {
+            None => Ok(linear.rest),
+            Some(term) => Err(self
+                .error(format!("{instead} cannot hold a wave"), term.span, "a wave stands here")
+                .with_remedy(
+                    "waves may be added, and multiplied or divided by what holds no wave",
+                )),
+        }
+    }
+
+    fn name(&self, name: &str, span: Span) -> Outcome<Expression> {
+        let scope = self.scope;
+        if let Some(value) = scope.symbols.get(name) {
+            return Ok(match value {
+                Some(value) => Expression::constant(value),
+                None => Expression::symbol(&symbol(name)),
+            });
+        }
+        let is = |own: &Option<Symbol>| own.as_ref().is_some_and(|own| own.name() == name);
+        match self.place {
+            Place::Formula => return Ok(Expression::symbol(&symbol(name))),
+            Place::Constant(what) if is(&scope.time) || is(&scope.local) => {
+                let message = format!("{what} cannot depend on time");
+                return Err(self
+                    .error(message, span, "this is a time")
+                    .with_remedy("use numbers and declared symbols"));
+            }
+            _ if is(&scope.time) => return Ok(Expression::symbol(&symbol(name))),
+            _ if is(&scope.local) => {
+                let time = scope.time.as_ref().map_or("t", Symbol::name);
+                return Err(self
+                    .error("local time cannot be used here", span, "restarts on every period")
+                    .with_remedy(format!(
+                        "write functions of scene time `{time}`: they go on over all periods"
+                    )));
+            }
+            _ => {}
+        }
+        if scope.waves.contains_key(name) {
+            return Err(self
+                .error(format!("`{name}` is a wave and needs a period"), span, "which period?")
+                .with_remedy(format!(
+                    "write `{name}[n]`, or `{name}[n-1]` for the period before"
+                )));
+        }
+        if name == "n" {
+            return Err(self
+                .error("the period number cannot be used as a value", span, "`n` counts periods")
+                .with_remedy("use it between brackets only, as in `f[n-1]`"));
+        }
+        if Some(name) == self.summed {
+            return Err(self
+                .error("the index of a sum cannot be used as a value", span, "counts periods")
+                .with_remedy("use it between brackets only, as in `sum(f[i], i < n)`"));
+        }
+        Err(self
+            .error(format!("unknown name `{name}`"), span, "not declared")
+            .with_closest(name, scope.known_names())
+            .or_remedy(format!("declare it with `symbol {name}`")))
+    }
+
+    fn wave_named(&self, name: &Spanned<String>) -> Outcome<WaveIndex> {
+        let scope = self.scope;
+        if let Some(wave) = scope.waves.get(&name.value) {
+            return Ok(*wave);
+        }
+        if scope.symbols.contains_key(&name.value) {
+            return Err(self
+                .error(format!("`{}` is a symbol, not a wave", name.value), name.span, "a symbol")
+                .with_remedy(format!(
+                    "write `{0}` alone, or `{0}*(…)` for a product",
+                    name.value
+                )));
+        }
+        Err(self
+            .error(format!("unknown wave `{}`", name.value), name.span, "not declared")
+            .with_closest(&name.value, scope.waves.keys().map(String::as_str))
+            .or_remedy(format!("declare it with `wave {}`", name.value)))
+    }
+
+    fn one_wave(&self, wave: WaveIndex, reference: Reference, span: Span) -> Linear {
+        let term = WaveTerm { coefficient: Expression::one(), wave, reference, span };
+        Linear { rest: Expression::zero(), waves: vec![term] }
+    }
+
+    fn wave(&self, wave: &Wave, span: Span) -> Outcome<Linear> {
+        let index = self.wave_named(&wave.name)?;
+        if wave.primes > 1 {
+            return Err(self
+                .error("second and higher derivatives are not supported", span, "differentiated")
+                .with_remedy("introduce a wave for the first derivative"));
+        }
+        let (lag, summed) = self.lag(&wave.index, &wave.name.value)?;
+        let reference = match (summed, wave.primes) {
+            (false, primes) => Reference::Lagged { lag, primes },
+            (true, 0) => Reference::Summed { lag },
+            (true, _) => {
+                return Err(self
+                    .error("a sum over derivatives is not supported", span, "differentiated")
+                    .with_remedy("sum the wave itself, and differentiate outside the sum"));
+            }
+        };
+        Ok(self.one_wave(index, reference, span))
+    }
+
+    /// How many periods back an index points, and whether it is the index of a sum.
+    fn lag(&self, index: &Spanned<Index>, wave: &str) -> Outcome<(usize, bool)> {
+        let Spanned { value: Index { base, offset }, span } = index;
+        let expected = self.summed.unwrap_or("n");
+        let Some(base) = base else {
+            return Err(self
+                .error("the period must be relative", *span, "a fixed period")
+                .with_remedy(format!("write `{wave}[n]`, `{wave}[n-1]`, …")));
+        };
+        if base.value != expected {
+            let message = format!("`{}` does not count periods here", base.value);
+            return Err(self
+                .error(message, base.span, "not the index of a period")
+                .with_remedy(format!("write `{wave}[{expected}]` or `{wave}[{expected}-1]`")));
+        }
+        if *offset > 0 {
+            return Err(self
+                .error("this wave lies in the future", *span, "a period that is not known yet")
+                .with_remedy(format!(
+                    "shift the equation so that `{wave}[{expected}]` is its latest"
+                )));
+        }
+        if *offset < -MAX_LAG {
+            return Err(self
+                .error("this wave lies too far back", *span, "too many periods before")
+                .with_remedy(format!("look back at most {MAX_LAG} periods")));
+        }
+        let lag = usize::try_from(-offset).expect("the offset is not positive");
+        Ok((lag, self.summed.is_some()))
+    }
+
+    fn call(&self, name: &Spanned<String>, argument: &Tree, span: Span) -> Outcome<Linear> {
+        let wave = self.wave_named(name)?;
+        let time = match (&self.scope.time, self.place) {
+            (Some(time), Place::Observable) => time,
+            _ => {
+                return Err(self
+                    .error("a wave at a scene time can only be observed", span, "not here")
+                    .with_remedy(format!("write `{0}[n]` or `{0}[n-1]`", name.value)));
+            }
+        };
+        let shape = || {
+            self.error("this is no delayed scene time", argument.span, "must be a delayed time")
+                .with_remedy(format!("write `{0}({time})` or `{0}({time} - delay)`", name.value))
+        };
+        if let Node::Name(own) = &argument.value {
+            if self.scope.local.as_ref().is_some_and(|local| local.name() == own) {
+                return Err(shape());
+            }
+        }
+        let argument_value = self.plain(argument, "a time")?.as_fraction().ok_or_else(shape)?;
+        let delay = &Fraction::symbol(time) - &argument_value;
+        if delay.contains(time) {
+            return Err(shape());
+        }
+        if !delay.is_zero() && !self.scope.assumptions.is_positive(&delay) {
+            return Err(self
+                .error("this time may lie in the future", argument.span, "not certainly a delay")
+                .with_remedy("subtract something that is certainly positive from the time"));
+        }
+        Ok(self.one_wave(wave, Reference::Delayed { delay }, span))
+    }
+
+    fn exponential(&self, argument: &Tree) -> Outcome<Expression> {
+        let exponent = self.plain(argument, "an exponent")?;
+        let Some(exponent) = exponent.as_fraction() else {
+            return Err(self
+                .error("an exponential in an exponent", argument.span, "holds an exponential")
+                .with_remedy(
+                    "exponents are quotients of polynomials in the symbols and the time",
+                ));
+        };
+        if let Some(time) = self.scope.time.as_ref().filter(|time| exponent.contains(time)) {
+            if exponent.derivative(time).contains(time) {
+                return Err(self
+                    .error("the exponent is not linear in time", argument.span, "not linear")
+                    .with_remedy(format!("write exponentials such as `exp(-2*{time})`")));
+            }
+        }
+        Ok(Expression::exponential(exponent))
+    }
+
+    fn summation(
+        &self,
+        term: &Tree,
+        index: &Spanned<String>,
+        bound: &Spanned<String>,
+        span: Span,
+    ) -> Outcome<Linear> {
+        if bound.value != "n" || self.summed.is_some() {
+            return Err(self
+                .error("a sum runs over all earlier periods", bound.span, "must be `n`")
+                .with_remedy(format!("write `sum(f[{0}], {0} < n)`", index.value)));
+        }
+        let taken = self.scope.known_names().any(|name| name == index.value) || index.value == "n";
+        if taken {
+            return Err(self
+                .error(format!("`{}` has a meaning already", index.value), index.span, "in use")
+                .with_remedy("choose another name for the index of the sum"));
+        }
+        let inner = Lowering { scope: self.scope, place: self.place, summed: Some(&index.value) };
+        let linear = inner.lower(term)?;
+        if !linear.rest.is_zero() || linear.waves.is_empty() {
+            return Err(self
+                .error("only waves can be summed", span, "a part without a wave stands in here")
+                .with_remedy(format!("sum waves, as in `sum(f[{0}], {0} < n)`", index.value)));
+        }
+        Ok(linear)
+    }
+
+    fn product(&self, factors: &[Factor]) -> Outcome<Linear> {
+        let mut product = Linear::from(Expression::one());
+        for factor in factors {
+            let tree = &factor.value;
+            if factor.operator == Operator::Divide {
+                let inverse = self.inverse(tree)?;
+                self.check_size(&product.rest, &inverse, tree.span)?;
+                product = product.scaled(&inverse);
+                continue;
+            }
+            let value = self.lower(tree)?;
+            self.check_size(&product.rest, &value.rest, tree.span)?;
+            product = match (product.waves.is_empty(), value.waves.is_empty()) {
+                (_, true) => product.scaled(&value.rest),
+                (true, false) => value.scaled(&product.rest),
+                (false, false) => {
+                    let first = product.waves[0].span;
+                    return Err(self
+                        .error(
+                            "a product of waves is not linear",
+                            value.waves[0].span,
+                            "times this",
+                        )
+                        .with_secondary(first, "a wave")
+                        .with_remedy("the equations between waves must be linear"));
+                }
+            };
+            self.check_coefficients(&product, tree.span)?;
+        }
+        Ok(product)
+    }
+
+    /// Coefficients of waves do not depend on time.
+    fn check_coefficients(&self, linear: &Linear, span: Span) -> Outcome<()> {
+        let Some(time) = &self.scope.time else { return Ok(()) };
+        match linear.waves.iter().find(|term| term.coefficient.contains(time)) {
+            None => Ok(()),
+            Some(term) => Err(self
+                .error("the factor of a wave depends on time", span, "depends on time")
+                .with_secondary(term.span, "multiplies this wave")
+                .with_remedy("coefficients are numbers and symbols; time enters by forcing only")),
+        }
+    }
+
+    fn check_size(&self, left: &Expression, right: &Expression, span: Span) -> Outcome<()> {
+        let count = left.term_count().saturating_mul(right.term_count());
+        if count <= MAX_TERMS && degree(left) + degree(right) <= 10 * MAX_EXPONENT {
+            return Ok(());
+        }
+        Err(self
+            .error("this expression is too large when multiplied out", span, "grows too large")
+            .with_remedy(format!("keep products below {MAX_TERMS} terms")))
+    }
+
+    /// `1/tree`, factor by factor.
+    fn inverse(&self, tree: &Tree) -> Outcome<Expression> {
+        match &tree.value {
+            Node::Product(factors) => {
+                let mut inverse = Expression::one();
+                for factor in factors {
+                    let part = match factor.operator {
+                        Operator::Multiply => self.inverse(&factor.value)?,
+                        Operator::Divide => self.plain(&factor.value, "a divisor")?,
+                    };
+                    inverse = &inverse * &part;
+                }
+                Ok(inverse)
+            }
+            Node::Negate(operand) => Ok(-&self.inverse(operand)?),
+            Node::Power { base, exponent } => {
+                let count = self.exponent(exponent)?;
+                if count >= 0 {
+                    Ok(self.inverse(base)?.pow(count.unsigned_abs()))
+                } else {
+                    Ok(self.plain(base, "a divisor")?.pow(count.unsigned_abs()))
+                }
+            }
+            _ => {
+                let value = self.plain(tree, "a divisor")?;
+                self.invert(&value, tree.span)
+            }
+        }
+    }
+
+    fn invert(&self, value: &Expression, span: Span) -> Outcome<Expression> {
+        if let Some(time) = self.scope.time.as_ref().filter(|time| value.contains(time)) {
+            let without_time = value.as_fraction().is_some();
+            if without_time {
+                return Err(self
+                    .error("division by time", span, "depends on time")
+                    .with_remedy(format!("forcing holds powers `{time}^k` and exponentials")));
+            }
+        }
+        if self.place == Place::Formula {
+            let mut terms = value.terms();
+            if let (Some((exponent, coefficient)), None) = (terms.next(), terms.next()) {
+                let inverse = Fraction::reciprocal(coefficient.numerator());
+                let inverse = inverse.map_err(|reason| {
+                    self.error(reason.to_string(), span, "cannot be divided by")
+                })?;
+                let inverse = &inverse * &Fraction::from(coefficient.denominator());
+                return Ok(Expression::from(inverse).times_exponential(&-exponent));
+            }
+        }
+        self.scope.assumptions.invert(value).map_err(|reason| match reason {
+            NotInvertible::Zero => self
+                .error("division by zero", span, "this is zero")
+                .with_remedy("check the signs of what is divided by, and the values given"),
+            NotInvertible::Undeclared(factor) => match Fraction::reciprocal(&factor) {
+                Ok(_) => self
+                    .error(format!("`{factor}` may be zero"), span, "divided by here")
+                    .with_remedy(format!("state that it is not, with `nonzero {factor}`")),
+                Err(_) => self
+                    .error("this cannot be divided by", span, "not linear in any symbol")
+                    .with_remedy("divide by a product of factors that are linear in a symbol each"),
+            },
+            NotInvertible::SumOfExponentials => self
+                .error("division by a sum of exponentials", span, "a sum of exponentials")
+                .with_remedy("introduce a symbol for the quotient"),
+        })
+    }
+
+    fn exponent(&self, tree: &Tree) -> Outcome<i32> {
+        let refuse = |label: &str| {
+            self.error("the exponent is no whole number of moderate size", tree.span, label)
+                .with_remedy(format!("use whole numbers from -{MAX_EXPONENT} to {MAX_EXPONENT}"))
+        };
+        let value = constant(tree, &self.scope.source).map_err(|_| refuse("not a number"))?;
+        if !value.is_integer() {
+            return Err(refuse("not whole"));
+        }
+        let small = value.numer().to_i32().filter(|e| e.unsigned_abs() <= MAX_EXPONENT);
+        small.ok_or_else(|| refuse("too large"))
+    }
+
+    fn power(&self, base: &Tree, exponent: &Tree) -> Outcome<Expression> {
+        let count = self.exponent(exponent)?;
+        if count.is_negative() {
+            return Ok(self.inverse(base)?.pow(count.unsigned_abs()));
+        }
+        let count = count.unsigned_abs();
+        let value = self.plain(base, "the base of a power")?;
+        // A power of m terms has at most C(count+m−1, m−1) terms; counted factor by factor.
+        let mut terms = 1usize;
+        for extra in 1..value.term_count().min(64) {
+            terms = terms.saturating_mul(count as usize + extra) / extra;
+        }
+        if terms > MAX_TERMS || degree(&value).saturating_mul(count) > 10 * MAX_EXPONENT {
+            return Err(self
+                .error("this power is too large when multiplied out", base.span, "to a high power")
+                .with_remedy(format!("keep powers below {MAX_TERMS} terms")));
+        }
+        Ok(value.pow(count))
+    }
+}
+
+/// The highest total degree among the coefficients.
+fn degree(value: &Expression) -> u32 {
+    value.terms().map(|(_, p)| p.numerator().total_degree()).max().unwrap_or(0)
+}

@@ -1,0 +1,573 @@
+//! The language: every text of the corpus, every limit, and random texts and trees.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::Pow;
+use proptest::prelude::*;
+use wavestep::language::syntax::{
+    Expression, Factor, Index, Node, Operator, Recurrence, Sign, Spanned, StatementKind, Term, Wave,
+};
+use wavestep::language::{
+    Diagnostic, MAX_CONSTANT_BITS, MAX_DEPTH, MAX_DIGITS, MAX_SOURCE_BYTES, Source, Span, Style,
+    parse_expression, parse_listing, parse_number, parse_recurrence,
+};
+
+// ---- The corpus -------------------------------------------------------------------------------
+
+/// The texts of a folder of the grammar, in the order of their names.
+fn corpus(folder: &str) -> Vec<(String, Vec<u8>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar").join(folder);
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths
+        .into_iter()
+        .map(|path| {
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+            (name, fs::read(path).unwrap())
+        })
+        .collect()
+}
+
+fn read(name: &str, bytes: &[u8]) -> Result<Recurrence, Diagnostic> {
+    parse_recurrence(&Source::new(&format!("{name}.wave"), bytes)?)
+}
+
+fn assert_prints_and_reads_back(recurrence: &Recurrence) {
+    let printed = recurrence.to_string();
+    let again = read("printed", printed.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(again.title, recurrence.title);
+    assert_eq!(again.statements, recurrence.statements, "{printed}");
+    assert_eq!(again.to_string(), printed);
+    assert!(printed.is_ascii() || !recurrence.title.value.is_ascii());
+}
+
+#[test]
+fn accepted_texts_are_read_and_printed() {
+    let corpus = corpus("accepted");
+    assert!(corpus.len() >= 12);
+    for (name, bytes) in corpus {
+        let recurrence = read(&name, &bytes).unwrap_or_else(|error| panic!("{error}"));
+        assert_prints_and_reads_back(&recurrence);
+        settings().bind(|| {
+            insta::assert_snapshot!(format!("accepted-{name}"), recurrence.to_string());
+        });
+    }
+}
+
+#[test]
+fn rejected_texts_are_explained() {
+    let corpus = corpus("rejected");
+    assert!(corpus.len() >= 25);
+    for (name, bytes) in corpus {
+        let error = read(&name, &bytes).expect_err(&name);
+        assert!(error.remedy().is_some(), "{name} has no remedy");
+        settings().bind(|| {
+            insta::assert_snapshot!(format!("rejected-{name}"), error.render(Style::Plain));
+        });
+    }
+}
+
+/// These follow the grammar; what is wrong with them is for a later stage to find.
+#[test]
+fn texts_with_wrong_names_are_read() {
+    let corpus = corpus("rejected-names");
+    assert!(corpus.len() >= 20);
+    for (name, bytes) in corpus {
+        let recurrence = read(&name, &bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_prints_and_reads_back(&recurrence);
+    }
+}
+
+fn settings() -> insta::Settings {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/language"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings
+}
+
+// ---- What is read -----------------------------------------------------------------------------
+
+fn source(text: &str) -> Source {
+    Source::new("text", text).unwrap()
+}
+
+fn expression(text: &str) -> Expression {
+    parse_expression(&source(text)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn precedence() {
+    for (text, meaning) in [
+        ("-x^2", "-(x^2)"),
+        ("2^3^2", "2^(3^2)"),
+        ("x^-2^2", "x^(-(2^2))"),
+        ("a - b - c", "a - b - c"),
+        ("-a*b", "(-a)*b"),
+        ("+a", "a"),
+        ("((a))", "a"),
+        ("2·x − 1", "2*x - 1"),
+    ] {
+        assert_eq!(expression(text), expression(meaning), "{text}");
+    }
+    for (one, other) in [("(a + b) + c", "a + b + c"), ("a/(b*c)", "a/b*c"), ("(-x)^2", "-x^2")] {
+        assert_ne!(expression(one), expression(other), "{one}");
+    }
+}
+
+#[test]
+fn spans_cover_what_was_read() {
+    let text = "1 + μ*(f[n-1]' - exp( 2 )) ";
+    let source = source(text);
+    let Node::Sum(terms) = expression(text).value else { panic!("a sum") };
+    assert_eq!(source.slice(terms[1].value.span), "μ*(f[n-1]' - exp( 2 ))");
+    let Node::Product(factors) = &terms[1].value.value else { panic!("a product") };
+    assert_eq!(source.slice(factors[1].value.span), "(f[n-1]' - exp( 2 ))");
+    let Node::Sum(inner) = &factors[1].value.value else { panic!("a sum") };
+    assert_eq!(source.slice(inner[0].value.span), "f[n-1]'");
+    assert_eq!(source.slice(inner[1].value.span), "exp( 2 )");
+    let Node::Wave(wave) = &inner[0].value.value else { panic!("a wave") };
+    assert_eq!(source.slice(wave.index.span), "n-1");
+}
+
+#[test]
+fn spans_of_statements_leave_out_comments() {
+    let text =
+        "\u{FEFF}recurrence \"A\"\r\nequation f[n] = # first\r\n  1 # last\r\n\r\nwave f\r\n";
+    let recurrence = parse_recurrence(&source(text)).unwrap();
+    let slices: Vec<&str> = recurrence
+        .statements
+        .iter()
+        .map(|statement| recurrence.source.slice(statement.span))
+        .collect();
+    assert_eq!(slices, ["equation f[n] = # first\r\n  1", "wave f"]);
+}
+
+#[test]
+fn names_in_greek_and_english_are_one() {
+    let recurrence = read("greek", "recurrence \"A\"\nsymbol μ, mu, µ".as_bytes()).unwrap();
+    let StatementKind::Symbols(symbols) = &recurrence.statements[0].value else {
+        panic!("symbols")
+    };
+    assert!(symbols.iter().all(|symbol| symbol.name.value == "mu"));
+}
+
+#[test]
+fn listings_are_read_and_printed() {
+    let text = "\
+f[3](s) = exp(-s)*(-4/3*s^3 + 2*s
+    - 1)   # three periods
+g[0](s) = 0
+";
+    let listing = parse_listing(&source(text)).unwrap_or_else(|error| panic!("{error}"));
+    let printed = listing.to_string();
+    assert_eq!(printed, "f[3](s) = exp(-s)*(-4/3*s^3 + 2*s - 1)\ng[0](s) = 0\n");
+    assert_eq!(parse_listing(&source(&printed)).unwrap().formulas, listing.formulas);
+}
+
+#[test]
+fn wrong_listings_are_explained() {
+    for (name, text) in [
+        ("empty", "# nothing\n"),
+        ("index-symbolic", "f[n](s) = 1\n"),
+        ("argument-missing", "f[3] = 1\n"),
+        ("value-missing", "f[3](s) =\n"),
+        ("statement", "wave f, g\n"),
+    ] {
+        let error = parse_listing(&source(text)).expect_err(name);
+        settings().bind(|| insta::assert_snapshot!(format!("listing-{name}"), error.to_string()));
+    }
+}
+
+#[test]
+fn numbers_are_exact() {
+    for (text, numerator, denominator) in [
+        ("33/10", 33, 10),
+        ("12.34", 617, 50),
+        ("1e3", 1000, 1),
+        ("-0.25", -1, 4),
+        ("2*3/4", 3, 2),
+        (" (1 - 1/3)^-2 ", 9, 4),
+        ("−2^2", -4, 1),
+        ("0^0", 1, 1),
+        ("(-1)^1000000001", -1, 1),
+    ] {
+        let value = BigRational::new(BigInt::from(numerator), BigInt::from(denominator));
+        let found = parse_number(text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(found, value, "{text}");
+    }
+}
+
+#[test]
+fn wrong_numbers_are_explained() {
+    for (name, text) in [
+        ("empty", ""),
+        ("blank", "  "),
+        ("nan", "nan"),
+        ("infinity", "-inf"),
+        ("infinity-sign", "∞"),
+        ("name", "2*mu"),
+        ("two", "1 2"),
+        ("comma", "0,5"),
+        ("percent", "5%"),
+        ("unit", "3mm"),
+        ("hexadecimal", "0x10"),
+        ("assignment", "mu=3"),
+        ("exponential", "exp(1)"),
+        ("divided-by-zero", "1/(2-2)"),
+        ("zero-to-negative-power", "0^-1"),
+        ("root", "2^0.5"),
+        ("tower", "9^9^9^9"),
+    ] {
+        let error = parse_number(text).expect_err(name);
+        settings().bind(|| insta::assert_snapshot!(format!("number-{name}"), error.to_string()));
+    }
+}
+
+#[test]
+fn colour_changes_nothing_but_colour() {
+    let error = read("a", b"recurrence \"A\"\nwave f g").unwrap_err();
+    let coloured = error.render(Style::Coloured);
+    assert!(coloured.contains("\u{1b}["));
+    let mut plain = String::new();
+    let mut rest = coloured.as_str();
+    while let Some((before, after)) = rest.split_once("\u{1b}[") {
+        plain.push_str(before);
+        rest = after.split_once('m').unwrap().1;
+    }
+    plain.push_str(rest);
+    assert_eq!(plain, error.render(Style::Plain));
+}
+
+// ---- Limits -----------------------------------------------------------------------------------
+
+/// Refused with this message, quickly: what is slow here would take minutes if it were quadratic.
+fn assert_refused(text: &str, message: &str) {
+    let start = Instant::now();
+    let error = Source::new("text", text).and_then(|source| parse_expression(&source)).unwrap_err();
+    assert!(error.message().contains(message), "{}", error.message());
+    assert!(error.remedy().is_some());
+    assert!(error.render(Style::Plain).len() < 2000);
+    assert!(start.elapsed() < Duration::from_secs(10));
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    let many = 100_000;
+    for text in [
+        "(".repeat(many),
+        format!("{}1{}", "(".repeat(many), ")".repeat(many)),
+        format!("{}1", "-".repeat(many)),
+        format!("{}1", "+".repeat(many)),
+        format!("{}1", "2^".repeat(many)),
+        format!("{}1", "2^-".repeat(many)),
+        "exp(".repeat(many),
+        "f(".repeat(many),
+        "sum(".repeat(many),
+        "-(".repeat(many),
+        "1+(2*(".repeat(many),
+        "a-(b)^(".repeat(many),
+    ] {
+        assert_refused(&text, "nested deeper");
+    }
+}
+
+#[test]
+fn the_limit_of_nesting_is_sharp_and_leaves_stack() {
+    let depth = usize::from(MAX_DEPTH);
+    // A thread of 1 MiB: half of what threads usually have, an eighth of what programs have.
+    let deepest = move || {
+        for (open, close) in
+            [("(", ")"), ("-", ""), ("2^", ""), ("exp(", ")"), ("1+2*(", ")"), ("1+2*f(", ")")]
+        {
+            let text = format!("{}1{}", open.repeat(depth), close.repeat(depth));
+            let tree = expression(&text);
+            assert_eq!(expression(&tree.to_string()), tree);
+            if !open.contains(['e', 'f', '^']) {
+                assert!(parse_number(&text).is_ok());
+            }
+            let deeper = format!("{open}{text}{close}");
+            assert_refused(&deeper, "nested deeper");
+        }
+    };
+    let thread = std::thread::Builder::new().stack_size(1 << 20).spawn(deepest);
+    thread.unwrap().join().unwrap();
+}
+
+#[test]
+fn long_sums_and_products_are_flat() {
+    let sum = expression(&vec!["1"; 100_000].join("+"));
+    assert!(matches!(&sum.value, Node::Sum(terms) if terms.len() == 100_000));
+    let product = expression(&vec!["f[n]"; 100_000].join("*"));
+    assert!(matches!(&product.value, Node::Product(factors) if factors.len() == 100_000));
+    let primes = expression(&format!("f[n]{}", "'".repeat(100_000)));
+    assert!(matches!(&primes.value, Node::Wave(wave) if wave.primes == 100_000));
+    assert_eq!(parse_number(&vec!["1"; 100_000].join("+")).unwrap(), BigInt::from(100_000).into());
+}
+
+#[test]
+fn long_texts_take_linear_time() {
+    let start = Instant::now();
+    let line = "equation f[n] = g[n-1] + 0.125*(mu - 1) # comment\n";
+    let text = format!("recurrence \"Long\"\n{}", line.repeat(MAX_SOURCE_BYTES / line.len() - 1));
+    let recurrence = read("long", text.as_bytes()).unwrap();
+    assert!(recurrence.statements.len() > 20_000);
+    for text in ["#\n", "\n", " ", "a,", "a\n", "1e-1000+", "f[n]'+"] {
+        let text = format!(
+            "recurrence \"Long\"\nwave {}",
+            text.repeat(MAX_SOURCE_BYTES / text.len() - 20)
+        );
+        if let Err(error) = read("long", text.as_bytes()) {
+            assert!(error.render(Style::Plain).len() < 2000);
+        }
+    }
+    assert!(start.elapsed() < Duration::from_secs(60));
+}
+
+#[test]
+fn large_texts_are_refused() {
+    assert!(Source::new("text", " ".repeat(MAX_SOURCE_BYTES)).is_ok());
+    assert_refused(&" ".repeat(MAX_SOURCE_BYTES + 1), "bytes long");
+    assert!(Source::with_limit("text", "12345", 4).is_err());
+}
+
+#[test]
+fn long_numbers_are_refused() {
+    assert_eq!(expression(&"9".repeat(MAX_DIGITS)).to_string().len(), MAX_DIGITS);
+    assert_refused(&"9".repeat(MAX_DIGITS + 1), "digits");
+    assert_refused(&"9".repeat(1_000_000), "digits");
+    assert_refused("1e1001", "exponent");
+    assert_refused("1e-1001", "exponent");
+    assert_refused(&format!("1e{}", "9".repeat(1_000_000)), "exponent");
+}
+
+#[test]
+fn long_constants_are_refused() {
+    let bits = usize::try_from(MAX_CONSTANT_BITS).unwrap();
+    let harmonic: Vec<String> = (1..bits).map(|k| format!("1/{k}")).collect();
+    for text in ["2^1000000", "(9^999)^(9^9)", &vec!["1e1000"; 1000].join("*"), &harmonic.join("+")]
+    {
+        let error = parse_number(text).unwrap_err();
+        assert!(error.message().contains("too many digits"), "{error}");
+    }
+    assert_eq!(parse_number("2^10000").unwrap(), BigInt::from(2).pow(10_000_u32).into());
+}
+
+// ---- Random texts and trees ---------------------------------------------------------------------
+
+/// Pieces of which wrong texts are usually made.
+const PIECES: [&str; 60] = [
+    "recurrence ",
+    "\"A\"",
+    "symbol ",
+    "nonzero ",
+    "period ",
+    "local ",
+    "time ",
+    "wave ",
+    "equation ",
+    "continuous ",
+    "starts ",
+    "at ",
+    "observe ",
+    "exp",
+    "sum",
+    "f",
+    "n",
+    "μ",
+    "Ω_1",
+    "[",
+    "]",
+    "(",
+    ")",
+    "'",
+    "″",
+    "+",
+    "-",
+    "−",
+    "*",
+    "**",
+    "·",
+    "/",
+    "^",
+    "=",
+    "==",
+    "<",
+    "≤",
+    "!=",
+    "!",
+    ",",
+    ";",
+    ".",
+    "1",
+    "0.5",
+    "1e3",
+    "1e",
+    "1e9999",
+    "_",
+    " ",
+    "\n",
+    "\n  ",
+    "\t",
+    "\r\n",
+    "\r",
+    "#",
+    "# ü\n",
+    "²",
+    "\u{200B}",
+    "\0",
+    "\"",
+];
+
+fn assert_total(bytes: &[u8]) -> Result<(), TestCaseError> {
+    let source = match Source::new("text", bytes) {
+        Ok(source) => source,
+        Err(error) => {
+            prop_assert!(!error.to_string().is_empty());
+            return Ok(());
+        }
+    };
+    let errors = [
+        parse_recurrence(&source).err(),
+        parse_listing(&source).err(),
+        parse_expression(&source).err(),
+        parse_number(source.text()).err(),
+    ];
+    for error in errors.into_iter().flatten() {
+        let Span { start, end } = error.span();
+        prop_assert!(start <= end && source.text().get(start..end).is_some(), "{error}");
+        for label in error.secondary() {
+            prop_assert!(source.text().get(label.span.start..label.span.end).is_some());
+        }
+        prop_assert!(!error.message().contains("cannot be read"), "{error}");
+        prop_assert!(!error.render(Style::Coloured).is_empty());
+    }
+    Ok(())
+}
+
+fn name() -> impl Strategy<Value = Spanned<String>> {
+    "[a-zA-Z][a-z0-9_]{0,3}"
+        .prop_filter("reserved", |name| !["exp", "sum"].contains(&name.as_str()))
+        .prop_filter("ends an expression", |name| {
+            !["starts", "local", "time"].contains(&name.as_str())
+        })
+        .prop_map(anywhere)
+}
+
+fn anywhere<T>(value: T) -> Spanned<T> {
+    Spanned::new(value, Span::new(0, 0))
+}
+
+fn number() -> impl Strategy<Value = Node> {
+    (0_u64.., 0_u32..40, 0_u32..40).prop_map(|(digits, down, up)| {
+        let ten = BigInt::from(10);
+        let numerator = BigInt::from(digits) * ten.clone().pow(up);
+        Node::Number(BigRational::new(numerator, ten.pow(down)))
+    })
+}
+
+fn wave() -> impl Strategy<Value = Node> {
+    (name(), prop::option::of(name()), -9_i64..9, 0_u32..3).prop_map(
+        |(name, base, offset, primes)| {
+            let index = anywhere(Index { base, offset });
+            Node::Wave(Box::new(Wave { name, index, primes }))
+        },
+    )
+}
+
+fn tree() -> impl Strategy<Value = Expression> {
+    let leaf = prop_oneof![number(), name().prop_map(|name| Node::Name(name.value)), wave(),];
+    leaf.prop_map(anywhere).prop_recursive(6, 60, 4, |inner| {
+        let boxed = || inner.clone().prop_map(Box::new);
+        prop_oneof![
+            (name(), boxed()).prop_map(|(name, argument)| Node::Call { name, argument }),
+            boxed().prop_map(Node::Exponential),
+            (boxed(), name(), name()).prop_map(|(term, index, bound)| Node::Summation {
+                term,
+                index,
+                bound
+            }),
+            boxed().prop_map(Node::Negate),
+            (boxed(), boxed()).prop_map(|(base, exponent)| Node::Power { base, exponent }),
+            prop::collection::vec((any::<bool>(), inner.clone()), 2..5).prop_map(|parts| {
+                Node::Sum(
+                    parts
+                        .into_iter()
+                        .enumerate()
+                        .map(|(position, (plus, value))| Term {
+                            sign: if plus || position == 0 { Sign::Plus } else { Sign::Minus },
+                            value,
+                        })
+                        .collect(),
+                )
+            }),
+            prop::collection::vec((any::<bool>(), inner.clone()), 2..5).prop_map(|parts| {
+                Node::Product(
+                    parts
+                        .into_iter()
+                        .enumerate()
+                        .map(|(position, (times, value))| Factor {
+                            operator: if times || position == 0 {
+                                Operator::Multiply
+                            } else {
+                                Operator::Divide
+                            },
+                            value,
+                        })
+                        .collect(),
+                )
+            }),
+        ]
+        .prop_map(anywhere)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        assert_total(&bytes)?;
+    }
+
+    #[test]
+    fn random_characters_never_panic(text in "\\PC{0,100}") {
+        assert_total(text.as_bytes())?;
+    }
+
+    #[test]
+    fn random_pieces_never_panic(pieces in prop::collection::vec(prop::sample::select(&PIECES), 0..40)) {
+        assert_total(pieces.concat().as_bytes())?;
+        assert_total(format!("recurrence \"A\"\n{}", pieces.concat()).as_bytes())?;
+        assert_total(format!("recurrence \"A\"\nequation {}", pieces.concat()).as_bytes())?;
+    }
+
+    #[test]
+    fn damaged_texts_never_panic(
+        (_, mut bytes) in prop::sample::select(corpus("accepted")),
+        place in any::<prop::sample::Index>(),
+        removed in 0_usize..4,
+        piece in prop::sample::select(&PIECES),
+    ) {
+        let start = place.index(bytes.len());
+        let end = (start + removed).min(bytes.len());
+        bytes.splice(start..end, piece.bytes());
+        assert_total(&bytes)?;
+    }
+
+    #[test]
+    fn random_trees_print_and_read_back(tree in tree()) {
+        let printed = tree.to_string();
+        let again = match parse_expression(&source(&printed)) {
+            Ok(again) => again,
+            Err(error) => return Err(TestCaseError::fail(error.to_string())),
+        };
+        prop_assert_eq!(&again, &tree, "{}", printed);
+        prop_assert_eq!(again.to_string(), printed);
+    }
+}
