@@ -109,7 +109,11 @@ pub fn arrange(expression: &Expression, variable: Option<&Symbol>) -> Vec<Term> 
         }
         let (sign, exponent) = Node::sum(fraction_terms(&(&rate * &Fraction::symbol(x))));
         let exponential = Node::Exponential(sign, Box::new(exponent));
-        terms.push(with_factor(inner, exponential));
+        terms.push(match inner.len() {
+            1 => with_factor(inner, exponential),
+            // Here signs stay inside: the bracket is the polynomial of the wave function.
+            _ => (Sign::Plus, Node::Product(vec![exponential, Node::Sum(inner)])),
+        });
     }
     terms
 }
@@ -228,39 +232,57 @@ fn common_denominator(expression: &Expression) -> Integer {
     })
 }
 
-/// The terms of a fraction: those of the numerator, ascending in the symbols, or one quotient.
+/// The terms of a fraction: those of the numerator, ascending in the symbols, or one quotient
+/// with what is common to the terms of the numerator in front of them.
 pub(crate) fn fraction_terms(fraction: &Fraction) -> Vec<Term> {
-    let numerator = polynomial_terms(fraction.numerator());
-    let factors: Vec<Node> = fraction
-        .factors()
-        .map(|(factor, power)| {
-            let (_, base) = Node::sum(positive_first(polynomial_terms(factor)).1);
-            Node::power(base, power)
-        })
-        .collect();
-    if factors.is_empty() {
-        return numerator;
+    if fraction.as_polynomial().is_some() {
+        return polynomial_terms(fraction.numerator());
     }
-    // Factors are stored with a positive leading term; shown with a positive first term.
-    let flipped = fraction.factors().filter(|(factor, power)| {
-        power % 2 == 1 && polynomial_terms(factor).first().is_some_and(|t| t.0 == Sign::Minus)
-    });
-    let outer = if flipped.count() % 2 == 1 { Sign::Minus } else { Sign::Plus };
-    let (sign, numerator) = positive_first(numerator);
-    let (_, numerator) = Node::sum(numerator);
-    let denominator = Node::product(factors);
-    let (numerator, denominator) = match numerator {
-        Node::Number(value) if !value.denom().is_one() => {
-            let mut factors = vec![Node::Number(Rational::from_integer(value.denom().clone()))];
-            match denominator {
-                Node::Product(more) => factors.extend(more),
-                other => factors.push(other),
-            }
-            (Node::Number(Rational::from_integer(value.numer().clone())), Node::product(factors))
-        }
-        other => (other, denominator),
+    let mut sign = Sign::Plus;
+    let positive = |p: &Polynomial| {
+        let (own, terms) = positive_first(polynomial_terms(p));
+        (own, Node::sum(terms).1)
     };
-    vec![(sign.times(outer), Node::Quotient(Box::new(numerator), Box::new(denominator)))]
+    let (content, common, rest) = common_factors(fraction.numerator());
+    let (own, rest) = positive(&rest);
+    sign = sign.times(own);
+    let mut top = common;
+    if rest != Node::Number(Rational::one()) {
+        top.push(rest);
+    }
+    if !content.numer().is_one() {
+        top.insert(0, Node::Number(Rational::from_integer(content.numer().clone())));
+    }
+    let mut bottom = Vec::new();
+    if !content.denom().is_one() {
+        bottom.push(Node::Number(Rational::from_integer(content.denom().clone())));
+    }
+    for (factor, power) in fraction.factors() {
+        // Factors are stored with a positive leading term, and shown with a positive first term.
+        let (own, base) = positive(factor);
+        if power % 2 == 1 {
+            sign = sign.times(own);
+        }
+        bottom.push(Node::power(base, power));
+    }
+    let quotient = Node::Quotient(Box::new(Node::product(top)), Box::new(Node::product(bottom)));
+    vec![(sign, quotient)]
+}
+
+/// The content of a polynomial, the powers of symbols common to its terms, and the rest.
+fn common_factors(p: &Polynomial) -> (Rational, Vec<Node>, Polynomial) {
+    let content = p.content();
+    let mut rest = p / &content;
+    let mut common = Vec::new();
+    for symbol in p.symbols() {
+        let lowest = rest.coefficients(symbol).last().map_or(0, |(power, _)| *power);
+        if lowest > 0 {
+            let power = Polynomial::symbol(symbol).pow(lowest);
+            rest = rest.divide(&power).expect("the power divides every term");
+            common.push(Node::power(Node::Symbol(symbol.clone()), lowest));
+        }
+    }
+    (content, common, rest)
 }
 
 /// The terms of a polynomial by ascending total degree.

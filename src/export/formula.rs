@@ -1,7 +1,7 @@
 //! Formulas with their heads, one a line, as text or LaTeX.
 
 use crate::export::arrangement::{Term, arrange};
-use crate::export::lines::fill;
+use crate::export::lines::{Atom, fill};
 use crate::export::notation::{Latex, Notation, Text, write, write_flat};
 use crate::expression::{Expression, Fraction};
 use wavestep_polynomial::{Rational, Symbol};
@@ -67,13 +67,38 @@ pub(crate) fn indexed(name: &str, index: &str) -> String {
     format!("{name}_{{{index}}}")
 }
 
-/// One formula: `head = terms`, and a remark.
+/// What the right-hand side of a formula says.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Right {
+    /// A sum of terms; zero where there are none.
+    Terms(Vec<Term>),
+    /// Written as it is, in text and in LaTeX.
+    Written(String, String),
+}
+
+impl Right {
+    fn text(&self) -> Vec<Atom> {
+        match self {
+            Right::Terms(terms) => write(terms, &Text),
+            Right::Written(text, _) => vec![Atom::solid(text, Text.width(text))],
+        }
+    }
+
+    fn latex(&self) -> Vec<Atom> {
+        match self {
+            Right::Terms(terms) => write(terms, &Latex),
+            Right::Written(_, latex) => vec![Atom::solid(latex, Latex.width(latex))],
+        }
+    }
+}
+
+/// One formula: `head = right`, and a remark.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Formula {
     /// The left-hand side.
     pub head: Head,
     /// The right-hand side.
-    pub terms: Vec<Term>,
+    pub right: Right,
     /// A remark in text, and in LaTeX.
     pub remark: Option<(String, String)>,
 }
@@ -81,7 +106,7 @@ pub struct Formula {
 impl Formula {
     /// `head = expression`, arranged by `variable`.
     pub fn new(head: Head, expression: &Expression, variable: &Symbol) -> Formula {
-        Formula { head, terms: arrange(expression, Some(variable)), remark: None }
+        Formula { head, right: Right::Terms(arrange(expression, Some(variable))), remark: None }
     }
 
     /// The formula with the interval on which a piece holds as its remark:
@@ -112,7 +137,7 @@ impl Formula {
     /// Plain text, one formula a line; continuation lines and a remark are indented.
     pub fn to_text(&self) -> String {
         let head = format!("{} = ", self.head.text());
-        let lines = fill(&write(&self.terms, &Text), TEXT_WIDTH, head.len(), 4);
+        let lines = fill(&self.right.text(), TEXT_WIDTH, head.len(), 4);
         let mut text = format!("{head}{}\n", lines.join("\n    "));
         if let Some((remark, _)) = &self.remark {
             text.push_str(&format!("    # {remark}\n"));
@@ -124,7 +149,7 @@ impl Formula {
     fn latex_rows(&self, width: usize) -> Vec<String> {
         let head = self.head.latex();
         let used = Latex.width(&head) + 3;
-        let lines = fill(&write(&self.terms, &Latex), width, used, used + 2);
+        let lines = fill(&self.right.latex(), width, used, used + 2);
         let mut rows = Vec::new();
         for (i, line) in lines.into_iter().enumerate() {
             rows.push(match i {
@@ -137,7 +162,7 @@ impl Formula {
 
     /// The lines of a case: the right-hand side in one cell, the remark in the next.
     fn latex_case(&self, width: usize) -> String {
-        let lines = fill(&write(&self.terms, &Latex), width, 0, 2);
+        let lines = fill(&self.right.latex(), width, 0, 2);
         let remark = self.remark.as_ref().map_or("", |(_, latex)| latex);
         let body = match &lines[..] {
             [line] => line.clone(),

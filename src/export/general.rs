@@ -1,7 +1,7 @@
 //! General forms, and the equations for which none was found, as formulas.
 
 use crate::export::arrangement::{Node, Sign, Term, arrange};
-use crate::export::formula::{Formula, Head, indexed};
+use crate::export::formula::{Formula, Head, Right, indexed};
 use crate::export::notation::{Latex, Notation, Text, write_flat};
 use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::{Recurrence, WaveIndex};
@@ -40,12 +40,11 @@ fn written(text: &str) -> (String, String) {
 }
 
 fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<Formula> {
-    let statement = recurrence.statement();
-    let wave = &statement.waves[wave];
+    let wave = &recurrence.statement().waves[wave];
     let n = name("n");
     let formula = |index: &str, terms: Vec<Term>| Formula {
         head: Head::Written(format!("{wave}[{index}]"), indexed(wave, index)),
-        terms,
+        right: Right::Terms(terms),
         remark: None,
     };
     let first = form.first.iter().enumerate();
@@ -59,18 +58,16 @@ fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<
     });
     terms.extend(arrange(&polynomial, Some(&n)));
     for term in form.terms.iter().filter(|term| !term.ratio.is_one()) {
-        terms.push(geometric_term(term, &n, &statement.assumptions));
+        terms.push(geometric_term(term, &n));
     }
     formulas.push(formula("n", terms));
     formulas
 }
 
-/// `c n^j λ^n`; where `c/λ` is a number, `(c/λ) n^j λ^{n+1}`.
-fn geometric_term(term: &GeometricTerm, n: &Symbol, assumptions: &Assumptions) -> Term {
-    let inverse = assumptions.invert(&term.ratio).ok();
-    let over_ratio = inverse.and_then(|inverse| (&term.coefficient * &inverse).as_constant());
-    let own = term.coefficient.as_constant();
-    let (coefficient, more) = match (own, over_ratio) {
+/// `c n^j λ^n`; where `c/λ` is a number and `c` is not, `(c/λ) n^j λ^{n+1}`.
+fn geometric_term(term: &GeometricTerm, n: &Symbol) -> Term {
+    let proportion = term.coefficient.proportion(&term.ratio);
+    let (coefficient, more) = match (term.coefficient.as_constant(), proportion) {
         (None, Some(number)) => (Expression::constant(&number), 1),
         _ => (term.coefficient.clone(), 0),
     };
@@ -131,7 +128,11 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
         format!("phi_{wave}[k]({x})"),
         format!("\\varphi^{{{latex_wave}}}_{{k}}({})", Latex.symbol(x)),
     );
-    formulas.push(Formula { head, terms: template_terms(template, x, &k), remark: None });
+    formulas.push(Formula {
+        head,
+        right: Right::Terms(template_terms(template, x, &k)),
+        remark: None,
+    });
     formulas
 }
 
@@ -143,14 +144,15 @@ fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
     let delay = |notation: &dyn Notation| write_flat(&arrange(&delay, None), notation);
     let (text, latex) = (delay(&Text), delay(&Latex));
     let (latex_wave, latex_time) = (Latex::name(wave), Latex.symbol(t));
-    let head = Head::Written(
-        format!("{wave}({t}) = sum(phi_{wave}[k]({t} - {text}), 0 <= {text} <= {t}); phi_{wave}"),
+    let head = Head::Written(format!("{wave}({t})"), format!("{latex_wave}({latex_time})"));
+    let right = Right::Written(
+        format!("sum(phi_{wave}[k]({t} - {text}), 0 <= {text} <= {t})"),
         format!(
-            "{latex_wave}({latex_time}) &= \\sum_{{0 \\le {latex} \\le {latex_time}}} \
+            "\\sum_{{0 \\le {latex} \\le {latex_time}}} \
              \\varphi^{{{latex_wave}}}_{{k}}({latex_time} - {latex})"
         ),
     );
-    Formula { head, terms: Vec::new(), remark: None }
+    Formula { head, right, remark: None }
 }
 
 /// `ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)`.

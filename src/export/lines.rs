@@ -11,6 +11,13 @@ pub struct Atom {
     pub break_before: Option<usize>,
 }
 
+impl Atom {
+    /// Writing that is never broken.
+    pub fn solid(text: &str, width: usize) -> Atom {
+        Atom { text: text.to_owned(), width, break_before: None }
+    }
+}
+
 /// Distributes atoms to lines of at most `width` where the atoms allow it. A line that is too long
 /// is broken at the last place before its end; among the places in the line's second half, at one
 /// inside the fewest brackets. Cost: O(atoms · atoms in a line).

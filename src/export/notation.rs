@@ -23,6 +23,8 @@ pub trait Notation {
     fn factorial(&self, of: &str, simple: bool) -> String;
     /// What stands between two factors.
     fn times(&self, left: &Node, right: &Node) -> &'static str;
+    /// Brackets that grow with what is in them.
+    fn enclosed(&self, text: &str) -> String;
     /// Brackets at a depth of nesting, 0 outermost.
     fn brackets(&self, depth: usize) -> (&'static str, &'static str);
     /// How wide a piece of writing is on the page.
@@ -114,7 +116,7 @@ impl Writer<'_> {
                 let text = self.flat(base);
                 let simple = matches!(&**base, Node::Symbol(_))
                     || matches!(&**base, Node::Number(value) if value.denom().is_one());
-                let base = if simple { text } else { self.bracketed(text) };
+                let base = if simple { text } else { n.enclosed(&text) };
                 let text = self.flat(exponent);
                 n.power(&base, &text)
             }
@@ -122,7 +124,7 @@ impl Writer<'_> {
                 let minus = if *sign == Sign::Minus { "-" } else { "" };
                 let brackets = matches!(**exponent, Node::Sum(_)) && *sign == Sign::Minus;
                 let text = self.flat(exponent);
-                let text = if brackets { self.bracketed(text) } else { text };
+                let text = if brackets { n.enclosed(&text) } else { text };
                 n.exponential(&format!("{minus}{text}"))
             }
             Node::Laguerre(index, argument) => n.laguerre(&self.flat(index), &self.flat(argument)),
@@ -130,11 +132,6 @@ impl Writer<'_> {
                 n.factorial(&self.flat(of), matches!(**of, Node::Symbol(_) | Node::Number(_)))
             }
         }
-    }
-
-    fn bracketed(&self, text: String) -> String {
-        let (open, close) = self.notation.brackets(1);
-        format!("{open}{text}{close}")
     }
 }
 
@@ -183,6 +180,10 @@ impl Notation for Text {
 
     fn times(&self, _: &Node, _: &Node) -> &'static str {
         "*"
+    }
+
+    fn enclosed(&self, text: &str) -> String {
+        format!("({text})")
     }
 
     fn brackets(&self, _: usize) -> (&'static str, &'static str) {
@@ -270,6 +271,11 @@ impl Notation for Latex {
             (_, Node::Sum(_)) => "\\,",
             _ => " ",
         }
+    }
+
+    fn enclosed(&self, text: &str) -> String {
+        let tall = text.contains("\\frac");
+        if tall { format!("\\left({text}\\right)") } else { format!("({text})") }
     }
 
     fn brackets(&self, depth: usize) -> (&'static str, &'static str) {

@@ -165,6 +165,15 @@ impl Expression {
         Expression { terms: terms.collect() }
     }
 
+    /// The number `q` with `self = q · other`, where there is one; `None` for zero.
+    pub fn proportion(&self, other: &Expression) -> Option<Rational> {
+        let leading = |value: &Expression| {
+            value.terms().next().map(|(_, p)| p.numerator().leading_coefficient())
+        };
+        let ratio = leading(self)? / leading(other)?;
+        (*self == other.scale(&ratio)).then_some(ratio)
+    }
+
     /// `self^exponent`, by repeated squaring.
     pub fn pow(&self, exponent: u32) -> Expression {
         let mut power = Expression::one();
