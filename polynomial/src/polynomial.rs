@@ -215,17 +215,16 @@ impl Polynomial {
     /// not 1.
     pub fn is_valid(&self) -> bool {
         let width = self.symbols.len();
-        let rebuilt = Polynomial::from_parts(
-            self.symbols.clone(),
-            self.terms.clone(),
-            self.denominator.clone(),
-        );
-        self.symbols.windows(2).all(|pair| pair[0] < pair[1])
+        let in_form = self.symbols.windows(2).all(|pair| pair[0] < pair[1])
             && self.terms.iter().all(|term| term.exponents.len() == width)
             && self.terms.windows(2).all(|pair| pair[0].exponents > pair[1].exponents)
             && self.terms.iter().flat_map(|term| &term.exponents).all(|e| *e <= Self::MAX_EXPONENT)
-            && self.denominator.is_positive()
-            && rebuilt == *self
+            && self.denominator.is_positive();
+        let rebuilt = || {
+            let (symbols, terms) = (self.symbols.clone(), self.terms.clone());
+            Polynomial::from_parts(symbols, terms, self.denominator.clone())
+        };
+        in_form && rebuilt() == *self
     }
 }
 
@@ -233,5 +232,33 @@ impl Default for Polynomial {
     /// The polynomial 0.
     fn default() -> Polynomial {
         Polynomial::zero()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn broken_invariants_are_seen() {
+        let valid: Polynomial = "1/2*a*b + a".parse().unwrap();
+        assert!(valid.is_valid());
+        let breaks: [fn(&mut Polynomial); 9] = [
+            |p| p.symbols = [p.symbols[1].clone(), p.symbols[0].clone()].into(),
+            |p| p.symbols = p.symbols[..1].into(),
+            |p| p.terms.reverse(),
+            |p| p.terms[1] = p.terms[0].clone(),
+            |p| p.terms[0].exponents[0] = Polynomial::MAX_EXPONENT + 1,
+            |p| p.terms[0].numerator = BigInt::ZERO,
+            |p| p.terms.iter_mut().for_each(|term| term.exponents[1] = 0),
+            |p| p.denominator = -p.denominator.clone(),
+            |p| p.terms.iter_mut().for_each(|term| term.numerator *= 2),
+        ];
+        for (i, breaks) in breaks.iter().enumerate() {
+            let mut broken = valid.clone();
+            breaks(&mut broken);
+            assert!(!broken.is_valid(), "case {i}");
+        }
+        assert!(!Polynomial { denominator: 2.into(), ..Polynomial::zero() }.is_valid());
     }
 }

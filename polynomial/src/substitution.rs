@@ -9,6 +9,7 @@ use crate::symbol::Symbol;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
+use smallvec::smallvec;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Polynomial {
@@ -26,6 +27,11 @@ impl Polynomial {
     /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn substitute(&self, x: &Symbol, value: &Polynomial) -> Polynomial {
         let Some(column) = self.column(x) else { return self.clone() };
+        if value.is_zero() {
+            let left = self.terms.iter().filter(|term| term.exponents[column] == 0);
+            let terms = left.cloned().collect();
+            return Polynomial::from_parts(self.symbols.clone(), terms, self.denominator.clone());
+        }
         let symbols = common_symbols(&self.symbols, &value.symbols);
         let powers = divided_powers(value, self.exponents_in(column));
         let denominator = powers.values().fold(BigInt::one(), |d, p| lcm(&d, &p.denominator));
@@ -101,8 +107,21 @@ impl Polynomial {
     }
 }
 
-/// `q^[e] = q^e/e!` for these exponents.
+/// `q^[e] = q^e/e!` for these exponents; `(cy)^[e] = c^e y^[e]` for a multiple of a symbol.
 fn divided_powers(q: &Polynomial, exponents: BTreeSet<u32>) -> BTreeMap<u32, Polynomial> {
+    if let [Term { exponents: one, numerator }] = &q.terms[..]
+        && one[..] == [1]
+    {
+        let (mut last, mut top, mut bottom) = (0, BigInt::one(), BigInt::one());
+        let next = exponents.into_iter().map(|e| {
+            top *= numerator.pow(e - last);
+            bottom *= q.denominator.pow(e - last);
+            last = e;
+            let term = Term { exponents: smallvec![e], numerator: top.clone() };
+            (e, Polynomial::from_parts(q.symbols.clone(), vec![term], bottom.clone()))
+        });
+        return next.collect();
+    }
     let (mut last, mut power) = (0, Polynomial::one());
     let next = exponents.into_iter().map(|e| {
         let quotient = BigRational::new(BigInt::one(), falling_factorial(e, e - last));

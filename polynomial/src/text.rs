@@ -72,8 +72,7 @@ pub enum Expected {
     Factor,
     /// `+`, `-`, `*` or the end.
     Operator,
-    /// An integer exponent, with which the symbol has one of at most
-    /// [`Polynomial::MAX_EXPONENT`] in its term.
+    /// An integer exponent; at most [`Polynomial::MAX_EXPONENT`] for one symbol in one term.
     Exponent,
     /// A denominator other than zero.
     Denominator,
@@ -86,7 +85,7 @@ impl fmt::Display for ReadError {
             Expected::Factor => f.write_str("a number or a name"),
             Expected::Operator => f.write_str("`+`, `-`, `*` or the end"),
             Expected::Exponent => {
-                write!(f, "an exponent that makes at most {}", Polynomial::MAX_EXPONENT)
+                write!(f, "an exponent, at most {} in a term", Polynomial::MAX_EXPONENT)
             }
             Expected::Denominator => f.write_str("a denominator other than zero"),
         }

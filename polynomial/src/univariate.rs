@@ -278,3 +278,22 @@ impl Mul for &Univariate {
         Univariate::new(products, &self.denominator * &other.denominator)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn broken_invariants_are_seen() {
+        let broken = |coefficients: &[i64], denominator: i64| {
+            let coefficients = coefficients.iter().map(|c| BigInt::from(*c)).collect();
+            !Univariate { coefficients, denominator: denominator.into() }.is_valid()
+        };
+        assert!(!broken(&[1, 2], 2));
+        assert!(broken(&[1, 0], 2));
+        assert!(broken(&[1, 2], -2));
+        assert!(broken(&[4, 2], 2));
+        assert!(broken(&[], 2));
+        assert!(broken(&[1], 0));
+    }
+}

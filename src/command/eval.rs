@@ -18,6 +18,9 @@ use wavestep::solution::Solution;
 /// The most times that are evaluated at once.
 const MAX_POINTS: usize = 1_000_000;
 
+/// More digits than a ball of the highest precision has.
+const ALL_DIGITS: usize = 1 << 30;
+
 /// One value with its time.
 struct Row {
     time: BigRational,
@@ -82,7 +85,7 @@ fn times(options: &Eval, period: &BigRational, side: Side) -> Result<Vec<BigRati
         Failure::usage(format!("the time {time} lies before the start"), "give times from 0 on")
     };
     if let (Some(n), Some(local)) = (options.piece, &options.local) {
-        let local = input::number(local)?;
+        let local = input::number("--local", local)?;
         let inside =
             !local.is_negative() && (local < *period || (local == *period && side == Side::Left));
         if !inside {
@@ -93,7 +96,7 @@ fn times(options: &Eval, period: &BigRational, side: Side) -> Result<Vec<BigRati
         return Ok(vec![period * BigRational::from_integer(n.into()) + local]);
     }
     if let (Some(from), Some(to), Some(points)) = (&options.from, &options.to, options.points) {
-        let (from, to) = (input::number(from)?, input::number(to)?);
+        let (from, to) = (input::number("--from", from)?, input::number("--to", to)?);
         if from.is_negative() {
             return Err(early(&from));
         }
@@ -114,7 +117,7 @@ fn times(options: &Eval, period: &BigRational, side: Side) -> Result<Vec<BigRati
         return Err(Failure::usage("no time is given", remedy));
     }
     let time = |text: &String| {
-        let time = input::number(text)?;
+        let time = input::number("--at", text)?;
         if time.is_negative() { Err(early(&time)) } else { Ok(time) }
     };
     options.at.iter().map(time).collect()
@@ -182,7 +185,7 @@ fn json_value(row: &Row, digits: usize) -> Json {
             json!({"time": time, "value": decimal, "exact": value.to_string(), "radius": "0"})
         }
         Value::Certified(certified) => {
-            let enclosure = certified.ball.to_decimal(usize::MAX);
+            let enclosure = certified.ball.to_decimal(ALL_DIGITS);
             json!({
                 "time": time,
                 "value": decimal,

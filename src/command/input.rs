@@ -40,13 +40,20 @@ fn source(name: &str) -> Result<Source, Failure> {
 fn values(settings: &[String]) -> Result<BTreeMap<String, BigRational>, Failure> {
     let mut values = BTreeMap::new();
     for setting in settings {
-        let Some((name, value)) = setting.split_once('=') else {
+        let (name, value) = setting.split_once('=').unwrap_or((setting, ""));
+        let name = name.trim();
+        if name.is_empty() {
+            let message = format!("`--set {setting}` names no symbol");
+            return Err(Failure::usage(message, "write --set NAME=VALUE"));
+        }
+        if value.trim().is_empty() {
             let message = format!("`--set {setting}` gives no value");
-            return Err(Failure::usage(message, format!("write --set {setting}=1")));
-        };
+            return Err(Failure::usage(message, format!("write --set {name}=1")));
+        }
+        let value = number(&format!("--set {name}"), value)?;
         // A Greek letter is normalised in the same way as in a scene.
-        let name = language::normalise_name(name.trim());
-        if values.insert(name.clone(), number(value)?).is_some() {
+        let name = language::normalise_name(name);
+        if values.insert(name.clone(), value).is_some() {
             let message = format!("two values are given for `{name}`");
             return Err(Failure::usage(message, "give each symbol one value"));
         }
@@ -54,7 +61,11 @@ fn values(settings: &[String]) -> Result<BTreeMap<String, BigRational>, Failure>
     Ok(values)
 }
 
-/// Reads an exact number.
-pub fn number(text: &str) -> Result<BigRational, Failure> {
-    Ok(language::parse_number(text)?)
+/// Reads an exact number given as this argument.
+pub fn number(argument: &str, text: &str) -> Result<BigRational, Failure> {
+    if text.trim().is_empty() {
+        let remedy = format!("write a number such as {argument} 33/10");
+        return Err(Failure::usage(format!("`{argument}` gives no number"), remedy));
+    }
+    Ok(language::read_number(&Source::new(argument, text)?)?)
 }

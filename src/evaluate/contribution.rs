@@ -4,6 +4,7 @@ use crate::ball::{Ball, BallError, evaluate_divided, exp_of_rational};
 use crate::evaluate::modular::{self, Residue};
 use num_traits::Zero;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use wavestep_polynomial::{Rational, Univariate};
 
 /// `factor · amount · e^{exponent}`.
@@ -16,7 +17,7 @@ pub(crate) struct Contribution {
 /// A rational number, given or as the value of a polynomial.
 pub(crate) enum Amount {
     Number(Rational),
-    Polynomial(Univariate, Rational),
+    Polynomial(Rc<Univariate>, Rational),
 }
 
 impl Amount {

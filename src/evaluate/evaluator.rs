@@ -4,19 +4,19 @@ use crate::ball::{Ball, BallError, Certified, CertifyError, certify};
 use crate::evaluate::contribution::{Amount, Contribution, enclose, rational_value};
 use crate::expression::{EchoSum, ExponentialSum, Expression};
 use crate::recurrence::{Observation, WaveIndex};
-use crate::solution::{EchoRow, Rows, Solution, SolveError};
+use crate::solution::{EchoRow, Solution, SolveError};
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::rc::Rc;
-use wavestep_polynomial::{Integer, Rational, Symbol};
+use wavestep_polynomial::{Integer, Rational, Symbol, Univariate};
 
 /// The most significant digits that are certified.
 pub const MAX_DIGITS: usize = 10_000;
 
 /// The most periods before a time, where echoes have a closed form.
-pub const MAX_ORDER: usize = 5_000;
+pub const MAX_ORDER: usize = 2_000;
 
 /// The most periods before a time, where echoes are derived one from another.
 pub const MAX_ORDER_WITHOUT_FORM: usize = 400;
@@ -70,6 +70,9 @@ impl fmt::Display for EvaluateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             EvaluateError::MissingValue(symbol) => write!(f, "the symbol {symbol} has no value"),
+            EvaluateError::TooManyPeriods { periods, limit } if periods.bits() > 64 => {
+                write!(f, "far more than the {limit} periods that are worked out lie before this time")
+            }
             EvaluateError::TooManyPeriods { periods, limit } => write!(
                 f,
                 "{periods} periods lie before this time, and at most {limit} are worked out"
@@ -94,17 +97,20 @@ impl From<SolveError> for EvaluateError {
 }
 
 /// The echoes of a wave, in the cheapest exact form.
-enum Echoes<'a> {
-    Rows(Rows<'a>),
+enum Echoes {
+    Rows(Vec<Row>),
     Expressions(EchoSum),
 }
+
+/// The parts of an echo: rates with polynomials.
+type Row = Vec<(Rational, Rc<Univariate>)>;
 
 /// Evaluates waves and observables of a solution in which every symbol has a value.
 pub struct Evaluator<'a> {
     solution: &'a Solution,
     period: Rational,
     /// The echoes of waves asked for, with the order they are known to.
-    echoes: RefCell<BTreeMap<WaveIndex, (usize, Rc<Echoes<'a>>)>>,
+    echoes: RefCell<BTreeMap<WaveIndex, (usize, Rc<Echoes>)>>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -208,7 +214,7 @@ impl<'a> Evaluator<'a> {
         for k in 0..=last {
             let x = time - &self.period * Rational::from_integer(k.into());
             match &*echoes {
-                Echoes::Rows(rows) => add_row(&rows.row(k), order, x, contributions),
+                Echoes::Rows(rows) => add_row(&rows[k], order, x, contributions),
                 Echoes::Expressions(sum) => {
                     let mut echo = sum.echoes()[k].clone();
                     for _ in 0..order {
@@ -251,28 +257,30 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn echoes(&self, wave: WaveIndex, last: usize) -> Result<Rc<Echoes<'a>>, EvaluateError> {
+    fn echoes(&self, wave: WaveIndex, last: usize) -> Result<Rc<Echoes>, EvaluateError> {
         if let Some((known, echoes)) = self.echoes.borrow().get(&wave) {
             if *known >= last {
                 return Ok(echoes.clone());
             }
         }
-        // Derived one from another, echoes are made with some in reserve.
-        let through =
-            if self.solution.has_template(wave) { MAX_ORDER } else { last.next_multiple_of(16) };
+        // With some in reserve: times are often asked for in ascending order.
+        let through = (last + last / 2).max(16);
         let echoes = Rc::new(match self.solution.rows(wave, through)? {
-            Some(rows) => Echoes::Rows(rows),
-            None => Echoes::Expressions(self.solution.echoes(wave, last)?),
+            Some(rows) => Echoes::Rows(rows.into_iter().map(shared).collect()),
+            None => Echoes::Expressions(self.solution.echoes(wave, through)?),
         });
-        let known = if matches!(*echoes, Echoes::Rows(_)) { through } else { last };
-        self.echoes.borrow_mut().insert(wave, (known, echoes.clone()));
+        self.echoes.borrow_mut().insert(wave, (through, echoes.clone()));
         Ok(echoes)
     }
 }
 
+fn shared(row: EchoRow) -> Row {
+    row.parts.into_iter().map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect()
+}
+
 /// Adds the echo, or with `order` 1 its derivative `Σ e^{λx} (P' + λP)`, at `x`.
-fn add_row(row: &EchoRow, order: u32, x: Rational, contributions: &mut Vec<Contribution>) {
-    for (rate, polynomial) in &row.parts {
+fn add_row(row: &Row, order: u32, x: Rational, contributions: &mut Vec<Contribution>) {
+    for (rate, polynomial) in row {
         let mut add = |polynomial, factor| {
             contributions.push(Contribution {
                 factor,
@@ -284,7 +292,7 @@ fn add_row(row: &EchoRow, order: u32, x: Rational, contributions: &mut Vec<Contr
         if order == 0 {
             add(polynomial.clone(), one());
         } else {
-            add(polynomial.derivative(), one());
+            add(Rc::new(polynomial.derivative()), one());
             add(polynomial.clone(), rate.clone());
         }
     }

@@ -3,7 +3,7 @@
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 use std::fmt;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// A polynomial over a product of irreducible factors,
@@ -306,6 +306,28 @@ impl Sub for &Fraction {
     }
 }
 
+impl AddAssign<&Fraction> for Fraction {
+    /// Where neither has a denominator, into the terms of `self`.
+    fn add_assign(&mut self, other: &Fraction) {
+        if self.factors.is_empty() && other.factors.is_empty() {
+            self.numerator += &other.numerator;
+        } else {
+            *self = &*self + other;
+        }
+    }
+}
+
+impl SubAssign<&Fraction> for Fraction {
+    /// Where neither has a denominator, into the terms of `self`.
+    fn sub_assign(&mut self, other: &Fraction) {
+        if self.factors.is_empty() && other.factors.is_empty() {
+            self.numerator -= &other.numerator;
+        } else {
+            *self = &*self - other;
+        }
+    }
+}
+
 impl Mul for &Fraction {
     type Output = Fraction;
     fn mul(self, other: &Fraction) -> Fraction {
@@ -326,7 +348,7 @@ impl Mul for &Fraction {
 impl Neg for &Fraction {
     type Output = Fraction;
     fn neg(self) -> Fraction {
-        self.scale(&-Rational::one())
+        Fraction { numerator: -&self.numerator, factors: self.factors.clone() }
     }
 }
 

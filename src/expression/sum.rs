@@ -1,7 +1,7 @@
 //! The exponential polynomial `Σ_j p_j e^{λ_j}` and its ring operations.
 
 use crate::expression::fraction::{Fraction, NotAUnit};
-use num_traits::Zero;
+use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fmt;
@@ -124,11 +124,25 @@ impl Expression {
                 place.insert(coefficient);
             }
             Entry::Occupied(mut place) => {
-                let sum = place.get() + &coefficient;
-                if sum.is_zero() {
+                *place.get_mut() += &coefficient;
+                if place.get().is_zero() {
                     place.remove();
-                } else {
-                    place.insert(sum);
+                }
+            }
+        }
+    }
+
+    /// Adds `factor · other`.
+    pub fn add_scaled(&mut self, other: &Expression, factor: &Expression) {
+        let number = factor.as_constant();
+        if number.as_ref().is_some_and(One::is_one) {
+            *self += other;
+        } else if number.is_some_and(|number| (-number).is_one()) {
+            *self -= other;
+        } else {
+            for (exponent, p) in &other.terms {
+                for (more, scale) in &factor.terms {
+                    self.add_term(exponent + more, p * scale);
                 }
             }
         }
@@ -246,16 +260,24 @@ impl From<Polynomial> for Expression {
 impl AddAssign<&Expression> for Expression {
     fn add_assign(&mut self, other: &Expression) {
         for (exponent, p) in &other.terms {
-            self.add_term(exponent.clone(), p.clone());
+            match self.terms.get_mut(exponent) {
+                None => drop(self.terms.insert(exponent.clone(), p.clone())),
+                Some(own) => *own += p,
+            }
         }
+        self.terms.retain(|_, p| !p.is_zero());
     }
 }
 
 impl SubAssign<&Expression> for Expression {
     fn sub_assign(&mut self, other: &Expression) {
         for (exponent, p) in &other.terms {
-            self.add_term(exponent.clone(), -p);
+            match self.terms.get_mut(exponent) {
+                None => drop(self.terms.insert(exponent.clone(), -p)),
+                Some(own) => *own -= p,
+            }
         }
+        self.terms.retain(|_, p| !p.is_zero());
     }
 }
 

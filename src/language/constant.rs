@@ -138,6 +138,7 @@ fn too_long(span: Span, source: &Source) -> Diagnostic {
 
 fn zero_divisor(span: Span, source: &Source) -> Diagnostic {
     Diagnostic::new(source, "division by zero", span, "this is zero")
+        .with_remedy("divide by a number that is not zero")
 }
 
 fn not_constant(expression: &Expression, source: &Source) -> Diagnostic {

@@ -106,8 +106,9 @@ impl<'a> Lowering<'a> {
                     None => None,
                     Some(condition) => Some(Condition {
                         relation: relation(condition.relation.value),
-                        bound: constant(&condition.bound, &self.scope.source)
-                            .map_err(|error| error.or_remedy("compare with a number"))?,
+                        bound: constant(&condition.bound, &self.scope.source).map_err(|error| {
+                            error.or_remedy(format!("write a bound such as `{} > 1/2`", name.value))
+                        })?,
                     }),
                 };
                 let value = self.values.get(&name.value).cloned();
@@ -190,14 +191,17 @@ impl<'a> Lowering<'a> {
                 None => None,
             };
             let Some(unit) = reciprocal else {
-                let zero = value.is_zero();
-                let label = if zero { "this is zero" } else { "not linear in any symbol" };
+                let (label, remedy) = match value.is_zero() {
+                    true => ("this is zero", "check its signs, or remove the statement"),
+                    false => (
+                        "not linear in any symbol",
+                        "declare factors that are linear in some symbol, one a statement",
+                    ),
+                };
                 return Err(self
                     .scope
                     .error("this cannot be declared non-zero", tree.span, label)
-                    .with_remedy(
-                        "declare factors that are linear in some symbol, one a statement",
-                    ));
+                    .with_remedy(remedy));
             };
             self.scope.assumptions.declare_factors(&unit);
         }
@@ -278,6 +282,15 @@ impl<'a> Lowering<'a> {
             let mut form = self.form(&self.scope.lower(left, Place::Equation)?);
             let right = self.form(&self.scope.lower(right, Place::Equation)?);
             form.add_scaled(&right, &Expression::integer(-1), 0);
+            if form.is_free_of_waves() && !form.is_zero() {
+                return Err(self
+                    .scope
+                    .error("this equation holds no wave", span, "says nothing about the waves")
+                    .with_remedy(
+                        "relate waves by it, or remove it; conditions on symbols stand in \
+                         `symbol` and `nonzero`",
+                    ));
+            }
             if form.is_zero() {
                 return Err(self
                     .scope
@@ -294,6 +307,15 @@ impl<'a> Lowering<'a> {
         for (statement, _) in self.statements() {
             let StatementKind::Continuous { quantity, start } = statement else { continue };
             let form = self.form(&self.scope.lower(quantity, Place::Equation)?);
+            if form.is_free_of_waves() {
+                let wave = &self.wave_names[0].value;
+                return Err(self
+                    .scope
+                    .error("this continuity rule holds no wave", quantity.span, "no wave in here")
+                    .with_remedy(format!(
+                        "name a wave, as in `continuous {wave}[n] starts at 0`"
+                    )));
+            }
             let start = self.scope.lower_constant(start, "a start")?;
             rules.push(Continuity { form, start });
         }
@@ -341,18 +363,20 @@ impl<'a> Lowering<'a> {
                 "make it a sum of positive terms, with symbols declared `> 0`".to_owned(),
             ),
             Fault::Count { equations, waves } if equations < waves => {
-                ("not determined", "add an equation for each wave".to_owned())
+                ("too few equations for these waves", "state one equation for each wave".to_owned())
             }
             Fault::Count { .. } => {
                 ("one too many", "state one equation for each wave, and no more".to_owned())
             }
             Fault::DeterminesNothing => (
-                "nothing left to determine",
+                "nothing left to determine once the others are solved",
                 "let each equation hold a wave `[n]` that no other equation gives".to_owned(),
             ),
             Fault::Coupled(_) => (
                 "cannot be solved one by one",
-                "solve these equations for one wave each".to_owned(),
+                "solve the equations for one wave each; several coupled by derivatives are not \
+                 supported"
+                    .to_owned(),
             ),
             Fault::NotInvertible(_) => (
                 "the factor of the newest wave may be zero",

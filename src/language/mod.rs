@@ -112,8 +112,15 @@ pub fn parse_expression(source: &Source) -> Result<Expression, Diagnostic> {
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub fn parse_number(text: &str) -> Result<BigRational, Diagnostic> {
-    let source = Source::new("number", text)?;
-    constant(&parser::number(&source)?, &source)
+    read_number(&Source::new("number", text)?)
+}
+
+/// Reads a text that is one exact rational number, as [`parse_number`].
+///
+/// # Errors
+/// As [`parse_number`].
+pub fn read_number(source: &Source) -> Result<BigRational, Diagnostic> {
+    constant(&parser::number(source)?, source)
 }
 
 /// The name as it is kept: Greek letters spelt out, `μ` as `mu`.

@@ -8,10 +8,12 @@ use std::collections::BTreeMap;
 use num_traits::ToPrimitive;
 use wavestep_polynomial::{Rational, Symbol};
 
-use super::constant::constant;
+use super::constant::{MAX_CONSTANT_BITS, constant};
 use super::diagnostic::Diagnostic;
 use super::source::Source;
-use super::syntax::{Expression as Tree, Factor, Index, Node, Operator, Sign, Span, Spanned, Wave};
+use super::syntax::{
+    Expression as Tree, Factor, Index, Node, Operator, Sign, Span, Spanned, Term, Wave,
+};
 use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::WaveIndex;
 
@@ -21,8 +23,11 @@ pub const MAX_LAG: i64 = 1000;
 /// The largest whole exponent of a power in an expression.
 pub const MAX_EXPONENT: u32 = 1000;
 
-/// The most terms that a product or power in an expression may be worked out to.
+/// The most terms that a sum, product or power in an expression may be worked out to.
 const MAX_TERMS: usize = 100_000;
+
+/// The highest degree that a product or power may be worked out to.
+const MAX_DEGREE: u32 = 10 * MAX_EXPONENT;
 
 type Outcome<T> = Result<T, Diagnostic>;
 
@@ -137,9 +142,23 @@ impl Scope {
     }
 
     /// Every name that an expression could have meant.
-    fn known_names(&self) -> impl Iterator<Item = &str> {
+    fn known_names(&self) -> impl Iterator<Item = &str> + Clone {
         let times = self.local.iter().chain(&self.time).map(Symbol::name);
         self.waves.keys().chain(self.symbols.keys()).map(String::as_str).chain(times)
+    }
+}
+
+/// Says which of the names was probably meant.
+fn with_likely<'a>(
+    error: Diagnostic,
+    name: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Diagnostic {
+    match known.clone().find(|known| known.eq_ignore_ascii_case(name)) {
+        Some(known) => {
+            error.with_remedy(format!("did you mean `{known}`? Capital and small letters differ"))
+        }
+        None => error.with_closest(name, known),
     }
 }
 
@@ -165,22 +184,33 @@ impl<'a> Lowering<'a> {
             Node::Call { name, argument } => self.call(name, argument, tree.span),
             Node::Exponential(argument) => self.exponential(argument).map(Linear::from),
             Node::Summation { term, index, bound } => self.summation(term, index, bound, tree.span),
-            Node::Sum(terms) => {
-                let mut sum = Linear::default();
-                for term in terms {
-                    let mut value = self.lower(&term.value)?;
-                    if term.sign == Sign::Minus {
-                        value = value.scaled(&Expression::integer(-1));
-                    }
-                    sum.rest += &value.rest;
-                    sum.waves.append(&mut value.waves);
-                }
-                Ok(sum)
-            }
+            Node::Sum(terms) => self.sum(terms, tree.span),
             Node::Product(factors) => self.product(factors),
             Node::Negate(operand) => Ok(self.lower(operand)?.scaled(&Expression::integer(-1))),
             Node::Power { base, exponent } => self.power(base, exponent).map(Linear::from),
         }
+    }
+
+    fn sum(&self, terms: &[Term], span: Span) -> Outcome<Linear> {
+        let (mut rests, mut waves) = (Vec::with_capacity(terms.len()), Vec::new());
+        for term in terms {
+            let mut value = self.lower(&term.value)?;
+            if term.sign == Sign::Minus {
+                value = value.scaled(&Expression::integer(-1));
+            }
+            rests.push(value.rest);
+            waves.append(&mut value.waves);
+        }
+        // Added up in pairs: one after the other would copy a long sum once for each term.
+        while rests.len() > 1 {
+            let pairs = rests.chunks(2).map(|pair| match pair {
+                [left, right] if sum_is_moderate(left, right) => Ok(left + right),
+                [_, _] => Err(self.too_large(span)),
+                _ => Ok(pair[0].clone()),
+            });
+            rests = pairs.collect::<Outcome<_>>()?;
+        }
+        Ok(Linear { rest: rests.pop().unwrap_or_default(), waves })
     }
 
     /// An expression without waves.
@@ -241,9 +271,8 @@ impl<'a> Lowering<'a> {
                 .error("the index of a sum cannot be used as a value", span, "counts periods")
                 .with_remedy("use it between brackets only, as in `sum(f[i], i < n)`"));
         }
-        Err(self
-            .error(format!("unknown name `{name}`"), span, "not declared")
-            .with_closest(name, scope.known_names())
+        let error = self.error(format!("unknown name `{name}`"), span, "not declared");
+        Err(with_likely(error, name, scope.known_names())
             .or_remedy(format!("declare it with `symbol {name}`")))
     }
 
@@ -260,9 +289,8 @@ impl<'a> Lowering<'a> {
                     name.value
                 )));
         }
-        Err(self
-            .error(format!("unknown wave `{}`", name.value), name.span, "not declared")
-            .with_closest(&name.value, scope.waves.keys().map(String::as_str))
+        let error = self.error(format!("unknown wave `{}`", name.value), name.span, "not declared");
+        Err(with_likely(error, &name.value, scope.waves.keys().map(String::as_str))
             .or_remedy(format!("declare it with `wave {}`", name.value)))
     }
 
@@ -285,7 +313,9 @@ impl<'a> Lowering<'a> {
             (true, _) => {
                 return Err(self
                     .error("a sum over derivatives is not supported", span, "differentiated")
-                    .with_remedy("sum the wave itself, and differentiate outside the sum"));
+                    .with_remedy(
+                        "give the derivative a wave of its own, by an equation, and sum that",
+                    ));
             }
         };
         Ok(self.one_wave(index, reference, span))
@@ -380,7 +410,12 @@ impl<'a> Lowering<'a> {
         bound: &Spanned<String>,
         span: Span,
     ) -> Outcome<Linear> {
-        if bound.value != "n" || self.summed.is_some() {
+        if self.summed.is_some() {
+            return Err(self
+                .error("a sum within a sum is not supported", span, "stands in another sum")
+                .with_remedy("give the inner sum a wave of its own, by an equation"));
+        }
+        if bound.value != "n" {
             return Err(self
                 .error("a sum runs over all earlier periods", bound.span, "must be `n`")
                 .with_remedy(format!("write `sum(f[{0}], {0} < n)`", index.value)));
@@ -406,16 +441,13 @@ impl<'a> Lowering<'a> {
         for factor in factors {
             let tree = &factor.value;
             if factor.operator == Operator::Divide {
-                let inverse = self.inverse(tree)?;
-                self.check_size(&product.rest, &inverse, tree.span)?;
-                product = product.scaled(&inverse);
+                product = self.scaled(product, &self.inverse(tree)?, tree.span)?;
                 continue;
             }
             let value = self.lower(tree)?;
-            self.check_size(&product.rest, &value.rest, tree.span)?;
             product = match (product.waves.is_empty(), value.waves.is_empty()) {
-                (_, true) => product.scaled(&value.rest),
-                (true, false) => value.scaled(&product.rest),
+                (_, true) => self.scaled(product, &value.rest, tree.span)?,
+                (true, false) => self.scaled(value, &product.rest, tree.span)?,
                 (false, false) => {
                     let first = product.waves[0].span;
                     return Err(self
@@ -445,14 +477,29 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn check_size(&self, left: &Expression, right: &Expression, span: Span) -> Outcome<()> {
-        let count = left.term_count().saturating_mul(right.term_count());
-        if count <= MAX_TERMS && degree(left) + degree(right) <= 10 * MAX_EXPONENT {
-            return Ok(());
+    fn scaled(&self, linear: Linear, factor: &Expression, span: Span) -> Outcome<Linear> {
+        let coefficients = linear.waves.iter().map(|term| &term.coefficient);
+        if std::iter::once(&linear.rest).chain(coefficients).all(|c| product_is_moderate(c, factor))
+        {
+            return Ok(linear.scaled(factor));
         }
-        Err(self
-            .error("this expression is too large when multiplied out", span, "grows too large")
-            .with_remedy(format!("keep products below {MAX_TERMS} terms")))
+        Err(self.too_large(span))
+    }
+
+    fn times(&self, left: &Expression, right: &Expression, span: Span) -> Outcome<Expression> {
+        if product_is_moderate(left, right) { Ok(left * right) } else { Err(self.too_large(span)) }
+    }
+
+    fn raised(&self, base: &Expression, count: u32, span: Span) -> Outcome<Expression> {
+        if power_is_moderate(base, count) { Ok(base.pow(count)) } else { Err(self.too_large(span)) }
+    }
+
+    fn too_large(&self, span: Span) -> Diagnostic {
+        self.error("this expression is too large when worked out", span, "grows too large")
+            .with_remedy(format!(
+                "keep it below {MAX_TERMS} terms, degree {MAX_DEGREE}, and {MAX_CONSTANT_BITS} \
+                 bits a number"
+            ))
     }
 
     /// `1/tree`, factor by factor.
@@ -465,18 +512,18 @@ impl<'a> Lowering<'a> {
                         Operator::Multiply => self.inverse(&factor.value)?,
                         Operator::Divide => self.plain(&factor.value, "a divisor")?,
                     };
-                    inverse = &inverse * &part;
+                    inverse = self.times(&inverse, &part, factor.value.span)?;
                 }
                 Ok(inverse)
             }
             Node::Negate(operand) => Ok(-&self.inverse(operand)?),
             Node::Power { base, exponent } => {
                 let count = self.exponent(exponent)?;
-                if count >= 0 {
-                    Ok(self.inverse(base)?.pow(count.unsigned_abs()))
-                } else {
-                    Ok(self.plain(base, "a divisor")?.pow(count.unsigned_abs()))
-                }
+                let base_value = match count >= 0 {
+                    true => self.inverse(base)?,
+                    false => self.plain(base, "a divisor")?,
+                };
+                self.raised(&base_value, count.unsigned_abs(), tree.span)
             }
             _ => {
                 let value = self.plain(tree, "a divisor")?;
@@ -486,13 +533,13 @@ impl<'a> Lowering<'a> {
     }
 
     fn invert(&self, value: &Expression, span: Span) -> Outcome<Expression> {
-        if let Some(time) = self.scope.time.as_ref().filter(|time| value.contains(time)) {
-            let without_time = value.as_fraction().is_some();
-            if without_time {
-                return Err(self
-                    .error("division by time", span, "depends on time")
-                    .with_remedy(format!("forcing holds powers `{time}^k` and exponentials")));
-            }
+        if let Some(time) = &self.scope.time
+            && value.terms().len() == 1
+            && value.terms().any(|(_, coefficient)| coefficient.contains(time))
+        {
+            return Err(self.error("division by time", span, "depends on time").with_remedy(
+                format!("forcing holds powers such as `{time}^2`, and exponentials of time"),
+            ));
         }
         if self.place == Place::Formula {
             let mut terms = value.terms();
@@ -538,26 +585,70 @@ impl<'a> Lowering<'a> {
 
     fn power(&self, base: &Tree, exponent: &Tree) -> Outcome<Expression> {
         let count = self.exponent(exponent)?;
-        if count.is_negative() {
-            return Ok(self.inverse(base)?.pow(count.unsigned_abs()));
-        }
-        let count = count.unsigned_abs();
-        let value = self.plain(base, "the base of a power")?;
-        // A power of m terms has at most C(count+m−1, m−1) terms; counted factor by factor.
-        let mut terms = 1usize;
-        for extra in 1..value.term_count().min(64) {
-            terms = terms.saturating_mul(count as usize + extra) / extra;
-        }
-        if terms > MAX_TERMS || degree(&value).saturating_mul(count) > 10 * MAX_EXPONENT {
-            return Err(self
-                .error("this power is too large when multiplied out", base.span, "to a high power")
-                .with_remedy(format!("keep powers below {MAX_TERMS} terms")));
-        }
-        Ok(value.pow(count))
+        let value = match count.is_negative() {
+            true => self.inverse(base)?,
+            false => self.plain(base, "the base of a power")?,
+        };
+        self.raised(&value, count.unsigned_abs(), base.span)
     }
 }
 
 /// The highest total degree among the coefficients.
 fn degree(value: &Expression) -> u32 {
     value.terms().map(|(_, p)| p.numerator().total_degree()).max().unwrap_or(0)
+}
+
+/// The most bits of a number in a numerator.
+fn bits(value: &Expression) -> u64 {
+    let numbers = value.terms().flat_map(|(_, p)| p.numerator().terms());
+    numbers.map(|(_, number)| number.numer().bits() + number.denom().bits()).max().unwrap_or(0)
+}
+
+fn product_is_moderate(left: &Expression, right: &Expression) -> bool {
+    left.term_count().saturating_mul(right.term_count()) <= MAX_TERMS
+        && degree(left).saturating_add(degree(right)) <= MAX_DEGREE
+        && bits(left).saturating_add(bits(right)) <= MAX_CONSTANT_BITS
+}
+
+/// A power of m terms has at most `C(count+m−1, m−1)` terms; counted factor by factor.
+fn power_is_moderate(base: &Expression, count: u32) -> bool {
+    let mut terms = 1usize;
+    for extra in 1..base.term_count().min(64) {
+        terms = terms.saturating_mul(count as usize + extra) / extra;
+    }
+    // Powers of ±1 stay as short as they are.
+    let bits = match bits(base) {
+        0..=2 => 0,
+        bits => bits.saturating_mul(u64::from(count)),
+    };
+    terms <= MAX_TERMS
+        && degree(base).saturating_mul(count) <= MAX_DEGREE
+        && bits <= MAX_CONSTANT_BITS
+}
+
+/// A sum brings fractions to a common denominator.
+fn sum_is_moderate(left: &Expression, right: &Expression) -> bool {
+    // How many terms the numerator of `own` has when it is brought to the other denominator too.
+    let expanded = |own: &Fraction, other: &Fraction| {
+        let powers: BTreeMap<_, _> = own.factors().collect();
+        other.factors().fold(own.numerator().term_count(), |count, (factor, power)| {
+            let missing = power.saturating_sub(powers.get(factor).copied().unwrap_or(0));
+            (0..missing).fold(count, |count, _| count.saturating_mul(factor.term_count()))
+        })
+    };
+    let mut count = left.term_count().saturating_add(right.term_count());
+    let (mut those, mut left_bits) = (right.terms().peekable(), 0);
+    for (exponent, own) in left.terms() {
+        while those.next_if(|(other, _)| *other < exponent).is_some() {}
+        if let Some((_, other)) = those.next_if(|(other, _)| *other == exponent)
+            && !own.factors().eq(other.factors())
+        {
+            let both = expanded(own, other).saturating_add(expanded(other, own));
+            count = count.saturating_add(both);
+            left_bits = bits(left);
+        }
+    }
+    // A long sum of one denominator is no longer than its text.
+    count <= MAX_TERMS.max(left.term_count() + right.term_count())
+        && left_bits.saturating_add(bits(right)) <= 2 * MAX_CONSTANT_BITS
 }

@@ -82,10 +82,10 @@ impl Operator {
 /// A linear form in the waves of a recurrence, on the n-th period:
 ///
 /// ```text
-/// Σ_w operator_w w  +  Σ_j forcing_j(t), for t ≥ jD
+/// Σ_w operator_w w  +  Σ_{j ≤ n} forcing_j(t − jD)
 /// ```
 ///
-/// with forcing a function of scene time `t`.
+/// with `t` the scene time: like a wave, forcing at lag `j` is the function of lag 0, `jD` later.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct LinearForm {
     pub(crate) operators: BTreeMap<WaveIndex, Operator>,
@@ -136,7 +136,7 @@ impl LinearForm {
         self.operators.get(&wave).cloned().unwrap_or_default()
     }
 
-    /// The forcing by lag: `forcing_terms()[j]` acts from `t = jD` on.
+    /// The forcing by lag: `forcing_terms()[j]`, as a function of `t − jD`, acts from `t = jD` on.
     pub fn forcing_terms(&self) -> &[Expression] {
         &self.forcing
     }

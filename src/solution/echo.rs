@@ -8,7 +8,6 @@
 use crate::expression::{EchoSum, Expression, Fraction, Transform};
 use crate::recurrence::{LinearForm, Recurrence, Start, WaveIndex};
 use crate::solution::solved::{SolveError, Unsolvable};
-use wavestep_polynomial::Rational;
 
 /// The solution of a recurrence, echo by echo.
 pub struct EchoByEcho<'a> {
@@ -93,8 +92,8 @@ impl<'a> EchoByEcho<'a> {
         }
         if let Some(function) = form.forcing_terms().get(k).filter(|f| !f.is_zero()) {
             let statement = self.recurrence.statement();
-            let time = &Fraction::symbol(&statement.local) + &self.arrival(k);
-            let function = function.substitute(&statement.time, &time)?;
+            let local = Fraction::symbol(&statement.local);
+            let function = function.substitute(&statement.time, &local)?;
             let transform = Transform::of(&function, &statement.local);
             right.add_scaled(&transform, &-&Expression::one());
         }
@@ -113,12 +112,8 @@ impl<'a> EchoByEcho<'a> {
             }
         }
         if let Some(function) = start.continuous.forcing_terms().get(k) {
-            jump -= &function.substitute(&self.recurrence.statement().time, &self.arrival(k))?;
+            jump -= &function.at_zero(&self.recurrence.statement().time);
         }
         Ok(jump)
-    }
-
-    fn arrival(&self, k: usize) -> Fraction {
-        self.recurrence.statement().period.scale(&Rational::from_integer(k.into()))
     }
 }

@@ -110,8 +110,7 @@ fn echoes(
     wave: WaveIndex,
 ) -> Option<GeneralForm> {
     let (assumptions, time) = context(recurrence);
-    let period = &recurrence.statement().period;
-    let pole = OnePole::of(step, assumptions, time, period)?;
+    let pole = OnePole::of(step, assumptions, time)?;
     let (mut template, from) = pole.template(&multiplier(form, step.wave)?)?;
     let count = from.max(form.forcing_terms().len());
     let mut solver = EchoByEcho::new(recurrence);

@@ -19,5 +19,5 @@ pub use general::{GeneralForm, Proof, Unknown};
 pub use geometric::{Geometric, GeometricTerm};
 pub use period::PeriodByPeriod;
 pub use rows::{EchoRow, ExpandedTerm, expand_piece};
-pub use solved::{Rows, Solution, SolveError, Unsolvable};
+pub use solved::{Solution, SolveError, Unsolvable};
 pub use template::{EchoTemplate, Family};

@@ -1,11 +1,19 @@
 //! Period by period: the integrating factor, and the constant by continuity.
 //!
-//! On each period the steps of the recurrence are taken in order. An algebraic step is read off;
-//! a differential one is `w' + a w = q` with `q` known, solved by `e^{as}`, its constant such that
-//! the continuous form goes on where it stopped.
+//! On each period the steps of the recurrence are taken in order. An algebraic step is read off. A
+//! differential step `w' + a w + Σ (d_i v_i' + a_i v_i) + q = 0`, with earlier pieces `v_i` at
+//! coefficients `d_i, a_i` and forcing `q`, is solved for the quantity that is differentiated,
+//! `z = w + Σ d_i v_i`, so that no derivative is ever formed:
+//!
+//! ```text
+//! z' + a z = Σ (a d_i − a_i) v_i − q,        w = z − Σ d_i v_i
+//! ```
+//!
+//! The integrating factor is `e^{as}`; the constant is such that the continuous form goes on where
+//! it stopped.
 
 use crate::expression::{Expression, Fraction, Piecewise};
-use crate::recurrence::{LinearForm, Recurrence, Start, WaveIndex};
+use crate::recurrence::{LinearForm, Recurrence, Start, Step, WaveIndex};
 use crate::solution::solved::{SolveError, Unsolvable};
 use wavestep_polynomial::Rational;
 
@@ -41,62 +49,76 @@ impl<'a> PeriodByPeriod<'a> {
         for step in self.recurrence.steps() {
             let n = self.ends[step.wave].len();
             let explain = |reason| SolveError::new(self.recurrence, step.wave, n, reason);
-            let known = self.known(&step.equation, step.wave, n).map_err(explain)?;
-            let right = -&known;
             let piece = match &step.start {
-                None => right,
-                Some(start) => self.solve(start, step.wave, n, right).map_err(explain)?,
+                None => self.read_off(step, n),
+                Some(start) => self.integrate(step, start, n),
             };
-            self.waves[step.wave].push(piece);
+            self.waves[step.wave].push(piece.map_err(explain)?);
             self.ends[step.wave].push(None);
         }
         Ok(())
     }
 
-    fn solve(
+    /// `w = −Σ (d_i v_i' + a_i v_i) − q`.
+    fn read_off(&self, step: &Step, n: usize) -> Result<Expression, Unsolvable> {
+        let mut piece = -&self.forcing(&step.equation, n)?;
+        for earlier in self.earlier(&step.equation, step.wave, n) {
+            piece.add_scaled(earlier.piece, &-&earlier.value);
+            if !earlier.slope.is_zero() {
+                let derivative = earlier.piece.derivative(&self.recurrence.statement().local);
+                piece.add_scaled(&derivative, &-&earlier.slope);
+            }
+        }
+        Ok(piece)
+    }
+
+    fn integrate(
         &mut self,
+        step: &Step,
         start: &Start,
-        wave: WaveIndex,
         n: usize,
-        right: Expression,
     ) -> Result<Expression, Unsolvable> {
         let statement = self.recurrence.statement();
         let mut initial = match n {
             0 => start.initial.clone(),
             _ => self.end_of_form(&start.continuous, n - 1)?,
         };
-        initial -= &self.start_of_form(&start.continuous, wave, n)?;
-        let assumptions = &statement.assumptions;
-        Ok(right.solve_first_order(&statement.local, &start.rate, &initial, assumptions)?)
+        initial -= &self.start_of_form(&start.continuous, step.wave, n)?;
+        let mut right = -&self.forcing(&step.equation, n)?;
+        let earlier = self.earlier(&step.equation, step.wave, n);
+        for Earlier { piece, value, slope } in &earlier {
+            right.add_scaled(piece, &(&slope.times(&start.rate) - value));
+            initial.add_scaled(&piece.at_zero(&statement.local), slope);
+        }
+        let (local, assumptions) = (&statement.local, &statement.assumptions);
+        let mut piece = right.solve_first_order(local, &start.rate, &initial, assumptions)?;
+        for Earlier { piece: other, slope, .. } in &earlier {
+            piece.add_scaled(other, &-slope);
+        }
+        Ok(piece)
     }
 
-    /// The form on the n-th period without `wave` at lag 0.
-    fn known(
-        &self,
-        form: &LinearForm,
-        wave: WaveIndex,
-        n: usize,
-    ) -> Result<Expression, Unsolvable> {
-        let statement = self.recurrence.statement();
-        let mut sum = Expression::zero();
+    /// The pieces that the form names on the n-th period, but for `wave` at lag 0.
+    fn earlier(&self, form: &LinearForm, wave: WaveIndex, n: usize) -> Vec<Earlier<'_>> {
+        let mut earlier = Vec::new();
         for (other, operator) in form.operators() {
-            let pieces = self.waves[other].pieces();
-            let first = usize::from(other == wave);
-            for lag in first..operator.reach().min(n + 1) {
-                if let Some(value) = operator.value().get(lag).filter(|value| !value.is_zero()) {
-                    sum += &times(&pieces[n - lag], value);
-                }
-                if let Some(slope) = operator.slope().get(lag).filter(|slope| !slope.is_zero()) {
-                    sum += &times(&pieces[n - lag].derivative(&statement.local), slope);
+            let at = |row: &[Expression], lag: usize| row.get(lag).cloned().unwrap_or_default();
+            for lag in usize::from(other == wave)..operator.reach().min(n + 1) {
+                let (value, slope) = (at(operator.value(), lag), at(operator.slope(), lag));
+                if !(value.is_zero() && slope.is_zero()) {
+                    let piece = &self.waves[other].pieces()[n - lag];
+                    earlier.push(Earlier { piece, value, slope });
                 }
             }
         }
-        let forcing = form.forcing_terms().iter().take(n + 1);
-        for function in forcing.filter(|function| !function.is_zero()) {
-            let time = &Fraction::symbol(&statement.local) + &self.arrival(n);
-            sum += &function.substitute(&statement.time, &time)?;
-        }
-        Ok(sum)
+        earlier
+    }
+
+    /// What forcing adds to the form on the n-th period.
+    fn forcing(&self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
+        let statement = self.recurrence.statement();
+        let time = &Fraction::symbol(&statement.local) + &self.arrival(n);
+        self.forcing_at(form, n, &time)
     }
 
     /// The form at the start of the n-th period, without `wave` at lag 0.
@@ -106,12 +128,12 @@ impl<'a> PeriodByPeriod<'a> {
         wave: WaveIndex,
         n: usize,
     ) -> Result<Expression, Unsolvable> {
-        let mut sum = self.forcing_at_arrival(form, n, n)?;
+        let mut sum = self.forcing_at(form, n, &self.arrival(n))?;
         for (other, operator) in form.operators() {
             let first = usize::from(other == wave);
             let values = operator.value().iter().enumerate().take(n + 1).skip(first);
             for (lag, value) in values.filter(|(_, value)| !value.is_zero()) {
-                sum += &(&self.waves[other].start(n - lag) * value);
+                sum.add_scaled(&self.waves[other].start(n - lag), value);
             }
         }
         Ok(sum)
@@ -119,7 +141,7 @@ impl<'a> PeriodByPeriod<'a> {
 
     /// The form at the end of the n-th period.
     fn end_of_form(&mut self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
-        let mut sum = self.forcing_at_arrival(form, n, n + 1)?;
+        let mut sum = self.forcing_at(form, n, &self.arrival(n + 1))?;
         for (wave, operator) in form.operators() {
             for (lag, value) in operator.value().iter().enumerate().take(n + 1) {
                 if value.is_zero() {
@@ -130,23 +152,23 @@ impl<'a> PeriodByPeriod<'a> {
                     *place = Some(self.waves[wave].end(n - lag)?);
                 }
                 let end = place.as_ref().expect("just computed");
-                sum += &times(end, value);
+                sum.add_scaled(end, value);
             }
         }
         Ok(sum)
     }
 
-    /// What forcing acts on period `n`, at the time `arrival · D`.
-    fn forcing_at_arrival(
+    /// What forcing adds to the form on the n-th period, at `time`.
+    fn forcing_at(
         &self,
         form: &LinearForm,
         n: usize,
-        arrival: usize,
+        time: &Fraction,
     ) -> Result<Expression, Unsolvable> {
-        let time = &self.recurrence.statement().time;
         let mut sum = Expression::zero();
-        for function in form.forcing_terms().iter().take(n + 1) {
-            sum += &function.substitute(time, &self.arrival(arrival))?;
+        for (lag, function) in form.forcing_terms().iter().enumerate().take(n + 1) {
+            let since = time - &self.arrival(lag);
+            sum += &function.substitute(&self.recurrence.statement().time, &since)?;
         }
         Ok(sum)
     }
@@ -156,10 +178,9 @@ impl<'a> PeriodByPeriod<'a> {
     }
 }
 
-/// `piece · value`, without arithmetic where the value is 1.
-fn times(piece: &Expression, value: &Expression) -> Expression {
-    match value.as_fraction() {
-        Some(value) => piece.times(&value),
-        None => piece * value,
-    }
+/// A known piece, with the coefficients of its value and of its slope.
+struct Earlier<'a> {
+    piece: &'a Expression,
+    value: Expression,
+    slope: Expression,
 }

@@ -6,7 +6,6 @@ use crate::solution::echo::EchoByEcho;
 use crate::solution::general::{GeneralForm, Unknown};
 use crate::solution::rows::EchoRow;
 use crate::solution::template::EchoTemplate;
-use std::borrow::Cow;
 use std::fmt;
 use wavestep_polynomial::{Integer, Rational, Univariate};
 
@@ -149,55 +148,45 @@ impl Solution {
         (first..=last).map(piece).collect()
     }
 
-    /// The echoes of a wave as rows of integers, up to `through`; `None` where a constant is no
+    /// The echoes `φ_0 … φ_through` of a wave as rows of integers; `None` where a constant is no
     /// rational number.
     ///
     /// # Errors
     /// [`SolveError`] where an echo cannot be given exactly.
     ///
     /// # Cost
-    /// None at first where the echoes have a closed form: each row is made when it is asked for,
-    /// with O(k) products by a word. Else all echoes are derived.
-    pub fn rows(&self, wave: WaveIndex, through: usize) -> Result<Option<Rows<'_>>, SolveError> {
+    /// A product and a sum for each coefficient where the echoes have a closed form.
+    pub fn rows(
+        &self,
+        wave: WaveIndex,
+        through: usize,
+    ) -> Result<Option<Vec<EchoRow>>, SolveError> {
         let Some(template) = self.template(wave) else {
-            let solver = self.expanded(through)?;
-            let known = solver.transforms(wave).iter().map(row_of).collect::<Option<Vec<_>>>();
-            return Ok(known.map(|known| Rows { template: None, known }));
+            let transforms = self.expanded(through)?;
+            return Ok(transforms.transforms(wave).iter().map(row_of).collect());
         };
         let local = &self.recurrence.statement().local;
-        let first = template.first.iter().map(|echo| row_of(&Transform::of(echo, local)));
-        let known = first.collect::<Option<Vec<_>>>();
-        let numeric = template.numeric_row(template.first.len()).is_some();
-        let known = known.filter(|_| numeric);
-        Ok(known.map(|known| Rows { template: Some(template), known }))
+        let first = template.first.iter().take(through + 1);
+        let mut rows: Option<Vec<EchoRow>> =
+            first.map(|echo| row_of(&Transform::of(echo, local))).collect();
+        if template.first.len() <= through {
+            let later = template.numeric_rows(through);
+            rows = rows.zip(later).map(|(mut rows, (rate, later))| {
+                rows.extend(later.into_iter().map(|polynomial| EchoRow {
+                    parts: match polynomial.is_zero() {
+                        true => Vec::new(),
+                        false => vec![(-&rate, polynomial)],
+                    },
+                }));
+                rows
+            });
+        }
+        Ok(rows)
     }
 
     /// Whether the echoes of a wave have a closed form.
     pub fn has_template(&self, wave: WaveIndex) -> bool {
         self.template(wave).is_some()
-    }
-}
-
-/// Echoes as rows of integers: some known, the others made by a closed form.
-pub struct Rows<'a> {
-    template: Option<&'a EchoTemplate>,
-    known: Vec<EchoRow>,
-}
-
-impl Rows<'_> {
-    /// The k-th row.
-    ///
-    /// # Panics
-    /// Where the row is neither known nor given by a closed form.
-    pub fn row(&self, k: usize) -> Cow<'_, EchoRow> {
-        if let Some(row) = self.known.get(k) {
-            return Cow::Borrowed(row);
-        }
-        let template = self.template.expect("a row beyond those that were derived");
-        let (rate, polynomial) = template.numeric_row(k).expect("the constants are numbers");
-        let mut parts = vec![(-rate, polynomial)];
-        parts.retain(|(_, polynomial)| !polynomial.is_zero());
-        Cow::Owned(EchoRow { parts })
     }
 }
 

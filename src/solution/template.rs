@@ -11,7 +11,7 @@
 use crate::expression::{Assumptions, Expression, Fraction, Transform};
 use crate::recurrence::{LinearForm, Step, WaveIndex};
 use crate::solution::geometric::{product, sum};
-use num_traits::{One, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, Univariate, binomial, factorial};
 
@@ -63,23 +63,30 @@ impl EchoTemplate {
         Expression::from(sum).times_exponential(&-&exponent)
     }
 
-    /// Where all constants are rational numbers: the rate `b`, and the k-th echo without its
-    /// exponential `e^{−bx}`, for `k ≥ first.len()`. One row of integers a term.
-    pub fn numeric_row(&self, k: usize) -> Option<(Rational, Univariate)> {
-        let rate = self.rate.as_constant()?;
-        let ratio = self.ratio.as_constant()?;
-        let scale = ratio.pow(i32::try_from(k).ok()?);
-        let mut row: Option<Univariate> = None;
-        for (lag, coefficient) in &self.terms {
-            let factor = coefficient.as_constant()? * &scale;
-            let term = self.family.row(index(k, *lag))?;
-            let term = if factor.is_one() { term } else { &term * &Univariate::constant(&factor) };
-            row = Some(match row {
-                None => term,
-                Some(sum) => &sum + &term,
-            });
-        }
-        Some((rate, row.unwrap_or_else(Univariate::zero)))
+    /// Where all constants are rational numbers: the rate `b`, and the echoes `first.len() …
+    /// through` without their exponential `e^{−bx}`. A product and a sum for each coefficient.
+    pub fn numeric_rows(&self, through: usize) -> Option<(Rational, Vec<Univariate>)> {
+        let (rate, ratio) = (self.rate.as_constant()?, self.ratio.as_constant()?);
+        let terms = self.terms.iter().map(|(lag, c)| Some((*lag, c.as_constant()?)));
+        let terms: Vec<(isize, Rational)> = terms.collect::<Option<_>>()?;
+        let last = terms.iter().map(|(lag, _)| index(through, *lag)).max();
+        let family = self.family.rows(last.map_or(0, |last| last + 1))?;
+        let mut scale = num_traits::pow(ratio.clone(), self.first.len());
+        let rows = (self.first.len()..=through).map(|k| {
+            let mut row: Option<Univariate> = None;
+            for (lag, coefficient) in &terms {
+                let factor = coefficient * &scale;
+                let term = &family[index(k, *lag)];
+                let term = match factor.is_one() {
+                    true => term.clone(),
+                    false => term * &Univariate::constant(&factor),
+                };
+                row = Some(row.map_or_else(|| term.clone(), |sum| &sum + &term));
+            }
+            scale *= &ratio;
+            row.unwrap_or_else(Univariate::zero)
+        });
+        Some((rate, rows.collect()))
     }
 }
 
@@ -108,31 +115,53 @@ impl Family {
         }
     }
 
-    /// The divided-power coefficients of `T_k`, where they are numbers.
-    fn row(&self, k: usize) -> Option<Univariate> {
-        let mut coefficients = Vec::with_capacity(k + 1);
-        match self {
+    /// `T_0 … T_{count−1}` in divided powers, where their coefficients are numbers. With
+    /// `c = u/v`, the coefficients of `v^k T_k` are `C(k,j) v^{k−j} (−u)^j`, by Pascal's rule.
+    fn rows(&self, count: usize) -> Option<Vec<Univariate>> {
+        let c = match self {
             Family::Power => {
-                coefficients.resize(k, Integer::zero());
-                coefficients.push(Integer::one());
-                Some(Univariate::new(coefficients, Integer::one()))
+                let row = |k: usize| {
+                    let mut coefficients = vec![Integer::zero(); k];
+                    coefficients.push(Integer::one());
+                    Univariate::new(coefficients, Integer::one())
+                };
+                return Some((0..count).map(row).collect());
             }
-            Family::Laguerre(c) => {
-                // C(k,j) (−u/v)^j over the denominator v^k.
-                let c = c.as_constant()?;
-                let power = u32::try_from(k).ok()?;
-                let mut value = c.denom().pow(power);
-                let denominator = value.clone();
-                let minus_u = -c.numer();
-                for j in 0..power {
-                    let next = &value * &minus_u * (power - j) / (c.denom() * (j + 1));
-                    coefficients.push(std::mem::replace(&mut value, next));
-                }
-                coefficients.push(value);
-                Some(Univariate::new(coefficients, denominator))
-            }
+            Family::Laguerre(c) => c.as_constant()?,
+        };
+        // Nothing cancels between numerators and denominator, since u and v are coprime.
+        let mut rows = vec![Univariate::constant(&Rational::one())];
+        while rows.len() < count {
+            let last = rows.last().expect("a row");
+            let next = pascal(last.coefficients(), c.numer(), c.denom());
+            let denominator = last.denominator() * c.denom();
+            rows.push(Univariate::new(next, denominator));
         }
+        Some(rows)
     }
+}
+
+/// `v row[j] − u row[j−1]`, one longer than `row`; one allocation a number where `u` fits a word.
+fn pascal(row: &[Integer], u: &Integer, v: &Integer) -> Vec<Integer> {
+    let word = u.to_i64();
+    let carried = |value: &Integer| match word {
+        Some(word) => value * -word,
+        None => -(value * u),
+    };
+    let kept = |value: &Integer| if v.is_one() { value.clone() } else { value * v };
+    let mut next = Vec::with_capacity(row.len() + 1);
+    next.push(kept(&row[0]));
+    for pair in row.windows(2) {
+        let mut value = carried(&pair[0]);
+        if v.is_one() {
+            value += &pair[1]
+        } else {
+            value += kept(&pair[1])
+        }
+        next.push(value);
+    }
+    next.push(carried(&row[row.len() - 1]));
+    next
 }
 
 /// A wave with one pole and one lag: `W = S(p,q) / [(p+b) − ρq(p−a)]`.
@@ -148,12 +177,7 @@ pub(crate) struct OnePole<'a> {
 
 impl<'a> OnePole<'a> {
     /// Reads a step that involves its own wave alone; `None` where it has another form.
-    pub fn of(
-        step: &Step,
-        assumptions: &'a Assumptions,
-        time: &Symbol,
-        period: &Fraction,
-    ) -> Option<OnePole<'a>> {
+    pub fn of(step: &Step, assumptions: &'a Assumptions, time: &Symbol) -> Option<OnePole<'a>> {
         let start = step.start.as_ref()?;
         let operator = step.equation.operator(step.wave);
         if operator.reach() > 2 {
@@ -167,7 +191,7 @@ impl<'a> OnePole<'a> {
             let inverse = assumptions.invert(&slope).ok()?;
             ((-&slope).as_fraction()?, Some((-&(&value * &inverse)).as_fraction()?))
         };
-        let source = source(step, time, period)?;
+        let source = source(step, time)?;
         Some(OnePole { assumptions, rate: start.rate.clone(), ratio, zero, source })
     }
 
@@ -253,14 +277,12 @@ impl WeightedLags {
 }
 
 /// `S = −Q + D(q) J(q)`, `J = (start − jumps of forcing)/C(q)`, where it is a polynomial in q.
-fn source(step: &Step, time: &Symbol, period: &Fraction) -> Option<Vec<(Expression, Transform)>> {
+fn source(step: &Step, time: &Symbol) -> Option<Vec<(Expression, Transform)>> {
     let start = step.start.as_ref()?;
-    let arrival = |lag: usize| period.scale(&Rational::from_integer(lag.into()));
     let mut jumps = vec![start.initial.clone()];
     for (lag, function) in start.continuous.forcing_terms().iter().enumerate() {
-        let jump = function.substitute(time, &arrival(lag)).ok()?;
         let mut row = vec![Expression::zero(); lag];
-        row.push(-&jump);
+        row.push(-&function.at_zero(time));
         jumps = sum(&jumps, &row);
     }
     let operator = step.equation.operator(step.wave);
@@ -271,8 +293,7 @@ fn source(step: &Step, time: &Symbol, period: &Fraction) -> Option<Vec<(Expressi
     for lag in 0..constants.len().max(forcing.len()) {
         let mut transform = Transform::zero();
         if let Some(function) = forcing.get(lag) {
-            let moved = function.shift(time, &arrival(lag)).ok()?;
-            transform.add_scaled(&Transform::of(&moved, time), &Expression::integer(-1));
+            transform.add_scaled(&Transform::of(function, time), &Expression::integer(-1));
         }
         source.push((constants.get(lag).cloned().unwrap_or_default(), transform));
     }

@@ -1,0 +1,306 @@
+//! How formulas look, and that what is written is read back as the same expression.
+//!
+//! The snapshots fix the writing only; that the formulas are true is proved elsewhere.
+
+use std::collections::BTreeMap;
+
+use wavestep::export::{
+    self, Formula, Head, LATEX_WIDTH, Latex, Notation, TEXT_WIDTH, general_form, pieces_json,
+};
+use wavestep::expression::Expression;
+use wavestep::language::{Source, read_listing, read_recurrence};
+use wavestep::recurrence::WaveIndex;
+use wavestep::scenes::{self, SCENES};
+use wavestep::solution::Solution;
+
+fn read(text: &str) -> Solution {
+    let source = Source::new("scene", text).expect("text");
+    Solution::new(read_recurrence(&source, &BTreeMap::new()).unwrap_or_else(|e| panic!("{e}")))
+}
+
+fn scene(name: &str) -> Solution {
+    read(scenes::find(name).expect("a scene of the library").text)
+}
+
+fn wave(solution: &Solution, name: &str) -> WaveIndex {
+    solution.recurrence().wave(name).expect("a wave of the scene")
+}
+
+fn waves(solution: &Solution) -> std::ops::Range<WaveIndex> {
+    0..solution.recurrence().statement().waves.len()
+}
+
+fn name_of(solution: &Solution, wave: WaveIndex) -> String {
+    solution.recurrence().statement().waves[wave].clone()
+}
+
+fn pieces(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Expression> {
+    solution.pieces(wave, 0, last).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn period_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
+    let local = &solution.recurrence().statement().local;
+    let formula = |(n, piece): (usize, &Expression)| {
+        let wave = name_of(solution, wave);
+        Formula::new(Head::Piece { wave, n, local: local.clone() }, piece, local)
+    };
+    pieces(solution, wave, last).iter().enumerate().map(formula).collect()
+}
+
+fn echo_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
+    let local = &solution.recurrence().statement().local;
+    let echoes = solution.echoes(wave, last).unwrap_or_else(|error| panic!("{error}"));
+    let formula = |(k, echo): (usize, &Expression)| {
+        let wave = name_of(solution, wave);
+        Formula::new(Head::Echo { wave, k, local: local.clone() }, echo, local)
+    };
+    echoes.echoes().iter().enumerate().map(formula).collect()
+}
+
+fn piecewise_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
+    let statement = solution.recurrence().statement();
+    let on_period = |(n, formula): (usize, Formula)| {
+        formula.on_period(n, &statement.period, &statement.local, &statement.time)
+    };
+    period_form(solution, wave, last).into_iter().enumerate().map(on_period).collect()
+}
+
+fn assert_snapshot(name: &str, value: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/formulas"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name, value));
+}
+
+/// Snapshots of formulas in both notations.
+fn assert_looks(name: &str, formulas: &[Formula]) {
+    assert_snapshot(&format!("{name}-text"), &export::text(formulas));
+    let latex = export::latex(formulas, LATEX_WIDTH);
+    assert_sound_latex(&latex);
+    assert_snapshot(&format!("{name}-latex"), &latex);
+}
+
+// ---- How it looks ------------------------------------------------------------------------------
+
+#[test]
+fn rigid_mass_by_periods() {
+    let solution = scene("rigid-mass");
+    assert_looks("rigid-mass-f", &period_form(&solution, wave(&solution, "f"), 8));
+}
+
+#[test]
+fn pulse_shape_by_periods() {
+    let solution = scene("pulse-shape");
+    assert_looks("pulse-shape-a", &period_form(&solution, wave(&solution, "a"), 8));
+}
+
+#[test]
+fn algebraic_scenes_by_periods() {
+    for name in ["two-bars", "constant-force"] {
+        let solution = scene(name);
+        let all = waves(&solution).flat_map(|wave| period_form(&solution, wave, 3));
+        assert_looks(name, &all.collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn rigid_mass_in_other_forms() {
+    let solution = scene("rigid-mass");
+    let f = wave(&solution, "f");
+    let statement = solution.recurrence().statement();
+    assert_looks("rigid-mass-echoes", &echo_form(&solution, f, 3));
+    let piecewise = piecewise_form(&solution, f, 3);
+    assert_snapshot("rigid-mass-piecewise-text", &export::text(&piecewise));
+    let cases = export::latex_cases("f", &statement.time, &piecewise, LATEX_WIDTH);
+    assert_sound_latex(&cases);
+    assert_snapshot("rigid-mass-piecewise-latex", &cases);
+    let json = pieces_json("n", 0, &statement.local, &pieces(&solution, f, 2));
+    let json = serde_json::to_string_pretty(&json).expect("JSON");
+    assert_snapshot("rigid-mass-json", &json);
+}
+
+#[test]
+fn scenes_in_general() {
+    for scene in SCENES {
+        let solution = read(scene.text);
+        let form = |wave| {
+            let form = solution.general(wave).expect("every wave of the scenes has one");
+            general_form(solution.recurrence(), wave, form)
+        };
+        let all: Vec<Formula> = waves(&solution).flat_map(form).collect();
+        assert_looks(&format!("{}-general", scene.name), &all);
+    }
+}
+
+// ---- That it can be read -----------------------------------------------------------------------
+
+/// The functions that a text lists, in its order.
+fn listed(text: &str) -> Vec<(String, usize, Expression)> {
+    let source = Source::new("listing", text).unwrap_or_else(|error| panic!("{error}"));
+    let formulas = read_listing(&source).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    formulas.into_iter().map(|f| (f.wave, f.n, f.expression)).collect()
+}
+
+/// Recurrences whose solutions hold what those of the scenes do not: several exponentials, powers
+/// of quotients, symbols in exponents, numbers beside symbols in a denominator.
+const OTHERS: [&str; 5] = [
+    "period 1, local s, time t
+     wave u
+     equation u[n]' + 2*u[n] = 3*u[n-1] - exp(-t)*t
+     continuous u[n] starts at 1/3",
+    "symbol D > 0, a, b
+     nonzero a - b
+     period D, local s, time t
+     wave u_left, v
+     equation u_left[n]' + a*u_left[n] = v[n-1]
+     equation v[n]' + b*v[n] = -u_left[n]
+     continuous u_left[n] starts at 1
+     continuous v[n] starts at 0",
+    "symbol L > 0, c > 0, alpha > 0
+     period 2*L/c, local s, time t
+     wave w
+     equation L/c*w[n]' + alpha*w[n] = L/c*w[n-1]' - w[n-1]
+     continuous w[n] - w[n-1] starts at 1/c",
+    "symbol r > 0
+     period 2, local s, time t
+     wave f
+     equation f[n]' = (1-r)/(1+r)*(f[n-1]' - f[n-1]) - exp(t/(2*r))
+     continuous f[n] starts at 1/2",
+    "symbol mu > 0
+     period mu, local s, time t
+     wave f
+     equation f[n]' - f[n] = -exp(-mu)*f[n-1] + 1/mu
+     continuous f[n] starts at -exp(mu)",
+];
+
+fn others() -> impl Iterator<Item = Solution> {
+    OTHERS.iter().map(|text| {
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        read(&format!("recurrence \"other\"\n{}\n", lines.join("\n")))
+    })
+}
+
+#[test]
+fn written_functions_are_read_back() {
+    let scenes = SCENES.iter().map(|scene| (read(scene.text), 12));
+    for (solution, last) in scenes.chain(others().map(|solution| (solution, 4))) {
+        for wave in waves(&solution) {
+            let name = name_of(&solution, wave);
+            let text = export::text(&period_form(&solution, wave, last));
+            for (n, (read, index, piece)) in listed(&text).into_iter().enumerate() {
+                assert_eq!((read.as_str(), index), (name.as_str(), n));
+                assert_eq!(piece, pieces(&solution, wave, last)[n], "{text}");
+            }
+            let with_remarks = export::text(&piecewise_form(&solution, wave, last));
+            assert_eq!(listed(&with_remarks), listed(&text));
+            let text = export::text(&echo_form(&solution, wave, last));
+            let echoes = solution.echoes(wave, last).expect("they were written");
+            let read = listed(&text);
+            assert_eq!(read.len(), last + 1);
+            for ((wave, k, echo), expected) in read.iter().zip(echoes.echoes()) {
+                assert_eq!(*wave, format!("phi_{name}"), "{k}");
+                assert_eq!(echo, expected, "{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn lines_are_as_wide_as_they_may_be() {
+    for scene in SCENES {
+        let solution = read(scene.text);
+        for wave in waves(&solution) {
+            let text = export::text(&period_form(&solution, wave, 12));
+            for line in text.lines().filter(|line| line.chars().count() > TEXT_WIDTH) {
+                assert!(!breakable(line.trim_start()), "{line}");
+            }
+        }
+    }
+}
+
+// ---- LaTeX that a typesetter takes ---------------------------------------------------------------
+
+/// Whether a line could have been broken: at a sign that is in no quotient and no exponent.
+fn breakable(line: &str) -> bool {
+    let line = line.trim_start_matches("\\quad {}").trim_start_matches(['+', '-', ' ']);
+    let line = line.split_once("= ").map_or(line, |(_, right)| right);
+    let mut braces = 0;
+    let mut parts = Vec::new();
+    for (i, character) in line.char_indices() {
+        match character {
+            '{' => braces += 1,
+            '}' => braces -= 1,
+            '+' | '-' if braces == 0 && i > 0 => parts.push(i),
+            _ => {}
+        }
+    }
+    let quotient = line.contains(")/(");
+    !quotient && parts.iter().any(|i| line[..*i].ends_with(' '))
+}
+
+fn assert_sound_latex(latex: &str) {
+    for bad in ["1 \\cdot", "+ -", "- -", "+ +", "{}{", "  ", "^{1}", "\\frac{0}", "--"] {
+        assert!(!latex.contains(bad), "{bad:?} in\n{latex}");
+    }
+    let words: Vec<&str> = latex.split([' ', '&', '\n']).collect();
+    for pair in words.windows(2).filter(|pair| pair[0].trim_start_matches('-') == "1") {
+        let next = pair[1].trim_start_matches('\\');
+        let factor = next.starts_with(char::is_alphanumeric) && !next.starts_with("end");
+        assert!(!factor, "{pair:?} in\n{latex}");
+    }
+    let count = |part: &str| latex.matches(part).count();
+    assert_eq!(count("\\bigl["), count("\\bigr]"), "{latex}");
+    assert_eq!(count("\\left("), count("\\right)"), "{latex}");
+    let mut stack = Vec::new();
+    for character in latex.chars() {
+        match character {
+            '{' | '(' | '[' => stack.push(character),
+            '}' => assert_eq!(stack.pop(), Some('{'), "{latex}"),
+            ')' => assert_eq!(stack.pop(), Some('('), "{latex}"),
+            ']' => assert_eq!(stack.pop(), Some('['), "{latex}"),
+            _ => {}
+        }
+    }
+    assert_eq!(stack, [], "{latex}");
+    for (line, pair) in latex
+        .lines()
+        .filter(|line| !line.contains("\\begin{aligned}"))
+        .filter_map(|line| line.split_once('&').map(|pair| (line, pair)))
+    {
+        let (head, right) = pair;
+        let right = right.trim_end_matches(" \\\\");
+        if !right.starts_with('=') && !right.starts_with("\\quad") {
+            continue;
+        }
+        let width = Latex.width(head) + Latex.width(right);
+        assert!(width <= LATEX_WIDTH + 2 || !breakable(right), "{width}: {line}");
+    }
+}
+
+#[test]
+fn latex_of_every_recurrence_is_sound() {
+    let scenes = SCENES.iter().map(|scene| (read(scene.text), 12));
+    for (solution, last) in scenes.chain(others().map(|solution| (solution, 4))) {
+        let time = &solution.recurrence().statement().time;
+        for wave in waves(&solution) {
+            for formulas in [period_form(&solution, wave, last), echo_form(&solution, wave, last)] {
+                assert_sound_latex(&export::latex(&formulas, LATEX_WIDTH));
+            }
+            let cases = piecewise_form(&solution, wave, last);
+            let name = name_of(&solution, wave);
+            assert_sound_latex(&export::latex_cases(&name, time, &cases, LATEX_WIDTH));
+            if let Ok(form) = solution.general(wave) {
+                let formulas = general_form(solution.recurrence(), wave, form);
+                assert_sound_latex(&export::latex(&formulas, LATEX_WIDTH));
+            }
+        }
+    }
+}
+
+/// The check itself can fail.
+#[test]
+#[should_panic(expected = "+ -")]
+fn doubled_signs_are_noticed() {
+    assert_sound_latex("f &= 1 + -x");
+}
