@@ -59,9 +59,8 @@ fn echo_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> 
 
 fn piecewise_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
     let statement = solution.recurrence().statement();
-    let on_period = |(n, formula): (usize, Formula)| {
-        formula.on_period(n, &statement.period, &statement.local, &statement.time)
-    };
+    let on_period =
+        |(n, formula): (usize, Formula)| formula.on_period(n, &Fraction::zero(), statement);
     period_form(solution, wave, last).into_iter().enumerate().map(on_period).collect()
 }
 
@@ -246,7 +245,8 @@ fn assert_sound_latex(latex: &str) {
     let words: Vec<&str> = latex.split([' ', '&', '\n']).collect();
     for pair in words.windows(2).filter(|pair| pair[0].trim_start_matches('-') == "1") {
         let next = pair[1].trim_start_matches('\\');
-        let factor = next.starts_with(char::is_alphanumeric) && !next.starts_with("end");
+        let factor =
+            next.starts_with(char::is_alphanumeric) && !["end{align*}", "le"].contains(&next);
         assert!(!factor, "{pair:?} in\n{latex}");
     }
     let count = |part: &str| latex.matches(part).count();

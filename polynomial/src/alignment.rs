@@ -61,3 +61,37 @@ pub(crate) fn common_symbols(left: &Arc<[Symbol]>, right: &Arc<[Symbol]>) -> Arc
         _ => union.into(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn union_of_every_pair_of_lists() {
+        let list = |names: &str| -> Arc<[Symbol]> {
+            names.chars().map(|c| Symbol::new(&c.to_string()).unwrap()).collect()
+        };
+        for (left, right, union) in
+            [("", "", ""), ("", "a", "a"), ("ac", "bd", "abcd"), ("abc", "bcd", "abcd")]
+        {
+            let (left, right) = (list(left), list(right));
+            let aligned = align(&left, &right);
+            assert_eq!(aligned.symbols, list(union));
+            assert_eq!(common_symbols(&right, &left), aligned.symbols);
+            for (list, places) in [(&left, &aligned.left), (&right, &aligned.right)] {
+                let exponents: Monomial = (1..=list.len() as u32).collect();
+                let wide = places.spread(&exponents);
+                let kept = aligned.symbols.iter().zip(&wide).filter(|(_, e)| **e > 0);
+                assert!(kept.map(|(x, e)| (x, *e)).eq(list.iter().zip(exponents)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_list_that_has_all_symbols_is_shared() {
+        let long: Arc<[Symbol]> = ["a", "b"].map(|name| Symbol::new(name).unwrap()).into();
+        let short: Arc<[Symbol]> = long[1..].into();
+        assert!(Arc::ptr_eq(&common_symbols(&long, &short), &long));
+        assert!(Arc::ptr_eq(&common_symbols(&short, &long), &long));
+    }
+}

@@ -243,7 +243,7 @@ mod tests {
     fn broken_invariants_are_seen() {
         let valid: Polynomial = "1/2*a*b + a".parse().unwrap();
         assert!(valid.is_valid());
-        let breaks: [fn(&mut Polynomial); 9] = [
+        let damages: [fn(&mut Polynomial); 9] = [
             |p| p.symbols = [p.symbols[1].clone(), p.symbols[0].clone()].into(),
             |p| p.symbols = p.symbols[..1].into(),
             |p| p.terms.reverse(),
@@ -254,9 +254,9 @@ mod tests {
             |p| p.denominator = -p.denominator.clone(),
             |p| p.terms.iter_mut().for_each(|term| term.numerator *= 2),
         ];
-        for (i, breaks) in breaks.iter().enumerate() {
+        for (i, damage) in damages.iter().enumerate() {
             let mut broken = valid.clone();
-            breaks(&mut broken);
+            damage(&mut broken);
             assert!(!broken.is_valid(), "case {i}");
         }
         assert!(!Polynomial { denominator: 2.into(), ..Polynomial::zero() }.is_valid());

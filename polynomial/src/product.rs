@@ -6,7 +6,7 @@ use crate::polynomial::{Monomial, Polynomial, Term, add_exponents};
 use crate::symbol::Symbol;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::One;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::ops::{Div, Mul};
@@ -64,9 +64,6 @@ fn product(left: &Polynomial, right: &Polynomial) -> Polynomial {
 }
 
 fn scale(p: &Polynomial, factor: &BigRational) -> Polynomial {
-    if factor.is_zero() {
-        return Polynomial::zero();
-    }
     let mut terms = p.terms.clone();
     if !factor.numer().is_one() {
         terms.iter_mut().for_each(|term| term.numerator *= factor.numer());

@@ -50,6 +50,7 @@ pub struct Scene {
     wavestep derive rigid-mass --wave f --through 8 --format latex\n  \
     wavestep derive rigid-mass --wave f --piece 80 --format json\n  \
     wavestep derive rigid-mass --form echo --through 5\n  \
+    wavestep derive rigid-mass --observable strain_impact\n  \
     wavestep derive two-bars --general\n  \
     wavestep derive rigid-mass --set mu=1/4 --wave f")]
 pub struct Derive {
@@ -58,6 +59,9 @@ pub struct Derive {
     /// Derive this wave only
     #[arg(long, value_name = "NAME")]
     pub wave: Option<String>,
+    /// Derive this observable instead of the waves
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["wave", "general"])]
+    pub observable: Option<String>,
     /// Derive the periods 0 … N
     #[arg(long, value_name = "N", default_value_t = 3, conflicts_with_all = ["piece", "general"])]
     pub through: usize,

@@ -5,9 +5,10 @@ use super::failure::Failure;
 use super::input;
 use serde_json::{Value, json};
 use wavestep::export::{self, Formula, Head, LATEX_WIDTH};
+use wavestep::expression::{Expression, Fraction};
 use wavestep::language;
-use wavestep::recurrence::{Recurrence, WaveIndex};
-use wavestep::solution::{GeneralForm, Solution, Unknown};
+use wavestep::recurrence::{Observable, Recurrence, WaveIndex};
+use wavestep::solution::{GeneralForm, MixedOffsets, ObservedPieces, Solution, Unknown};
 
 /// The most terms that are derived at once.
 const MAX_TERMS: u128 = 5_000_000;
@@ -16,15 +17,22 @@ const MAX_TERMS: u128 = 5_000_000;
 pub fn run(options: &Derive) -> Result<String, Failure> {
     let recurrence = input::recurrence(&options.scene)?;
     let waves = waves(&recurrence, options.wave.as_deref())?;
-    if !options.general {
-        refuse_explosion(&recurrence, options, waves.len())?;
-    }
-    let solution = Solution::new(recurrence);
     if options.general {
-        general(&solution, &waves, options.format)
-    } else {
-        functions(&solution, &waves, options)
+        return general(&Solution::new(recurrence), &waves, options.format);
     }
+    let observable = options.observable.as_deref().map(|name| observable(&recurrence, name));
+    let observable = observable.transpose()?;
+    let parts = observable.as_ref().map_or(waves.len(), |o| o.observation.terms.len());
+    refuse_explosion(&recurrence, options, parts)?;
+    let solution = Solution::new(recurrence);
+    let functions = match observable {
+        Some(observable) => vec![observed(&solution, &observable, options)?],
+        None => waves
+            .into_iter()
+            .map(|wave| functions(&solution, wave, options))
+            .collect::<Result<_, _>>()?,
+    };
+    Ok(written(&solution, &functions, options))
 }
 
 fn waves(recurrence: &Recurrence, name: Option<&str>) -> Result<Vec<WaveIndex>, Failure> {
@@ -39,12 +47,27 @@ fn waves(recurrence: &Recurrence, name: Option<&str>) -> Result<Vec<WaveIndex>, 
     }
 }
 
+fn observable(recurrence: &Recurrence, name: &str) -> Result<Observable, Failure> {
+    let observables = &recurrence.statement().observables;
+    match recurrence.observable(&language::normalise_name(name)) {
+        Some(observable) => Ok(observable.clone()),
+        None => {
+            let names: Vec<&str> = observables.iter().map(|o| o.name.as_str()).collect();
+            let remedy = match &names[..] {
+                [] => "this scene has no observables: derive its waves".to_owned(),
+                names => format!("the observables of this scene are {}", names.join(", ")),
+            };
+            Err(Failure::usage(format!("`{name}` is no observable of this scene"), remedy))
+        }
+    }
+}
+
 /// Refuses before work starts what would have too many terms: a piece of a wave with one pole has
 /// about n³/6, an echo n.
 fn refuse_explosion(
     recurrence: &Recurrence,
     options: &Derive,
-    waves: usize,
+    parts: usize,
 ) -> Result<(), Failure> {
     let last = options.piece.unwrap_or(options.through) as u128;
     let differential = recurrence.steps().iter().any(|step| step.start.is_some());
@@ -54,7 +77,7 @@ fn refuse_explosion(
         (_, false) => last + 1,
     };
     let all = if options.piece.is_some() { one } else { one.saturating_mul(last / 4 + 1) };
-    let terms = all.saturating_mul(waves as u128);
+    let terms = all.saturating_mul(parts.max(1) as u128);
     if terms <= MAX_TERMS {
         return Ok(());
     }
@@ -64,66 +87,86 @@ fn refuse_explosion(
     Err(Failure::usage(message, "ask for a smaller order, one wave, one piece, or --form echo"))
 }
 
-/// The functions asked for, of one wave.
+/// The functions asked for, of one wave or observable.
 struct Functions {
-    wave: String,
+    name: String,
     first: usize,
-    expressions: Vec<wavestep::expression::Expression>,
+    /// When the first period begins.
+    offset: Fraction,
+    expressions: Vec<Expression>,
 }
 
-fn functions(
-    solution: &Solution,
-    waves: &[WaveIndex],
-    options: &Derive,
-) -> Result<String, Failure> {
-    let (first, last) = match options.piece {
-        Some(n) => (n, n),
-        None => (0, options.through),
+/// The first and the last order asked for.
+fn orders(options: &Derive) -> (usize, usize) {
+    options.piece.map_or((0, options.through), |n| (n, n))
+}
+
+fn functions(solution: &Solution, wave: WaveIndex, options: &Derive) -> Result<Functions, Failure> {
+    let (first, last) = orders(options);
+    let expressions = match options.form {
+        Form::Echo => solution.echoes(wave, last)?.echoes()[first..].to_vec(),
+        Form::Period | Form::Piecewise => solution.pieces(wave, first, last)?,
     };
-    let statement = solution.recurrence().statement();
-    let mut all = Vec::new();
-    for wave in waves {
-        let expressions = match options.form {
-            Form::Echo => solution.echoes(*wave, last)?.echoes()[first..].to_vec(),
-            Form::Period | Form::Piecewise => solution.pieces(*wave, first, last)?,
-        };
-        all.push(Functions { wave: statement.waves[*wave].clone(), first, expressions });
+    let name = solution.recurrence().statement().waves[wave].clone();
+    Ok(Functions { name, first, offset: Fraction::zero(), expressions })
+}
+
+fn observed(
+    solution: &Solution,
+    observable: &Observable,
+    options: &Derive,
+) -> Result<Functions, Failure> {
+    let name = observable.name.clone();
+    if options.form == Form::Echo {
+        let message = format!("the echoes of {name} are those of its waves");
+        return Err(Failure::usage(message, "derive the waves with --form echo"));
     }
-    match options.format {
-        DeriveFormat::Json => Ok(json_document(solution, &all, options.form)),
-        DeriveFormat::Text => {
-            let formulas = all.iter().flat_map(|wave| formulas(solution, wave, options.form));
-            Ok(export::text(&formulas.collect::<Vec<_>>()))
+    let (first, last) = orders(options);
+    match solution.observed(&observable.observation, first, last)? {
+        Ok(observed) => {
+            let ObservedPieces { offset, pieces } = observed;
+            Ok(Functions { name, first, offset, expressions: pieces })
         }
+        Err(MixedOffsets) => Err(Failure::Computation(
+            format!("the waves in {name} do not arrive together, so it has no common periods"),
+            "evaluate it with `wavestep eval`, or derive its waves".to_owned(),
+        )),
+    }
+}
+
+fn written(solution: &Solution, all: &[Functions], options: &Derive) -> String {
+    let time = &solution.recurrence().statement().time;
+    let formulas = |functions: &Functions| formulas(solution, functions, options.form);
+    match options.format {
+        DeriveFormat::Json => json_document(solution, all, options.form),
+        DeriveFormat::Text => export::text(&all.iter().flat_map(formulas).collect::<Vec<_>>()),
         DeriveFormat::Latex if options.form == Form::Piecewise => {
-            let cases = |wave: &Functions| {
-                let formulas = formulas(solution, wave, options.form);
-                export::latex_cases(&wave.wave, &statement.time, &formulas, LATEX_WIDTH)
+            let cases = |functions: &Functions| {
+                export::latex_cases(&functions.name, time, &formulas(functions), LATEX_WIDTH)
             };
-            Ok(all.iter().map(cases).collect())
+            all.iter().map(cases).collect()
         }
         DeriveFormat::Latex => {
-            let formulas = all.iter().flat_map(|wave| formulas(solution, wave, options.form));
-            Ok(export::latex(&formulas.collect::<Vec<_>>(), LATEX_WIDTH))
+            export::latex(&all.iter().flat_map(formulas).collect::<Vec<_>>(), LATEX_WIDTH)
         }
     }
 }
 
 fn formulas(solution: &Solution, functions: &Functions, form: Form) -> Vec<Formula> {
     let statement = solution.recurrence().statement();
-    let formula = |(i, expression): (usize, &wavestep::expression::Expression)| {
+    let formula = |(i, expression): (usize, &Expression)| {
         let (n, local) = (functions.first + i, statement.local.clone());
-        let wave = functions.wave.clone();
+        let wave = functions.name.clone();
         let head = match form {
             Form::Echo => Head::Echo { wave, k: n, local },
             Form::Period | Form::Piecewise => Head::Piece { wave, n, local },
         };
         let formula = Formula::new(head, expression, &statement.local);
-        match form {
-            Form::Piecewise => {
-                formula.on_period(n, &statement.period, &statement.local, &statement.time)
-            }
-            Form::Period | Form::Echo => formula,
+        // Periods that begin with those of the waves are said only where they are asked for.
+        if form == Form::Piecewise || !functions.offset.is_zero() {
+            formula.on_period(n, &functions.offset, statement)
+        } else {
+            formula
         }
     };
     functions.expressions.iter().enumerate().map(formula).collect()
@@ -139,9 +182,9 @@ fn json_document(solution: &Solution, all: &[Functions], form: Form) -> String {
     let waves: Vec<Value> = all
         .iter()
         .map(|functions| {
-            let Functions { wave, first, expressions } = functions;
+            let Functions { name, first, offset, expressions } = functions;
             let pieces = export::pieces_json(index, *first, &statement.local, expressions);
-            json!({"wave": wave, "functions": pieces})
+            json!({"wave": name, "offset": export::fraction_json(offset), "functions": pieces})
         })
         .collect();
     let mut document = header(solution.recurrence());

@@ -71,7 +71,10 @@ impl fmt::Display for EvaluateError {
         match self {
             EvaluateError::MissingValue(symbol) => write!(f, "the symbol {symbol} has no value"),
             EvaluateError::TooManyPeriods { periods, limit } if periods.bits() > 64 => {
-                write!(f, "far more than the {limit} periods that are worked out lie before this time")
+                write!(
+                    f,
+                    "far more than the {limit} periods that are worked out lie before this time"
+                )
             }
             EvaluateError::TooManyPeriods { periods, limit } => write!(
                 f,

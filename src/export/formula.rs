@@ -4,6 +4,7 @@ use crate::export::arrangement::{Term, arrange};
 use crate::export::lines::{Atom, fill};
 use crate::export::notation::{Latex, Notation, Text, write, write_flat};
 use crate::expression::{Expression, Fraction};
+use crate::recurrence::Statement;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The width of a line of plain text.
@@ -99,7 +100,7 @@ pub struct Formula {
     pub head: Head,
     /// The right-hand side.
     pub right: Right,
-    /// A remark in text, and in LaTeX.
+    /// A remark in text, and in LaTeX, where it may be empty.
     pub remark: Option<(String, String)>,
 }
 
@@ -109,23 +110,22 @@ impl Formula {
         Formula { head, right: Right::Terms(arrange(expression, Some(variable))), remark: None }
     }
 
-    /// The formula with the interval on which a piece holds as its remark:
-    /// `nD <= t < (n+1)D, s = t - nD`.
-    pub fn on_period(
-        mut self,
-        n: usize,
-        period: &Fraction,
-        local: &Symbol,
-        time: &Symbol,
-    ) -> Formula {
+    /// The formula with the interval on which a piece holds as its remark: with periods that
+    /// begin at `o`, `o + nD <= t < o + (n+1)D, s = t - (o + nD)`.
+    pub fn on_period(mut self, n: usize, offset: &Fraction, statement: &Statement) -> Formula {
+        let Statement { period, local, time, .. } = statement;
         let written = |notation: &dyn Notation, at_most: &str| {
             let bound = |n: usize| {
-                let bound = period.scale(&Rational::from_integer(n.into()));
+                let bound = offset + &period.scale(&Rational::from_integer(n.into()));
                 write_flat(&arrange(&bound.into(), None), notation)
             };
-            let (t, s) = (notation.symbol(time), notation.symbol(local));
-            let shift = if n == 0 { t.clone() } else { format!("{t} - {}", bound(n)) };
-            (format!("{} {at_most} {t} < {}", bound(n), bound(n + 1)), format!("{s} = {shift}"))
+            let (t, s, start) = (notation.symbol(time), notation.symbol(local), bound(n));
+            let shift = match &start[..] {
+                "0" => t.clone(),
+                sum if sum.contains(['+', '-']) => format!("{t} - ({sum})"),
+                start => format!("{t} - {start}"),
+            };
+            (format!("{start} {at_most} {t} < {}", bound(n + 1)), format!("{s} = {shift}"))
         };
         let (interval, local) = written(&Text, "<=");
         let text = format!("{interval}, {local}");
@@ -150,12 +150,21 @@ impl Formula {
         let head = self.head.latex();
         let used = Latex.width(&head) + 3;
         let lines = fill(&self.right.latex(), width, used, used + 2);
-        let mut rows = Vec::new();
+        let mut rows: Vec<String> = Vec::new();
         for (i, line) in lines.into_iter().enumerate() {
             rows.push(match i {
                 0 => format!("{head} &= {line}"),
                 _ => format!("&\\quad {{}}{line}"),
             });
+        }
+        let remark = self.remark.as_ref().filter(|(_, latex)| !latex.is_empty());
+        if let (Some((_, remark)), Some(last)) = (remark, rows.last_mut()) {
+            if Latex.width(last) + Latex.width(remark) < width {
+                last.push_str(&format!(", \\qquad {remark}"));
+            } else {
+                last.push(',');
+                rows.push(format!("&\\qquad {remark}"));
+            }
         }
         rows
     }

@@ -23,20 +23,25 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
         GeneralForm::Echoes(template) => echoes(recurrence, wave, template),
     };
     if let Some(last) = formulas.last_mut() {
-        last.remark = Some(match form.proof() {
-            Proof::Substitution => {
-                written("proved for every n by substitution into the recurrence")
+        let (index, first) = match form {
+            GeneralForm::Geometric(form) => ("n", form.first.len()),
+            GeneralForm::Echoes(template) => ("k", template.first.len()),
+        };
+        let proof = match form.proof() {
+            Proof::Substitution => "proved by substitution into the recurrence",
+            Proof::CoefficientIdentity => "proved by Pascal's rule for the coefficients",
+        };
+        let laguerre = match form {
+            GeneralForm::Echoes(EchoTemplate { family: Family::Laguerre(_), .. }) => {
+                "; L[k] is the Laguerre polynomial of degree k"
             }
-            Proof::CoefficientIdentity => written(
-                "proved for every k by Pascal's rule for the coefficients; L[k] are the Laguerre polynomials",
-            ),
-        });
+            _ => "",
+        };
+        let text = format!("for {index} >= {first}, {proof}{laguerre}");
+        let latex = if first == 0 { String::new() } else { format!("{index} \\ge {first}") };
+        last.remark = Some((text, latex));
     }
     formulas
-}
-
-fn written(text: &str) -> (String, String) {
-    (text.to_owned(), format!("\\text{{{text}}}"))
 }
 
 fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<Formula> {

@@ -1,6 +1,6 @@
 //! Polynomials localised at irreducible factors.
 
-use num_traits::{One, Zero};
+use num_traits::Zero;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};

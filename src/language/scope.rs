@@ -438,13 +438,19 @@ impl<'a> Lowering<'a> {
 
     fn product(&self, factors: &[Factor]) -> Outcome<Linear> {
         let mut product = Linear::from(Expression::one());
+        // Where time entered.
+        let mut timed = None;
         for factor in factors {
             let tree = &factor.value;
             if factor.operator == Operator::Divide {
-                product = self.scaled(product, &self.inverse(tree)?, tree.span)?;
+                let inverse = self.inverse(tree)?;
+                timed = timed.or_else(|| self.depends_on_time(&inverse).then_some(tree.span));
+                product = self.scaled(product, &inverse, tree.span)?;
+                self.check_coefficients(&product, timed)?;
                 continue;
             }
             let value = self.lower(tree)?;
+            timed = timed.or_else(|| self.depends_on_time(&value.rest).then_some(tree.span));
             product = match (product.waves.is_empty(), value.waves.is_empty()) {
                 (_, true) => self.scaled(product, &value.rest, tree.span)?,
                 (true, false) => self.scaled(value, &product.rest, tree.span)?,
@@ -460,18 +466,22 @@ impl<'a> Lowering<'a> {
                         .with_remedy("the equations between waves must be linear"));
                 }
             };
-            self.check_coefficients(&product, tree.span)?;
+            self.check_coefficients(&product, timed)?;
         }
         Ok(product)
     }
 
-    /// Coefficients of waves do not depend on time.
-    fn check_coefficients(&self, linear: &Linear, span: Span) -> Outcome<()> {
-        let Some(time) = &self.scope.time else { return Ok(()) };
-        match linear.waves.iter().find(|term| term.coefficient.contains(time)) {
+    fn depends_on_time(&self, value: &Expression) -> bool {
+        self.scope.time.as_ref().is_some_and(|time| value.contains(time))
+    }
+
+    /// Coefficients of waves do not depend on time, which entered at `timed`.
+    fn check_coefficients(&self, linear: &Linear, timed: Option<Span>) -> Outcome<()> {
+        let Some(timed) = timed else { return Ok(()) };
+        match linear.waves.iter().find(|term| self.depends_on_time(&term.coefficient)) {
             None => Ok(()),
             Some(term) => Err(self
-                .error("the factor of a wave depends on time", span, "depends on time")
+                .error("the factor of a wave depends on time", timed, "depends on time")
                 .with_secondary(term.span, "multiplies this wave")
                 .with_remedy("coefficients are numbers and symbols; time enters by forcing only")),
         }

@@ -180,7 +180,7 @@ impl<'a> OnePole<'a> {
     pub fn of(step: &Step, assumptions: &'a Assumptions, time: &Symbol) -> Option<OnePole<'a>> {
         let start = step.start.as_ref()?;
         let operator = step.equation.operator(step.wave);
-        if operator.reach() > 2 {
+        if operator.reach() > 2 || start.continuous.has_slopes() {
             return None;
         }
         let at = |row: &[Expression], lag: usize| row.get(lag).cloned().unwrap_or_default();

@@ -1,0 +1,379 @@
+//! What is known for every n or k at once, against what is derived one by one.
+
+use std::collections::BTreeMap;
+
+use wavestep::expression::{Expression, Fraction};
+use wavestep::language::{Source, read_expression, read_recurrence};
+use wavestep::recurrence::{Recurrence, WaveIndex};
+use wavestep::scenes;
+use wavestep::solution::{
+    EchoByEcho, EchoRow, EchoTemplate, Family, GeneralForm, Geometric, PeriodByPeriod, Proof,
+    Solution, expand_piece,
+};
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, binomial, factorial};
+
+fn read(text: &str) -> Recurrence {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let text = format!("recurrence \"test\"\n{}\n", lines.join("\n"));
+    let source = Source::new("recurrence", &text).unwrap_or_else(|error| panic!("{error}"));
+    read_recurrence(&source, &BTreeMap::new()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn scene(name: &str) -> Recurrence {
+    let text = scenes::find(name).expect("a scene of the library").text;
+    let body = text.lines().filter(|line| !line.starts_with("recurrence"));
+    read(&body.collect::<Vec<_>>().join("\n"))
+}
+
+fn expression(text: &str) -> Expression {
+    let source = Source::new("expected", text).unwrap_or_else(|error| panic!("{error}"));
+    read_expression(&source).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn symbol(name: &str) -> Symbol {
+    Symbol::new(name).expect("a name")
+}
+
+// ---- Echoes in closed form ---------------------------------------------------------------------
+
+fn template(solution: &Solution, wave: WaveIndex) -> &EchoTemplate {
+    match solution.general(wave) {
+        Ok(GeneralForm::Echoes(template)) => template,
+        other => panic!("wave {wave} has {other:?}"),
+    }
+}
+
+/// Asserts that every wave has echoes in closed form, and that they are those derived one by one.
+fn assert_templates_hold(name: &str, recurrence: &Recurrence, through: usize) {
+    let solution = Solution::new(recurrence.clone());
+    let mut solver = EchoByEcho::new(recurrence);
+    (0..=through).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
+    for wave in 0..recurrence.statement().waves.len() {
+        let template = template(&solution, wave);
+        assert!(template.first.len() <= 4, "{name}: most echoes are given by the sum");
+        let sum = solver.sum(wave);
+        for (k, expected) in sum.echoes().iter().enumerate() {
+            let echo = template.echo(k, &recurrence.statement().local);
+            assert_eq!(echo, *expected, "{name}: echo {k} of wave {wave}");
+        }
+        assert_eq!(solution.general(wave).map(GeneralForm::proof), Ok(Proof::CoefficientIdentity));
+    }
+}
+
+#[test]
+fn templates_of_scenes_hold() {
+    assert_templates_hold("rigid-mass", &scene("rigid-mass"), 30);
+    assert_templates_hold("pulse-shape", &scene("pulse-shape"), 30);
+}
+
+#[test]
+fn templates_of_other_recurrences_hold() {
+    for (name, text) in [
+        (
+            "derivative delayed",
+            "symbol D > 0
+             period D, local s, time t
+             wave f
+             equation f[n]' + 2*f[n] = f[n-1]' - 3*f[n-1]
+             continuous f[n] - f[n-1] starts at 1",
+        ),
+        (
+            "power family",
+            "symbol D > 0
+             period D, local s, time t
+             wave f
+             equation f[n]' + f[n] = f[n-1]
+             continuous f[n] starts at 1",
+        ),
+        (
+            "power family with a ratio",
+            "symbol D > 0, r > 0
+             period D, local s, time t
+             wave f
+             equation f[n]' + f[n]/r = -3/2*r*f[n-1]
+             continuous f[n] starts at 1/2",
+        ),
+        (
+            "power family, resonant",
+            "period 1, local s, time t
+             wave f
+             equation f[n]' + f[n] = f[n-1] + exp(-t)
+             continuous f[n] starts at 2",
+        ),
+        (
+            "Laguerre, resonant",
+            "period 1, local s, time t
+             wave f
+             equation f[n]' + f[n] = f[n-1]' - f[n-1] + exp(-t)
+             continuous f[n] - f[n-1] starts at 2",
+        ),
+        (
+            "Laguerre, forced at its zero",
+            "period 1, local s, time t
+             wave f
+             equation f[n]' + f[n] = f[n-1]' - 2*f[n-1] + exp(2*t)
+             continuous f[n] - f[n-1] starts at 0",
+        ),
+        (
+            "ratio other than 1",
+            "symbol r > 0
+             period 2, local s, time t
+             wave f
+             equation f[n]' + f[n] = r/3*(f[n-1]' - f[n-1])
+             continuous f[n] - r/3*f[n-1] starts at 1",
+        ),
+        (
+            "wave of two lags",
+            "period 2, local s, time t
+             wave f, g
+             equation f[n]' + f[n] = 2*(f[n-1]' - f[n-1])
+             equation g[n] = f[n] - 5*f[n-2]
+             continuous f[n] - 2*f[n-1] starts at 1",
+        ),
+        (
+            "symbols as poles",
+            "symbol D > 0, a > 0, b > 0
+             period D, local s, time t
+             wave f
+             equation f[n]' + b*f[n] = f[n-1]' - a*f[n-1]
+             continuous f[n] - f[n-1] starts at a",
+        ),
+        (
+            "rule of two lags",
+            "period 1, local s, time t
+             wave f
+             equation f[n]' + f[n] = f[n-1]' - f[n-1]
+             continuous f[n] - f[n-1] starts at 1",
+        ),
+    ] {
+        let through = if name == "symbols as poles" { 12 } else { 30 };
+        assert_templates_hold(name, &read(text), through);
+    }
+}
+
+/// Where no closed form is found, saying so is right; a wrong closed form is not. Whatever is
+/// claimed here agrees with the solution period by period.
+#[test]
+fn claims_about_intricate_recurrences_hold() {
+    for text in [
+        "period 1, local s, time t
+         wave f, g
+         equation g[n] = f[n-1]'
+         equation f[n]' + f[n] = f[n-1]
+         continuous f[n] + g[n] starts at 1",
+        "period 1, local s, time t
+         wave f, g
+         equation g[n] = exp(-t)
+         equation f[n]' + f[n] = f[n-1] + g[n-1]
+         continuous f[n] starts at 1",
+        "period 1, local s, time t
+         wave f, g
+         equation g[n] = 2 - f[n]
+         equation f[n]' + f[n] = f[n-1]' + 3*f[n-1] - g[n-1]
+         continuous f[n] + g[n-1] starts at 1",
+        "period 2, local s, time t
+         wave f, g
+         equation g[n] = exp(-t) + f[n-1]
+         equation f[n]' + f[n] = f[n-1]' - f[n-1] + g[n-1]' + g[n-1]
+         continuous f[n] - f[n-1] - g[n-1] starts at 1",
+        "period 1, local s, time t
+         wave f
+         equation f[n]' + f[n] = 2*f[n-1]' - f[n-1]
+         continuous f[n] - f[n-1] starts at 1",
+        "period 1, local s, time t
+         wave f
+         equation f[n]' + f[n] = exp(-2*t)
+         continuous f[n] - f[n-1] + f[n-2] starts at 1",
+        "period 1, local s, time t
+         wave f
+         equation f[n]' = exp(-t) - sum(f[i], i < n)
+         continuous f[n] starts at 1",
+        "period 1, local s, time t
+         wave f, g
+         equation g[n] = t
+         equation f[n] = f[n-1] + 1
+         ",
+        "period 1, local s, time t
+         wave f, g
+         equation g[n] = 3*f[n-2] - t
+         equation f[n]' + f[n] = f[n-1] + 1
+         continuous f[n] starts at 0",
+    ] {
+        let recurrence = read(text);
+        let solution = Solution::new(recurrence.clone());
+        let mut solver = PeriodByPeriod::new(&recurrence);
+        (0..=7).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
+        for (wave, expected) in solver.waves().iter().enumerate() {
+            let pieces = solution.pieces(wave, 0, 7).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(pieces, expected.pieces(), "wave {wave} of\n{text}");
+            if let Ok(GeneralForm::Geometric(form)) = solution.general(wave) {
+                let values: Vec<Expression> = (0..=7).map(|n| form.value(n)).collect();
+                assert_eq!(values, expected.pieces(), "wave {wave} of\n{text}");
+            }
+        }
+    }
+}
+
+/// `L_k(cx) = Σ_j C(k,j) (−c)^j x^j/j!`, with numbers and with a symbol.
+#[test]
+fn laguerre_rows_are_binomials() {
+    for c in ["2", "-1/3", "a", "a + 1/2"] {
+        let family = Family::Laguerre(expression(c).as_fraction().expect("no exponential"));
+        let template = EchoTemplate {
+            family,
+            rate: Fraction::zero(),
+            ratio: Fraction::one(),
+            terms: vec![(0, Fraction::one())],
+            first: Vec::new(),
+        };
+        for k in 0..=12u32 {
+            let mut expected = Expression::zero();
+            for j in 0..=k {
+                let weight = Rational::new(binomial(k, j), factorial(j));
+                let power = Polynomial::monomial(&weight, &[(&symbol("x"), j)]);
+                expected += &(&(-&expression(c)).pow(j) * &power.into());
+            }
+            assert_eq!(template.echo(k as usize, &symbol("x")), expected, "L_{k}({c} x)");
+        }
+    }
+}
+
+// ---- Sequences ---------------------------------------------------------------------------------
+
+fn sequence(solution: &Solution, wave: WaveIndex) -> &Geometric {
+    match solution.general(wave) {
+        Ok(GeneralForm::Geometric(form)) => form,
+        other => panic!("wave {wave} has {other:?}"),
+    }
+}
+
+/// Asserts that every wave is a sequence in general n, with this many values before the sum holds.
+fn assert_sequences_hold(recurrence: &Recurrence, first: &[usize]) {
+    let solution = Solution::new(recurrence.clone());
+    let mut solver = PeriodByPeriod::new(recurrence);
+    (0..=30).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
+    for (wave, expected) in solver.waves().iter().enumerate() {
+        let form = sequence(&solution, wave);
+        assert_eq!(form.first.len(), first[wave], "{form:?}");
+        for (n, value) in expected.pieces().iter().enumerate() {
+            assert_eq!(form.value(n), *value, "n = {n}");
+        }
+    }
+}
+
+#[test]
+fn sequences_of_scenes_hold() {
+    assert_sequences_hold(&scene("two-bars"), &[0, 0, 0]);
+    let constant_force = scene("constant-force");
+    assert_sequences_hold(&constant_force, &[0]);
+    let solution = Solution::new(constant_force);
+    let form = sequence(&solution, 0);
+    assert!(form.terms.iter().any(|term| term.power == 1), "a double root gives n·1^n: {form:?}");
+}
+
+#[test]
+fn sequences_of_other_recurrences_hold() {
+    let of = |equations: &str| {
+        read(&format!("symbol r > 0\nperiod 1, local s, time t\nwave f\nequation {equations}"))
+    };
+    assert_sequences_hold(&of("f[n] = 5*f[n-1] - 6*f[n-2] + 1"), &[0]);
+    assert_sequences_hold(&of("f[n] = 4*f[n-1] - 4*f[n-2] + r"), &[0]);
+    assert_sequences_hold(&of("6*f[n] = 5*f[n-1] - f[n-2] + exp(-r)"), &[0]);
+    assert_sequences_hold(&of("f[n] = 3*f[n-1] - 3*f[n-2] + f[n-3] + 1"), &[0]);
+    assert_sequences_hold(&of("f[n] = -r*f[n-1] + 1"), &[0]);
+    assert_sequences_hold(&of("f[n] = 7"), &[0]);
+}
+
+/// Values that the sum does not give: a wave that only begins after some periods.
+#[test]
+fn sequences_may_start_late() {
+    let recurrence = read(
+        "symbol r > 0
+         period 1, local s, time t
+         wave f, g
+         equation f[n] = 2*f[n-1] + 1
+         equation g[n] = f[n-3] + r",
+    );
+    assert_sequences_hold(&recurrence, &[0, 2]);
+}
+
+/// Irrational ratios are not found, and that is said; the pieces are there all the same.
+#[test]
+fn irrational_ratios_are_unknown() {
+    let text = "period 1, local s, time t\nwave f\nequation f[n] = f[n-1] + f[n-2] + 1";
+    let solution = Solution::new(read(text));
+    assert!(solution.general(0).is_err());
+    let pieces = solution.pieces(0, 0, 5).unwrap_or_else(|error| panic!("{error}"));
+    let expected = [1, 2, 4, 7, 12, 20].map(Expression::integer);
+    assert_eq!(pieces, expected);
+}
+
+#[test]
+fn two_poles_are_unknown() {
+    let recurrence = read(
+        "period 1, local s, time t
+         wave u, v
+         equation u[n]' + u[n] = v[n-1]
+         equation v[n]' + 2*v[n] = u[n]
+         continuous u[n] starts at 1
+         continuous v[n] starts at 0",
+    );
+    let solution = Solution::new(recurrence);
+    assert!(solution.general(0).is_err() && solution.general(1).is_err());
+}
+
+// ---- Pieces, term by term ----------------------------------------------------------------------
+
+fn rows(solution: &Solution, wave: WaveIndex, through: usize) -> Vec<EchoRow> {
+    let rows = solution.rows(wave, through).unwrap_or_else(|error| panic!("{error}"));
+    rows.expect("the constants are numbers")
+}
+
+#[test]
+fn streamed_terms_add_up_to_pieces() {
+    for (name, wave) in [("rigid-mass", 0), ("rigid-mass", 1), ("pulse-shape", 0)] {
+        let solution = Solution::new(scene(name));
+        let statement = solution.recurrence().statement();
+        let (s, period) = (Fraction::symbol(&statement.local), &statement.period);
+        let rows = rows(&solution, wave, 12);
+        let pieces = solution.pieces(wave, 0, 12).unwrap_or_else(|error| panic!("{error}"));
+        for (n, piece) in pieces.iter().enumerate() {
+            let mut sum = Expression::zero();
+            expand_piece(&rows, n, |term| {
+                let (i, l) = (term.local_power, term.period_power);
+                let below = term.denominator * factorial(i) * factorial(l);
+                let value = Rational::new(term.numerator, below);
+                let age = Rational::from_integer(term.age.into());
+                let exponent = (&s + &period.scale(&age)).scale(term.rate);
+                sum.add_term(exponent, (&s.pow(i) * &period.pow(l)).scale(&value));
+            });
+            assert_eq!(sum, *piece, "{name}: {n}");
+        }
+    }
+}
+
+/// The coefficient of `e^{−s−mD} s^j/j! D^l/l!` in `f_n` is `C(k,i) (−2)^i m^l`, `k = n − m`,
+/// `i = j + l`; with `D = 2μ` the period form of 6.80–6.82.
+#[test]
+fn rigid_mass_period_form_is_closed() {
+    let solution = Solution::new(scene("rigid-mass"));
+    let rows = rows(&solution, 0, 80);
+    for n in [0usize, 1, 7, 30] {
+        let mut count = 0;
+        expand_piece(&rows, n, |term| {
+            let (m, j, l) = (term.age, term.local_power, term.period_power);
+            let (k, i) = (n as u32 - m, j + l);
+            let power = |base: i64, exponent: u32| Integer::from(base).pow(exponent);
+            let expected = binomial(k, i) * power(-2, i) * power(m.into(), l);
+            assert_eq!(Rational::new(term.numerator, term.denominator.clone()), expected.into());
+            assert_eq!(*term.rate, Rational::from_integer((-1).into()));
+            count += 1;
+        });
+        // (k+1)(k+2)/2 terms an echo of age m = n − k > 0, and k + 1 for the youngest.
+        let expected = (0..n).map(|k| (k + 1) * (k + 2) / 2).sum::<usize>() + n + 1;
+        assert_eq!(count, expected, "n = {n}");
+    }
+    let mut count = 0usize;
+    expand_piece(&rows, 80, |_| count += 1);
+    assert_eq!(count, 88_641);
+}
