@@ -214,7 +214,7 @@ impl<'a> Evaluator<'a> {
         let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
         let echoes = self.echoes(wave, last)?;
         let local = &self.solution.recurrence().statement().local;
-        for k in 0..=last {
+        for k in 1..=last {
             let x = time - &self.period * Rational::from_integer(k.into());
             match &*echoes {
                 Echoes::Rows(rows) => add_row(&rows[k], order, x, contributions),

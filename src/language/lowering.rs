@@ -7,10 +7,10 @@ use wavestep_polynomial::{Rational, Symbol};
 
 use super::constant::constant;
 use super::diagnostic::Diagnostic;
-use super::scope::{Linear, Place, Reference, Scope};
+use super::scope::{Linear, Place, Reference, Scope, with_likely};
 use super::source::Source;
 use super::syntax::{self, Span, Spanned, StatementKind};
-use crate::expression::{Assumptions, Condition, Expression, Fraction, Relation};
+use crate::expression::{Assumptions, Condition, Expression, Fraction, NotInvertible, Relation};
 use crate::recurrence::{
     Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation, Part, Recurrence,
     Statement,
@@ -131,15 +131,12 @@ impl<'a> Lowering<'a> {
                     [] => "this recurrence has no symbols".to_owned(),
                     _ => format!("its symbols are {}", names.join(", ")),
                 };
-                Err(self
-                    .scope
-                    .error(
-                        format!("a value is given for `{unknown}`, which is no symbol here"),
-                        self.tree.title.span,
-                        "of this recurrence",
-                    )
-                    .with_closest(unknown, names.iter().map(String::as_str))
-                    .or_remedy(choice))
+                let error = self.scope.error(
+                    format!("a value is given for `{unknown}`, which is no symbol here"),
+                    self.tree.title.span,
+                    "of this recurrence",
+                );
+                Err(with_likely(error, unknown, names.iter().map(String::as_str)).or_remedy(choice))
             }
         }
     }
@@ -378,9 +375,18 @@ impl<'a> Lowering<'a> {
                  supported"
                     .to_owned(),
             ),
-            Fault::NotInvertible(_) => (
+            Fault::NotInvertible(reason) => (
                 "the factor of the newest wave may be zero",
-                "state that it is not, with `nonzero …`".to_owned(),
+                match reason {
+                    NotInvertible::Undeclared(factor) if Fraction::reciprocal(factor).is_ok() => {
+                        format!("state that it is not, with `nonzero {factor}`")
+                    }
+                    NotInvertible::Undeclared(_) => "multiply the equation such that this factor \
+                         is a product of factors that are linear in a symbol each"
+                        .to_owned(),
+                    NotInvertible::SumOfExponentials => "introduce a symbol for it".to_owned(),
+                    NotInvertible::Zero => "check the signs, and the values given".to_owned(),
+                },
             ),
             Fault::RateNotPolynomial => {
                 ("a rate with an exponential", "introduce a symbol for it".to_owned())

@@ -149,7 +149,7 @@ impl Scope {
 }
 
 /// Says which of the names was probably meant.
-fn with_likely<'a>(
+pub(super) fn with_likely<'a>(
     error: Diagnostic,
     name: &str,
     known: impl Iterator<Item = &'a str> + Clone,

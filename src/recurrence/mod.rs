@@ -7,12 +7,15 @@
 
 mod form;
 mod ordering;
+#[expect(clippy::module_inception, reason = "the file is named for the type it holds")]
+mod recurrence;
 mod statement;
 
 pub use form::{LinearForm, Operator};
 pub use ordering::{Start, Step};
+pub use recurrence::Recurrence;
 pub use statement::{
-    Continuity, Fault, InvalidRecurrence, Observable, Observation, Part, Recurrence, Statement,
+    Continuity, Fault, InvalidRecurrence, Observable, Observation, Part, Statement,
 };
 
 /// The place of a wave among the waves of a recurrence.

@@ -7,7 +7,7 @@
 
 use crate::expression::{EchoSum, Expression, Fraction, Transform};
 use crate::recurrence::{LinearForm, Recurrence, Start, WaveIndex};
-use crate::solution::solved::{SolveError, Unsolvable};
+use crate::solution::error::{SolveError, Unsolvable};
 
 /// The solution of a recurrence, echo by echo.
 pub struct EchoByEcho<'a> {

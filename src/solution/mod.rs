@@ -7,6 +7,7 @@
 
 mod echo;
 mod elimination;
+mod error;
 mod general;
 mod geometric;
 mod observed;
@@ -16,10 +17,11 @@ mod solved;
 mod template;
 
 pub use echo::EchoByEcho;
+pub use error::{SolveError, Unsolvable};
 pub use general::{GeneralForm, Proof, Unknown};
 pub use geometric::{Geometric, GeometricTerm};
 pub use observed::{MixedOffsets, ObservedPieces};
 pub use period::PeriodByPeriod;
 pub use rows::{EchoRow, ExpandedTerm, expand_piece};
-pub use solved::{Solution, SolveError, Unsolvable};
+pub use solved::Solution;
 pub use template::{EchoTemplate, Family};

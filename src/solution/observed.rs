@@ -2,7 +2,8 @@
 
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::Observation;
-use crate::solution::solved::{Solution, SolveError};
+use crate::solution::error::SolveError;
+use crate::solution::solved::Solution;
 use num_traits::{Signed, ToPrimitive};
 use wavestep_polynomial::Rational;
 

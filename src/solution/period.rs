@@ -14,7 +14,7 @@
 
 use crate::expression::{Expression, Fraction, Piecewise};
 use crate::recurrence::{LinearForm, Recurrence, Start, Step, WaveIndex};
-use crate::solution::solved::{SolveError, Unsolvable};
+use crate::solution::error::{SolveError, Unsolvable};
 use wavestep_polynomial::Rational;
 
 /// The solution of a recurrence, period by period.
