@@ -137,7 +137,7 @@ impl Polynomial {
     /// # Panics
     /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn monomial(coefficient: &BigRational, powers: &[(&Symbol, u32)]) -> Polynomial {
-        let mut powers: Vec<_> = powers.iter().filter(|(_, e)| *e > 0).copied().collect();
+        let mut powers = powers.to_vec();
         powers.sort();
         powers.dedup_by(|next, kept| {
             let same = next.0 == kept.0;

@@ -168,6 +168,7 @@ fn binomial_theorem() {
 fn neutral_elements() {
     assert_eq!(valid(Polynomial::zero()), Polynomial::integer(0));
     assert_eq!(valid(Polynomial::one()), Polynomial::integer(1));
+    assert!(!Polynomial::symbol(&symbol("x")).is_one());
     assert_eq!(Polynomial::zero().pow(0), Polynomial::one());
     assert_eq!(Polynomial::default(), Polynomial::zero());
     assert_eq!(std::iter::empty::<Polynomial>().sum::<Polynomial>(), Polynomial::zero());

@@ -214,7 +214,7 @@ impl<'a> Evaluator<'a> {
         let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
         let echoes = self.echoes(wave, last)?;
         let local = &self.solution.recurrence().statement().local;
-        for k in 1..=last {
+        for k in 0..=last {
             let x = time - &self.period * Rational::from_integer(k.into());
             match &*echoes {
                 Echoes::Rows(rows) => add_row(&rows[k], order, x, contributions),
@@ -261,10 +261,10 @@ impl<'a> Evaluator<'a> {
     }
 
     fn echoes(&self, wave: WaveIndex, last: usize) -> Result<Rc<Echoes>, EvaluateError> {
-        if let Some((known, echoes)) = self.echoes.borrow().get(&wave) {
-            if *known >= last {
-                return Ok(echoes.clone());
-            }
+        if let Some((known, echoes)) = self.echoes.borrow().get(&wave)
+            && *known >= last
+        {
+            return Ok(echoes.clone());
         }
         // With some in reserve: times are often asked for in ascending order.
         let through = (last + last / 2).max(16);

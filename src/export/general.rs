@@ -32,7 +32,7 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
             Proof::CoefficientIdentity => "proved by Pascal's rule for the coefficients",
         };
         let laguerre = match form {
-            GeneralForm::Echoes(EchoTemplate { family: Family::Laguerre(_), .. }) => {
+            GeneralForm::Echoes(template) if template.family != Family::Power => {
                 "; L[k] is the Laguerre polynomial of degree k"
             }
             _ => "",

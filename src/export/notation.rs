@@ -212,14 +212,15 @@ impl Latex {
         if GREEK.contains(&name) {
             return format!("\\{name}");
         }
-        if let Some((base, subscript)) = name.split_once('_') {
-            if !base.is_empty() && !subscript.is_empty() {
-                let subscript = match GREEK.contains(&subscript) || subscript.len() == 1 {
-                    true => Latex::name(subscript),
-                    false => format!("\\mathrm{{{}}}", subscript.replace('_', "\\_")),
-                };
-                return format!("{}_{{{subscript}}}", Latex::name(base));
-            }
+        if let Some((base, subscript)) = name.split_once('_')
+            && !base.is_empty()
+            && !subscript.is_empty()
+        {
+            let subscript = match GREEK.contains(&subscript) || subscript.len() == 1 {
+                true => Latex::name(subscript),
+                false => format!("\\mathrm{{{}}}", subscript.replace('_', "\\_")),
+            };
+            return format!("{}_{{{subscript}}}", Latex::name(base));
         }
         let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
         if letters.len() < name.len() && !letters.is_empty() {

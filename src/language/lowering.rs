@@ -112,10 +112,10 @@ impl<'a> Lowering<'a> {
                     }),
                 };
                 let value = self.values.get(&name.value).cloned();
-                if let (Some(value), Some(condition)) = (&value, &condition) {
-                    if !condition.holds(value) {
-                        return Err(self.outside(name, value, condition));
-                    }
+                if let (Some(value), Some(condition)) = (&value, &condition)
+                    && !condition.holds(value)
+                {
+                    return Err(self.outside(name, value, condition));
                 }
                 if value.is_none() {
                     self.scope.assumptions.declare_symbol(symbol(&name.value), condition);

@@ -366,10 +366,10 @@ impl<'a> Lowering<'a> {
             self.error("this is no delayed scene time", argument.span, "must be a delayed time")
                 .with_remedy(format!("write `{0}({time})` or `{0}({time} - delay)`", name.value))
         };
-        if let Node::Name(own) = &argument.value {
-            if self.scope.local.as_ref().is_some_and(|local| local.name() == own) {
-                return Err(shape());
-            }
+        if let Node::Name(own) = &argument.value
+            && self.scope.local.as_ref().is_some_and(|local| local.name() == own)
+        {
+            return Err(shape());
         }
         let argument_value = self.plain(argument, "a time")?.as_fraction().ok_or_else(shape)?;
         let delay = &Fraction::symbol(time) - &argument_value;
@@ -393,12 +393,12 @@ impl<'a> Lowering<'a> {
                     "exponents are quotients of polynomials in the symbols and the time",
                 ));
         };
-        if let Some(time) = self.scope.time.as_ref().filter(|time| exponent.contains(time)) {
-            if exponent.derivative(time).contains(time) {
-                return Err(self
-                    .error("the exponent is not linear in time", argument.span, "not linear")
-                    .with_remedy(format!("write exponentials such as `exp(-2*{time})`")));
-            }
+        if let Some(time) = self.scope.time.as_ref().filter(|time| exponent.contains(time))
+            && exponent.derivative(time).contains(time)
+        {
+            return Err(self
+                .error("the exponent is not linear in time", argument.span, "not linear")
+                .with_remedy(format!("write exponentials such as `exp(-2*{time})`")));
         }
         Ok(Expression::exponential(exponent))
     }

@@ -14,7 +14,7 @@ pub enum GeneralForm {
     /// Its values are constant on each period, and this sequence.
     Geometric(Geometric),
     /// Its echoes are of this form.
-    Echoes(EchoTemplate),
+    Echoes(Box<EchoTemplate>),
 }
 
 /// How a general form was proved.
@@ -118,5 +118,5 @@ fn echoes(
         solver.advance().ok()?;
     }
     template.first = solver.sum(wave).echoes().to_vec();
-    Some(GeneralForm::Echoes(template))
+    Some(GeneralForm::Echoes(Box::new(template)))
 }

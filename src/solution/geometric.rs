@@ -211,7 +211,7 @@ fn candidates(p: &[Expression]) -> Vec<Expression> {
         let divisors = |value: Option<Integer>| {
             let value = value.and_then(|v| v.abs().to_u32()).filter(|v| *v <= 100_000);
             let value = value.unwrap_or(0);
-            (1..=value).filter(|d| value % d == 0).map(Integer::from).collect::<Vec<_>>()
+            (1..=value).filter(|d| value.is_multiple_of(*d)).map(Integer::from).collect::<Vec<_>>()
         };
         let (numerators, denominators) = (divisors(last), divisors(lead));
         for numerator in &numerators {
