@@ -96,6 +96,7 @@ fn derivations_are_as_recorded() {
         ("derive-rigid-mass-json", "derive rigid-mass --wave f --piece 1 --format json"),
         ("derive-rigid-mass-value", "derive rigid-mass --set mu=1/4 --wave f"),
         ("derive-rigid-mass-general", "derive rigid-mass --general"),
+        ("derive-rigid-mass-observable", "derive rigid-mass --observable strain_fixed"),
         ("derive-pulse-shape", "derive pulse-shape --through 4"),
         ("derive-two-bars-general", "derive two-bars --general"),
         ("derive-two-bars-general-latex", "derive two-bars --general --format latex"),
@@ -283,6 +284,7 @@ fn bad_arguments_are_explained() {
         ("quantity-unknown", "eval rigid-mass --set mu=1 --quantity h --at 1".to_owned()),
         ("quantity-misspelt", "eval rigid-mass --set mu=1 --quantity velocty --at 1".to_owned()),
         ("wave-unknown", "derive rigid-mass --wave velocity".to_owned()),
+        ("observable-unknown", "derive rigid-mass --observable strain".to_owned()),
         ("time-missing", eval.to_owned()),
         ("at-nan", format!("{eval} --at nan")),
         ("at-name", format!("{eval} --at mu")),
@@ -320,6 +322,11 @@ fn what_cannot_be_computed_is_explained() {
                  equation f[n]' + a*f[n] = g[n-1]\nequation g[n]' + 2*a*g[n] = f[n]\n\
                  continuous f[n] starts at 1\ncontinuous g[n] starts at 0\n";
     fs::write(folder.join("poles.wave"), poles).unwrap();
+    // For a = 1 the pole and the forcing meet, and the answer is another.
+    let resonance = "recurrence \"Resonance\"\nsymbol a > 0\nperiod 1, local s, time t\nwave f\n\
+                     equation f[n]' + a*f[n] = exp(-t)\ncontinuous f[n] starts at 1\n";
+    fs::write(folder.join("resonance.wave"), resonance).unwrap();
+    output_in(&folder, "derive resonance.wave --set a=1");
     let eval = "eval rigid-mass --set mu=1 --quantity f";
     for (name, code, line) in [
         ("time-late", 1, format!("{eval} --at 100000")),
@@ -327,6 +334,7 @@ fn what_cannot_be_computed_is_explained() {
         ("piece-late", 1, format!("{eval} --piece 1000000000 --local 0")),
         ("exponential-large", 1, "eval rigid-mass --set mu=1e300 --quantity f --at 1e299".into()),
         ("general-unknown", 1, "derive poles.wave --general".into()),
+        ("division", 1, "derive resonance.wave".into()),
         ("bits-few", 3, format!("{eval} --at 33/10 --max-bits 16")),
         ("bits-none", 3, format!("{eval} --at 33/10 --max-bits 0")),
     ] {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use wavestep::export::{
     self, Formula, Head, LATEX_WIDTH, Latex, Notation, TEXT_WIDTH, general_form, pieces_json,
 };
-use wavestep::expression::Expression;
+use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_listing, read_recurrence};
 use wavestep::recurrence::WaveIndex;
 use wavestep::scenes::{self, SCENES};
@@ -117,6 +117,23 @@ fn rigid_mass_in_other_forms() {
     let json = pieces_json("n", 0, &statement.local, &pieces(&solution, f, 2));
     let json = serde_json::to_string_pretty(&json).expect("JSON");
     assert_snapshot("rigid-mass-json", &json);
+}
+
+#[test]
+fn rigid_mass_observables() {
+    let solution = scene("rigid-mass");
+    let statement = solution.recurrence().statement();
+    let mut formulas = Vec::new();
+    for observable in &statement.observables {
+        let seen = solution.observed(&observable.observation, 0, 2);
+        let seen = seen.unwrap_or_else(|error| panic!("{error}")).expect("one offset");
+        for (n, piece) in seen.pieces.iter().enumerate() {
+            let (wave, local) = (observable.name.clone(), statement.local.clone());
+            let formula = Formula::new(Head::Piece { wave, n, local }, piece, &statement.local);
+            formulas.push(formula.on_period(n, &seen.offset, statement));
+        }
+    }
+    assert_looks("rigid-mass-observables", &formulas);
 }
 
 #[test]

@@ -44,6 +44,11 @@ fn observed(solution: &Solution, name: &str, back: &Fraction, last: usize) -> Ve
             *value += &(piece * coefficient);
         }
     }
+    let derived = solution.observed(&observation, 0, last).unwrap_or_else(|e| panic!("{e}"));
+    let derived = derived.expect("its waves arrive together");
+    assert_eq!((&derived.offset, &derived.pieces), (back, &values), "{name}");
+    let later = solution.observed(&observation, last, last).map(|seen| seen.map(|s| s.pieces));
+    assert_eq!(later, Ok(Ok(values[last..].to_vec())), "{name}");
     values
 }
 

@@ -61,9 +61,6 @@ impl Univariate {
             p.denominator /= &common;
             p.coefficients.iter_mut().for_each(|value| *value /= &common);
         }
-        if p.coefficients.is_empty() {
-            p.denominator = BigInt::one();
-        }
         p
     }
 
@@ -113,8 +110,8 @@ impl Univariate {
     /// Where the degree exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn to_polynomial(&self, x: &Symbol) -> Polynomial {
         let descending = self.coefficients.iter().enumerate().rev().map(|(j, numerator)| {
-            let power = index(j);
-            Term { exponents: smallvec![add_exponents(power, 0)], numerator: numerator.clone() }
+            let exponent = add_exponents(index(j), 0);
+            Term { exponents: smallvec![exponent], numerator: numerator.clone() }
         });
         let symbols = Arc::from([x.clone()]);
         Polynomial::from_parts(symbols, descending.collect(), self.denominator.clone())

@@ -124,6 +124,8 @@ proptest! {
         prop_assert_eq!(valid(rebuilt.sum()), p.clone());
         let exponents: Vec<_> = p.terms().map(|(exponents, _)| exponents.to_vec()).collect();
         prop_assert!(exponents.is_sorted_by(|a, b| a > b), "terms in the documented order");
+        let largest = exponents.iter().map(|exponents| exponents.iter().sum()).max();
+        prop_assert_eq!(p.total_degree(), largest.unwrap_or(0));
     }
 
     #[test]

@@ -95,3 +95,11 @@ fn the_exponential_series_is_its_own_derivative_but_for_the_last_term() {
 fn the_denominator_is_not_zero() {
     let _ = Univariate::new(vec![1.into()], 0.into());
 }
+
+#[test]
+#[should_panic(expected = "an exponent exceeds 4095")]
+fn the_sparse_form_bounds_the_degree() {
+    let highest = Univariate::new(vec![1.into(); 4096], 1.into());
+    assert_eq!(highest.to_polynomial(&symbol("x")).degree(&symbol("x")), 4095);
+    let _ = highest.antiderivative().to_polynomial(&symbol("x"));
+}

@@ -1,8 +1,9 @@
 //! Failures with their exit codes.
 
 use wavestep::evaluate::EvaluateError;
+use wavestep::expression::NotInvertible;
 use wavestep::language::{Diagnostic, Style};
-use wavestep::solution::SolveError;
+use wavestep::solution::{SolveError, Unsolvable};
 
 /// Exit code: could not compute.
 pub const COMPUTATION: u8 = 1;
@@ -57,8 +58,13 @@ impl From<Diagnostic> for Failure {
 
 impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Failure {
-        let remedy = "give values with --set, or state `nonzero …` for what is divided by";
-        Failure::Computation(error.to_string(), remedy.to_owned())
+        let remedy = match &error.reason {
+            Unsolvable::NotInvertible(NotInvertible::Undeclared(factor)) => {
+                format!("give values with --set, or state `nonzero {factor}` in the scene")
+            }
+            _ => "give values with --set".to_owned(),
+        };
+        Failure::Computation(error.to_string(), remedy)
     }
 }
 
