@@ -87,7 +87,8 @@ impl Ball {
         let Some(top) = value.top() else {
             return (Decimal::from_scaled(&BigInt::zero(), 0), Magnitude::ZERO);
         };
-        let coarsest = decimal_exponent(top - 1) + 1 - most as i64;
+        let most_places = i64::try_from(most).unwrap_or(i64::MAX / 2);
+        let coarsest = decimal_exponent(top - 1) + 1 - most_places;
         let mut place = place.map_or(coarsest, |place| place.max(coarsest));
         let (midpoint, low, high) = loop {
             let (low, high) = scale_by_ten(value, -place, half_even);

@@ -131,11 +131,17 @@ fn decimal(value: &Value, digits: usize) -> (Decimal, Exactness) {
     }
 }
 
+/// The longest fraction that is shown beside its decimals; JSON has them all.
+const MAX_FRACTION: usize = 60;
+
 /// A value in plain text; an exact value that has more digits is given as a fraction as well.
 fn value_text(value: &Value, digits: usize) -> String {
     match (value, decimal(value, digits)) {
         (Value::Exact(value), (_, Exactness::Exact)) => value.to_string(),
-        (Value::Exact(value), (decimal, _)) => format!("{decimal} = {value}"),
+        (Value::Exact(value), (decimal, _)) => match value.to_string() {
+            fraction if fraction.len() <= MAX_FRACTION => format!("{decimal} = {fraction}"),
+            _ => decimal.to_string(),
+        },
         (_, (decimal, _)) => decimal.to_string(),
     }
 }

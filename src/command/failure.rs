@@ -62,6 +62,7 @@ impl From<SolveError> for Failure {
             Unsolvable::NotInvertible(NotInvertible::Undeclared(factor)) => {
                 format!("give values with --set, or state `nonzero {factor}` in the scene")
             }
+            Unsolvable::DegreeTooHigh => "ask for a smaller order".to_owned(),
             _ => "give values with --set".to_owned(),
         };
         Failure::Computation(error.to_string(), remedy)

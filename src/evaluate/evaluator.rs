@@ -4,7 +4,7 @@ use crate::ball::{Ball, BallError, Certified, CertifyError, certify};
 use crate::evaluate::contribution::{Amount, Contribution, enclose, rational_value};
 use crate::expression::{EchoSum, ExponentialSum, Expression};
 use crate::recurrence::{Observation, WaveIndex};
-use crate::solution::{EchoRow, Solution, SolveError};
+use crate::solution::{EchoRow, GeneralForm, Solution, SolveError};
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -17,6 +17,9 @@ pub const MAX_DIGITS: usize = 10_000;
 
 /// The most periods before a time, where echoes have a closed form.
 pub const MAX_ORDER: usize = 2_000;
+
+/// The most periods before a time, where waves are sequences in closed form.
+pub const MAX_ORDER_OF_SEQUENCE: usize = 50_000;
 
 /// The most periods before a time, where echoes are derived one from another.
 pub const MAX_ORDER_WITHOUT_FORM: usize = 400;
@@ -193,11 +196,7 @@ impl<'a> Evaluator<'a> {
         if !observation.forcing.is_zero() && !before_start {
             let time = &self.solution.recurrence().statement().time;
             let forcing = number(&observation.forcing, |x| (x == time).then(|| at.clone()))?;
-            contributions.extend(forcing.into_iter().map(|(exponent, value)| Contribution {
-                factor: Rational::from_integer(1.into()),
-                amount: Amount::Number(value),
-                exponent,
-            }));
+            contributions.extend(numbers(forcing));
         }
         Ok(contributions)
     }
@@ -212,6 +211,13 @@ impl<'a> Evaluator<'a> {
         contributions: &mut Vec<Contribution>,
     ) -> Result<(), EvaluateError> {
         let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
+        if let Ok(GeneralForm::Geometric(sequence)) = self.solution.general(wave) {
+            // Constant on each period: no echo needs to be added up, and slopes are zero.
+            if order == 0 {
+                contributions.extend(numbers(number(&sequence.value(last), |_| None)?));
+            }
+            return Ok(());
+        }
         let echoes = self.echoes(wave, last)?;
         let local = &self.solution.recurrence().statement().local;
         for k in 0..=last {
@@ -224,11 +230,7 @@ impl<'a> Evaluator<'a> {
                         echo = echo.derivative(local);
                     }
                     let value = number(&echo, |symbol| (symbol == local).then(|| x.clone()))?;
-                    contributions.extend(value.into_iter().map(|(exponent, value)| Contribution {
-                        factor: Rational::from_integer(1.into()),
-                        amount: Amount::Number(value),
-                        exponent,
-                    }));
+                    contributions.extend(numbers(value));
                 }
             }
         }
@@ -250,9 +252,10 @@ impl<'a> Evaluator<'a> {
         if last.is_negative() {
             return Ok(None);
         }
-        let limit = match self.solution.has_template(wave) {
-            true => MAX_ORDER,
-            false => MAX_ORDER_WITHOUT_FORM,
+        let limit = match self.solution.general(wave) {
+            Ok(GeneralForm::Geometric(_)) => MAX_ORDER_OF_SEQUENCE,
+            Ok(GeneralForm::Echoes(_)) => MAX_ORDER,
+            Err(_) => MAX_ORDER_WITHOUT_FORM,
         };
         match last.to_usize().filter(|last| *last <= limit) {
             Some(last) => Ok(Some(last)),
@@ -299,6 +302,15 @@ fn add_row(row: &Row, order: u32, x: Rational, contributions: &mut Vec<Contribut
             add(polynomial.clone(), rate.clone());
         }
     }
+}
+
+/// The terms of an exact number as contributions.
+fn numbers(sum: ExponentialSum) -> impl Iterator<Item = Contribution> {
+    sum.into_iter().map(|(exponent, value)| Contribution {
+        factor: Rational::from_integer(1.into()),
+        amount: Amount::Number(value),
+        exponent,
+    })
 }
 
 /// An expression as a number.

@@ -9,5 +9,6 @@ mod evaluator;
 mod modular;
 
 pub use evaluator::{
-    EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_WITHOUT_FORM, Side, Value,
+    EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
+    Side, Value,
 };

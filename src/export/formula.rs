@@ -171,8 +171,8 @@ impl Formula {
 
     /// The lines of a case: the right-hand side in one cell, the remark in the next.
     fn latex_case(&self, width: usize) -> String {
-        let lines = fill(&self.right.latex(), width, 0, 2);
         let remark = self.remark.as_ref().map_or("", |(_, latex)| latex);
+        let lines = fill(&self.right.latex(), width.saturating_sub(Latex.width(remark)), 0, 2);
         let body = match &lines[..] {
             [line] => line.clone(),
             _ => format!(

@@ -29,11 +29,11 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
         };
         let proof = match form.proof() {
             Proof::Substitution => "proved by substitution into the recurrence",
-            Proof::CoefficientIdentity => "proved by Pascal's rule for the coefficients",
+            Proof::CoefficientIdentity => "proved by Pascal's rule",
         };
         let laguerre = match form {
             GeneralForm::Echoes(template) if template.family != Family::Power => {
-                "; L[k] is the Laguerre polynomial of degree k"
+                "; L[k] are the Laguerre polynomials"
             }
             _ => "",
         };
@@ -93,22 +93,23 @@ fn geometric_term(term: &GeometricTerm, n: &Symbol) -> Term {
     (sign, Node::product(factors))
 }
 
-/// A ratio as the base of a power, without a sign in front where a sum can take it.
+/// A ratio as the base of a power, without a sign in front where a sum can take it:
+/// `(r - 1)/(r + 1)` rather than `-(1 - r)/(1 + r)`.
 fn ratio_node(ratio: &Expression) -> Node {
     let terms = arrange(ratio, None);
     match &terms[..] {
-        [(Sign::Minus, Node::Quotient(top, bottom))] => {
-            let flipped = match &**top {
-                Node::Sum(terms) => {
-                    let turned = |(sign, node): &Term| (sign.times(Sign::Minus), node.clone());
-                    let mut terms: Vec<Term> = terms.iter().map(turned).collect();
-                    terms.sort_by_key(|(sign, _)| *sign == Sign::Minus);
-                    Node::Sum(terms)
-                }
-                other => return negative(Node::Quotient(Box::new(other.clone()), bottom.clone())),
-            };
-            Node::Quotient(Box::new(flipped), bottom.clone())
-        }
+        [(Sign::Minus, Node::Quotient(top, bottom))] => match &**top {
+            Node::Sum(top) => {
+                let minus = |(sign, node): &Term| (sign.times(Sign::Minus), node.clone());
+                let reversed = top.iter().rev().map(minus).collect();
+                let bottom = match &**bottom {
+                    Node::Sum(bottom) => Node::Sum(bottom.iter().rev().cloned().collect()),
+                    other => other.clone(),
+                };
+                Node::Quotient(Box::new(Node::Sum(reversed)), Box::new(bottom))
+            }
+            _ => negative(Node::Quotient(top.clone(), bottom.clone())),
+        },
         [(Sign::Minus, other)] => negative(other.clone()),
         _ => Node::sum(terms).1,
     }

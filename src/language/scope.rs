@@ -27,7 +27,7 @@ pub const MAX_EXPONENT: u32 = 1000;
 const MAX_TERMS: usize = 100_000;
 
 /// The highest degree that a product or power may be worked out to.
-const MAX_DEGREE: u32 = 10 * MAX_EXPONENT;
+const MAX_DEGREE: u32 = 2 * MAX_EXPONENT;
 
 type Outcome<T> = Result<T, Diagnostic>;
 

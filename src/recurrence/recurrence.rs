@@ -57,6 +57,28 @@ impl Recurrence {
         self.statement.observables.iter().find(|observable| observable.name == name)
     }
 
+    /// An estimate from above of the degree of pieces and echoes of an order: each period brings
+    /// the degree of a coefficient, an integration, and a substitution of the period.
+    pub fn degree_estimate(&self, order: usize) -> u64 {
+        let Statement { period, equations, continuity, .. } = &self.statement;
+        let of_fraction = |value: &Fraction| {
+            let factors = value.factors().map(|(p, power)| p.total_degree() * power);
+            u64::from(value.numerator().total_degree() + factors.sum::<u32>())
+        };
+        let of = |value: &Expression| value.terms().map(|(_, p)| of_fraction(p)).max().unwrap_or(0);
+        let period = of_fraction(period).max(1);
+        let forms = || equations.iter().chain(continuity.iter().map(|rule| &rule.form));
+        let coefficients = forms().flat_map(|form| form.operators()).flat_map(|(_, operator)| {
+            [operator.value(), operator.slope(), operator.sum()].into_iter().flatten()
+        });
+        let growth = coefficients.map(of).max().unwrap_or(0);
+        let integration =
+            if self.steps.iter().any(|step| step.start.is_some()) { period } else { 0 };
+        let forcing = forms().flat_map(|form| form.forcing_terms()).map(of).max().unwrap_or(0);
+        let start = continuity.iter().map(|rule| of(&rule.start)).max().unwrap_or(0);
+        start + forcing * period + (order as u64 + 1).saturating_mul(growth + integration)
+    }
+
     /// The wave or the observable called `name`, as what is observed.
     pub fn observation(&self, name: &str) -> Option<Observation> {
         if let Some(wave) = self.wave(name) {

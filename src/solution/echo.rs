@@ -7,7 +7,7 @@
 
 use crate::expression::{EchoSum, Expression, Fraction, Transform};
 use crate::recurrence::{LinearForm, Recurrence, Start, WaveIndex};
-use crate::solution::error::{SolveError, Unsolvable};
+use crate::solution::error::{SolveError, Unsolvable, check_degree};
 
 /// The solution of a recurrence, echo by echo.
 pub struct EchoByEcho<'a> {
@@ -43,6 +43,7 @@ impl<'a> EchoByEcho<'a> {
     pub fn advance(&mut self) -> Result<(), SolveError> {
         for step in self.recurrence.steps() {
             let k = self.echoes[step.wave].len();
+            check_degree(self.recurrence, step.wave, k)?;
             let explain = |reason| SolveError::new(self.recurrence, step.wave, k, reason);
             let right = self.right_side(&step.equation, step.wave, k).map_err(explain)?;
             let echo = match &step.start {

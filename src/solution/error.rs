@@ -3,6 +3,7 @@
 use crate::expression::{NotAUnit, NotInvertible};
 use crate::recurrence::{Recurrence, WaveIndex};
 use std::fmt;
+use wavestep_polynomial::Polynomial;
 
 /// Why a piece or an echo cannot be given exactly.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -11,6 +12,20 @@ pub enum Unsolvable {
     NotInvertible(NotInvertible),
     /// A denominator cannot be carried through a substitution.
     NotAUnit(NotAUnit),
+    /// Polynomials of a higher degree than are worked with.
+    DegreeTooHigh,
+}
+
+/// Refuses orders whose polynomials may have too high a degree.
+pub(crate) fn check_degree(
+    recurrence: &Recurrence,
+    wave: WaveIndex,
+    order: usize,
+) -> Result<(), SolveError> {
+    match recurrence.degree_estimate(order) <= u64::from(Polynomial::MAX_EXPONENT) {
+        true => Ok(()),
+        false => Err(SolveError::new(recurrence, wave, order, Unsolvable::DegreeTooHigh)),
+    }
 }
 
 impl From<NotInvertible> for Unsolvable {
@@ -50,10 +65,13 @@ impl SolveError {
 impl fmt::Display for SolveError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let SolveError { wave, order, reason } = self;
-        write!(f, "{wave}[{order}] cannot be given exactly: it needs ")?;
+        write!(f, "{wave}[{order}] cannot be given exactly: ")?;
         match reason {
-            Unsolvable::NotInvertible(reason) => write!(f, "{reason}"),
+            Unsolvable::NotInvertible(reason) => write!(f, "it needs {reason}"),
             Unsolvable::NotAUnit(reason) => write!(f, "{reason}"),
+            Unsolvable::DegreeTooHigh => {
+                write!(f, "its degree may exceed {}", Polynomial::MAX_EXPONENT)
+            }
         }
     }
 }

@@ -5,6 +5,9 @@ use num_integer::Integer as _;
 use num_traits::{One, Signed, ToPrimitive};
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 
+/// The most ratios, with multiplicity, that a closed form is looked for with.
+const MAX_RATIOS: usize = 16;
+
 /// One term `coefficient · n^power · ratio^n`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct GeometricTerm {
@@ -78,6 +81,9 @@ impl Generating {
     /// The general term, where the ratios can be found and told apart.
     pub fn closed_form(self, assumptions: &Assumptions) -> Option<Geometric> {
         let generating = self.cancel();
+        if generating.denominator.len() > MAX_RATIOS + 1 {
+            return None;
+        }
         let ratios = ratios(&generating.denominator)?;
         let order = generating.denominator.len() - 1;
         let from = generating.numerator.len().saturating_sub(order);

@@ -14,7 +14,7 @@
 
 use crate::expression::{Expression, Fraction, Piecewise};
 use crate::recurrence::{LinearForm, Recurrence, Start, Step, WaveIndex};
-use crate::solution::error::{SolveError, Unsolvable};
+use crate::solution::error::{SolveError, Unsolvable, check_degree};
 use wavestep_polynomial::Rational;
 
 /// The solution of a recurrence, period by period.
@@ -48,6 +48,7 @@ impl<'a> PeriodByPeriod<'a> {
     pub fn advance(&mut self) -> Result<(), SolveError> {
         for step in self.recurrence.steps() {
             let n = self.ends[step.wave].len();
+            check_degree(self.recurrence, step.wave, n)?;
             let explain = |reason| SolveError::new(self.recurrence, step.wave, n, reason);
             let piece = match &step.start {
                 None => self.read_off(step, n),

@@ -3,7 +3,7 @@
 use crate::expression::{EchoSum, Expression, NotAUnit, Transform};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::echo::EchoByEcho;
-use crate::solution::error::SolveError;
+use crate::solution::error::{SolveError, check_degree};
 use crate::solution::general::{GeneralForm, Unknown};
 use crate::solution::rows::EchoRow;
 use crate::solution::template::EchoTemplate;
@@ -55,6 +55,7 @@ impl Solution {
     /// # Cost
     /// O(through²) operations on coefficients.
     pub fn echoes(&self, wave: WaveIndex, through: usize) -> Result<EchoSum, SolveError> {
+        check_degree(&self.recurrence, wave, through)?;
         let statement = self.recurrence.statement();
         if let Some(template) = self.template(wave) {
             let echoes = (0..=through).map(|k| template.echo(k, &statement.local)).collect();
@@ -84,6 +85,10 @@ impl Solution {
         first: usize,
         last: usize,
     ) -> Result<Vec<Expression>, SolveError> {
+        check_degree(&self.recurrence, wave, last)?;
+        if let Ok(GeneralForm::Geometric(sequence)) = &self.general[wave] {
+            return Ok((first..=last).map(|n| sequence.value(n)).collect());
+        }
         let sum = self.echoes(wave, last)?;
         let piece = |n: usize| {
             let explain = |e: NotAUnit| SolveError::new(&self.recurrence, wave, n, e.into());
@@ -126,11 +131,6 @@ impl Solution {
             });
         }
         Ok(rows)
-    }
-
-    /// Whether the echoes of a wave have a closed form.
-    pub fn has_template(&self, wave: WaveIndex) -> bool {
-        self.template(wave).is_some()
     }
 }
 
