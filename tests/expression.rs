@@ -10,7 +10,8 @@ use num_traits::{One, Zero};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use wavestep::expression::{
-    Assumptions, ExponentialSum, Expression, Fraction, NotAUnit, NotInvertible, Transform,
+    Assumptions, Condition, ExponentialSum, Expression, Fraction, NotAUnit, NotInvertible,
+    Relation, Transform,
 };
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
@@ -408,4 +409,28 @@ fn only_what_is_known_is_inverted() {
     assert_eq!(invert("2*a*x - 2*a"), Err(NotInvertible::Undeclared(polynomial("x - 1"))));
     let two = &Expression::exponential(fraction("a")) + &Expression::one();
     assert_eq!(assumptions.invert(&two), Err(NotInvertible::SumOfExponentials));
+}
+
+#[test]
+fn conditions_tell_what_is_positive_and_what_is_not_zero() {
+    let condition = |relation, bound| Some(Condition { relation, bound: rational(bound, 1) });
+    let mut known = Assumptions::default();
+    known.declare_symbol(symbol("a"), condition(Relation::Greater, 1));
+    known.declare_symbol(symbol("b"), condition(Relation::AtLeast, 0));
+    known.declare_symbol(symbol("c"), condition(Relation::Less, 0));
+    known.declare_symbol(symbol("d"), condition(Relation::Unequal, 2));
+    for positive in ["a", "a - 1", "a + b", "a*a - 1", "-c", "a - c", "1 - c", "b + 1", "a*c*c"] {
+        assert!(known.is_positive(&fraction(positive)), "{positive}");
+    }
+    for undecided in ["b", "a - 2", "d", "c", "b*c", "a - b", "0", "d*d"] {
+        assert!(!known.is_positive(&fraction(undecided)), "{undecided}");
+    }
+    for unit in ["a - 1", "a", "c", "1 - c", "d - 2", "a + b", "2*a - 2"] {
+        let value = Expression::from(fraction(unit));
+        let inverse = known.invert(&value).unwrap_or_else(|reason| panic!("{unit}: {reason}"));
+        assert!((&value * &inverse).is_one(), "{unit}");
+    }
+    for refused in ["d", "b", "a - 2", "a - b"] {
+        assert!(known.invert(&fraction(refused).into()).is_err(), "{refused}");
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use wavestep::export;
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_expression, read_recurrence};
 use wavestep::recurrence::{Recurrence, WaveIndex};
@@ -376,4 +377,57 @@ fn rigid_mass_period_form_is_closed() {
     let mut count = 0usize;
     expand_piece(&rows, 80, |_| count += 1);
     assert_eq!(count, 88_641);
+}
+
+#[test]
+fn a_wave_that_never_comes_back_has_one_echo() {
+    let recurrence = read(
+        "symbol r > 1\nperiod 1, local s, time t\nwave f\nequation f[n]' + f[n] = 0\n\
+         continuous (r - 1)*f[n] starts at 1",
+    );
+    assert_templates_hold("never back", &recurrence, 6);
+    let solution = Solution::new(recurrence);
+    let template = template(&solution, 0);
+    assert!(template.terms.is_empty());
+    assert_eq!(template.first[0], expression("exp(-s)/(r - 1)"));
+}
+
+#[test]
+fn names_in_general_forms_are_free() {
+    let text = |text: &str| {
+        let recurrence = read(text);
+        match GeneralForm::of(&recurrence, 0) {
+            Ok(form) => export::text(&export::general_form(&recurrence, 0, &form)),
+            Err(unknown) => export::operator_of(&recurrence, &unknown),
+        }
+    };
+    let index = text(
+        "symbol k > 0\nperiod k, local j, time t\nwave f\nequation f[n]' + k*f[n] = -f[n-1]\n\
+         continuous f[n] starts at 1",
+    );
+    assert!(index.contains("phi_f[m](j) = (-1)^m*exp(-k*j)*j^m/m!"), "{index}");
+    let operator = text(
+        "symbol p > 0, q > 0\nperiod 1, local s, time t\nwave f\n\
+         equation f[n]' + p*f[n] + q*f[n-1] + f[n-2] = 0\ncontinuous f[n] starts at 1",
+    );
+    assert_eq!(operator, "(z^2 + q*z + P + p)*f = 0");
+}
+
+#[test]
+fn products_of_too_high_a_degree_are_refused() {
+    let chain = |power: u32| {
+        let mut text =
+            String::from("recurrence \"chain\"\nsymbol c > 0\nperiod 1, local s, time t\n");
+        text.push_str("wave a, b, d, e, g\n");
+        for (wave, before) in [("b", "a"), ("d", "b"), ("e", "d"), ("g", "e")] {
+            text.push_str(&format!("equation {wave}[n] = c^{power}*{before}[n]\n"));
+        }
+        text.push_str(&format!("equation a[n] = c^{power}*g[n-1] + 1\n"));
+        read_recurrence(&Source::new("chain", text).unwrap(), &BTreeMap::new())
+    };
+    assert!(chain(1000).unwrap_err().message().contains("too high a degree"));
+    let solution = Solution::new(chain(300).unwrap());
+    assert_eq!(solution.pieces(4, 0, 0).unwrap(), [expression("c^1000*c^200")]);
+    assert!(solution.pieces(4, 0, 3).is_err());
+    assert!(solution.general(4).is_err());
 }

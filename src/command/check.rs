@@ -27,7 +27,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
             }
         }
     }
-    let mut report = format!("{}: correct\n", statement.title);
+    let mut report = format!("{}: consistent\n", statement.title);
     for (symbol, condition) in statement.assumptions.symbols() {
         let condition = condition.map_or_else(String::new, |condition| format!(" {condition}"));
         report.push_str(&format!("  symbol {symbol}{condition}\n"));

@@ -216,10 +216,11 @@ fn general(
         let form: &GeneralForm = solution.general(*wave).map_err(|unknown: &Unknown| {
             let name = &recurrence.statement().waves[*wave];
             let operator = export::operator_of(recurrence, unknown);
+            let (p, q) = export::operator_names(recurrence);
             Failure::Computation(
                 format!(
-                    "no closed form in n was found for {name}; with p the derivative and q the \
-                     delay by one period, its equation is\n    {operator}"
+                    "no closed form in n was found for {name}; with {p} the derivative and {q} \
+                     the delay by one period, its equation is\n    {operator}"
                 ),
                 "ask for single orders instead, with --through or --piece".to_owned(),
             )

@@ -69,6 +69,15 @@ impl Node {
         }
     }
 
+    /// The factors of a product; none for 1.
+    pub fn into_factors(self) -> Vec<Node> {
+        match self {
+            Node::Product(factors) => factors,
+            Node::Number(one) if one.is_one() => Vec::new(),
+            other => vec![other],
+        }
+    }
+
     /// A sum with its sign, of what there is.
     pub fn sum(mut terms: Vec<Term>) -> Term {
         match terms.len() {
@@ -170,11 +179,7 @@ fn coefficient_terms(coefficient: &Expression) -> Vec<Term> {
 fn with_factor(mut inner: Vec<Term>, factor: Node) -> Term {
     if inner.len() == 1 {
         let (sign, node) = inner.remove(0);
-        let mut factors = match node {
-            Node::Product(factors) => factors,
-            Node::Number(one) if one.is_one() => Vec::new(),
-            other => vec![other],
-        };
+        let mut factors = node.into_factors();
         // A number and symbols stand before the exponential, a bracket after it.
         let place = factors.iter().position(|f| matches!(f, Node::Sum(_) | Node::Exponential(..)));
         factors.insert(place.unwrap_or(factors.len()), factor);
@@ -197,11 +202,7 @@ fn power_term(coefficient: &Expression, x: &Symbol, power: u32) -> Term {
     let mut terms = coefficient_terms(coefficient);
     if terms.len() == 1 && !matches!(&terms[0].1, Node::Product(f) if has_sum(f)) {
         let (sign, node) = terms.remove(0);
-        let mut factors = match node {
-            Node::Product(factors) => factors,
-            Node::Number(one) if one.is_one() => Vec::new(),
-            other => vec![other],
-        };
+        let mut factors = node.into_factors();
         let place = factors.iter().position(|f| matches!(f, Node::Exponential(..)));
         factors.insert(place.unwrap_or(factors.len()), power);
         return (sign, Node::product(factors));

@@ -9,11 +9,24 @@ use crate::solution::{
     EchoTemplate, Family, GeneralForm, Geometric, GeometricTerm, Proof, Unknown,
 };
 use num_traits::{One, Zero};
-use std::collections::BTreeSet;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
-fn name(name: &str) -> Symbol {
-    Symbol::new(name).expect("a name")
+/// The first of these names that has no meaning in the recurrence.
+fn free_name(recurrence: &Recurrence, names: &[&str]) -> Symbol {
+    let statement = recurrence.statement();
+    let taken = |name: &str| {
+        recurrence.symbols().chain([&statement.local, &statement.time]).any(|x| x.name() == name)
+            || statement.waves.iter().any(|wave| wave == name)
+    };
+    let numbered = (1..).map(|i| format!("{}{i}", names[0]));
+    let mut candidates = names.iter().map(ToString::to_string).chain(numbered);
+    let free = candidates.find(|name| !taken(name)).expect("there is always another number");
+    Symbol::new(&free).expect("a name")
+}
+
+/// The number of an echo.
+fn echo_index(recurrence: &Recurrence) -> Symbol {
+    free_name(recurrence, &["k", "j", "m", "i", "l"])
 }
 
 /// The formulas that give a wave in general n, each proved as its remark says.
@@ -24,20 +37,22 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
     };
     if let Some(last) = formulas.last_mut() {
         let (index, first) = match form {
-            GeneralForm::Geometric(form) => ("n", form.first.len()),
-            GeneralForm::Echoes(template) => ("k", template.first.len()),
+            GeneralForm::Geometric(form) => ("n".to_owned(), form.first.len()),
+            GeneralForm::Echoes(template) => {
+                (echo_index(recurrence).to_string(), template.first.len())
+            }
         };
         let proof = match form.proof() {
-            Proof::Substitution => "proved by substitution into the recurrence",
-            Proof::CoefficientIdentity => "proved by Pascal's rule",
+            Proof::Substitution => "substitution into the recurrence".to_owned(),
+            Proof::CoefficientIdentity => format!("the step from {index} to {index} + 1"),
         };
         let laguerre = match form {
             GeneralForm::Echoes(template) if template.family != Family::Power => {
-                "; L[k] are the Laguerre polynomials"
+                "; L are the Laguerre polynomials"
             }
             _ => "",
         };
-        let text = format!("for {index} >= {first}, {proof}{laguerre}");
+        let text = format!("for {index} >= {first}, proved by {proof}{laguerre}");
         let latex = if first == 0 { String::new() } else { format!("{index} \\ge {first}") };
         last.remark = Some((text, latex));
     }
@@ -46,7 +61,7 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
 
 fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<Formula> {
     let wave = &recurrence.statement().waves[wave];
-    let n = name("n");
+    let n = Symbol::new("n").expect("a name");
     let formula = |index: &str, terms: Vec<Term>| Formula {
         head: Head::Written(format!("{wave}[{index}]"), indexed(wave, index)),
         right: Right::Terms(terms),
@@ -81,11 +96,7 @@ fn geometric_term(term: &GeometricTerm, n: &Symbol) -> Term {
     let base = ratio_node(&term.ratio);
     let power = Node::Power(Box::new(base), Box::new(exponent));
     let (sign, coefficient) = Node::sum(arrange(&coefficient, None));
-    let mut factors = match coefficient {
-        Node::Number(one) if one.is_one() => Vec::new(),
-        Node::Product(factors) => factors,
-        other => vec![other],
-    };
+    let mut factors = coefficient.into_factors();
     if term.power > 0 {
         factors.push(Node::power(Node::Symbol(n.clone()), term.power));
     }
@@ -123,7 +134,7 @@ fn negative(node: Node) -> Node {
 fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> Vec<Formula> {
     let statement = recurrence.statement();
     let wave = &statement.waves[wave];
-    let (x, k) = (&statement.local, name("k"));
+    let (x, k) = (&statement.local, echo_index(recurrence));
     let mut formulas = vec![sum_of_echoes(recurrence, wave)];
     for (i, echo) in template.first.iter().enumerate() {
         let head = Head::Echo { wave: wave.clone(), k: i, local: x.clone() };
@@ -131,8 +142,8 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
     }
     let latex_wave = Latex::name(wave);
     let head = Head::Written(
-        format!("phi_{wave}[k]({x})"),
-        format!("\\varphi^{{{latex_wave}}}_{{k}}({})", Latex.symbol(x)),
+        format!("phi_{wave}[{k}]({x})"),
+        format!("\\varphi^{{{latex_wave}}}_{{{k}}}({})", Latex.symbol(x)),
     );
     formulas.push(Formula {
         head,
@@ -145,17 +156,17 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
 /// `f(t) = sum(phi_f[k](t - D*k), 0 <= D*k <= t)`.
 fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
     let statement = recurrence.statement();
-    let (t, k) = (&statement.time, name("k"));
+    let (t, k) = (&statement.time, echo_index(recurrence));
     let delay = Expression::from(&statement.period * &Fraction::symbol(&k));
     let delay = |notation: &dyn Notation| write_flat(&arrange(&delay, None), notation);
     let (text, latex) = (delay(&Text), delay(&Latex));
     let (latex_wave, latex_time) = (Latex::name(wave), Latex.symbol(t));
     let head = Head::Written(format!("{wave}({t})"), format!("{latex_wave}({latex_time})"));
     let right = Right::Written(
-        format!("sum(phi_{wave}[k]({t} - {text}), 0 <= {text} <= {t})"),
+        format!("sum(phi_{wave}[{k}]({t} - {text}), 0 <= {text} <= {t})"),
         format!(
             "\\sum_{{0 \\le {latex} \\le {latex_time}}} \
-             \\varphi^{{{latex_wave}}}_{{k}}({latex_time} - {latex})"
+             \\varphi^{{{latex_wave}}}_{{{k}}}({latex_time} - {latex})"
         ),
     );
     Formula { head, right, remark: None }
@@ -211,11 +222,7 @@ fn laguerre(index: Node, argument: &Expression, x: &Symbol) -> Node {
 /// `coefficient · function`, where the function's last factor divides for powers (`x^k/k!`).
 fn scaled(coefficient: &Fraction, mut function: Vec<Node>, family: &Family) -> Term {
     let (sign, factor) = Node::sum(arrange(&coefficient.clone().into(), None));
-    let mut factors = match factor {
-        Node::Number(one) if one.is_one() => Vec::new(),
-        Node::Product(factors) => factors,
-        other => vec![other],
-    };
+    let mut factors = factor.into_factors();
     if *family == Family::Power {
         let bottom = function.pop().expect("a power over a factorial");
         let top = function.pop().expect("a power over a factorial");
@@ -225,21 +232,28 @@ fn scaled(coefficient: &Fraction, mut function: Vec<Node>, family: &Family) -> T
     (sign, Node::product(factors))
 }
 
-/// The equation for which no closed form was found, with `p` for the derivative and `q` for the
-/// delay by one period: `(p + 1 + (1 - p)*q)*f`.
+/// Names for the derivative and for the delay by one period, in [`operator_of`].
+pub fn operator_names(recurrence: &Recurrence) -> (Symbol, Symbol) {
+    let p = free_name(recurrence, &["p", "s", "P", "S"]);
+    (p, free_name(recurrence, &["q", "z", "Q", "Z"]))
+}
+
+/// The equation for which no closed form was found, in the names of [`operator_names`]:
+/// `(p + 1 + (1 - p)*q)*f`.
 pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
-    let (p, q) = (Expression::symbol(&name("p")), Expression::symbol(&name("q")));
+    let (p, q) = operator_names(recurrence);
+    let (slope, delay) = (Expression::symbol(&p), Expression::symbol(&q));
     let mut parts = Vec::new();
     for (wave, operator) in unknown.equation.operators() {
         let mut sum = Expression::zero();
         let mut power = Expression::one();
         for lag in 0..operator.reach() {
             let at = |row: &[Expression]| row.get(lag).cloned().unwrap_or_default();
-            let both = &at(operator.value()) + &(&at(operator.slope()) * &p);
+            let both = &at(operator.value()) + &(&at(operator.slope()) * &slope);
             sum += &(&both * &power);
-            power = &power * &q;
+            power = &power * &delay;
         }
-        let text = write_flat(&arrange(&sum, Some(&name("q"))), &Text);
+        let text = write_flat(&arrange(&sum, Some(&q)), &Text);
         parts.push(format!("({text})*{}", recurrence.statement().waves[wave]));
     }
     let forcing = unknown.equation.forcing_terms().iter().any(|function| !function.is_zero());
@@ -247,9 +261,8 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
     format!("{} = 0", parts.join(" + "))
 }
 
-/// The symbols that a general form relies on being non-zero, as text; empty where there are none.
+/// The factors of more than one term that are taken to be non-zero, as text.
 pub fn assumed_factors(assumptions: &Assumptions) -> Vec<String> {
-    let factors: BTreeSet<&Polynomial> = assumptions.factors().collect();
-    let factor = |p: &&Polynomial| write_flat(&arrange(&(*p).clone().into(), None), &Text);
-    factors.iter().filter(|p| p.term_count() > 1).map(factor).collect()
+    let factor = |p: &Polynomial| write_flat(&arrange(&p.clone().into(), None), &Text);
+    assumptions.factors().filter(|p| p.term_count() > 1).map(factor).collect()
 }

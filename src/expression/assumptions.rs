@@ -43,17 +43,18 @@ impl Condition {
         }
     }
 
-    /// Whether every number that meets the condition is above zero.
-    fn implies_positive(&self) -> bool {
+    /// A half-line of values as `bound ± x`, `x` not negative; `None` for `!=`.
+    fn half_line(&self, symbol: &Symbol) -> Option<Polynomial> {
+        let (x, bound) = (Polynomial::symbol(symbol), Polynomial::constant(&self.bound));
         match self.relation {
-            Relation::Greater => !self.bound.is_negative(),
-            Relation::AtLeast => self.bound.is_positive(),
-            _ => false,
+            Relation::Greater | Relation::AtLeast => Some(&bound + &x),
+            Relation::Less | Relation::AtMost => Some(&bound - &x),
+            Relation::Unequal => None,
         }
     }
 
-    fn implies_non_zero(&self) -> bool {
-        !self.holds(&Rational::zero())
+    fn is_strict(&self) -> bool {
+        !self.holds(&self.bound)
     }
 }
 
@@ -108,8 +109,15 @@ impl std::error::Error for NotInvertible {}
 impl Assumptions {
     /// Declares a symbol, with a condition on its values if there is one.
     pub fn declare_symbol(&mut self, symbol: Symbol, condition: Option<Condition>) {
-        if condition.as_ref().is_some_and(Condition::implies_non_zero) {
-            self.factors.insert(Polynomial::symbol(&symbol));
+        if let Some(condition) = &condition {
+            if !condition.holds(&Rational::zero()) {
+                self.factors.insert(Polynomial::symbol(&symbol));
+            }
+            if !condition.holds(&condition.bound) {
+                let distance =
+                    &Polynomial::symbol(&symbol) - &Polynomial::constant(&condition.bound);
+                self.factors.insert(distance.primitive_part().1);
+            }
         }
         self.conditions.insert(symbol, condition);
     }
@@ -161,17 +169,31 @@ impl Assumptions {
         Ok(Expression::from(inverse).times_exponential(&-exponent))
     }
 
-    /// Whether the value is certainly positive under the conditions: a positive number, or a
-    /// quotient of sums of positive terms in symbols known to be positive.
+    /// Whether the value is certainly positive under the conditions: a quotient of polynomials
+    /// that, written in the distances of the symbols from their bounds, have positive coefficients
+    /// only, and at least one term that cannot vanish.
     pub fn is_positive(&self, value: &Fraction) -> bool {
-        let positive_symbol = |x: &Symbol| {
-            self.conditions.get(x).and_then(Option::as_ref).is_some_and(Condition::implies_positive)
-        };
-        let positive = |p: &Polynomial| {
-            !p.is_zero()
-                && p.symbols().iter().all(positive_symbol)
-                && p.terms().all(|(_, coefficient)| coefficient.is_positive())
-        };
+        let positive = |p: &Polynomial| self.is_positive_polynomial(p);
         positive(value.numerator()) && value.factors().all(|(factor, _)| positive(factor))
+    }
+
+    fn is_positive_polynomial(&self, p: &Polynomial) -> bool {
+        let mut in_distances = p.clone();
+        for symbol in p.symbols() {
+            let condition = self.conditions.get(symbol).and_then(Option::as_ref);
+            let Some(value) = condition.and_then(|condition| condition.half_line(symbol)) else {
+                return false;
+            };
+            in_distances = in_distances.substitute(symbol, &value);
+        }
+        let strict = |x: &Symbol| {
+            self.conditions.get(x).and_then(Option::as_ref).is_some_and(Condition::is_strict)
+        };
+        let symbols = in_distances.symbols();
+        let cannot_vanish = |exponents: &[u32]| {
+            symbols.iter().zip(exponents).all(|(symbol, e)| *e == 0 || strict(symbol))
+        };
+        in_distances.terms().all(|(_, coefficient)| coefficient.is_positive())
+            && in_distances.terms().any(|(exponents, _)| cannot_vanish(exponents))
     }
 }

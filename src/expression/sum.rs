@@ -15,9 +15,10 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// ```
 ///
 /// in any symbols; time is a symbol like any other. Exponentials of different exponents are
-/// linearly independent over the rational functions: choose rational values for the symbols that
-/// keep the `λ_j` apart, and this is the theorem of Lindemann and Weierstrass. So the form is
-/// canonical: two expressions are equal as functions exactly when `==` says so.
+/// linearly independent over the rational functions: finitely many polynomials that are not zero
+/// do not vanish at some rational point, whatever half-lines the symbols are confined to; there the
+/// `λ_j` are apart, coefficients and denominators are not zero, and the theorem of Lindemann and
+/// Weierstrass says that the sum is not. So the form is canonical: two expressions are equal as functions exactly when `==` says so.
 ///
 /// # Invariants
 /// - exponents pairwise different, no coefficient zero.
@@ -262,10 +263,14 @@ impl AddAssign<&Expression> for Expression {
         for (exponent, p) in &other.terms {
             match self.terms.get_mut(exponent) {
                 None => drop(self.terms.insert(exponent.clone(), p.clone())),
-                Some(own) => *own += p,
+                Some(own) => {
+                    *own += p;
+                    if own.is_zero() {
+                        self.terms.remove(exponent);
+                    }
+                }
             }
         }
-        self.terms.retain(|_, p| !p.is_zero());
     }
 }
 
@@ -274,10 +279,14 @@ impl SubAssign<&Expression> for Expression {
         for (exponent, p) in &other.terms {
             match self.terms.get_mut(exponent) {
                 None => drop(self.terms.insert(exponent.clone(), -p)),
-                Some(own) => *own -= p,
+                Some(own) => {
+                    *own -= p;
+                    if own.is_zero() {
+                        self.terms.remove(exponent);
+                    }
+                }
             }
         }
-        self.terms.retain(|_, p| !p.is_zero());
     }
 }
 

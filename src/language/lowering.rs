@@ -399,6 +399,9 @@ impl<'a> Lowering<'a> {
                 "no wave needs it",
                 "remove it: only waves with a differential equation need one start each".to_owned(),
             ),
+            Fault::DegreeTooHigh => {
+                ("with this one and the others", "use lower powers in the coefficients".to_owned())
+            }
             Fault::ContinuityOfSlope => {
                 ("holds a derivative or a sum", "state what is continuous by the waves".to_owned())
             }

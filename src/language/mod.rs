@@ -22,10 +22,10 @@
 //! ```
 //!
 //! The way of a text: [`Source`] checks bytes, `layout` finds statements, `parser` builds the tree
-//! in [`syntax`], and [`Diagnostic`] is the one error of all of them. Names mean nothing here yet.
+//! in [`syntax`], `lowering` gives names their meaning, and [`Diagnostic`] is the one error of all.
 //! The grammar is `grammar/wavestep.ebnf`, with accepted and rejected texts beside it.
 //!
-//! All work is linear in the length of the text. The parser does not recurse, and nothing that walks
+//! Parsing is linear in the length of the text. The parser does not recurse, and nothing that walks
 //! the tree recurses deeper than three times [`MAX_DEPTH`].
 
 mod constant;

@@ -2,11 +2,12 @@
 
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::WaveIndex;
+use crate::recurrence::form::LinearForm;
 use crate::recurrence::ordering::{self, Step};
 use crate::recurrence::statement::{
     Fault, InvalidRecurrence, Observable, Observation, Part, Statement,
 };
-use wavestep_polynomial::Symbol;
+use wavestep_polynomial::{Polynomial, Symbol};
 
 /// A recurrence that can be solved step by step.
 ///
@@ -33,6 +34,12 @@ impl Recurrence {
             let fault = Fault::PeriodNotPositive;
             return Err(InvalidRecurrence { part: Part::Period, fault });
         }
+        // Elimination multiplies at most one coefficient from each equation.
+        let degrees = statement.equations.iter().map(coefficient_degree);
+        if degrees.sum::<u64>() > u64::from(Polynomial::MAX_EXPONENT) {
+            let fault = Fault::DegreeTooHigh;
+            return Err(InvalidRecurrence { part: Part::Equation(0), fault });
+        }
         let steps = ordering::order(&statement)?;
         Ok(Recurrence { statement, steps })
     }
@@ -57,26 +64,24 @@ impl Recurrence {
         self.statement.observables.iter().find(|observable| observable.name == name)
     }
 
-    /// An estimate from above of the degree of pieces and echoes of an order: each period brings
-    /// the degree of a coefficient, an integration, and a substitution of the period.
+    /// An estimate from above of the degree of pieces and echoes of an order: on each period every
+    /// step may bring the degree of a coefficient, an integration, and a substitution of the
+    /// period.
     pub fn degree_estimate(&self, order: usize) -> u64 {
-        let Statement { period, equations, continuity, .. } = &self.statement;
-        let of_fraction = |value: &Fraction| {
-            let factors = value.factors().map(|(p, power)| p.total_degree() * power);
-            u64::from(value.numerator().total_degree() + factors.sum::<u32>())
-        };
-        let of = |value: &Expression| value.terms().map(|(_, p)| of_fraction(p)).max().unwrap_or(0);
-        let period = of_fraction(period).max(1);
-        let forms = || equations.iter().chain(continuity.iter().map(|rule| &rule.form));
-        let coefficients = forms().flat_map(|form| form.operators()).flat_map(|(_, operator)| {
-            [operator.value(), operator.slope(), operator.sum()].into_iter().flatten()
-        });
-        let growth = coefficients.map(of).max().unwrap_or(0);
-        let integration =
-            if self.steps.iter().any(|step| step.start.is_some()) { period } else { 0 };
-        let forcing = forms().flat_map(|form| form.forcing_terms()).map(of).max().unwrap_or(0);
-        let start = continuity.iter().map(|rule| of(&rule.start)).max().unwrap_or(0);
-        start + forcing * period + (order as u64 + 1).saturating_mul(growth + integration)
+        let Statement { period, continuity, .. } = &self.statement;
+        let period = degree_of_fraction(period).max(1);
+        let mut growth = 0;
+        let mut forcing = 0;
+        for step in &self.steps {
+            let start = step.start.as_ref();
+            let forms =
+                || [Some(&step.equation), start.map(|s| &s.continuous)].into_iter().flatten();
+            growth += forms().map(coefficient_degree).max().unwrap_or(0);
+            growth += start.map_or(0, |_| period);
+            forcing += forms().flat_map(|f| f.forcing_terms()).map(degree).max().unwrap_or(0);
+        }
+        let start = continuity.iter().map(|rule| degree(&rule.start)).max().unwrap_or(0);
+        start + forcing * period + (order as u64 + 1).saturating_mul(growth)
     }
 
     /// The wave or the observable called `name`, as what is observed.
@@ -92,4 +97,22 @@ impl Recurrence {
     pub fn symbols(&self) -> impl Iterator<Item = &Symbol> + '_ {
         self.statement.assumptions.symbols().map(|(symbol, _)| symbol)
     }
+}
+
+/// The largest degree of a coefficient of a wave in a form.
+pub(crate) fn coefficient_degree(form: &LinearForm) -> u64 {
+    let rows = form.operators().flat_map(|(_, operator)| {
+        [operator.value(), operator.slope(), operator.sum()].into_iter().flatten()
+    });
+    rows.map(degree).max().unwrap_or(0)
+}
+
+/// The largest degree of a coefficient of an expression, its denominator counted as well.
+fn degree(value: &Expression) -> u64 {
+    value.terms().map(|(_, p)| degree_of_fraction(p)).max().unwrap_or(0)
+}
+
+fn degree_of_fraction(value: &Fraction) -> u64 {
+    let factors = value.factors().map(|(p, power)| u64::from(p.total_degree() * power));
+    u64::from(value.numerator().total_degree()) + factors.sum::<u64>()
 }

@@ -100,6 +100,8 @@ pub enum Fault {
     StartsNothing,
     /// A continuity rule with a derivative or a sum in it.
     ContinuityOfSlope,
+    /// Coefficients whose product would have too high a degree.
+    DegreeTooHigh,
 }
 
 /// A statement that was refused: the part at fault, and why.
@@ -131,6 +133,9 @@ impl fmt::Display for InvalidRecurrence {
             }
             Fault::NoStart(wave) => write!(f, "nothing says how {wave} starts and goes on"),
             Fault::StartsNothing => f.write_str("this continuity rule starts no wave"),
+            Fault::DegreeTooHigh => {
+                f.write_str("the coefficients of the equations have too high a degree together")
+            }
             Fault::ContinuityOfSlope => {
                 f.write_str("a continuity rule holds no derivatives and no sums")
             }

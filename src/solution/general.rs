@@ -6,7 +6,7 @@ use crate::solution::echo::EchoByEcho;
 use crate::solution::elimination::{Reduced, reduce};
 use crate::solution::geometric::{Generating, Geometric, constant_forcing, product};
 use crate::solution::template::{EchoTemplate, OnePole, multiplier};
-use wavestep_polynomial::Symbol;
+use wavestep_polynomial::{Polynomial, Symbol};
 
 /// A wave in general n.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -17,12 +17,17 @@ pub enum GeneralForm {
     Echoes(Box<EchoTemplate>),
 }
 
+/// The most echoes that are listed before the general form begins.
+const MAX_FIRST: usize = 32;
+
 /// How a general form was proved.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Proof {
     /// It satisfies the recurrence with each `λ^n` a symbol of its own, and the first values.
     Substitution,
-    /// It rests on an identity between the coefficients of `T_k` and `T_{k−1}`: Pascal's rule.
+    /// Beyond the first echoes each follows from the one before by the same operator
+    /// `ρ(p−a)/(p+b)`, on both sides; on the coefficients of Laguerre polynomials that is Pascal's
+    /// rule. One derived echo was compared.
     CoefficientIdentity,
 }
 
@@ -49,7 +54,11 @@ impl GeneralForm {
     pub fn of(recurrence: &Recurrence, wave: WaveIndex) -> Result<GeneralForm, Unknown> {
         let step = recurrence.steps().iter().find(|step| step.wave == wave);
         let own = || step.map(|step| step.equation.clone()).unwrap_or_default();
-        let Some(reduced) = reduce(recurrence) else { return Err(Unknown { equation: own() }) };
+        // Elimination over all periods may multiply a coefficient from every step.
+        let small = recurrence.degree_estimate(2) <= u64::from(Polynomial::MAX_EXPONENT);
+        let Some(reduced) = small.then(|| reduce(recurrence)).flatten() else {
+            return Err(Unknown { equation: own() });
+        };
         let form = reduced.form_of(wave);
         let bases: Vec<WaveIndex> = form.operators().map(|(base, _)| base).collect();
         let found = match &bases[..] {
@@ -113,10 +122,22 @@ fn echoes(
     let pole = OnePole::of(step, assumptions, time)?;
     let (mut template, from) = pole.template(&multiplier(form, step.wave)?)?;
     let count = from.max(form.forcing_terms().len());
+    if count > MAX_FIRST {
+        return None;
+    }
     let mut solver = EchoByEcho::new(recurrence);
-    for _ in 0..count {
+    for _ in 0..count + 2 {
         solver.advance().ok()?;
     }
-    template.first = solver.sum(wave).echoes().to_vec();
+    let mut echoes = solver.sum(wave).echoes().to_vec();
+    let later = echoes.split_off(count);
+    template.first = echoes;
+    // Beyond the largest lag each echo follows from the one before by (p−a)/(p+b), so that one
+    // agreement carries over to all; a second one costs little.
+    let local = &recurrence.statement().local;
+    let agrees = |(k, echo): (usize, &Expression)| template.echo(k, local) == *echo;
+    if !(count..).zip(&later).all(agrees) {
+        return None;
+    }
     Some(GeneralForm::Echoes(Box::new(template)))
 }

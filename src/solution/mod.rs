@@ -1,8 +1,9 @@
 //! Recurrences solved, twice: period by period, and echo by echo; and in general n where it can be.
 //!
 //! [`PeriodByPeriod`] works in time with the integrating factor and constants by continuity;
-//! [`EchoByEcho`] works in the Laplace domain and expands in the shift `q = e^{−pD}`. They share
-//! the ring arithmetic and nothing else, so that their agreement proves both. [`GeneralForm`]
+//! [`EchoByEcho`] works in the Laplace domain and expands in the shift `q = e^{−pD}`. From
+//! the ordered steps on they share the ring arithmetic and nothing else, so that their agreement
+//! speaks for both. [`GeneralForm`]
 //! holds what is known for every n at once. [`Solution`] puts them together.
 
 mod echo;

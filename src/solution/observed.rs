@@ -4,7 +4,7 @@ use crate::expression::{Expression, Fraction};
 use crate::recurrence::Observation;
 use crate::solution::error::SolveError;
 use crate::solution::solved::Solution;
-use num_traits::{Signed, ToPrimitive};
+use num_traits::ToPrimitive;
 use wavestep_polynomial::Rational;
 
 /// An observable on periods of its own, which begin at an offset from those of the waves:
@@ -26,15 +26,28 @@ pub struct ObservedPieces {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct MixedOffsets;
 
-/// A delay as an offset and whole periods.
-fn split(delay: &Fraction, period: &Fraction) -> (Fraction, usize) {
-    let (delay_value, period_value) = (Expression::from(delay.clone()), period.clone().into());
-    let periods = match delay_value.proportion(&period_value) {
-        Some(ratio) if !ratio.is_negative() => ratio.floor().to_usize().unwrap_or(0),
-        _ => 0,
-    };
-    let whole = period.scale(&Rational::from_integer(periods.into()));
-    (delay - &whole, periods)
+/// How many periods a delay is, where that is a whole number.
+fn whole_periods(delay: &Fraction, period: &Fraction) -> Option<i64> {
+    if delay.is_zero() {
+        return Some(0);
+    }
+    let ratio = Expression::from(delay.clone()).proportion(&period.clone().into())?;
+    ratio.to_integer().to_i64().filter(|_| ratio.is_integer())
+}
+
+/// A common offset, less than a period where that can be told, and the lag of each delay in
+/// periods from it.
+fn common_offset(delays: &[&Fraction], period: &Fraction) -> Option<(Fraction, Vec<usize>)> {
+    let Some(first) = delays.first() else { return Some((Fraction::zero(), Vec::new())) };
+    let lags = delays.iter().map(|delay| whole_periods(&(*delay - first), period));
+    let lags: Vec<i64> = lags.collect::<Option<_>>()?;
+    let earliest = lags.iter().copied().min().unwrap_or(0);
+    let mut offset = *first + &period.scale(&Rational::from_integer(earliest.into()));
+    let ratio = Expression::from(offset.clone()).proportion(&period.clone().into());
+    let before = ratio.and_then(|ratio| ratio.floor().to_integer().to_i64()).unwrap_or(0);
+    offset = &offset - &period.scale(&Rational::from_integer(before.into()));
+    let lags = lags.iter().map(|lag| usize::try_from(lag - earliest + before).ok());
+    Some((offset, lags.collect::<Option<_>>()?))
 }
 
 impl Solution {
@@ -53,28 +66,21 @@ impl Solution {
         last: usize,
     ) -> Result<Result<ObservedPieces, MixedOffsets>, SolveError> {
         let statement = self.recurrence().statement();
-        let terms: Vec<_> = observation
-            .terms
-            .iter()
-            .map(|(coefficient, wave, order, delay)| {
-                let (offset, lag) = split(delay, &statement.period);
-                (coefficient, *wave, *order, offset, lag)
-            })
-            .collect();
-        let offset = terms.first().map_or_else(Fraction::zero, |term| term.3.clone());
+        let delays: Vec<&Fraction> = observation.terms.iter().map(|(.., delay)| delay).collect();
         let forced = !observation.forcing.is_zero();
-        if terms.iter().any(|term| term.3 != offset) || (forced && !offset.is_zero()) {
+        let common = common_offset(&delays, &statement.period);
+        let Some((offset, lags)) = common.filter(|(offset, _)| !forced || offset.is_zero()) else {
             return Ok(Err(MixedOffsets));
-        }
-        let mut pieces = vec![Expression::zero(); last + 1 - first];
-        for (coefficient, wave, order, _, lag) in terms {
+        };
+        let mut pieces = vec![Expression::zero(); (last + 1).saturating_sub(first)];
+        for ((coefficient, wave, order, _), lag) in observation.terms.iter().zip(lags) {
             if lag > last {
                 continue;
             }
             let start = first.saturating_sub(lag);
-            let waves = self.pieces(wave, start, last - lag)?;
+            let waves = self.pieces(*wave, start, last - lag)?;
             for (n, mut piece) in (start + lag..).zip(waves) {
-                for _ in 0..order {
+                for _ in 0..*order {
                     piece = piece.derivative(&statement.local);
                 }
                 pieces[n - first].add_scaled(&piece, coefficient);

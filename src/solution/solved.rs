@@ -7,6 +7,7 @@ use crate::solution::error::{SolveError, check_degree};
 use crate::solution::general::{GeneralForm, Unknown};
 use crate::solution::rows::EchoRow;
 use crate::solution::template::EchoTemplate;
+use std::cell::OnceCell;
 use wavestep_polynomial::{Integer, Rational, Univariate};
 
 /// A recurrence together with what is known of its waves in general n.
@@ -15,14 +16,13 @@ use wavestep_polynomial::{Integer, Rational, Univariate};
 /// used, and nothing depends on which scene it is.
 pub struct Solution {
     recurrence: Recurrence,
-    general: Vec<Result<GeneralForm, Unknown>>,
+    general: Vec<OnceCell<Result<GeneralForm, Unknown>>>,
 }
 
 impl Solution {
-    /// Looks for general forms; pieces and echoes are derived when asked for.
+    /// Derives nothing yet: general forms, pieces and echoes are found when asked for.
     pub fn new(recurrence: Recurrence) -> Solution {
-        let waves = 0..recurrence.statement().waves.len();
-        let general = waves.map(|wave| GeneralForm::of(&recurrence, wave)).collect();
+        let general = vec![OnceCell::new(); recurrence.statement().waves.len()];
         Solution { recurrence, general }
     }
 
@@ -36,12 +36,12 @@ impl Solution {
     /// # Errors
     /// [`Unknown`] where no closed form in n was found.
     pub fn general(&self, wave: WaveIndex) -> Result<&GeneralForm, &Unknown> {
-        self.general[wave].as_ref()
+        self.general[wave].get_or_init(|| GeneralForm::of(&self.recurrence, wave)).as_ref()
     }
 
     /// The template of the echoes, where there is one.
     fn template(&self, wave: WaveIndex) -> Option<&EchoTemplate> {
-        match &self.general[wave] {
+        match self.general(wave) {
             Ok(GeneralForm::Echoes(template)) => Some(template),
             _ => None,
         }
@@ -86,7 +86,7 @@ impl Solution {
         last: usize,
     ) -> Result<Vec<Expression>, SolveError> {
         check_degree(&self.recurrence, wave, last)?;
-        if let Ok(GeneralForm::Geometric(sequence)) = &self.general[wave] {
+        if let Ok(GeneralForm::Geometric(sequence)) = self.general(wave) {
             return Ok((first..=last).map(|n| sequence.value(n)).collect());
         }
         let sum = self.echoes(wave, last)?;

@@ -208,6 +208,11 @@ impl<'a> OnePole<'a> {
     /// ```
     pub fn template(&self, multiplier: &[Expression]) -> Option<(EchoTemplate, usize)> {
         let mut sum = WeightedLags::default();
+        if self.ratio.is_zero() {
+            // Nothing comes back: there are finitely many echoes.
+            let count = self.source.len() + multiplier.len();
+            return Some((self.with_terms(Vec::new()), count));
+        }
         for (lag, (constant, transform)) in self.source.iter().enumerate() {
             for (extra, factor) in multiplier.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
                 // T_{k−lag} comes with ρ^{k−lag}, which is written ρ^k ρ^{−lag}.
@@ -224,14 +229,17 @@ impl<'a> OnePole<'a> {
         let from = sum.0.keys().next_back().map_or(0, |lag| usize::try_from(*lag).unwrap_or(0));
         let terms = sum.0.into_iter().filter(|(_, value)| !value.is_zero());
         let terms = terms.map(|(lag, value)| Some((lag, value.as_fraction()?)));
-        let template = EchoTemplate {
+        Some((self.with_terms(terms.collect::<Option<_>>()?), from))
+    }
+
+    fn with_terms(&self, terms: Vec<(isize, Fraction)>) -> EchoTemplate {
+        EchoTemplate {
             family: self.family(),
             rate: self.rate.clone(),
             ratio: self.ratio.clone(),
-            terms: terms.collect::<Option<_>>()?,
+            terms,
             first: Vec::new(),
-        };
-        Some((template, from))
+        }
     }
 
     /// Adds `value · T_{k−lag} / (p − pole)`.
