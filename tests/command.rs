@@ -5,7 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
 use serde_json::Value;
+use wavestep::language::{Source, read_listing};
+use wavestep_polynomial::Symbol;
 
 const SCENES: [&str; 4] = ["two-bars", "constant-force", "pulse-shape", "rigid-mass"];
 
@@ -367,4 +371,27 @@ fn a_reader_that_goes_away_ends_the_command_quietly() {
         assert_eq!(status.code(), Some(0), "{line}");
         assert_eq!(String::from_utf8(stderr).unwrap(), "", "{line}");
     }
+}
+
+/// A piece that `derive` prints and a piece that `eval` addresses are the same function, also where
+/// the observable's periods begin at an offset.
+#[test]
+fn pieces_of_derive_and_eval_are_the_same() {
+    let by_piece =
+        output("eval rigid-mass --set mu=1/4 --quantity strain_fixed --piece 2 --local 1/8");
+    let by_time = output("eval rigid-mass --set mu=1/4 --quantity strain_fixed --at 11/8");
+    assert_eq!(by_piece, by_time);
+    let derived = output("derive rigid-mass --set mu=1/4 --observable strain_fixed --piece 2");
+    assert!(derived.contains("5/4 <= t < 7/4"), "{derived}");
+    let formulas = read_listing(&Source::new("derived", &derived).unwrap()).unwrap();
+    let local = BigRational::new(1.into(), 8.into());
+    let at = |symbol: &Symbol| (*symbol == formulas[0].variable).then(|| local.clone());
+    let value: f64 = formulas[0].expression.evaluate(&at).unwrap().iter().map(term).sum();
+    let printed: f64 = by_time.trim().rsplit(' ').next().unwrap().parse().unwrap();
+    assert!((value - printed).abs() < 1e-12, "{value} {printed}");
+}
+
+/// `r e^λ` in doubles.
+fn term((exponent, value): (&BigRational, &BigRational)) -> f64 {
+    value.to_f64().unwrap() * exponent.to_f64().unwrap().exp()
 }

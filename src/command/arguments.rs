@@ -29,8 +29,8 @@ pub enum Subcommand {
     Eval(Eval),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
-    /// List the built-in scenes
-    Scenes,
+    /// List the built-in scenes, or show the text of one
+    Scenes(Scenes),
 }
 
 /// A scene, with values in place of symbols.
@@ -47,7 +47,7 @@ pub struct Scene {
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep derive rigid-mass                              f[0] … f[3] and g[0] … g[3]\n  \
-    wavestep derive rigid-mass --wave f --through 8 --format latex\n  \
+    wavestep derive rigid-mass --wave f --from 4 --through 8 --format latex\n  \
     wavestep derive rigid-mass --wave f --piece 80 --format json\n  \
     wavestep derive rigid-mass --form echo --through 5\n  \
     wavestep derive rigid-mass --observable strain_impact\n  \
@@ -65,6 +65,9 @@ pub struct Derive {
     /// Derive the periods 0 … N
     #[arg(long, value_name = "N", default_value_t = 3, conflicts_with_all = ["piece", "general"])]
     pub through: usize,
+    /// Begin with period N, before --through
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with_all = ["piece", "general"])]
+    pub from: usize,
     /// Derive period N only
     #[arg(long, value_name = "N", conflicts_with = "general")]
     pub piece: Option<usize>,
@@ -129,7 +132,7 @@ pub struct Eval {
     /// How many evenly spaced times
     #[arg(long, value_name = "N", requires_all = ["from", "to"])]
     pub points: Option<usize>,
-    /// On this period, at the local time given by --local
+    /// On this period of the quantity, at the local time given by --local
     #[arg(long, value_name = "N", requires = "local", conflicts_with_all = ["from", "to", "points"])]
     pub piece: Option<usize>,
     /// Local time on the period given by --piece
@@ -167,6 +170,14 @@ pub enum EvalFormat {
     Json,
     /// Columns with a heading
     Csv,
+}
+
+/// Options of `scenes`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  wavestep scenes\n  wavestep scenes rigid-mass > mine.wave")]
+pub struct Scenes {
+    /// Show the text of this scene, with its units and sources
+    pub name: Option<String>,
 }
 
 /// Options of `check`.

@@ -20,6 +20,10 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
     if options.general {
         return general(&Solution::new(recurrence), &waves, options.format);
     }
+    if options.from > options.through && options.piece.is_none() {
+        let message = format!("no period lies from {} through {}", options.from, options.through);
+        return Err(Failure::usage(message, "give --through N with N at least --from"));
+    }
     let observable = options.observable.as_deref().map(|name| observable(&recurrence, name));
     let observable = observable.transpose()?;
     let parts = observable.as_ref().map_or(waves.len(), |o| o.observation.terms.len());
@@ -41,7 +45,10 @@ fn waves(recurrence: &Recurrence, name: Option<&str>) -> Result<Vec<WaveIndex>, 
     match recurrence.wave(&language::normalise_name(name)) {
         Some(wave) => Ok(vec![wave]),
         None => {
-            let remedy = format!("the waves of this scene are {}", names.join(", "));
+            let mut remedy = format!("the waves of this scene are {}", names.join(", "));
+            if recurrence.observable(name).is_some() {
+                remedy = format!("it is an observable: ask for --observable {name}");
+            }
             Err(Failure::usage(format!("`{name}` is no wave of this scene"), remedy))
         }
     }
@@ -98,7 +105,7 @@ struct Functions {
 
 /// The first and the last order asked for.
 fn orders(options: &Derive) -> (usize, usize) {
-    options.piece.map_or((0, options.through), |n| (n, n))
+    options.piece.map_or((options.from, options.through), |n| (n, n))
 }
 
 fn functions(solution: &Solution, wave: WaveIndex, options: &Derive) -> Result<Functions, Failure> {
@@ -204,6 +211,12 @@ fn header(recurrence: &Recurrence) -> Value {
     })
 }
 
+/// A general formula as text that is not broken, with its remark apart.
+fn general_json(formula: &Formula) -> Value {
+    let remark = formula.remark.as_ref().map(|(text, _)| text);
+    json!({"formula": formula.to_line(), "remark": remark})
+}
+
 fn general(
     solution: &Solution,
     waves: &[WaveIndex],
@@ -222,13 +235,15 @@ fn general(
                     "no closed form in n was found for {name}; with {p} the derivative and {q} \
                      the delay by one period, its equation is\n    {operator}"
                 ),
-                "ask for single orders instead, with --through or --piece".to_owned(),
+                "ask for single orders, with --through or --piece; where a factor may vanish, \
+                 stating `nonzero …` can help"
+                    .to_owned(),
             )
         })?;
         let wave_formulas = export::general_form(recurrence, *wave, form);
         values.push(json!({
             "wave": recurrence.statement().waves[*wave],
-            "formulas": wave_formulas.iter().map(Formula::to_text).collect::<Vec<_>>(),
+            "formulas": wave_formulas.iter().map(general_json).collect::<Vec<_>>(),
         }));
         formulas.extend(wave_formulas);
     }

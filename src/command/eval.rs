@@ -42,7 +42,17 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         SideOption::Left => Side::Left,
         SideOption::Right => Side::Right,
     };
-    let times = times(options, evaluator.period(), side)?;
+    let times = match (options.piece, &options.local) {
+        (Some(n), Some(local)) => {
+            let Some(offset) = solution.offset(&observation) else {
+                let message = format!("{} has no periods of its own", options.quantity);
+                return Err(Failure::usage(message, "its waves arrive apart: give --at T"));
+            };
+            let offset = offset.as_constant().expect("every symbol has a value");
+            vec![offset + time_on_period(n, local, evaluator.period(), side)?]
+        }
+        _ => times(options)?,
+    };
     let progress = progress(times.len());
     let mut rows = Vec::with_capacity(times.len());
     for time in times {
@@ -79,22 +89,29 @@ fn unknown_quantity(recurrence: &Recurrence, options: &Eval) -> Failure {
     Failure::usage(message, remedy)
 }
 
+/// `n` periods and the local time on the next.
+fn time_on_period(
+    n: usize,
+    local: &str,
+    period: &BigRational,
+    side: Side,
+) -> Result<BigRational, Failure> {
+    let local = input::number("--local", local)?;
+    let inside =
+        !local.is_negative() && (local < *period || (local == *period && side == Side::Left));
+    if !inside {
+        let message = format!("the local time {local} lies outside the period");
+        let remedy = format!("give 0 <= S < {period}, or S = {period} with --side left");
+        return Err(Failure::usage(message, remedy));
+    }
+    Ok(period * BigRational::from_integer(n.into()) + local)
+}
+
 /// The scene times asked for.
-fn times(options: &Eval, period: &BigRational, side: Side) -> Result<Vec<BigRational>, Failure> {
+fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
     let early = |time: &BigRational| {
         Failure::usage(format!("the time {time} lies before the start"), "give times from 0 on")
     };
-    if let (Some(n), Some(local)) = (options.piece, &options.local) {
-        let local = input::number("--local", local)?;
-        let inside =
-            !local.is_negative() && (local < *period || (local == *period && side == Side::Left));
-        if !inside {
-            let message = format!("the local time {local} lies outside the period");
-            let remedy = format!("give 0 <= S < {period}, or S = {period} with --side left");
-            return Err(Failure::usage(message, remedy));
-        }
-        return Ok(vec![period * BigRational::from_integer(n.into()) + local]);
-    }
     if let (Some(from), Some(to), Some(points)) = (&options.from, &options.to, options.points) {
         let (from, to) = (input::number("--from", from)?, input::number("--to", to)?);
         if from.is_negative() {

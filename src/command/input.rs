@@ -15,6 +15,15 @@ pub fn recurrence(arguments: &Scene) -> Result<Recurrence, Failure> {
     Ok(language::read_recurrence(&source(&arguments.scene)?, &values)?)
 }
 
+/// The built-in scene called `name`.
+pub fn built_in(name: &str) -> Result<&'static scenes::Scene, Failure> {
+    scenes::find(name).ok_or_else(|| {
+        let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
+        let remedy = format!("the built-in scenes are {}", names.join(", "));
+        Failure::usage(format!("there is no built-in scene `{name}`"), remedy)
+    })
+}
+
 fn source(name: &str) -> Result<Source, Failure> {
     if let Some(scene) = scenes::find(name) {
         return Ok(Source::new(scene.name, scene.text)?);

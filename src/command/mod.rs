@@ -10,12 +10,13 @@ mod eval;
 mod failure;
 mod input;
 
-use arguments::{Arguments, Subcommand};
+use arguments::{Arguments, Scenes, Subcommand};
 use clap::Parser as _;
+use failure::Failure;
 use std::io::{self, IsTerminal as _, Write as _};
 use std::process::ExitCode;
 use wavestep::language::Style;
-use wavestep::scenes::SCENES;
+use wavestep::scenes::{SCENES, Scene};
 
 /// Runs the command that the arguments name.
 pub fn run() -> ExitCode {
@@ -34,7 +35,7 @@ pub fn run() -> ExitCode {
         Subcommand::Derive(options) => derive::run(options),
         Subcommand::Eval(options) => eval::run(options),
         Subcommand::Check(options) => check::run(options),
-        Subcommand::Scenes => Ok(scenes()),
+        Subcommand::Scenes(options) => scenes(options),
     };
     match result {
         Ok(output) => written(io::stdout().lock().write_all(output.as_bytes())),
@@ -60,11 +61,15 @@ fn written(result: io::Result<()>) -> ExitCode {
     }
 }
 
-/// The built-in scenes with their titles.
-fn scenes() -> String {
+/// The built-in scenes with their titles, or the text of one.
+fn scenes(options: &Scenes) -> Result<String, Failure> {
+    if let Some(name) = &options.name {
+        return Ok(input::built_in(name)?.text.to_owned());
+    }
     let title = |text: &str| {
         let line = text.lines().find_map(|line| line.strip_prefix("recurrence "));
         line.unwrap_or_default().trim_matches('"').to_owned()
     };
-    SCENES.iter().map(|scene| format!("{:<16}{}\n", scene.name, title(scene.text))).collect()
+    let line = |scene: &Scene| format!("{:<16}{}\n", scene.name, title(scene.text));
+    Ok(SCENES.iter().map(line).collect())
 }

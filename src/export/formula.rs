@@ -134,6 +134,12 @@ impl Formula {
         self
     }
 
+    /// Plain text in one line, without the remark.
+    pub fn to_line(&self) -> String {
+        let right = self.right.text().into_iter().map(|atom| atom.text);
+        format!("{} = {}", self.head.text(), right.collect::<String>())
+    }
+
     /// Plain text, one formula a line; continuation lines and a remark are indented.
     pub fn to_text(&self) -> String {
         let head = format!("{} = ", self.head.text());

@@ -23,6 +23,10 @@ pub const MAX_LAG: i64 = 1000;
 /// The largest whole exponent of a power in an expression.
 pub const MAX_EXPONENT: u32 = 1000;
 
+/// Functions that people write and that the language does not have.
+const FUNCTIONS: [&str; 10] =
+    ["sin", "cos", "tan", "sinh", "cosh", "tanh", "sqrt", "ln", "log", "abs"];
+
 /// The most terms that a sum, product or power in an expression may be worked out to.
 const MAX_TERMS: usize = 100_000;
 
@@ -289,6 +293,12 @@ impl<'a> Lowering<'a> {
                     name.value
                 )));
         }
+        if FUNCTIONS.contains(&name.value.as_str()) {
+            let message = format!("the function `{}` is not known", name.value);
+            return Err(self.error(message, name.span, "a function").with_remedy(
+                "the only function is `exp`: forcing is a sum of terms `t^k*exp(a*t)`",
+            ));
+        }
         let error = self.error(format!("unknown wave `{}`", name.value), name.span, "not declared");
         Err(with_likely(error, &name.value, scope.waves.keys().map(String::as_str))
             .or_remedy(format!("declare it with `wave {}`", name.value)))
@@ -304,7 +314,9 @@ impl<'a> Lowering<'a> {
         if wave.primes > 1 {
             return Err(self
                 .error("second and higher derivatives are not supported", span, "differentiated")
-                .with_remedy("introduce a wave for the first derivative"));
+                .with_remedy(
+                    "split the wave by hand into waves with one pole each, and observe their sum",
+                ));
         }
         let (lag, summed) = self.lag(&wave.index, &wave.name.value)?;
         let reference = match (summed, wave.primes) {

@@ -51,6 +51,18 @@ fn common_offset(delays: &[&Fraction], period: &Fraction) -> Option<(Fraction, V
 }
 
 impl Solution {
+    /// When the first period of an observable begins: the common offset of its waves from the
+    /// periods of the recurrence; `None` where they do not arrive together.
+    pub fn offset(&self, observation: &Observation) -> Option<Fraction> {
+        Some(self.offset_and_lags(observation)?.0)
+    }
+
+    fn offset_and_lags(&self, observation: &Observation) -> Option<(Fraction, Vec<usize>)> {
+        let delays: Vec<&Fraction> = observation.terms.iter().map(|(.., delay)| delay).collect();
+        let common = common_offset(&delays, &self.recurrence().statement().period);
+        common.filter(|(offset, _)| observation.forcing.is_zero() || offset.is_zero())
+    }
+
     /// The pieces `first … last` of an observable; an error inside the first result where its
     /// waves do not arrive together.
     ///
@@ -66,12 +78,10 @@ impl Solution {
         last: usize,
     ) -> Result<Result<ObservedPieces, MixedOffsets>, SolveError> {
         let statement = self.recurrence().statement();
-        let delays: Vec<&Fraction> = observation.terms.iter().map(|(.., delay)| delay).collect();
-        let forced = !observation.forcing.is_zero();
-        let common = common_offset(&delays, &statement.period);
-        let Some((offset, lags)) = common.filter(|(offset, _)| !forced || offset.is_zero()) else {
+        let Some((offset, lags)) = self.offset_and_lags(observation) else {
             return Ok(Err(MixedOffsets));
         };
+        let forced = !observation.forcing.is_zero();
         let mut pieces = vec![Expression::zero(); (last + 1).saturating_sub(first)];
         for ((coefficient, wave, order, _), lag) in observation.terms.iter().zip(lags) {
             if lag > last {
