@@ -3,6 +3,7 @@
 use super::arguments::{Derive, DeriveFormat, Form};
 use super::failure::Failure;
 use super::input;
+use super::progress;
 use serde_json::{Value, json};
 use wavestep::export::{self, Formula, Head, LATEX_WIDTH};
 use wavestep::expression::{Expression, Fraction};
@@ -11,7 +12,7 @@ use wavestep::recurrence::{Observable, Recurrence, WaveIndex};
 use wavestep::solution::{GeneralForm, MixedOffsets, ObservedPieces, Solution, Unknown};
 
 /// The most terms that are derived at once.
-const MAX_TERMS: u128 = 5_000_000;
+const MAX_TERMS: u128 = 2_000_000;
 
 /// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
@@ -29,6 +30,7 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
     let parts = observable.as_ref().map_or(waves.len(), |o| o.observation.terms.len());
     refuse_explosion(&recurrence, options, parts)?;
     let solution = Solution::new(recurrence);
+    let progress = progress::spinner("deriving");
     let functions = match observable {
         Some(observable) => vec![observed(&solution, &observable, options)?],
         None => waves
@@ -36,7 +38,9 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
             .map(|wave| functions(&solution, wave, options))
             .collect::<Result<_, _>>()?,
     };
-    Ok(written(&solution, &functions, options))
+    let output = written(&solution, &functions, options);
+    progress.finish_and_clear();
+    Ok(output)
 }
 
 fn waves(recurrence: &Recurrence, name: Option<&str>) -> Result<Vec<WaveIndex>, Failure> {

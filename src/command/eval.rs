@@ -3,11 +3,10 @@
 use super::arguments::{Eval, EvalFormat, SideOption};
 use super::failure::Failure;
 use super::input;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use super::progress;
 use num_rational::BigRational;
 use num_traits::Signed as _;
 use serde_json::{Value as Json, json};
-use std::time::Duration;
 use wavestep::ball::{Decimal, Exactness};
 use wavestep::evaluate::{Evaluator, MAX_DIGITS, Side, Value};
 use wavestep::export::SCHEMA_VERSION;
@@ -53,7 +52,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         }
         _ => times(options)?,
     };
-    let progress = progress(times.len());
+    let progress = progress::counted(times.len());
     let mut rows = Vec::with_capacity(times.len());
     for time in times {
         let value = evaluator.value(&observation, &time, side, options.digits, options.max_bits)?;
@@ -66,15 +65,6 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         EvalFormat::Csv => csv(&rows, options.digits),
         EvalFormat::Json => json_document(&solution, &rows, options),
     })
-}
-
-/// A bar on standard error that shows itself when the work takes long.
-fn progress(count: usize) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} points, {eta} left");
-    bar.set_style(style.expect("a template without errors"));
-    bar.enable_steady_tick(Duration::from_secs(1));
-    bar
 }
 
 fn unknown_quantity(recurrence: &Recurrence, options: &Eval) -> Failure {

@@ -9,6 +9,7 @@ mod derive;
 mod eval;
 mod failure;
 mod input;
+mod progress;
 
 use arguments::{Arguments, Scenes, Subcommand};
 use clap::Parser as _;
