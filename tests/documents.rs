@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 use wavestep::language::{Source, read_recurrence};
 
-const DOCUMENTS: [&str; 2] = ["README.md", "docs/language.md"];
+const DOCUMENTS: [&str; 3] = ["README.md", "docs/language.md", "docs/output.md"];
 
 /// The fenced blocks of a language in a document.
 fn blocks(document: &str, language: &str) -> Vec<String> {

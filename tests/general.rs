@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use wavestep::export;
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_expression, read_recurrence};
-use wavestep::recurrence::{Recurrence, WaveIndex};
+use wavestep::recurrence::{Fault, LinearForm, Part, Recurrence, WaveIndex};
 use wavestep::scenes;
 use wavestep::solution::{
     EchoByEcho, EchoRow, EchoTemplate, Family, GeneralForm, Geometric, PeriodByPeriod, Proof,
@@ -430,4 +430,24 @@ fn products_of_too_high_a_degree_are_refused() {
     assert_eq!(solution.pieces(4, 0, 0).unwrap(), [expression("c^1000*c^200")]);
     assert!(solution.pieces(4, 0, 3).is_err());
     assert!(solution.general(4).is_err());
+}
+
+#[test]
+fn ill_formed_statements_are_refused() {
+    let good = scene("rigid-mass").statement().clone();
+    let refused = |form: LinearForm| {
+        let mut statement = good.clone();
+        statement.equations[1].add_scaled(&form, &Expression::one(), 0);
+        let invalid = Recurrence::new(statement).unwrap_err();
+        assert_eq!((invalid.part, invalid.fault), (Part::Equation(1), Fault::IllFormed));
+    };
+    refused(LinearForm::wave(7, 1));
+    refused(LinearForm::wave(0, 1).scaled(&expression("t")));
+    refused(LinearForm::forcing(expression("s")));
+    refused(LinearForm::forcing(expression("exp(t^2)")));
+    refused(LinearForm::forcing(expression("1/(1 + t)")));
+    assert!(Recurrence::new(good.clone()).is_ok());
+    let mut statement = good.clone();
+    statement.continuity[0].start = expression("t");
+    assert_eq!(Recurrence::new(statement).unwrap_err().part, Part::Continuity(0));
 }

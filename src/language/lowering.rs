@@ -399,6 +399,11 @@ impl<'a> Lowering<'a> {
                 "no wave needs it",
                 "remove it: only waves with a differential equation need one start each".to_owned(),
             ),
+            Fault::IllFormed => (
+                "not of the form of a recurrence",
+                "use declared waves, coefficients free of time, and forcing in scene time"
+                    .to_owned(),
+            ),
             Fault::DegreeTooHigh => {
                 ("with this one and the others", "use lower powers in the coefficients".to_owned())
             }

@@ -5,7 +5,7 @@ use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::ordering::{self, Step};
 use crate::recurrence::statement::{
-    Fault, InvalidRecurrence, Observable, Observation, Part, Statement,
+    Continuity, Fault, InvalidRecurrence, Observable, Observation, Part, Statement,
 };
 use wavestep_polynomial::{Polynomial, Symbol};
 
@@ -34,6 +34,7 @@ impl Recurrence {
             let fault = Fault::PeriodNotPositive;
             return Err(InvalidRecurrence { part: Part::Period, fault });
         }
+        check_forms(&statement)?;
         // Elimination multiplies at most one coefficient from each equation.
         let degrees = statement.equations.iter().map(coefficient_degree);
         if degrees.sum::<u64>() > u64::from(Polynomial::MAX_EXPONENT) {
@@ -96,6 +97,36 @@ impl Recurrence {
     /// The symbols of the recurrence, times apart, in the order of their names.
     pub fn symbols(&self) -> impl Iterator<Item = &Symbol> + '_ {
         self.statement.assumptions.symbols().map(|(symbol, _)| symbol)
+    }
+}
+
+/// Checks that forms hold declared waves, coefficients free of time, and as forcing exponential
+/// polynomials of scene time.
+fn check_forms(statement: &Statement) -> Result<(), InvalidRecurrence> {
+    let Statement { local, time, waves, equations, continuity, .. } = statement;
+    let timeless = |value: &Expression| !value.contains(time) && !value.contains(local);
+    let well_formed = |form: &LinearForm| {
+        let operators = form.operators().all(|(wave, operator)| {
+            let rows = [operator.value(), operator.slope(), operator.sum()];
+            wave < waves.len() && rows.into_iter().flatten().all(timeless)
+        });
+        let forcing = form.forcing_terms().iter().all(|function| {
+            !function.contains(local)
+                && function.terms().all(|(exponent, p)| {
+                    !exponent.derivative(time).contains(time)
+                        && !Fraction::from(p.denominator()).contains(time)
+                })
+        });
+        operators && forcing
+    };
+    let refuse = |part| Err(InvalidRecurrence { part, fault: Fault::IllFormed });
+    if let Some(i) = equations.iter().position(|form| !well_formed(form)) {
+        return refuse(Part::Equation(i));
+    }
+    let bad = |rule: &Continuity| !well_formed(&rule.form) || !timeless(&rule.start);
+    match continuity.iter().position(bad) {
+        Some(i) => refuse(Part::Continuity(i)),
+        None => Ok(()),
     }
 }
 

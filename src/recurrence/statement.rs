@@ -100,6 +100,9 @@ pub enum Fault {
     StartsNothing,
     /// A continuity rule with a derivative or a sum in it.
     ContinuityOfSlope,
+    /// A wave that is not declared, a coefficient or a start that depends on time, or forcing that
+    /// is no exponential polynomial of scene time.
+    IllFormed,
     /// Coefficients whose product would have too high a degree.
     DegreeTooHigh,
 }
@@ -133,6 +136,10 @@ impl fmt::Display for InvalidRecurrence {
             }
             Fault::NoStart(wave) => write!(f, "nothing says how {wave} starts and goes on"),
             Fault::StartsNothing => f.write_str("this continuity rule starts no wave"),
+            Fault::IllFormed => f.write_str(
+                "a wave is not declared, a coefficient depends on time, or the forcing is no \
+                 exponential polynomial of scene time",
+            ),
             Fault::DegreeTooHigh => {
                 f.write_str("the coefficients of the equations have too high a degree together")
             }
