@@ -30,7 +30,7 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
     let parts = observable.as_ref().map_or(waves.len(), |o| o.observation.terms.len());
     refuse_explosion(&recurrence, options, parts)?;
     let solution = Solution::new(recurrence);
-    let progress = progress::spinner("deriving");
+    let _progress = progress::spinner("deriving");
     let functions = match observable {
         Some(observable) => vec![observed(&solution, &observable, options)?],
         None => waves
@@ -38,9 +38,7 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
             .map(|wave| functions(&solution, wave, options))
             .collect::<Result<_, _>>()?,
     };
-    let output = written(&solution, &functions, options);
-    progress.finish_and_clear();
-    Ok(output)
+    Ok(written(&solution, &functions, options))
 }
 
 fn waves(recurrence: &Recurrence, name: Option<&str>) -> Result<Vec<WaveIndex>, Failure> {
@@ -50,7 +48,7 @@ fn waves(recurrence: &Recurrence, name: Option<&str>) -> Result<Vec<WaveIndex>, 
         Some(wave) => Ok(vec![wave]),
         None => {
             let mut remedy = format!("the waves of this scene are {}", names.join(", "));
-            if recurrence.observable(name).is_some() {
+            if recurrence.observable(&language::normalise_name(name)).is_some() {
                 remedy = format!("it is an observable: ask for --observable {name}");
             }
             Err(Failure::usage(format!("`{name}` is no wave of this scene"), remedy))

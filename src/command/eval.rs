@@ -59,7 +59,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         rows.push(Row { time, value });
         progress.inc(1);
     }
-    progress.finish_and_clear();
+    drop(progress);
     Ok(match options.format {
         EvalFormat::Text => text(&rows, options),
         EvalFormat::Csv => csv(&rows, options.digits),

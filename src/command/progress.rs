@@ -1,7 +1,7 @@
 //! Progress on standard error, for work that takes longer than a second. Nothing is shown where
-//! standard error is no terminal.
+//! standard error is no terminal; it is cleared where the bar is dropped, also on an error.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use std::time::Duration;
 
 /// Progress by points.
@@ -15,7 +15,8 @@ pub fn spinner(work: &'static str) -> ProgressBar {
 }
 
 fn shown(length: Option<u64>, template: &str) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
+    let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr())
+        .with_finish(ProgressFinish::AndClear);
     bar.set_style(ProgressStyle::with_template(template).expect("a template without errors"));
     bar.enable_steady_tick(Duration::from_secs(1));
     bar
