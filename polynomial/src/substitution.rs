@@ -5,10 +5,12 @@ use crate::binomial::falling_factorial;
 use crate::integer::{fraction, lcm};
 use crate::polynomial::{Polynomial, Term};
 use crate::product::Accumulator;
+use crate::row::IntegerRow;
 use crate::symbol::Symbol;
+use crate::univariate::Univariate;
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, ToPrimitive};
 use smallvec::smallvec;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -69,7 +71,41 @@ impl Polynomial {
     /// # Panics
     /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn shift(&self, x: &Symbol, step: &Polynomial) -> Polynomial {
+        if let Some(shifted) = self.shift_by_multiple(x, step) {
+            return shifted;
+        }
         self.substitute(x, &(&Polynomial::symbol(x) + step))
+    }
+
+    /// The shift `Σ_{i,l} c_{i+l} k^l x^[i] a^[l]` of a polynomial in `x` alone by `ka`, where `k` is
+    /// a word: one product a term.
+    fn shift_by_multiple(&self, x: &Symbol, step: &Polynomial) -> Option<Polynomial> {
+        let [Term { exponents, numerator }] = &step.terms[..] else { return None };
+        if exponents[..] != [1] || !step.denominator.is_one() || step.symbols[0] == *x {
+            return None;
+        }
+        let word = numerator.to_u64()?;
+        let dense = Univariate::from_polynomial(self, x)?;
+        let (mut rows, mut spare) = (vec![dense.coefficients().clone()], IntegerRow::default());
+        while rows[rows.len() - 1].len() > 1 {
+            let mut next = rows[rows.len() - 1].clone();
+            next.advance(word, &mut spare);
+            rows.push(next);
+        }
+        let x_first = *x < step.symbols[0];
+        let count = dense.coefficients().len();
+        let mut terms = Vec::with_capacity(count * (count + 1) / 2);
+        for first in (0..count).rev() {
+            for second in (0..count - first).rev() {
+                let (i, l) = if x_first { (first, second) } else { (second, first) };
+                let numerator = rows[l].get(i).to_integer();
+                let exponents = smallvec![first as u32, second as u32];
+                terms.push(Term { exponents, numerator });
+            }
+        }
+        let mut symbols = [x.clone(), step.symbols[0].clone()];
+        symbols.sort();
+        Some(Polynomial::from_parts(symbols.into(), terms, self.denominator.clone()))
     }
 
     /// The value where every symbol has a value, or the first symbol that has none. At most one

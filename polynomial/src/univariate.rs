@@ -3,6 +3,7 @@
 use crate::binomial::{multiply_by_binomial, multiply_by_factorial};
 use crate::integer::{fraction, gcd, lcm};
 use crate::polynomial::{Polynomial, Term, add_exponents};
+use crate::row::{IntegerRef, IntegerRow};
 use crate::symbol::Symbol;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -26,12 +27,12 @@ use std::sync::Arc;
 /// ```
 /// use wavestep_polynomial::Univariate;
 /// // 1 − 4x + 2x²: the Laguerre polynomial L_2 at 2x, whose divided-power coefficients are integers.
-/// let p = Univariate::new([1, -4, 4].map(Into::into).into(), 1.into());
-/// assert_eq!(p.derivative().coefficients(), &[(-4).into(), 4.into()]);
+/// let p = Univariate::new([1, -4, 4].map(Into::into), 1.into());
+/// assert_eq!(p.derivative(), Univariate::new([-4, 4].map(Into::into), 1.into()));
 /// ```
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Univariate {
-    coefficients: Vec<BigInt>,
+    coefficients: IntegerRow,
     denominator: BigInt,
 }
 
@@ -41,32 +42,38 @@ impl Univariate {
     ///
     /// # Panics
     /// Where the denominator is zero.
-    pub fn new(coefficients: Vec<BigInt>, denominator: BigInt) -> Univariate {
+    pub fn new(coefficients: impl IntoIterator<Item = BigInt>, denominator: BigInt) -> Univariate {
+        Univariate::from_row(coefficients.into_iter().collect(), denominator)
+    }
+
+    /// `(1/denominator) Σ_j coefficients_j x^j/j!`. O(degree), and gcds while they are
+    /// not 1.
+    ///
+    /// # Panics
+    /// Where the denominator is zero.
+    pub fn from_row(mut coefficients: IntegerRow, mut denominator: BigInt) -> Univariate {
         assert!(!denominator.is_zero(), "a polynomial over the denominator zero");
-        let mut p = Univariate { coefficients, denominator };
-        while p.coefficients.last().is_some_and(Zero::is_zero) {
-            p.coefficients.pop();
-        }
-        let mut common = p.denominator.clone();
-        for value in &p.coefficients {
+        coefficients.trim();
+        let mut common = denominator.clone();
+        for value in coefficients.iter() {
             if common.is_one() {
                 break;
             }
-            common = gcd(&common, value);
+            common = gcd(&common, &value.to_integer());
         }
-        if p.denominator.is_negative() {
+        if denominator.is_negative() {
             common = -common.abs();
         }
         if !common.is_one() {
-            p.denominator /= &common;
-            p.coefficients.iter_mut().for_each(|value| *value /= &common);
+            denominator /= &common;
+            coefficients = coefficients.iter().map(|value| value.to_integer() / &common).collect();
         }
-        p
+        Univariate { coefficients, denominator }
     }
 
     /// The polynomial 0. O(1).
     pub fn zero() -> Univariate {
-        Univariate { coefficients: Vec::new(), denominator: BigInt::one() }
+        Univariate { coefficients: IntegerRow::default(), denominator: BigInt::one() }
     }
 
     /// A constant. O(1).
@@ -77,7 +84,7 @@ impl Univariate {
     /// assert_eq!(Univariate::constant(&half).evaluate(&half), half);
     /// ```
     pub fn constant(value: &BigRational) -> Univariate {
-        Univariate::new(vec![value.numer().clone()], value.denom().clone())
+        Univariate::new([value.numer().clone()], value.denom().clone())
     }
 
     /// `p` read as a polynomial in `x`, or `None` where another symbol occurs. O(degree).
@@ -111,7 +118,7 @@ impl Univariate {
     pub fn to_polynomial(&self, x: &Symbol) -> Polynomial {
         let descending = self.coefficients.iter().enumerate().rev().map(|(j, numerator)| {
             let exponent = add_exponents(index(j), 0);
-            Term { exponents: smallvec![exponent], numerator: numerator.clone() }
+            Term { exponents: smallvec![exponent], numerator: numerator.to_integer() }
         });
         let symbols = Arc::from([x.clone()]);
         Polynomial::from_parts(symbols, descending.collect(), self.denominator.clone())
@@ -121,7 +128,7 @@ impl Univariate {
     /// not 1.
     pub fn is_valid(&self) -> bool {
         self.denominator.is_positive()
-            && Univariate::new(self.coefficients.clone(), self.denominator.clone()) == *self
+            && Univariate::from_row(self.coefficients.clone(), self.denominator.clone()) == *self
     }
 
     /// Whether this is 0. O(1).
@@ -135,7 +142,7 @@ impl Univariate {
     }
 
     /// The integers `c_0, c_1, …` of the divided-power form; the last is not zero. O(1).
-    pub fn coefficients(&self) -> &[BigInt] {
+    pub fn coefficients(&self) -> &IntegerRow {
         &self.coefficients
     }
 
@@ -148,26 +155,66 @@ impl Univariate {
     ///
     /// ```
     /// use wavestep_polynomial::{Rational, Univariate};
-    /// let exponential = Univariate::new(vec![1.into(); 5], 1.into());
+    /// let exponential = Univariate::new([1; 5].map(Into::into), 1.into());
     /// assert_eq!(exponential.coefficient(4), Rational::new(1.into(), 24.into()));
     /// ```
     pub fn coefficient(&self, j: usize) -> BigRational {
-        let Some(numerator) = self.coefficients.get(j) else { return BigRational::zero() };
+        let numerator = self.coefficients.get(j);
+        if numerator.is_zero() {
+            return BigRational::zero();
+        }
         let mut denominator = self.denominator.clone();
         multiply_by_factorial(&mut denominator, index(j));
-        fraction(numerator.clone(), denominator)
+        fraction(numerator.to_integer(), denominator)
+    }
+
+    /// `a p + b q`. O(degree) where the factors over the common denominator fit 32 bits.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Rational, Univariate};
+    /// let (p, q) = (Univariate::new([2.into()], 3.into()), Univariate::new([0.into(), 1.into()], 2.into()));
+    /// let (a, b) = (Rational::from_integer(3.into()), Rational::from_integer((-2).into()));
+    /// let sum = Univariate::combination(&a, &p, &b, &q); // 2 − x
+    /// assert_eq!(sum, Univariate::new([2, -1].map(Into::into), 1.into()));
+    /// ```
+    pub fn combination(
+        a: &BigRational,
+        p: &Univariate,
+        b: &BigRational,
+        q: &Univariate,
+    ) -> Univariate {
+        let (below_a, below_b) = (a.denom() * &p.denominator, b.denom() * &q.denominator);
+        let denominator = lcm(&below_a, &below_b);
+        let a = a.numer() * (&denominator / &below_a);
+        let b = b.numer() * (&denominator / &below_b);
+        let row = IntegerRow::combination(&a, &p.coefficients, &b, &q.coefficients, 0);
+        Univariate::from_row(row, denominator)
+    }
+
+    /// `factor · p`. Cost as for [`Univariate::combination`].
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Rational, Univariate};
+    /// let p = Univariate::new([2, -1].map(Into::into), 1.into());
+    /// assert_eq!(p.scale(&Rational::from_integer((-1).into())), -&p);
+    /// ```
+    pub fn scale(&self, factor: &BigRational) -> Univariate {
+        Univariate::combination(factor, self, &BigRational::zero(), &Univariate::zero())
     }
 
     /// The derivative: the coefficients go down by one place. O(degree).
     pub fn derivative(&self) -> Univariate {
-        let lowered = self.coefficients.iter().skip(1).cloned().collect();
-        Univariate::new(lowered, self.denominator.clone())
+        let mut lowered = IntegerRow::default();
+        self.coefficients.iter().skip(1).for_each(|value| lowered.push(value));
+        Univariate::from_row(lowered, self.denominator.clone())
     }
 
     /// The antiderivative `∫_0^x p`: the coefficients go up by one place. O(degree).
     pub fn antiderivative(&self) -> Univariate {
-        let raised = std::iter::once(BigInt::zero()).chain(self.coefficients.iter().cloned());
-        Univariate::new(raised.collect(), self.denominator.clone())
+        let mut raised = IntegerRow::default();
+        raised.push_integer(&BigInt::ZERO);
+        self.coefficients.iter().for_each(|value| raised.push(value));
+        Univariate::from_row(raised, self.denominator.clone())
     }
 
     /// The Taylor shift `p(x + h)`: `c_i' = Σ_{j ≥ i} c_j h^{j−i}/(j−i)!`. O(degree²)
@@ -175,12 +222,13 @@ impl Univariate {
     ///
     /// ```
     /// use wavestep_polynomial::{Rational, Univariate};
-    /// let square = Univariate::new(vec![0.into(), 0.into(), 2.into()], 1.into());
+    /// let square = Univariate::new([0, 0, 2].map(Into::into), 1.into());
     /// let shifted = square.shift(&Rational::from_integer(3.into())); // x² + 6x + 9
-    /// assert_eq!(shifted.coefficients(), &[9.into(), 6.into(), 2.into()]);
+    /// assert_eq!(shifted, Univariate::new([9, 6, 2].map(Into::into), 1.into()));
     /// ```
     pub fn shift(&self, h: &BigRational) -> Univariate {
-        let length = self.coefficients.len();
+        let coefficients = self.integers();
+        let length = coefficients.len();
         // Powers h^m/m! over the one denominator den(h)^n n!.
         let mut powers = vec![BigInt::one()];
         let mut scale = BigInt::one();
@@ -192,10 +240,14 @@ impl Univariate {
             scale *= step;
         }
         let shifted = (0..length).map(|i| {
-            let products = self.coefficients[i..].iter().zip(&powers).map(|(c, power)| c * power);
+            let products = coefficients[i..].iter().zip(&powers).map(|(c, power)| c * power);
             products.sum()
         });
-        Univariate::new(shifted.collect(), &self.denominator * scale)
+        Univariate::new(shifted, &self.denominator * scale)
+    }
+
+    fn integers(&self) -> Vec<BigInt> {
+        self.coefficients.iter().map(IntegerRef::to_integer).collect()
     }
 
     /// The value at a rational point, by Horner's rule `c_j + x/(j+1) (…)`. O(degree) products.
@@ -207,7 +259,7 @@ impl Univariate {
             let step = x.denom() * BigInt::from(j + 1);
             numerator *= x.numer();
             scale *= step;
-            numerator += coefficient * &scale;
+            numerator += coefficient.to_integer() * &scale;
         }
         fraction(numerator, scale * &self.denominator)
     }
@@ -218,27 +270,11 @@ fn index(j: usize) -> u32 {
     u32::try_from(j).expect("an exponent fits 32 bits")
 }
 
-/// `left + right`, or `left − right`.
-fn combine(left: &Univariate, right: &Univariate, subtract: bool) -> Univariate {
-    let denominator = lcm(&left.denominator, &right.denominator);
-    let scale_left = &denominator / &left.denominator;
-    let scale_right = &denominator / &right.denominator;
-    let length = left.coefficients.len().max(right.coefficients.len());
-    let at = |p: &Univariate, j: usize, scale: &BigInt| {
-        p.coefficients.get(j).map_or_else(BigInt::zero, |value| value * scale)
-    };
-    let sums = (0..length).map(|j| {
-        let (l, r) = (at(left, j, &scale_left), at(right, j, &scale_right));
-        if subtract { l - r } else { l + r }
-    });
-    Univariate::new(sums.collect(), denominator)
-}
-
 impl Add for &Univariate {
     type Output = Univariate;
     /// O(degree).
     fn add(self, other: &Univariate) -> Univariate {
-        combine(self, other, false)
+        Univariate::combination(&BigRational::one(), self, &BigRational::one(), other)
     }
 }
 
@@ -246,7 +282,7 @@ impl Sub for &Univariate {
     type Output = Univariate;
     /// O(degree).
     fn sub(self, other: &Univariate) -> Univariate {
-        combine(self, other, true)
+        Univariate::combination(&BigRational::one(), self, &-BigRational::one(), other)
     }
 }
 
@@ -254,8 +290,7 @@ impl Neg for &Univariate {
     type Output = Univariate;
     /// O(degree).
     fn neg(self) -> Univariate {
-        let coefficients = self.coefficients.iter().map(|value| -value).collect();
-        Univariate { coefficients, denominator: self.denominator.clone() }
+        self.scale(&-BigRational::one())
     }
 }
 
@@ -265,8 +300,8 @@ impl Mul for &Univariate {
     fn mul(self, other: &Univariate) -> Univariate {
         let length = (self.coefficients.len() + other.coefficients.len()).saturating_sub(1);
         let mut products = vec![BigInt::zero(); length];
-        for (a, left) in self.coefficients.iter().enumerate() {
-            for (b, right) in other.coefficients.iter().enumerate() {
+        for (a, left) in self.integers().iter().enumerate() {
+            for (b, right) in other.integers().iter().enumerate() {
                 let mut product = left * right;
                 multiply_by_binomial(&mut product, index(a), index(b));
                 products[a + b] += product;

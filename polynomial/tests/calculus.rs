@@ -108,6 +108,15 @@ proptest! {
     }
 
     #[test]
+    fn dense_shifts_are_substitutions(p in univariates(), k in any::<u32>(), first in any::<bool>()) {
+        let (x, y) = (symbol("m"), symbol(if first { "a" } else { "z" }));
+        let step = &Polynomial::symbol(&y) * &rational(k.into(), 1);
+        let p = p.to_polynomial(&x);
+        let expected = p.substitute(&x, &(&Polynomial::symbol(&x) + &step));
+        prop_assert_eq!(valid(p.shift(&x, &step)), expected);
+    }
+
+    #[test]
     fn shift_by_a_multiple_of_a_symbol_makes_no_denominator(
         p in polynomials(), k in -9_i64..10, x in symbols(), y in symbols(),
     ) {

@@ -7,6 +7,7 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
+use wavestep_polynomial::IntegerRow;
 
 use super::ball::Ball;
 use super::binary::{Binary, LEAST_PRECISION};
@@ -44,13 +45,14 @@ use super::magnitude::Magnitude;
 /// use num_bigint::BigInt;
 /// use num_rational::BigRational;
 /// use wavestep::ball::evaluate_divided;
+/// use wavestep_polynomial::IntegerRow;
 /// // 1 − 4x + 8x²/2! at one half is exactly 0; at one quarter it is 1/4.
-/// let coefficients = [1, -4, 8].map(BigInt::from);
+/// let coefficients: IntegerRow = [1, -4, 8].map(BigInt::from).iter().collect();
 /// let quarter = BigRational::new(1.into(), 4.into());
 /// assert!(evaluate_divided(&coefficients, &quarter, 64).contains(&quarter));
 /// ```
 #[must_use]
-pub fn evaluate_divided(coefficients: &[BigInt], x: &BigRational, precision: u64) -> Ball {
+pub fn evaluate_divided(coefficients: &IntegerRow, x: &BigRational, precision: u64) -> Ball {
     let precision = precision.max(LEAST_PRECISION);
     let weights = weights(x, coefficients.len());
     // 2^(largest) exceeds every term: |c| < 2^bits(c).
@@ -69,7 +71,8 @@ pub fn evaluate_divided(coefficients: &[BigInt], x: &BigRational, precision: u64
     let argument = Argument::new(x, coefficients.len(), precision + 2 * guard as u64 + 8);
     let mut accumulator = BigInt::zero();
     let mut lost = Magnitude::ZERO;
-    for (index, coefficient) in coefficients[..weights.len()].iter().enumerate().rev() {
+    for index in (0..weights.len()).rev() {
+        let coefficient = coefficients.get(index);
         let scale = unit + weights[index];
         if !accumulator.is_zero() {
             let rise = weights[index] - weights[index + 1];
@@ -79,12 +82,12 @@ pub fn evaluate_divided(coefficients: &[BigInt], x: &BigRational, precision: u64
             continue;
         }
         if scale >= 0 {
-            accumulator += coefficient << scale as u64;
+            accumulator += coefficient.to_integer() << scale as u64;
         } else {
             lost = lost.add(&Magnitude::from_u64(1));
             let cut = scale.unsigned_abs();
             if cut < coefficient.bits() {
-                accumulator += coefficient >> cut;
+                accumulator += coefficient.to_integer() >> cut;
             }
         }
     }
@@ -196,7 +199,7 @@ mod tests {
     }
 
     fn assert_encloses(coefficients: &[BigInt], x: &BigRational, precision: u64) {
-        let ball = evaluate_divided(coefficients, x, precision);
+        let ball = evaluate_divided(&coefficients.iter().collect(), x, precision);
         let (value, largest) = exact(coefficients, x);
         assert!(ball.contains(&value), "{coefficients:?} at {x} with {precision}: {ball}, {value}");
         let bound = largest * BigRational::new(4.into(), BigInt::one() << precision);
@@ -249,7 +252,7 @@ mod tests {
         for precision in [64, 128, 256] {
             assert_encloses(&coefficients, &x, precision);
         }
-        let ball = evaluate_divided(&coefficients, &x, 256);
+        let ball = evaluate_divided(&coefficients.iter().collect(), &x, 256);
         assert!(
             ball.to_string().starts_with("4.24835425529158899532923478285865801787956"),
             "{ball}"
@@ -266,7 +269,7 @@ mod tests {
         assert_encloses(&[], &huge, 100);
         assert_encloses(&[BigInt::zero(), BigInt::zero()], &huge, 100);
         assert_encloses(&[BigInt::zero(), BigInt::one()], &BigRational::zero(), 100);
-        let constant = evaluate_divided(&[BigInt::from(5)], &huge, 64);
+        let constant = evaluate_divided(&[BigInt::from(5)].iter().collect(), &huge, 64);
         assert_eq!(constant, Ball::from_integer(&5.into()));
     }
 }

@@ -4,6 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
+use wavestep_polynomial::IntegerRow;
 
 /// The modulus, a Mersenne prime.
 const PRIME: u64 = (1 << 61) - 1;
@@ -56,7 +57,7 @@ impl Residue {
 }
 
 /// The residue of `Σ_j c_j x^j/j!`.
-pub(crate) fn evaluate_divided(coefficients: &[BigInt], x: Residue) -> Residue {
+pub(crate) fn evaluate_divided(coefficients: &IntegerRow, x: Residue) -> Residue {
     // Inverses of 1, 2, …, by (p mod i)^{−1} = −(p div i) i^{−1}.
     let mut inverses = vec![Residue(1); coefficients.len() + 1];
     for i in 2..inverses.len() {
@@ -65,7 +66,7 @@ pub(crate) fn evaluate_divided(coefficients: &[BigInt], x: Residue) -> Residue {
         inverses[i] = Residue(PRIME - PRIME / word).times(rest);
     }
     coefficients.iter().enumerate().rev().fold(Residue(0), |value, (j, c)| {
-        value.times(x).times(inverses[j + 1]).plus(Residue::of_integer(c))
+        value.times(x).times(inverses[j + 1]).plus(Residue(c.modulo(PRIME)))
     })
 }
 
@@ -78,10 +79,10 @@ mod tests {
     fn residues_agree_with_exact_values() {
         let x = Rational::new((-7).into(), 12.into());
         for degree in 0..40 {
-            let coefficients: Vec<BigInt> =
-                (0..=degree).map(|j| BigInt::from(3 * j - 50)).collect();
-            let exact = Univariate::new(coefficients.clone(), 1.into()).evaluate(&x);
-            let residue = evaluate_divided(&coefficients, Residue::of_rational(&x).unwrap());
+            let coefficients = (0..=degree).map(|j| BigInt::from(3 * j - 50));
+            let p = Univariate::new(coefficients, 1.into());
+            let exact = p.evaluate(&x);
+            let residue = evaluate_divided(p.coefficients(), Residue::of_rational(&x).unwrap());
             assert_eq!(Residue::of_rational(&exact), Some(residue));
         }
     }

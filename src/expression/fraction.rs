@@ -223,6 +223,19 @@ impl Fraction {
         Ok(result)
     }
 
+    /// The value with `moved = x + step` in place of `x`.
+    pub(crate) fn shift(
+        &self,
+        x: &Symbol,
+        step: &Fraction,
+        moved: &Fraction,
+    ) -> Result<Fraction, NotAUnit> {
+        match step.as_polynomial() {
+            Some(step) if self.factors.is_empty() => Ok(self.numerator.shift(x, step).into()),
+            _ => self.substitute(x, moved),
+        }
+    }
+
     /// The value where every symbol has one.
     ///
     /// # Errors

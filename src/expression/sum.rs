@@ -221,7 +221,12 @@ impl Expression {
         if step.is_zero() {
             return Ok(self.clone());
         }
-        self.substitute(x, &(&Fraction::symbol(x) + step))
+        let moved = &Fraction::symbol(x) + step;
+        let mut result = Expression::zero();
+        for (exponent, p) in &self.terms {
+            result.add_term(exponent.substitute(x, &moved)?, p.shift(x, step, &moved)?);
+        }
+        Ok(result)
     }
 
     /// The exact number `Σ r_j e^{λ_j}` where every symbol has a rational value.

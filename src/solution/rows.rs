@@ -1,7 +1,6 @@
 //! Echoes as rows of integers, and pieces streamed from them term by term.
 
-use num_traits::One;
-use wavestep_polynomial::{Integer, Rational, Univariate};
+use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate};
 
 /// One echo whose constants are all rational numbers,
 ///
@@ -21,7 +20,7 @@ pub struct EchoRow {
 /// ```text
 /// numerator/denominator · e^{λ (s + mD)} · s^i/i! · D^l/l!
 /// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ExpandedTerm<'a> {
     /// The exponent `λ`.
     pub rate: &'a Rational,
@@ -32,7 +31,7 @@ pub struct ExpandedTerm<'a> {
     /// The power of the period.
     pub period_power: u32,
     /// The integer in front.
-    pub numerator: Integer,
+    pub numerator: IntegerRef<'a>,
     /// The shared denominator of the row.
     pub denominator: &'a Integer,
 }
@@ -45,30 +44,28 @@ pub struct ExpandedTerm<'a> {
 ///
 /// # Panics
 /// Where a row up to the n-th is missing.
-pub fn expand_piece<'a>(rows: &'a [EchoRow], n: usize, mut visit: impl FnMut(ExpandedTerm<'a>)) {
+pub fn expand_piece(rows: &[EchoRow], n: usize, mut visit: impl FnMut(ExpandedTerm<'_>)) {
+    let mut spare = IntegerRow::default();
     for (k, row) in rows[..=n].iter().enumerate() {
         let age = u32::try_from(n - k).expect("orders fit 32 bits");
         for (rate, polynomial) in &row.parts {
-            let coefficients = polynomial.coefficients();
-            let mut power = Integer::one();
-            for l in 0..coefficients.len() {
-                for (i, coefficient) in coefficients[l..].iter().enumerate() {
-                    if coefficient.sign() == num_bigint::Sign::NoSign {
-                        continue;
+            let denominator = polynomial.denominator();
+            let mut scaled = polynomial.coefficients().clone();
+            let count = if age == 0 { 1 } else { scaled.len() };
+            for period_power in 0..count as u32 {
+                for (local_power, numerator) in (0..).zip(scaled.iter()) {
+                    if !numerator.is_zero() {
+                        visit(ExpandedTerm {
+                            rate,
+                            age,
+                            local_power,
+                            period_power,
+                            numerator,
+                            denominator,
+                        });
                     }
-                    visit(ExpandedTerm {
-                        rate,
-                        age,
-                        local_power: i as u32,
-                        period_power: l as u32,
-                        numerator: coefficient * &power,
-                        denominator: polynomial.denominator(),
-                    });
                 }
-                if age == 0 {
-                    break;
-                }
-                power *= age;
+                scaled.advance(u64::from(age), &mut spare);
             }
         }
     }

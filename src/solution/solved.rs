@@ -143,7 +143,7 @@ fn row_of(transform: &Transform) -> Option<EchoRow> {
             .iter()
             .fold(Integer::from(1), |d, value| num_integer::Integer::lcm(&d, value.denom()));
         let integers = values.iter().map(|value| value.numer() * (&common / value.denom()));
-        Some((pole.as_constant()?, Univariate::new(integers.collect(), common)))
+        Some((pole.as_constant()?, Univariate::new(integers, common.clone())))
     });
     let mut row = EchoRow { parts: parts.collect::<Option<_>>()? };
     row.parts.retain(|(_, polynomial)| !polynomial.is_zero());

@@ -11,9 +11,11 @@
 use crate::expression::{Assumptions, Expression, Fraction, Transform};
 use crate::recurrence::{LinearForm, Step, WaveIndex};
 use crate::solution::geometric::{product, sum};
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 use std::collections::BTreeMap;
-use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, Univariate, binomial, factorial};
+use wavestep_polynomial::{
+    Integer, IntegerRow, Polynomial, Rational, Symbol, Univariate, binomial, factorial,
+};
 
 /// The family of functions `T_k` that the echoes are made of.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -70,21 +72,20 @@ impl EchoTemplate {
         let terms = self.terms.iter().map(|(lag, c)| Some((*lag, c.as_constant()?)));
         let terms: Vec<(isize, Rational)> = terms.collect::<Option<_>>()?;
         let last = terms.iter().map(|(lag, _)| index(through, *lag)).max();
-        let family = self.family.rows(last.map_or(0, |last| last + 1))?;
+        let mut family = self.family.rows(last.map_or(0, |last| last + 1))?;
         let mut scale = num_traits::pow(ratio.clone(), self.first.len());
         let rows = (self.first.len()..=through).map(|k| {
-            let mut row: Option<Univariate> = None;
-            for (lag, coefficient) in &terms {
-                let factor = coefficient * &scale;
-                let term = &family[index(k, *lag)];
-                let term = match factor.is_one() {
-                    true => term.clone(),
-                    false => term * &Univariate::constant(&factor),
-                };
-                row = Some(row.map_or_else(|| term.clone(), |sum| &sum + &term));
-            }
+            let row = match &terms[..] {
+                // The only use of this function.
+                [(lag, c)] if (c * &scale).is_one() => {
+                    std::mem::replace(&mut family[index(k, *lag)], Univariate::zero())
+                }
+                terms => terms.iter().fold(Univariate::zero(), |sum, (lag, c)| {
+                    &sum + &family[index(k, *lag)].scale(&(c * &scale))
+                }),
+            };
             scale *= &ratio;
-            row.unwrap_or_else(Univariate::zero)
+            row
         });
         Some((rate, rows.collect()))
     }
@@ -121,47 +122,24 @@ impl Family {
         let c = match self {
             Family::Power => {
                 let row = |k: usize| {
-                    let mut coefficients = vec![Integer::zero(); k];
-                    coefficients.push(Integer::one());
-                    Univariate::new(coefficients, Integer::one())
+                    let zeros = std::iter::repeat_n(Integer::zero(), k);
+                    Univariate::new(zeros.chain([Integer::one()]), Integer::one())
                 };
                 return Some((0..count).map(row).collect());
             }
             Family::Laguerre(c) => c.as_constant()?,
         };
         // Nothing cancels between numerators and denominator, since u and v are coprime.
+        let (minus_u, v) = (-c.numer(), c.denom());
         let mut rows = vec![Univariate::constant(&Rational::one())];
         while rows.len() < count {
             let last = rows.last().expect("a row");
-            let next = pascal(last.coefficients(), c.numer(), c.denom());
-            let denominator = last.denominator() * c.denom();
-            rows.push(Univariate::new(next, denominator));
+            let (row, denominator) = (last.coefficients(), last.denominator() * v);
+            let next = IntegerRow::combination(v, row, &minus_u, row, 1);
+            rows.push(Univariate::from_row(next, denominator));
         }
         Some(rows)
     }
-}
-
-/// `v row[j] − u row[j−1]`, one longer than `row`; one allocation a number where `u` fits a word.
-fn pascal(row: &[Integer], u: &Integer, v: &Integer) -> Vec<Integer> {
-    let word = u.to_i64();
-    let carried = |value: &Integer| match word {
-        Some(word) => value * -word,
-        None => -(value * u),
-    };
-    let kept = |value: &Integer| if v.is_one() { value.clone() } else { value * v };
-    let mut next = Vec::with_capacity(row.len() + 1);
-    next.push(kept(&row[0]));
-    for pair in row.windows(2) {
-        let mut value = carried(&pair[0]);
-        if v.is_one() {
-            value += &pair[1]
-        } else {
-            value += kept(&pair[1])
-        }
-        next.push(value);
-    }
-    next.push(carried(&row[row.len() - 1]));
-    next
 }
 
 /// A wave with one pole and one lag: `W = S(p,q) / [(p+b) − ρq(p−a)]`.
