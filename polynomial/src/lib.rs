@@ -3,8 +3,10 @@
 mod alignment;
 mod binomial;
 mod calculus;
+mod decimal;
 mod division;
 mod integer;
+mod ordinary;
 mod polynomial;
 mod product;
 mod query;
@@ -16,8 +18,10 @@ mod text;
 mod univariate;
 
 pub use binomial::{binomial, factorial};
+pub use decimal::decimal;
 pub use num_bigint::BigInt as Integer;
 pub use num_rational::BigRational as Rational;
+pub use ordinary::Ordinary;
 pub use polynomial::Polynomial;
 pub use row::{IntegerRef, IntegerRow};
 pub use symbol::Symbol;

@@ -8,9 +8,10 @@
 use crate::expression::{Expression, Fraction};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
-use std::cmp::Ordering;
+use smallvec::SmallVec;
 use std::collections::BTreeMap;
-use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
+use std::sync::Arc;
+use wavestep_polynomial::{Integer, Ordinary, Polynomial, Rational, Symbol, factorial};
 
 /// The sign in front of a term.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,6 +43,8 @@ pub enum Node {
     Symbol(Symbol),
     /// A sum of at least two terms.
     Sum(Vec<(Sign, Node)>),
+    /// A number times powers of symbols, at least two factors: what sums have most of.
+    Monomial(Monomial),
     /// A product of at least two factors.
     Product(Vec<Node>),
     /// A quotient.
@@ -54,6 +57,39 @@ pub enum Node {
     Laguerre(Box<Node>, Box<Node>),
     /// `k!`
     Factorial(Box<Node>),
+}
+
+/// A positive number times powers of symbols.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Monomial {
+    /// The number.
+    pub coefficient: Rational,
+    /// The symbols.
+    pub symbols: Arc<[Symbol]>,
+    /// The exponent of each symbol.
+    pub exponents: Exponents,
+}
+
+/// Exponents of a few symbols.
+pub type Exponents = SmallVec<[u32; 4]>;
+
+impl Monomial {
+    /// As a node, of the simplest kind.
+    fn into_node(self) -> Node {
+        let mut powers = self.exponents.iter().enumerate().filter(|(_, e)| **e > 0);
+        match (powers.next(), powers.next()) {
+            (None, _) => Node::Number(self.coefficient),
+            (Some((i, exponent)), None) if self.coefficient.is_one() => {
+                Node::power(Node::Symbol(self.symbols[i].clone()), *exponent)
+            }
+            _ => Node::Monomial(self),
+        }
+    }
+
+    /// The symbols that occur, with their exponents.
+    pub fn powers(&self) -> impl Iterator<Item = (&Symbol, u32)> {
+        self.symbols.iter().zip(self.exponents.iter().copied()).filter(|(_, e)| *e > 0)
+    }
 }
 
 /// A term: sign and what follows it.
@@ -99,32 +135,76 @@ impl Node {
     }
 }
 
-/// The terms of an expression in writing order; `variable` is the time variable, if there is one.
-/// Zero has no terms.
-pub fn arrange(expression: &Expression, variable: Option<&Symbol>) -> Vec<Term> {
-    let Some(x) = variable else { return coefficient_terms(expression) };
-    let mut terms = Vec::new();
-    for (rate, by_power) in by_rate_and_power(expression, x) {
-        let mut inner = Vec::new();
-        for (power, coefficient) in by_power.iter().rev() {
-            match power {
-                0 => inner.extend(coefficient_terms(coefficient)),
-                _ => inner.push(power_term(coefficient, x, *power)),
-            }
-        }
-        if rate.is_zero() {
-            terms.extend(inner);
-            continue;
-        }
-        let (sign, exponent) = Node::sum(fraction_terms(&(&rate * &Fraction::symbol(x))));
-        let exponential = Node::Exponential(sign, Box::new(exponent));
-        terms.push(match inner.len() {
-            1 => with_factor(inner, exponential),
-            // Here signs stay inside: the bracket is the polynomial of the wave function.
-            _ => (Sign::Plus, Node::Product(vec![exponential, Node::Sum(inner)])),
-        });
+/// How an expression is arranged.
+#[derive(Clone, Default, Debug)]
+pub struct Arrangement {
+    /// The time variable, if there is one.
+    pub variable: Option<Symbol>,
+    /// Takes a common integer factor out of a bracket that holds a further bracket.
+    pub factored: bool,
+    /// A name for the term without the variable beside its leading exponential, where that would
+    /// hold a bracket; it is then stated apart.
+    pub constant: Option<Symbol>,
+}
+
+impl Arrangement {
+    /// Arranged by powers of a variable.
+    pub fn by(variable: &Symbol) -> Arrangement {
+        Arrangement { variable: Some(variable.clone()), ..Arrangement::default() }
     }
-    terms
+}
+
+/// The terms of an expression in writing order; zero has no terms.
+pub fn arrange(expression: &Expression, variable: Option<&Symbol>) -> Vec<Term> {
+    let arrangement = Arrangement { variable: variable.cloned(), ..Arrangement::default() };
+    arrangement.terms(expression).0
+}
+
+impl Arrangement {
+    /// The terms of an expression in writing order, and those of the constant that is stated
+    /// apart. Zero has no terms.
+    pub fn terms(&self, expression: &Expression) -> (Vec<Term>, Option<Vec<Term>>) {
+        let Some(x) = &self.variable else {
+            let parts = expression.terms().map(|(exponent, p)| (exponent.clone(), p.clone()));
+            let mut parts: Vec<_> = parts.collect();
+            parts.sort_by_cached_key(|(exponent, _)| exponent_key(exponent));
+            return (Coefficient::new(0, parts).terms(), None);
+        };
+        let mut apart = None;
+        let mut terms = Vec::new();
+        for (rate, by_power) in by_rate_and_power(expression, x) {
+            let mut inner = Vec::new();
+            for (power, coefficient) in by_power.into_iter().rev() {
+                match (power, &self.constant) {
+                    (0, Some(name)) if apart.is_none() && coefficient.is_nested() => {
+                        apart = Some(coefficient.terms());
+                        inner.push((Sign::Plus, Node::Symbol(name.clone())));
+                    }
+                    (0, _) => inner.extend(coefficient.terms()),
+                    _ => inner.push(coefficient.times_power(x, self.factored)),
+                }
+            }
+            if rate.is_zero() {
+                terms.extend(inner);
+                continue;
+            }
+            let (sign, exponent) = Node::sum(fraction_terms(&(&rate * &Fraction::symbol(x))));
+            let exponential = Node::Exponential(sign, Box::new(exponent));
+            terms.push(match inner.len() {
+                1 => with_factor(inner, exponential),
+                // Here signs stay inside: the bracket is the polynomial of the wave function.
+                _ => (Sign::Plus, Node::Product(vec![exponential, Node::Sum(inner)])),
+            });
+        }
+        (terms, apart)
+    }
+}
+
+/// What stands beside a power of the variable: `(1/power!) Σ p e^{λ}`, by ascending exponent.
+struct Coefficient {
+    power: u32,
+    divisor: Integer,
+    parts: Vec<(Fraction, Fraction)>,
 }
 
 /// The coefficients of an expression by the rate of the variable in the exponent, then by its
@@ -132,47 +212,137 @@ pub fn arrange(expression: &Expression, variable: Option<&Symbol>) -> Vec<Term> 
 fn by_rate_and_power(
     expression: &Expression,
     x: &Symbol,
-) -> Vec<(Fraction, BTreeMap<u32, Expression>)> {
-    let mut groups = BTreeMap::<Fraction, BTreeMap<u32, Expression>>::new();
-    for (exponent, p) in expression.terms() {
+) -> Vec<(Fraction, BTreeMap<u32, Coefficient>)> {
+    let split = |(exponent, p)| {
+        let exponent: &Fraction = exponent;
         let rate = exponent.derivative(x);
-        let base = exponent - &(&rate * &Fraction::symbol(x));
+        (exponent - &(&rate * &Fraction::symbol(x)), rate, p)
+    };
+    let mut terms: Vec<(Fraction, Fraction, &Fraction)> = expression.terms().map(split).collect();
+    terms.sort_by_cached_key(|(base, ..)| exponent_key(base));
+    let mut groups = BTreeMap::<Fraction, BTreeMap<u32, Vec<(Fraction, Fraction)>>>::new();
+    for (base, rate, p) in terms {
         let group = groups.entry(rate).or_default();
-        for (power, part) in p.numerator().coefficients(x) {
-            group.entry(power).or_default().add_term(base.clone(), p.with_numerator(part));
+        for (power, part) in p.numerator().divided_coefficients(x) {
+            group.entry(power).or_default().push((base.clone(), p.with_numerator(part)));
         }
     }
-    let mut groups: Vec<_> = groups.into_iter().collect();
-    groups.sort_by(|a, b| exponent_order(&a.0, &b.0));
+    let coefficient = |(power, parts)| (power, Coefficient::new(power, parts));
+    let by_power = |(rate, group): (Fraction, BTreeMap<u32, Vec<_>>)| {
+        (rate, group.into_iter().map(coefficient).collect())
+    };
+    let mut groups: Vec<_> = groups.into_iter().map(by_power).collect();
+    groups.sort_by_cached_key(|group| exponent_key(&group.0));
     groups
 }
 
 /// Zero first, then descending value where all symbols are 1: `−2μ` before `−4μ`.
-fn exponent_order(a: &Fraction, b: &Fraction) -> Ordering {
-    let at_ones = |value: &Fraction| {
-        let ones = |p: &Polynomial| p.evaluate(|_| Some(Rational::one())).unwrap_or_default();
-        let denominator = ones(&value.denominator());
-        if denominator.is_zero() { Rational::zero() } else { ones(value.numerator()) / denominator }
+fn exponent_key(value: &Fraction) -> (bool, Rational, Fraction) {
+    let ones = |p: &Polynomial| p.evaluate(|_| Some(Rational::one())).unwrap_or_default();
+    let denominator = ones(&value.denominator());
+    let at_ones = match denominator.is_zero() {
+        true => Rational::zero(),
+        false => ones(value.numerator()) / denominator,
     };
-    let key = |value: &Fraction| (!value.is_zero(), -at_ones(value));
-    key(a).cmp(&key(b)).then_with(|| a.cmp(b))
+    (!value.is_zero(), -at_ones, value.clone())
 }
 
-/// The terms of an expression without a time variable, ascending.
-fn coefficient_terms(coefficient: &Expression) -> Vec<Term> {
-    let mut parts: Vec<_> = coefficient.terms().collect();
-    parts.sort_by(|a, b| exponent_order(a.0, b.0));
-    let mut terms = Vec::new();
-    for (exponent, fraction) in parts {
-        let inner = fraction_terms(fraction);
+impl Coefficient {
+    fn new(power: u32, parts: Vec<(Fraction, Fraction)>) -> Coefficient {
+        Coefficient { power, divisor: factorial(power), parts }
+    }
+
+    /// Whether writing it takes a bracket inside a bracket.
+    fn is_nested(&self) -> bool {
+        let bracket = |(exponent, p): &(Fraction, Fraction)| {
+            !exponent.is_zero() && p.numerator().term_count() > 1
+        };
+        self.parts.iter().any(bracket)
+    }
+
+    /// The terms, ascending.
+    fn terms(&self) -> Vec<Term> {
+        let part = |(exponent, p): &(Fraction, Fraction)| {
+            (exponent.clone(), divided_terms(p, &self.divisor))
+        };
+        sum_of_parts(self.parts.iter().map(part))
+    }
+
+    /// `coefficient · x^power`, as `−(1/2) x² (1 + e^{−μ})`.
+    fn times_power(&self, x: &Symbol, factored: bool) -> Term {
+        let power = Node::power(Node::Symbol(x.clone()), self.power);
+        if let [(_, p)] = &self.parts[..]
+            && (p.as_polynomial().is_none() || p.numerator().term_count() == 1)
+        {
+            let (sign, node) = self.terms().remove(0);
+            let mut factors = node.into_factors();
+            let place = factors.iter().position(|f| matches!(f, Node::Exponential(..)));
+            factors.insert(place.unwrap_or(factors.len()), power);
+            return (sign, Node::product(factors));
+        }
+        let (front, terms) = self.over_common_denominator(factored);
+        let (sign, inner) = positive_first(terms);
+        let mut factors = Vec::new();
+        if !front.is_one() {
+            factors.push(Node::Number(front));
+        }
+        factors.push(power);
+        match Node::sum(inner) {
+            (_, Node::Product(inner)) => factors.extend(inner),
+            (_, inner) => factors.push(inner),
+        }
+        (sign, Node::product(factors))
+    }
+
+    /// `front · (terms)` with integers in the terms: their common factor stays with them unless
+    /// it is to be taken out of a nested bracket.
+    fn over_common_denominator(&self, factored: bool) -> (Rational, Vec<Term>) {
+        let ordinaries: Vec<Ordinary<'_>> =
+            self.parts.iter().map(|(_, p)| p.numerator().ordinary(&self.divisor)).collect();
+        let mut common = Integer::one();
+        for own in ordinaries.iter().map(Ordinary::denominator) {
+            if !common.is_multiple_of(own) {
+                common = common.lcm(own);
+            }
+        }
+        let content = match factored && self.is_nested() {
+            true => ordinaries
+                .iter()
+                .flat_map(|ordinary| ordinary.integers(&common))
+                .fold(Integer::zero(), |gcd, (_, value)| gcd.gcd(&value)),
+            false => Integer::one(),
+        };
+        let front = Rational::new(content.clone(), common.clone());
+        let part = |((exponent, p), ordinary): (&(Fraction, Fraction), &Ordinary<'_>)| {
+            let terms = match p.as_polynomial() {
+                Some(polynomial) => {
+                    let integers = ordinary.integers(&common);
+                    let integers = integers.map(|(e, value)| {
+                        let whole = if content.is_one() { value } else { value / &content };
+                        (e, Rational::from_integer(whole))
+                    });
+                    monomials(polynomial, integers)
+                }
+                None => fraction_terms(&p.scale(&(front.recip() / &self.divisor))),
+            };
+            (exponent.clone(), terms)
+        };
+        (front.clone(), sum_of_parts(self.parts.iter().zip(&ordinaries).map(part)))
+    }
+}
+
+/// `Σ e^{exponent} (terms)`.
+fn sum_of_parts(parts: impl Iterator<Item = (Fraction, Vec<Term>)>) -> Vec<Term> {
+    let mut sum = Vec::new();
+    for (exponent, inner) in parts {
         if exponent.is_zero() {
-            terms.extend(inner);
+            sum.extend(inner);
         } else {
-            let (sign, exponent) = Node::sum(fraction_terms(exponent));
-            terms.push(with_factor(inner, Node::Exponential(sign, Box::new(exponent))));
+            let (sign, exponent) = Node::sum(fraction_terms(&exponent));
+            sum.push(with_factor(inner, Node::Exponential(sign, Box::new(exponent))));
         }
     }
-    terms
+    sum
 }
 
 /// `factor · (inner)`: the factor before a bracket, or among the factors of a single term.
@@ -196,49 +366,21 @@ fn positive_first(mut terms: Vec<Term>) -> (Sign, Vec<Term>) {
     (sign, terms)
 }
 
-/// `coefficient · x^power`, as `−(1/2) x² (1 + e^{−μ})`.
-fn power_term(coefficient: &Expression, x: &Symbol, power: u32) -> Term {
-    let power = Node::power(Node::Symbol(x.clone()), power);
-    let mut terms = coefficient_terms(coefficient);
-    if terms.len() == 1 && !matches!(&terms[0].1, Node::Product(f) if has_sum(f)) {
-        let (sign, node) = terms.remove(0);
-        let mut factors = node.into_factors();
-        let place = factors.iter().position(|f| matches!(f, Node::Exponential(..)));
-        factors.insert(place.unwrap_or(factors.len()), power);
-        return (sign, Node::product(factors));
-    }
-    let denominator = common_denominator(coefficient);
-    let whole = coefficient.scale(&Rational::from_integer(denominator.clone()));
-    let (sign, inner) = positive_first(coefficient_terms(&whole));
-    let mut factors = Vec::new();
-    if !denominator.is_one() {
-        factors.push(Node::Number(Rational::new(Integer::one(), denominator)));
-    }
-    factors.push(power);
-    match Node::sum(inner) {
-        (_, Node::Product(inner)) => factors.extend(inner),
-        (_, inner) => factors.push(inner),
-    }
-    (sign, Node::product(factors))
-}
-
-fn has_sum(factors: &[Node]) -> bool {
-    factors.iter().any(|factor| matches!(factor, Node::Sum(_)))
-}
-
-/// The least common denominator of all numbers in an expression.
-fn common_denominator(expression: &Expression) -> Integer {
-    expression.terms().fold(Integer::one(), |common, (_, fraction)| {
-        common.lcm(fraction.numerator().content().denom())
-    })
-}
-
 /// The terms of a fraction: those of the numerator, ascending in the symbols, or one quotient
 /// with what is common to the terms of the numerator in front of them.
 pub(crate) fn fraction_terms(fraction: &Fraction) -> Vec<Term> {
-    if fraction.as_polynomial().is_some() {
-        return polynomial_terms(fraction.numerator());
+    divided_terms(fraction, &Integer::one())
+}
+
+/// The terms of a fraction over a number.
+fn divided_terms(fraction: &Fraction, divisor: &Integer) -> Vec<Term> {
+    match fraction.as_polynomial() {
+        Some(p) => monomials(p, p.ordinary(divisor).coefficients()),
+        None => vec![quotient(&fraction.scale(&Rational::new(Integer::one(), divisor.clone())))],
     }
+}
+
+fn quotient(fraction: &Fraction) -> Term {
     let mut sign = Sign::Plus;
     let positive = |p: &Polynomial| {
         let (own, terms) = positive_first(polynomial_terms(p));
@@ -266,8 +408,7 @@ pub(crate) fn fraction_terms(fraction: &Fraction) -> Vec<Term> {
         }
         bottom.push(Node::power(base, power));
     }
-    let quotient = Node::Quotient(Box::new(Node::product(top)), Box::new(Node::product(bottom)));
-    vec![(sign, quotient)]
+    (sign, Node::Quotient(Box::new(Node::product(top)), Box::new(Node::product(bottom))))
 }
 
 /// The content of a polynomial, the powers of symbols common to its terms, and the rest.
@@ -288,19 +429,21 @@ fn common_factors(p: &Polynomial) -> (Rational, Vec<Node>, Polynomial) {
 
 /// The terms of a polynomial by ascending total degree.
 pub(crate) fn polynomial_terms(p: &Polynomial) -> Vec<Term> {
-    let mut terms: Vec<_> = p.terms().collect();
-    terms.sort_by_key(|(exponents, _)| exponents.iter().sum::<u32>());
-    let node = |(exponents, coefficient): (&[u32], Rational)| {
-        let mut factors = Vec::new();
-        let size = coefficient.abs();
-        let powers = p.symbols().iter().zip(exponents).filter(|(_, e)| **e > 0);
-        let powers: Vec<Node> =
-            powers.map(|(symbol, e)| Node::power(Node::Symbol(symbol.clone()), *e)).collect();
-        if !size.is_one() || powers.is_empty() {
-            factors.push(Node::Number(size));
-        }
-        factors.extend(powers);
-        (Sign::of(&coefficient), Node::product(factors))
-    };
-    terms.into_iter().map(node).collect()
+    monomials(p, p.ordinary(&Integer::one()).coefficients())
+}
+
+/// Terms in the symbols of a polynomial, put in the order of ascending total degree.
+fn monomials<'a>(p: &Polynomial, terms: impl Iterator<Item = (&'a [u32], Rational)>) -> Vec<Term> {
+    let symbols: Arc<[Symbol]> = p.symbols().into();
+    let mut terms: Vec<(u32, Term)> = terms
+        .map(|(exponents, coefficient)| {
+            let sign = Sign::of(&coefficient);
+            let coefficient = if sign == Sign::Minus { -coefficient } else { coefficient };
+            let (symbols, exponents) = (symbols.clone(), Exponents::from_slice(exponents));
+            let degree = exponents.iter().sum();
+            (degree, (sign, Monomial { coefficient, symbols, exponents }.into_node()))
+        })
+        .collect();
+    terms.sort_by_key(|(degree, _)| *degree);
+    terms.into_iter().map(|(_, term)| term).collect()
 }

@@ -1,7 +1,7 @@
 //! Formulas with their heads, one a line, as text or LaTeX.
 
 use crate::export::arrangement::{Term, arrange};
-use crate::export::lines::{Atom, fill};
+use crate::export::lines::Writing;
 use crate::export::notation::{Latex, Notation, Text, write, write_flat};
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::Statement;
@@ -78,19 +78,26 @@ pub enum Right {
 }
 
 impl Right {
-    fn text(&self) -> Vec<Atom> {
+    fn text(&self) -> Writing {
         match self {
             Right::Terms(terms) => write(terms, &Text),
-            Right::Written(text, _) => vec![Atom::solid(text, Text.width(text))],
+            Right::Written(text, _) => solid(text, &Text),
         }
     }
 
-    fn latex(&self) -> Vec<Atom> {
+    fn latex(&self) -> Writing {
         match self {
             Right::Terms(terms) => write(terms, &Latex),
-            Right::Written(_, latex) => vec![Atom::solid(latex, Latex.width(latex))],
+            Right::Written(_, latex) => solid(latex, &Latex),
         }
     }
+}
+
+/// Writing that is never broken.
+fn solid(text: &str, notation: &dyn Notation) -> Writing {
+    let mut writing = Writing::default();
+    writing.push(text, notation.width(text));
+    writing
 }
 
 /// One formula: `head = right`, and a remark.
@@ -136,14 +143,14 @@ impl Formula {
 
     /// Plain text in one line, without the remark.
     pub fn to_line(&self) -> String {
-        let right = self.right.text().into_iter().map(|atom| atom.text);
-        format!("{} = {}", self.head.text(), right.collect::<String>())
+        format!("{} = {}", self.head.text(), self.right.text().text())
     }
 
     /// Plain text, one formula a line; continuation lines and a remark are indented.
     pub fn to_text(&self) -> String {
         let head = format!("{} = ", self.head.text());
-        let lines = fill(&self.right.text(), TEXT_WIDTH, head.len(), 4);
+        let right = self.right.text();
+        let lines = right.lines(TEXT_WIDTH, head.len(), 4);
         let mut text = format!("{head}{}\n", lines.join("\n    "));
         if let Some((remark, _)) = &self.remark {
             text.push_str(&format!("    # {remark}\n"));
@@ -151,36 +158,33 @@ impl Formula {
         text
     }
 
-    /// The lines of the formula in an `align*` environment, without the environment.
-    fn latex_rows(&self, width: usize) -> Vec<String> {
+    /// Writes the lines of the formula in an `align*` environment, without the environment.
+    fn write_latex(&self, width: usize, out: &mut String) {
         let head = self.head.latex();
         let used = Latex.width(&head) + 3;
-        let lines = fill(&self.right.latex(), width, used, used + 2);
-        let mut rows: Vec<String> = Vec::new();
-        for (i, line) in lines.into_iter().enumerate() {
-            rows.push(match i {
-                0 => format!("{head} &= {line}"),
-                _ => format!("&\\quad {{}}{line}"),
-            });
-        }
-        let remark = self.remark.as_ref().filter(|(_, latex)| !latex.is_empty());
-        if let (Some((_, remark)), Some(last)) = (remark, rows.last_mut()) {
-            if Latex.width(last) + Latex.width(remark) < width {
-                last.push_str(&format!(", \\qquad {remark}"));
-            } else {
-                last.push(',');
-                rows.push(format!("&\\qquad {remark}"));
+        let right = self.right.latex();
+        let lines = right.lines(width, used, used + 2);
+        for (i, line) in lines.iter().enumerate() {
+            match i {
+                0 => out.extend([&head, " &= ", line]),
+                _ => out.extend([" \\\\\n&\\quad {}", line]),
             }
         }
-        rows
+        let remark = self.remark.as_ref().filter(|(_, latex)| !latex.is_empty());
+        if let (Some((_, remark)), Some(last)) = (remark, lines.last()) {
+            let fits = used + 2 + Latex.width(last) + Latex.width(remark) < width;
+            out.push_str(if fits { ", \\qquad " } else { ", \\\\\n&\\qquad " });
+            out.push_str(remark);
+        }
     }
 
     /// The lines of a case: the right-hand side in one cell, the remark in the next.
     fn latex_case(&self, width: usize) -> String {
         let remark = self.remark.as_ref().map_or("", |(_, latex)| latex);
-        let lines = fill(&self.right.latex(), width.saturating_sub(Latex.width(remark)), 0, 2);
+        let right = self.right.latex();
+        let lines = right.lines(width.saturating_sub(Latex.width(remark)), 0, 2);
         let body = match &lines[..] {
-            [line] => line.clone(),
+            [line] => (*line).to_owned(),
             _ => format!(
                 "\\begin{{aligned}}[t] &{} \\end{{aligned}}",
                 lines.join(" \\\\ &\\quad {}")
@@ -197,8 +201,15 @@ pub fn text(formulas: &[Formula]) -> String {
 
 /// Formulas in an `align*` environment; lines of at most `width` characters on the page.
 pub fn latex(formulas: &[Formula], width: usize) -> String {
-    let rows: Vec<String> = formulas.iter().flat_map(|formula| formula.latex_rows(width)).collect();
-    format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", rows.join(" \\\\\n"))
+    let mut out = String::from("\\begin{align*}\n");
+    for (i, formula) in formulas.iter().enumerate() {
+        if i > 0 {
+            out.push_str(" \\\\\n");
+        }
+        formula.write_latex(width, &mut out);
+    }
+    out.push_str("\n\\end{align*}\n");
+    out
 }
 
 /// Formulas with remarks as the cases of one function, `name(variable) = …`.

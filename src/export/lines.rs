@@ -1,78 +1,112 @@
 //! Breaking long formulas into lines, at signs.
 
-/// A stretch of a formula that is not broken, with its width on the page.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Atom {
-    /// What is written.
-    pub text: String,
-    /// How wide it is, in characters of plain text.
-    pub width: usize,
-    /// Whether a line may end before it: the number of brackets open there.
-    pub break_before: Option<usize>,
+/// A formula as it is written, with the places where a line may end.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+pub struct Writing {
+    text: String,
+    stretches: Vec<Stretch>,
 }
 
-impl Atom {
-    /// Writing that is never broken.
-    pub fn solid(text: &str, width: usize) -> Atom {
-        Atom { text: text.to_owned(), width, break_before: None }
+/// A stretch of a formula that is not broken.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Stretch {
+    /// Where it ends in the text.
+    end: usize,
+    /// How wide it is on the page, in characters of plain text.
+    width: usize,
+    /// The number of brackets open where it begins.
+    depth: usize,
+}
+
+impl Writing {
+    /// Adds text to the last stretch; `width` is how wide it is on the page.
+    pub fn push(&mut self, text: &str, width: usize) {
+        self.text.push_str(text);
+        let end = self.text.len();
+        match self.stretches.last_mut() {
+            Some(last) => (last.end, last.width) = (end, last.width + width),
+            None => self.stretches.push(Stretch { end, width, depth: 0 }),
+        }
+    }
+
+    /// Lets a line end here, inside `depth` brackets.
+    pub fn allow_break(&mut self, depth: usize) {
+        self.stretches.push(Stretch { end: self.text.len(), width: 0, depth });
+    }
+
+    /// The text in one line.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The lines of at most `width` where the places for breaks allow it. A line that is too long
+    /// is broken at the last place before its end; among the places in the line's second half, at
+    /// one inside the fewest brackets. Cost: O(stretches · stretches in a line).
+    pub fn lines(&self, width: usize, first_indent: usize, indent: usize) -> Vec<&str> {
+        let mut lines = Vec::new();
+        let (mut next, mut start) = (0, 0);
+        while next < self.stretches.len() {
+            let used = if lines.is_empty() { first_indent } else { indent };
+            next += stretches_in_line(&self.stretches[next..], width.saturating_sub(used));
+            let end = self.stretches[next - 1].end;
+            // A space before a sign stands before the break.
+            lines.push(self.text[start..end].trim_end());
+            start = end;
+        }
+        lines
     }
 }
 
-/// Distributes atoms to lines of at most `width` where the atoms allow it. A line that is too long
-/// is broken at the last place before its end; among the places in the line's second half, at one
-/// inside the fewest brackets. Cost: O(atoms · atoms in a line).
-pub fn fill(atoms: &[Atom], width: usize, first_indent: usize, indent: usize) -> Vec<String> {
-    let mut lines = Vec::new();
-    let mut rest = atoms;
-    while !rest.is_empty() {
-        let start = if lines.is_empty() { first_indent } else { indent };
-        let end = line_end(rest, width.saturating_sub(start));
-        let text: String = rest[..end].iter().map(|atom| atom.text.as_str()).collect();
-        lines.push(text.trim_end().to_owned());
-        rest = &rest[end..];
-    }
-    lines
-}
-
-/// How many atoms the first line takes.
-fn line_end(atoms: &[Atom], width: usize) -> usize {
+/// How many stretches the first line takes.
+fn stretches_in_line(stretches: &[Stretch], width: usize) -> usize {
     let mut used = 0;
-    let mut places: Vec<(usize, usize, usize)> = Vec::new();
-    for (i, atom) in atoms.iter().enumerate() {
-        if let (Some(depth), true) = (atom.break_before, i > 0) {
-            places.push((depth, used, i));
+    let mut best: Option<(usize, usize)> = None;
+    for (i, stretch) in stretches.iter().enumerate() {
+        // The best place so far: any while it lies in the line's first half, later one inside as
+        // few brackets as there are.
+        let early = (used * 2) < width;
+        if i > 0 && best.is_none_or(|(depth, _)| early || stretch.depth <= depth) {
+            best = Some((if early { usize::MAX } else { stretch.depth }, i));
         }
-        used += atom.width;
-        if used > width && !places.is_empty() {
-            let late = places.iter().filter(|(_, at, _)| *at * 2 >= width);
-            let best = late.min_by_key(|(depth, at, _)| (*depth, usize::MAX - at));
-            return best.or(places.last()).map_or(i, |place| place.2);
+        used += stretch.width;
+        if let (true, Some((_, place))) = (used > width, best) {
+            return place;
         }
     }
-    atoms.len()
+    stretches.len()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn atoms(text: &str) -> Vec<Atom> {
-        let break_before = |word: &str| (word == "+").then_some(0);
-        let words = text.split_inclusive(' ');
-        words
-            .map(|word| Atom {
-                text: word.to_owned(),
-                width: word.chars().count(),
-                break_before: break_before(word.trim()),
-            })
-            .collect()
+    fn writing(text: &str) -> Writing {
+        let mut writing = Writing::default();
+        for word in text.split_inclusive(' ') {
+            if word.trim() == "+" {
+                writing.allow_break(0);
+            }
+            writing.push(word, word.chars().count());
+        }
+        writing
     }
 
     #[test]
     fn lines_break_before_signs_and_lose_nothing() {
         let text = "aaaa + bbbb + cccc + dddddddddddddddddddddd + e";
-        let lines = fill(&atoms(text), 14, 0, 2);
-        assert_eq!(lines, ["aaaa + bbbb", "+ cccc", "+ dddddddddddddddddddddd", "+ e"]);
-        assert_eq!(fill(&atoms(text), 100, 0, 2), [text]);
+        let lines = ["aaaa + bbbb", "+ cccc", "+ dddddddddddddddddddddd", "+ e"];
+        assert_eq!(writing(text).lines(14, 0, 2), lines);
+        assert_eq!(writing(text).lines(100, 0, 2), [text]);
+        assert!(Writing::default().lines(10, 0, 0).is_empty());
+    }
+
+    #[test]
+    fn lines_break_outside_of_brackets_in_their_second_half() {
+        let mut writing = Writing::default();
+        for (text, depth) in [("aaaa", 0), ("+bbb", 0), ("+(cc", 0), ("+dd)", 1), ("+eee", 0)] {
+            writing.allow_break(depth);
+            writing.push(text, 4);
+        }
+        assert_eq!(writing.lines(15, 0, 0), ["aaaa+bbb", "+(cc+dd)+eee"]);
     }
 }

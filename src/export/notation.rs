@@ -1,9 +1,10 @@
 //! One walk over an arranged formula, in two notations.
 
-use crate::export::arrangement::{Node, Sign, Term};
-use crate::export::lines::Atom;
+use crate::export::arrangement::{Monomial, Node, Sign, Term};
+use crate::export::lines::Writing;
 use num_traits::One;
-use wavestep_polynomial::{Rational, Symbol};
+use std::collections::BTreeMap;
+use wavestep_polynomial::{Rational, Symbol, decimal};
 
 /// How the parts of a formula are written.
 pub trait Notation {
@@ -21,6 +22,12 @@ pub trait Notation {
     fn laguerre(&self, index: &str, argument: &str) -> String;
     /// A factorial.
     fn factorial(&self, of: &str, simple: bool) -> String;
+    /// What stands before a symbol that is a factor.
+    fn times_symbol(&self) -> &'static str;
+    /// Whether the name of a symbol is an expression, which takes brackets as a factor or a base.
+    fn is_compound(&self, _symbol: &Symbol) -> bool {
+        false
+    }
     /// What stands between two factors.
     fn times(&self, left: &Node, right: &Node) -> &'static str;
     /// Brackets that grow with what is in them.
@@ -31,42 +38,47 @@ pub trait Notation {
     fn width(&self, text: &str) -> usize;
 }
 
-/// The atoms of a sum of terms; zero where there are none.
-pub fn write(terms: &[Term], notation: &dyn Notation) -> Vec<Atom> {
-    let mut writer = Writer { notation, atoms: Vec::new() };
+/// A sum of terms as it is written; zero where there are none.
+pub fn write(terms: &[Term], notation: &dyn Notation) -> Writing {
+    let mut writer = Writer::new(notation);
     if terms.is_empty() {
-        writer.push(notation.number(&Rational::default()), None);
+        writer.push(&notation.number(&Rational::default()));
     }
     writer.sum(terms, 0);
-    writer.atoms
+    writer.writing
 }
 
 /// The writing of a sum of terms without line breaks.
 pub(crate) fn write_flat(terms: &[Term], notation: &dyn Notation) -> String {
-    write(terms, notation).into_iter().map(|atom| atom.text).collect()
+    write(terms, notation).text().to_owned()
 }
 
 struct Writer<'a> {
     notation: &'a dyn Notation,
-    atoms: Vec<Atom>,
+    writing: Writing,
+    /// Powers of symbols as they are written, with their widths.
+    powers: BTreeMap<Symbol, Vec<Option<(String, usize)>>>,
 }
 
-impl Writer<'_> {
-    fn push(&mut self, text: String, break_before: Option<usize>) {
-        let width = self.notation.width(&text);
-        self.atoms.push(Atom { text, width, break_before });
+impl<'a> Writer<'a> {
+    fn new(notation: &'a dyn Notation) -> Writer<'a> {
+        Writer { notation, writing: Writing::default(), powers: BTreeMap::new() }
+    }
+
+    fn push(&mut self, text: &str) {
+        self.writing.push(text, self.notation.width(text));
     }
 
     fn sum(&mut self, terms: &[Term], depth: usize) {
         for (i, (sign, node)) in terms.iter().enumerate() {
             match (i, sign) {
                 (0, Sign::Plus) => {}
-                (0, Sign::Minus) => self.push("-".to_owned(), None),
-                // The space before a sign belongs to the atom before, the line ends without it.
+                (0, Sign::Minus) => self.push("-"),
                 (_, sign) => {
-                    self.push(" ".to_owned(), None);
-                    let sign = if *sign == Sign::Plus { "+ " } else { "- " };
-                    self.push(sign.to_owned(), Some(depth));
+                    // The space before a sign belongs to the line before.
+                    self.push(" ");
+                    self.writing.allow_break(depth);
+                    self.push(if *sign == Sign::Plus { "+ " } else { "- " });
                 }
             }
             self.term(node, depth);
@@ -80,22 +92,61 @@ impl Writer<'_> {
         };
         for (i, factor) in factors.iter().enumerate() {
             if i > 0 {
-                let times = self.notation.times(&factors[i - 1], factor);
-                self.push(times.to_owned(), None);
+                self.push(self.notation.times(&factors[i - 1], factor));
             }
+            let last = i + 1 == factors.len();
             match factor {
                 Node::Sum(terms) => {
                     let (open, close) = self.notation.brackets(depth);
-                    self.push(open.to_owned(), None);
+                    self.push(open);
                     self.sum(terms, depth + 1);
-                    self.push(close.to_owned(), None);
+                    self.push(close);
                 }
+                Node::Monomial(monomial) => self.monomial(monomial, last),
+                Node::Symbol(symbol) => self.power(symbol, 1, last),
                 other => {
                     let text = self.flat(other);
-                    self.push(text, None);
+                    self.push(&text);
                 }
             }
         }
+    }
+
+    /// A number and powers; `last` says that no factor follows.
+    fn monomial(&mut self, monomial: &Monomial, last: bool) {
+        let mut first = true;
+        if !monomial.coefficient.is_one() {
+            self.push(&self.notation.number(&monomial.coefficient));
+            first = false;
+        }
+        let mut powers = monomial.powers().peekable();
+        while let Some((symbol, exponent)) = powers.next() {
+            if !first {
+                self.push(self.notation.times_symbol());
+            }
+            first = false;
+            self.power(symbol, exponent, last && powers.peek().is_none());
+        }
+    }
+
+    /// A power of a symbol; a compound symbol is bracketed where a factor follows.
+    fn power(&mut self, symbol: &Symbol, exponent: u32, last: bool) {
+        let n = self.notation;
+        if n.is_compound(symbol) && exponent == 1 {
+            let name = n.symbol(symbol);
+            return self.push(&if last { name } else { n.enclosed(&name) });
+        }
+        let known = self.powers.entry(symbol.clone()).or_default();
+        if known.len() <= exponent as usize {
+            known.resize(exponent as usize + 1, None);
+        }
+        let (text, width) = known[exponent as usize].get_or_insert_with(|| {
+            let node = Node::power(Node::Symbol(symbol.clone()), exponent);
+            let text = Writer::new(n).flat(&node);
+            let width = n.width(&text);
+            (text, width)
+        });
+        self.writing.push(text, *width);
     }
 
     /// A node in one line.
@@ -105,17 +156,21 @@ impl Writer<'_> {
             Node::Number(value) => n.number(value),
             Node::Symbol(symbol) => n.symbol(symbol),
             Node::Sum(terms) => write_inner(terms, n),
-            Node::Product(_) => write_inner(&[(Sign::Plus, node.clone())], n),
+            Node::Monomial(_) | Node::Product(_) => write_inner(&[(Sign::Plus, node.clone())], n),
             Node::Quotient(top, bottom) => {
                 let side = |node: &Node| self.flat(node);
                 let top_brackets = matches!(**top, Node::Sum(_));
-                let bottom_brackets = matches!(**bottom, Node::Sum(_) | Node::Product(_));
+                let bottom_brackets =
+                    matches!(**bottom, Node::Sum(_) | Node::Product(_) | Node::Monomial(_));
                 n.quotient((&side(top), top_brackets), (&side(bottom), bottom_brackets))
             }
             Node::Power(base, exponent) => {
                 let text = self.flat(base);
-                let simple = matches!(&**base, Node::Symbol(_))
-                    || matches!(&**base, Node::Number(value) if value.denom().is_one());
+                let simple = match &**base {
+                    Node::Symbol(symbol) => !n.is_compound(symbol),
+                    Node::Number(value) => value.denom().is_one(),
+                    _ => false,
+                };
                 let base = if simple { text } else { n.enclosed(&text) };
                 let text = self.flat(exponent);
                 n.power(&base, &text)
@@ -137,9 +192,9 @@ impl Writer<'_> {
 
 /// A sum inside something else: its brackets are inner ones.
 fn write_inner(terms: &[Term], notation: &dyn Notation) -> String {
-    let mut writer = Writer { notation, atoms: Vec::new() };
+    let mut writer = Writer::new(notation);
     writer.sum(terms, 1);
-    writer.atoms.into_iter().map(|atom| atom.text).collect()
+    writer.writing.text().to_owned()
 }
 
 /// Plain text: explicit `*`, `exp(…)` and `^`, which the language reads back.
@@ -147,7 +202,10 @@ pub struct Text;
 
 impl Notation for Text {
     fn number(&self, value: &Rational) -> String {
-        value.to_string()
+        match value.denom().is_one() {
+            true => decimal(value.numer()),
+            false => format!("{}/{}", decimal(value.numer()), decimal(value.denom())),
+        }
     }
 
     fn symbol(&self, symbol: &Symbol) -> String {
@@ -176,6 +234,10 @@ impl Notation for Text {
 
     fn factorial(&self, of: &str, simple: bool) -> String {
         if simple { format!("{of}!") } else { format!("({of})!") }
+    }
+
+    fn times_symbol(&self) -> &'static str {
+        "*"
     }
 
     fn times(&self, _: &Node, _: &Node) -> &'static str {
@@ -236,8 +298,8 @@ impl Latex {
 impl Notation for Latex {
     fn number(&self, value: &Rational) -> String {
         match value.denom().is_one() {
-            true => value.numer().to_string(),
-            false => format!("\\frac{{{}}}{{{}}}", value.numer(), value.denom()),
+            true => decimal(value.numer()),
+            false => format!("\\frac{{{}}}{{{}}}", decimal(value.numer()), decimal(value.denom())),
         }
     }
 
@@ -266,6 +328,10 @@ impl Notation for Latex {
         if simple { format!("{of}!") } else { format!("({of})!") }
     }
 
+    fn times_symbol(&self) -> &'static str {
+        " "
+    }
+
     fn times(&self, left: &Node, right: &Node) -> &'static str {
         match (left, right) {
             (Node::Exponential(..), Node::Sum(_)) => "",
@@ -285,6 +351,9 @@ impl Notation for Latex {
 
     /// Commands count as one character, braces and fraction bars as none.
     fn width(&self, text: &str) -> usize {
+        if text.bytes().all(|byte| byte.is_ascii_digit()) {
+            return text.len();
+        }
         let mut width = 0;
         let mut characters = text.chars().peekable();
         while let Some(character) = characters.next() {

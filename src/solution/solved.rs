@@ -58,7 +58,7 @@ impl Solution {
         check_degree(&self.recurrence, wave, through)?;
         let statement = self.recurrence.statement();
         if let Some(template) = self.template(wave) {
-            let echoes = (0..=through).map(|k| template.echo(k, &statement.local)).collect();
+            let echoes = template.echoes(through, &statement.local);
             return Ok(EchoSum::new(statement.period.clone(), statement.local.clone(), echoes));
         }
         Ok(self.expanded(through)?.sum(wave))

@@ -65,6 +65,20 @@ impl EchoTemplate {
         Expression::from(sum).times_exponential(&-&exponent)
     }
 
+    /// The echoes `0 … through` as functions of `x`. Where all constants are rational numbers, a
+    /// product and a sum for each coefficient, else as for [`EchoTemplate::echo`].
+    pub fn echoes(&self, through: usize, x: &Symbol) -> Vec<Expression> {
+        let first = self.first.iter().take(through + 1).cloned();
+        let later = (through >= self.first.len()).then(|| self.numeric_rows(through)).flatten();
+        let Some((rate, rows)) = later else {
+            return (0..=through).map(|k| self.echo(k, x)).collect();
+        };
+        let exponent = Fraction::symbol(x).scale(&-rate);
+        let echo =
+            |row: Univariate| Expression::from(row.to_polynomial(x)).times_exponential(&exponent);
+        first.chain(rows.into_iter().map(echo)).collect()
+    }
+
     /// Where all constants are rational numbers: the rate `b`, and the echoes `first.len() …
     /// through` without their exponential `e^{−bx}`. A product and a sum for each coefficient.
     pub fn numeric_rows(&self, through: usize) -> Option<(Rational, Vec<Univariate>)> {
