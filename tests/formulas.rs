@@ -74,7 +74,7 @@ fn assert_snapshot(name: &str, value: &str) {
 
 /// Snapshots of formulas in both notations.
 fn assert_looks(name: &str, formulas: &[Formula]) {
-    assert_snapshot(&format!("{name}-text"), &export::text(formulas));
+    assert_snapshot(&format!("{name}-text"), &export::text(formulas, TEXT_WIDTH));
     let latex = export::latex(formulas, LATEX_WIDTH);
     assert_sound_latex(&latex);
     assert_snapshot(&format!("{name}-latex"), &latex);
@@ -110,7 +110,7 @@ fn rigid_mass_in_other_forms() {
     let statement = solution.recurrence().statement();
     assert_looks("rigid-mass-echoes", &echo_form(&solution, f, 3));
     let piecewise = piecewise_form(&solution, f, 3);
-    assert_snapshot("rigid-mass-piecewise-text", &export::text(&piecewise));
+    assert_snapshot("rigid-mass-piecewise-text", &export::text(&piecewise, TEXT_WIDTH));
     let cases = export::latex_cases("f", &statement.time, &piecewise, LATEX_WIDTH);
     assert_sound_latex(&cases);
     assert_snapshot("rigid-mass-piecewise-latex", &cases);
@@ -203,14 +203,14 @@ fn written_functions_are_read_back() {
     for (solution, last) in scenes.chain(others().map(|solution| (solution, 4))) {
         for wave in waves(&solution) {
             let name = name_of(&solution, wave);
-            let text = export::text(&period_form(&solution, wave, last));
+            let text = export::text(&period_form(&solution, wave, last), TEXT_WIDTH);
             for (n, (read, index, piece)) in listed(&text).into_iter().enumerate() {
                 assert_eq!((read.as_str(), index), (name.as_str(), n));
                 assert_eq!(piece, pieces(&solution, wave, last)[n], "{text}");
             }
-            let with_remarks = export::text(&piecewise_form(&solution, wave, last));
+            let with_remarks = export::text(&piecewise_form(&solution, wave, last), TEXT_WIDTH);
             assert_eq!(listed(&with_remarks), listed(&text));
-            let text = export::text(&echo_form(&solution, wave, last));
+            let text = export::text(&echo_form(&solution, wave, last), TEXT_WIDTH);
             let echoes = solution.echoes(wave, last).expect("they were written");
             let read = listed(&text);
             assert_eq!(read.len(), last + 1);
@@ -227,7 +227,7 @@ fn lines_are_as_wide_as_they_may_be() {
     for scene in SCENES {
         let solution = read(scene.text);
         for wave in waves(&solution) {
-            let text = export::text(&period_form(&solution, wave, 12));
+            let text = export::text(&period_form(&solution, wave, 12), TEXT_WIDTH);
             for line in text.lines().filter(|line| line.chars().count() > TEXT_WIDTH) {
                 assert!(!breakable(line.trim_start()), "{line}");
             }
@@ -267,7 +267,9 @@ fn assert_sound_latex(latex: &str) {
         assert!(!factor, "{pair:?} in\n{latex}");
     }
     let count = |part: &str| latex.matches(part).count();
-    assert_eq!(count("\\bigl["), count("\\bigr]"), "{latex}");
+    for (open, close) in [("\\bigl[", "\\bigr]"), ("\\Bigl[", "\\Bigr]"), ("\\Bigl(", "\\Bigr)")] {
+        assert_eq!(count(open), count(close), "{latex}");
+    }
     assert_eq!(count("\\left("), count("\\right)"), "{latex}");
     let mut stack = Vec::new();
     for character in latex.chars() {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use wavestep::export;
+use wavestep::export::{self, TEXT_WIDTH};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_expression, read_recurrence};
 use wavestep::recurrence::{Fault, LinearForm, Part, Recurrence, WaveIndex};
@@ -398,7 +398,7 @@ fn names_in_general_forms_are_free() {
     let text = |text: &str| {
         let recurrence = read(text);
         match GeneralForm::of(&recurrence, 0) {
-            Ok(form) => export::text(&export::general_form(&recurrence, 0, &form)),
+            Ok(form) => export::text(&export::general_form(&recurrence, 0, &form), TEXT_WIDTH),
             Err(unknown) => export::operator_of(&recurrence, &unknown),
         }
     };

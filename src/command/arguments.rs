@@ -1,6 +1,7 @@
 //! The arguments of the command, with their help.
 
 use clap::{Args, Parser, Subcommand as Subcommands, ValueEnum};
+use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
 
 /// Exact solutions of wave propagation in bars with lumped ends.
 #[derive(Parser)]
@@ -51,6 +52,7 @@ pub struct Scene {
     wavestep derive rigid-mass --wave f --piece 80 --format json\n  \
     wavestep derive rigid-mass --form echo --through 5\n  \
     wavestep derive rigid-mass --observable strain_impact\n  \
+    wavestep derive pulse-shape --through 4 --source-form --format latex\n  \
     wavestep derive two-bars --general\n  \
     wavestep derive rigid-mass --set mu=1/4 --wave f")]
 pub struct Derive {
@@ -77,9 +79,26 @@ pub struct Derive {
     /// In which form
     #[arg(long, value_enum, default_value_t = Form::Period, conflicts_with = "general")]
     pub form: Form,
+    /// Use the symbols, units and shorthand of the scene's source, as its `written` statements say
+    #[arg(long, conflicts_with_all = ["observable", "form"])]
+    pub source_form: bool,
     /// Written how
     #[arg(long, value_enum, default_value_t = DeriveFormat::Text)]
     pub format: DeriveFormat,
+    /// The most characters in a line, on the page in LaTeX [default: 100 for text, 84 for LaTeX]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(20..))]
+    pub line_length: Option<u16>,
+}
+
+impl Derive {
+    /// The most characters in a line.
+    pub fn width(&self) -> usize {
+        let own = match self.format {
+            DeriveFormat::Latex => LATEX_WIDTH,
+            _ => TEXT_WIDTH,
+        };
+        self.line_length.map_or(own, usize::from)
+    }
 }
 
 /// The form in which wave functions are given.

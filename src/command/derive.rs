@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::input;
 use super::progress;
 use serde_json::{Value, json};
-use wavestep::export::{self, Formula, Head, LATEX_WIDTH};
+use wavestep::export::{self, Formula, Head, SourceForm};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language;
 use wavestep::recurrence::{Observable, Recurrence, WaveIndex};
@@ -18,8 +18,11 @@ const MAX_TERMS: u128 = 2_000_000;
 pub fn run(options: &Derive) -> Result<String, Failure> {
     let recurrence = input::recurrence(&options.scene)?;
     let waves = waves(&recurrence, options.wave.as_deref())?;
+    if options.source_form {
+        refuse_source_form(&recurrence, options)?;
+    }
     if options.general {
-        return general(&Solution::new(recurrence), &waves, options.format);
+        return general(&Solution::new(recurrence), &waves, options);
     }
     if options.from > options.through && options.piece.is_none() {
         let message = format!("no period lies from {} through {}", options.from, options.through);
@@ -31,6 +34,10 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
     refuse_explosion(&recurrence, options, parts)?;
     let solution = Solution::new(recurrence);
     let _progress = progress::spinner("deriving");
+    if options.source_form {
+        let formulas = source_form(&solution, &waves, options)?;
+        return Ok(formulas_as(&formulas, options));
+    }
     let functions = match observable {
         Some(observable) => vec![observed(&solution, &observable, options)?],
         None => waves
@@ -143,21 +150,66 @@ fn observed(
     }
 }
 
+/// Refuses what the source's form cannot say.
+fn refuse_source_form(recurrence: &Recurrence, options: &Derive) -> Result<(), Failure> {
+    if recurrence.statement().notation.is_empty() {
+        let message = "this scene does not say how its source writes it";
+        let remedy = "add a statement such as `written f in V/c, s as mu*z/L`, or leave out \
+                      --source-form";
+        return Err(Failure::usage(message, remedy));
+    }
+    if options.format == DeriveFormat::Json {
+        let remedy = "ask for --format text or latex, or leave out --source-form";
+        return Err(Failure::usage("the source's form is for reading, not for programs", remedy));
+    }
+    Ok(())
+}
+
+/// Pieces in the source's form.
+fn source_form(
+    solution: &Solution,
+    waves: &[WaveIndex],
+    options: &Derive,
+) -> Result<Vec<Formula>, Failure> {
+    let (first, last) = orders(options);
+    let ends = &solution.recurrence().statement().notation.ends;
+    let mut formulas = Vec::new();
+    for wave in waves {
+        let (pieces, kept) = match ends.is_empty() {
+            true => (solution.pieces(*wave, first, last)?, None),
+            false => {
+                let (pieces, kept) = solution.pieces_by_ends(*wave, first, last, ends)?;
+                (pieces, Some(kept))
+            }
+        };
+        let form = SourceForm::new(solution.recurrence(), kept.as_ref());
+        let piece = |(n, piece)| form.piece(*wave, n, piece);
+        formulas.extend((first..).zip(&pieces).flat_map(piece));
+    }
+    Ok(formulas)
+}
+
+/// Formulas as text or LaTeX.
+fn formulas_as(formulas: &[Formula], options: &Derive) -> String {
+    match options.format {
+        DeriveFormat::Latex => export::latex(formulas, options.width()),
+        DeriveFormat::Text | DeriveFormat::Json => export::text(formulas, options.width()),
+    }
+}
+
 fn written(solution: &Solution, all: &[Functions], options: &Derive) -> String {
     let time = &solution.recurrence().statement().time;
     let formulas = |functions: &Functions| formulas(solution, functions, options.form);
     match options.format {
         DeriveFormat::Json => json_document(solution, all, options.form),
-        DeriveFormat::Text => export::text(&all.iter().flat_map(formulas).collect::<Vec<_>>()),
         DeriveFormat::Latex if options.form == Form::Piecewise => {
             let cases = |functions: &Functions| {
-                export::latex_cases(&functions.name, time, &formulas(functions), LATEX_WIDTH)
+                let formulas = formulas(functions);
+                export::latex_cases(&functions.name, time, &formulas, options.width())
             };
             all.iter().map(cases).collect()
         }
-        DeriveFormat::Latex => {
-            export::latex(&all.iter().flat_map(formulas).collect::<Vec<_>>(), LATEX_WIDTH)
-        }
+        _ => formulas_as(&all.iter().flat_map(formulas).collect::<Vec<_>>(), options),
     }
 }
 
@@ -219,11 +271,7 @@ fn general_json(formula: &Formula) -> Value {
     json!({"formula": formula.to_line(), "remark": remark})
 }
 
-fn general(
-    solution: &Solution,
-    waves: &[WaveIndex],
-    format: DeriveFormat,
-) -> Result<String, Failure> {
+fn general(solution: &Solution, waves: &[WaveIndex], options: &Derive) -> Result<String, Failure> {
     let recurrence = solution.recurrence();
     let mut formulas = Vec::new();
     let mut values = Vec::new();
@@ -242,16 +290,21 @@ fn general(
                     .to_owned(),
             )
         })?;
-        let wave_formulas = export::general_form(recurrence, *wave, form);
+        let mut wave_formulas = export::general_form(recurrence, *wave, form);
+        if options.source_form {
+            let written = SourceForm::new(recurrence, None).general(*wave, &wave_formulas);
+            let message = "a source gives no form for every n of a wave that is a sum of echoes";
+            let remedy = "leave out --source-form, or --general";
+            wave_formulas = written.ok_or_else(|| Failure::usage(message, remedy))?;
+        }
         values.push(json!({
             "wave": recurrence.statement().waves[*wave],
             "formulas": wave_formulas.iter().map(general_json).collect::<Vec<_>>(),
         }));
         formulas.extend(wave_formulas);
     }
-    match format {
-        DeriveFormat::Text => Ok(export::text(&formulas)),
-        DeriveFormat::Latex => Ok(export::latex(&formulas, LATEX_WIDTH)),
+    match options.format {
+        DeriveFormat::Text | DeriveFormat::Latex => Ok(formulas_as(&formulas, options)),
         DeriveFormat::Json => {
             let mut document = header(recurrence);
             document["form"] = json!("general");

@@ -43,6 +43,8 @@ pub enum Node {
     Symbol(Symbol),
     /// A sum of at least two terms.
     Sum(Vec<(Sign, Node)>),
+    /// The bracket of a wave function, after its exponential.
+    Bracket(Vec<(Sign, Node)>),
     /// A number times powers of symbols, at least two factors: what sums have most of.
     Monomial(Monomial),
     /// A product of at least two factors.
@@ -96,6 +98,21 @@ impl Monomial {
 pub type Term = (Sign, Node);
 
 impl Node {
+    /// Whether it is higher than a line.
+    pub(crate) fn is_tall(&self) -> bool {
+        match self {
+            Node::Number(value) => !value.is_integer(),
+            Node::Monomial(monomial) => !monomial.coefficient.is_integer(),
+            Node::Quotient(..) => true,
+            Node::Sum(terms) | Node::Bracket(terms) => terms.iter().any(|term| term.1.is_tall()),
+            Node::Product(factors) => factors.iter().any(Node::is_tall),
+            Node::Power(base, _) => base.is_tall(),
+            Node::Symbol(_) | Node::Exponential(..) | Node::Laguerre(..) | Node::Factorial(_) => {
+                false
+            }
+        }
+    }
+
     /// A product, of what there is.
     pub fn product(mut factors: Vec<Node>) -> Node {
         match factors.len() {
@@ -193,7 +210,7 @@ impl Arrangement {
             terms.push(match inner.len() {
                 1 => with_factor(inner, exponential),
                 // Here signs stay inside: the bracket is the polynomial of the wave function.
-                _ => (Sign::Plus, Node::Product(vec![exponential, Node::Sum(inner)])),
+                _ => (Sign::Plus, Node::Product(vec![exponential, Node::Bracket(inner)])),
             });
         }
         (terms, apart)

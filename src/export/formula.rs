@@ -2,9 +2,11 @@
 
 use crate::export::arrangement::{Term, arrange};
 use crate::export::lines::Writing;
-use crate::export::notation::{Latex, Notation, Text, write, write_flat};
+use crate::export::names::Names;
+use crate::export::notation::{Latex, Notation, Text, write, write_flat, write_named};
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::Statement;
+use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The width of a line of plain text.
@@ -61,11 +63,13 @@ impl Head {
     }
 }
 
-/// A name with an index, in LaTeX; a name that has a subscript already is put in braces.
+/// A name with an index, in LaTeX; a name that has a subscript already takes it in there.
 pub(crate) fn indexed(name: &str, index: &str) -> String {
     let name = Latex::name(name);
-    let name = if name.contains('_') { format!("{{{name}}}") } else { name };
-    format!("{name}_{{{index}}}")
+    match name.strip_suffix('}').filter(|name| name.contains("_{")) {
+        Some(subscripted) => format!("{subscripted},{index}}}"),
+        None => format!("{name}_{{{index}}}"),
+    }
 }
 
 /// What the right-hand side of a formula says.
@@ -73,6 +77,8 @@ pub(crate) fn indexed(name: &str, index: &str) -> String {
 pub enum Right {
     /// A sum of terms; zero where there are none.
     Terms(Vec<Term>),
+    /// A sum of terms, with names for symbols.
+    Named(Vec<Term>, Arc<Names>),
     /// Written as it is, in text and in LaTeX.
     Written(String, String),
 }
@@ -81,6 +87,7 @@ impl Right {
     fn text(&self) -> Writing {
         match self {
             Right::Terms(terms) => write(terms, &Text),
+            Right::Named(terms, names) => write_named(terms, &Text, names),
             Right::Written(text, _) => solid(text, &Text),
         }
     }
@@ -88,6 +95,7 @@ impl Right {
     fn latex(&self) -> Writing {
         match self {
             Right::Terms(terms) => write(terms, &Latex),
+            Right::Named(terms, names) => write_named(terms, &Latex, names),
             Right::Written(_, latex) => solid(latex, &Latex),
         }
     }
@@ -146,11 +154,12 @@ impl Formula {
         format!("{} = {}", self.head.text(), self.right.text().text())
     }
 
-    /// Plain text, one formula a line; continuation lines and a remark are indented.
-    pub fn to_text(&self) -> String {
+    /// Plain text in lines of at most `width` characters where it can be broken; continuation lines
+    /// and a remark are indented.
+    pub fn to_text(&self, width: usize) -> String {
         let head = format!("{} = ", self.head.text());
         let right = self.right.text();
-        let lines = right.lines(TEXT_WIDTH, head.len(), 4);
+        let lines = right.lines(width, head.chars().count(), 4);
         let mut text = format!("{head}{}\n", lines.join("\n    "));
         if let Some((remark, _)) = &self.remark {
             text.push_str(&format!("    # {remark}\n"));
@@ -194,9 +203,9 @@ impl Formula {
     }
 }
 
-/// Formulas as plain text, one a line.
-pub fn text(formulas: &[Formula]) -> String {
-    formulas.iter().map(Formula::to_text).collect()
+/// Formulas as plain text, one a line; longer ones go on in further lines.
+pub fn text(formulas: &[Formula], width: usize) -> String {
+    formulas.iter().map(|formula| formula.to_text(width)).collect()
 }
 
 /// Formulas in an `align*` environment; lines of at most `width` characters on the page.

@@ -205,6 +205,7 @@ fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> 
         Node::Product(factors) => front.extend(factors),
         Node::Number(value) if value.is_zero() => return Vec::new(),
         Node::Number(value) if value.is_one() => {}
+        Node::Sum(terms) => front.push(Node::Bracket(terms)),
         other => front.push(other),
     }
     vec![(sign, Node::product(front))]

@@ -2,6 +2,7 @@
 
 use crate::export::arrangement::{Monomial, Node, Sign, Term};
 use crate::export::lines::Writing;
+use crate::export::names::{Name, Names};
 use num_traits::One;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol, decimal};
@@ -24,23 +25,26 @@ pub trait Notation {
     fn factorial(&self, of: &str, simple: bool) -> String;
     /// What stands before a symbol that is a factor.
     fn times_symbol(&self) -> &'static str;
-    /// Whether the name of a symbol is an expression, which takes brackets as a factor or a base.
-    fn is_compound(&self, _symbol: &Symbol) -> bool {
-        false
-    }
+    /// The name of a symbol that has one of its own, in this notation.
+    fn choose<'a>(&self, name: &'a Name) -> &'a str;
     /// What stands between two factors.
     fn times(&self, left: &Node, right: &Node) -> &'static str;
     /// Brackets that grow with what is in them.
     fn enclosed(&self, text: &str) -> String;
-    /// Brackets at a depth of nesting, 0 outermost.
-    fn brackets(&self, depth: usize) -> (&'static str, &'static str);
+    /// Brackets that lines may be broken in.
+    fn brackets(&self, of: &Node) -> (&'static str, &'static str);
     /// How wide a piece of writing is on the page.
     fn width(&self, text: &str) -> usize;
 }
 
 /// A sum of terms as it is written; zero where there are none.
 pub fn write(terms: &[Term], notation: &dyn Notation) -> Writing {
-    let mut writer = Writer::new(notation);
+    write_named(terms, notation, &Names::new())
+}
+
+/// A sum of terms as it is written, with names for symbols.
+pub fn write_named(terms: &[Term], notation: &dyn Notation, names: &Names) -> Writing {
+    let mut writer = Writer::new(notation, names);
     if terms.is_empty() {
         writer.push(&notation.number(&Rational::default()));
     }
@@ -55,14 +59,27 @@ pub(crate) fn write_flat(terms: &[Term], notation: &dyn Notation) -> String {
 
 struct Writer<'a> {
     notation: &'a dyn Notation,
+    names: &'a Names,
     writing: Writing,
     /// Powers of symbols as they are written, with their widths.
     powers: BTreeMap<Symbol, Vec<Option<(String, usize)>>>,
 }
 
 impl<'a> Writer<'a> {
-    fn new(notation: &'a dyn Notation) -> Writer<'a> {
-        Writer { notation, writing: Writing::default(), powers: BTreeMap::new() }
+    fn new(notation: &'a dyn Notation, names: &'a Names) -> Writer<'a> {
+        Writer { notation, names, writing: Writing::default(), powers: BTreeMap::new() }
+    }
+
+    fn symbol(&self, symbol: &Symbol) -> String {
+        match self.names.get(symbol) {
+            Some(name) => self.notation.choose(name).to_owned(),
+            None => self.notation.symbol(symbol),
+        }
+    }
+
+    /// Whether what is written for a symbol takes brackets as a factor or a base.
+    fn is_compound(&self, symbol: &Symbol) -> bool {
+        self.names.get(symbol).is_some_and(|name| name.compound)
     }
 
     fn push(&mut self, text: &str) {
@@ -96,8 +113,8 @@ impl<'a> Writer<'a> {
             }
             let last = i + 1 == factors.len();
             match factor {
-                Node::Sum(terms) => {
-                    let (open, close) = self.notation.brackets(depth);
+                Node::Sum(terms) | Node::Bracket(terms) => {
+                    let (open, close) = self.notation.brackets(factor);
                     self.push(open);
                     self.sum(terms, depth + 1);
                     self.push(close);
@@ -132,8 +149,8 @@ impl<'a> Writer<'a> {
     /// A power of a symbol; a compound symbol is bracketed where a factor follows.
     fn power(&mut self, symbol: &Symbol, exponent: u32, last: bool) {
         let n = self.notation;
-        if n.is_compound(symbol) && exponent == 1 {
-            let name = n.symbol(symbol);
+        if self.is_compound(symbol) && exponent == 1 {
+            let name = self.symbol(symbol);
             return self.push(&if last { name } else { n.enclosed(&name) });
         }
         let known = self.powers.entry(symbol.clone()).or_default();
@@ -142,11 +159,18 @@ impl<'a> Writer<'a> {
         }
         let (text, width) = known[exponent as usize].get_or_insert_with(|| {
             let node = Node::power(Node::Symbol(symbol.clone()), exponent);
-            let text = Writer::new(n).flat(&node);
+            let text = Writer::new(n, self.names).flat(&node);
             let width = n.width(&text);
             (text, width)
         });
         self.writing.push(text, *width);
+    }
+
+    /// A sum inside something else: its brackets are inner ones.
+    fn inner(&self, terms: &[Term]) -> String {
+        let mut writer = Writer::new(self.notation, self.names);
+        writer.sum(terms, 1);
+        writer.writing.text().to_owned()
     }
 
     /// A node in one line.
@@ -154,9 +178,9 @@ impl<'a> Writer<'a> {
         let n = self.notation;
         match node {
             Node::Number(value) => n.number(value),
-            Node::Symbol(symbol) => n.symbol(symbol),
-            Node::Sum(terms) => write_inner(terms, n),
-            Node::Monomial(_) | Node::Product(_) => write_inner(&[(Sign::Plus, node.clone())], n),
+            Node::Symbol(symbol) => self.symbol(symbol),
+            Node::Sum(terms) | Node::Bracket(terms) => self.inner(terms),
+            Node::Monomial(_) | Node::Product(_) => self.inner(&[(Sign::Plus, node.clone())]),
             Node::Quotient(top, bottom) => {
                 let side = |node: &Node| self.flat(node);
                 let top_brackets = matches!(**top, Node::Sum(_));
@@ -167,7 +191,7 @@ impl<'a> Writer<'a> {
             Node::Power(base, exponent) => {
                 let text = self.flat(base);
                 let simple = match &**base {
-                    Node::Symbol(symbol) => !n.is_compound(symbol),
+                    Node::Symbol(symbol) => !self.is_compound(symbol),
                     Node::Number(value) => value.denom().is_one(),
                     _ => false,
                 };
@@ -190,13 +214,6 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// A sum inside something else: its brackets are inner ones.
-fn write_inner(terms: &[Term], notation: &dyn Notation) -> String {
-    let mut writer = Writer::new(notation);
-    writer.sum(terms, 1);
-    writer.writing.text().to_owned()
-}
-
 /// Plain text: explicit `*`, `exp(…)` and `^`, which the language reads back.
 pub struct Text;
 
@@ -210,6 +227,10 @@ impl Notation for Text {
 
     fn symbol(&self, symbol: &Symbol) -> String {
         symbol.to_string()
+    }
+
+    fn choose<'a>(&self, name: &'a Name) -> &'a str {
+        &name.text
     }
 
     fn power(&self, base: &str, exponent: &str) -> String {
@@ -248,7 +269,7 @@ impl Notation for Text {
         format!("({text})")
     }
 
-    fn brackets(&self, _: usize) -> (&'static str, &'static str) {
+    fn brackets(&self, _: &Node) -> (&'static str, &'static str) {
         ("(", ")")
     }
 
@@ -268,9 +289,22 @@ const GREEK: [&str; 34] = [
     "Omega",
 ];
 
+/// Endings of names that are accents in LaTeX.
+const ACCENTS: [&str; 5] = ["tilde", "bar", "hat", "dot", "prime"];
+
 impl Latex {
-    /// A name: Greek letters as such, one letter in italics, a word upright, `a_1` as subscript.
+    /// A name: Greek letters as such, one letter in italics, a word upright, `a_1` as subscript,
+    /// `a_tilde` with an accent, `a_prime` with a prime.
     pub fn name(name: &str) -> String {
+        let accented = ACCENTS.iter().find_map(|accent| {
+            let base = name.strip_suffix(accent)?.strip_suffix('_')?;
+            (!base.is_empty()).then_some((base, accent))
+        });
+        match accented {
+            Some((base, &"prime")) => return format!("{}'", Latex::name(base)),
+            Some((base, accent)) => return format!("\\{accent}{{{}}}", Latex::name(base)),
+            None => {}
+        }
         if GREEK.contains(&name) {
             return format!("\\{name}");
         }
@@ -307,6 +341,10 @@ impl Notation for Latex {
         Latex::name(symbol.name())
     }
 
+    fn choose<'a>(&self, name: &'a Name) -> &'a str {
+        &name.latex
+    }
+
     fn power(&self, base: &str, exponent: &str) -> String {
         let base = if base.contains("_{") { format!("{{{base}}}") } else { base.to_owned() };
         format!("{base}^{{{exponent}}}")
@@ -334,7 +372,7 @@ impl Notation for Latex {
 
     fn times(&self, left: &Node, right: &Node) -> &'static str {
         match (left, right) {
-            (Node::Exponential(..), Node::Sum(_)) => "",
+            (Node::Exponential(..), Node::Sum(_) | Node::Bracket(_)) => "",
             (_, Node::Sum(_)) => "\\,",
             _ => " ",
         }
@@ -345,8 +383,13 @@ impl Notation for Latex {
         if tall { format!("\\left({text}\\right)") } else { format!("({text})") }
     }
 
-    fn brackets(&self, depth: usize) -> (&'static str, &'static str) {
-        if depth == 0 { ("\\bigl[", "\\bigr]") } else { ("(", ")") }
+    fn brackets(&self, of: &Node) -> (&'static str, &'static str) {
+        match of {
+            Node::Bracket(_) if of.is_tall() => ("\\Bigl[", "\\Bigr]"),
+            Node::Bracket(_) => ("\\bigl[", "\\bigr]"),
+            of if of.is_tall() => ("\\Bigl(", "\\Bigr)"),
+            _ => ("(", ")"),
+        }
     }
 
     /// Commands count as one character, braces and fraction bars as none.

@@ -10,10 +10,11 @@ use super::diagnostic::Diagnostic;
 use super::scope::{Linear, Place, Reference, Scope, with_likely};
 use super::source::Source;
 use super::syntax::{self, Span, Spanned, StatementKind};
+use super::written;
 use crate::expression::{Assumptions, Condition, Expression, Fraction, NotInvertible, Relation};
 use crate::recurrence::{
     Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation, Part, Recurrence,
-    Statement,
+    SourceNotation, Statement,
 };
 
 type Outcome<T> = Result<T, Diagnostic>;
@@ -43,8 +44,10 @@ pub(super) fn recurrence(
         equations: lowering.equations()?,
         continuity: lowering.continuity()?,
         observables: Vec::new(),
+        notation: SourceNotation::default(),
     };
     statement.observables = lowering.observables(&statement)?;
+    statement.notation = written::notation(tree, &lowering.scope)?;
     statement.assumptions = lowering.scope.assumptions.clone();
     Recurrence::new(statement).map_err(|invalid| lowering.refusal(&invalid, &spans))
 }

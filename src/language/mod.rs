@@ -39,6 +39,7 @@ mod print;
 mod scope;
 mod source;
 pub mod syntax;
+mod written;
 
 use std::collections::BTreeMap;
 

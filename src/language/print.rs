@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter, Write};
 use super::number;
 use super::syntax::{
     Condition, Expression, Factor, Formula, Index, Listing, Name, Node, Operator, Recurrence,
-    Relation, Sign, Spanned, Statement, StatementKind, Symbol, Term, Wave,
+    Relation, Rewriting, Sign, Spanned, Statement, StatementKind, Symbol, Term, Wave,
 };
 
 impl<T: Display> Display for Spanned<T> {
@@ -138,7 +138,19 @@ impl Display for StatementKind {
             Self::Continuous { quantity, start } => {
                 write!(f, "continuous {quantity} starts at {start}")
             }
+            Self::Written(items) => write!(f, "written {}", Listed(items)),
             Self::Observe { name, value } => write!(f, "observe {name} = {value}"),
+        }
+    }
+}
+
+impl Display for Rewriting {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unit { wave, unit } => write!(f, "{wave} in {unit}"),
+            Self::Name { name, written } => write!(f, "{name} as {written}"),
+            Self::Constants { wave, name } => write!(f, "constants of {wave} as {name}"),
+            Self::Ends(wave) => write!(f, "ends of {wave}"),
         }
     }
 }

@@ -220,6 +220,8 @@ pub enum StatementKind {
         /// Its value at time zero.
         start: Expression,
     },
+    /// `written f in V/c, s as mu*z/L`: how the source writes it.
+    Written(Vec<Rewriting>),
     /// `observe name = value`: something to report.
     Observe {
         /// What it is called.
@@ -227,6 +229,34 @@ pub enum StatementKind {
         /// What it is.
         value: Expression,
     },
+}
+
+/// One item of how the source writes a recurrence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Rewriting {
+    /// `f in V/c`: a wave is measured in a unit.
+    Unit {
+        /// The wave.
+        wave: Name,
+        /// The unit.
+        unit: Expression,
+    },
+    /// `s as mu*z/L`, `a as alpha_tilde`: a name is written otherwise.
+    Name {
+        /// The name here.
+        name: Name,
+        /// What the source writes.
+        written: Expression,
+    },
+    /// `constants of f as B`: constants of integration are stated apart.
+    Constants {
+        /// The wave.
+        wave: Name,
+        /// What they are called.
+        name: Name,
+    },
+    /// `ends of a`: values of a wave at the ends of periods are kept.
+    Ends(Name),
 }
 
 /// A parameter and what is assumed of it.

@@ -6,12 +6,14 @@
 //! first-order differential equation.
 
 mod form;
+mod notation;
 mod ordering;
 #[expect(clippy::module_inception, reason = "the file is named for the type it holds")]
 mod recurrence;
 mod statement;
 
 pub use form::{LinearForm, Operator};
+pub use notation::{SourceNotation, SourceProduct};
 pub use ordering::{Start, Step};
 pub use recurrence::Recurrence;
 pub use statement::{

@@ -3,6 +3,7 @@
 use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
+use crate::recurrence::notation::SourceNotation;
 use std::fmt;
 use wavestep_polynomial::Symbol;
 
@@ -59,6 +60,8 @@ pub struct Statement {
     pub continuity: Vec<Continuity>,
     /// Quantities to observe.
     pub observables: Vec<Observable>,
+    /// How the source writes it.
+    pub notation: SourceNotation,
 }
 
 /// A part of a statement, by its place in the list of its kind.

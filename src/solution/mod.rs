@@ -22,7 +22,7 @@ pub use error::{SolveError, Unsolvable};
 pub use general::{GeneralForm, Proof, Unknown};
 pub use geometric::{Geometric, GeometricTerm};
 pub use observed::{MixedOffsets, ObservedPieces};
-pub use period::PeriodByPeriod;
+pub use period::{KeptEnds, PeriodByPeriod};
 pub use rows::{EchoRow, ExpandedTerm, expand_piece};
 pub use solved::Solution;
 pub use template::{EchoTemplate, Family};

@@ -15,7 +15,8 @@
 use crate::expression::{Expression, Fraction, Piecewise};
 use crate::recurrence::{LinearForm, Recurrence, Start, Step, WaveIndex};
 use crate::solution::error::{SolveError, Unsolvable, check_degree};
-use wavestep_polynomial::Rational;
+use std::collections::BTreeSet;
+use wavestep_polynomial::{Rational, Symbol};
 
 /// The solution of a recurrence, period by period.
 pub struct PeriodByPeriod<'a> {
@@ -23,6 +24,34 @@ pub struct PeriodByPeriod<'a> {
     waves: Vec<Piecewise>,
     /// `ends[wave][n]`, the limits at the end of each period, where they were asked for.
     ends: Vec<Vec<Option<Expression>>>,
+    /// Symbols in place of the limits at the ends.
+    kept: Option<KeptEnds>,
+}
+
+/// Symbols that stand for values of waves at the ends of periods, so that a piece is given by
+/// those of the pieces before it, as in textbooks: `a_2 = e^{−t}(−t²/2 + t(1 − a_0(μ)) + a_1(μ))`.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct KeptEnds {
+    waves: BTreeSet<WaveIndex>,
+    symbols: Vec<(Symbol, WaveIndex, usize)>,
+}
+
+impl KeptEnds {
+    /// The symbols so far: each with its wave and its period.
+    pub fn symbols(&self) -> impl Iterator<Item = (&Symbol, WaveIndex, usize)> {
+        self.symbols.iter().map(|(symbol, wave, n)| (symbol, *wave, *n))
+    }
+
+    /// A new symbol for the end of the n-th period of a wave, in the order of the periods.
+    fn symbol(&mut self, recurrence: &Recurrence, wave: WaveIndex, n: usize) -> Symbol {
+        let mut name = format!("{}_end_{n:05}", recurrence.statement().waves[wave]);
+        while recurrence.symbols().any(|symbol| symbol.name() == name) {
+            name.push('_');
+        }
+        let symbol = Symbol::new(&name).expect("a name of a wave with letters after it");
+        self.symbols.push((symbol.clone(), wave, n));
+        symbol
+    }
 }
 
 impl<'a> PeriodByPeriod<'a> {
@@ -32,7 +61,21 @@ impl<'a> PeriodByPeriod<'a> {
         let empty = Piecewise::new(statement.period.clone(), statement.local.clone());
         let count = statement.waves.len();
         let (waves, ends) = (vec![empty; count], vec![Vec::new(); count]);
-        PeriodByPeriod { recurrence, waves, ends }
+        PeriodByPeriod { recurrence, waves, ends, kept: None }
+    }
+
+    /// No period solved yet; symbols will stand for the ends of these waves.
+    pub fn keeping_ends(
+        recurrence: &'a Recurrence,
+        waves: &BTreeSet<WaveIndex>,
+    ) -> PeriodByPeriod<'a> {
+        let kept = KeptEnds { waves: waves.clone(), symbols: Vec::new() };
+        PeriodByPeriod { kept: Some(kept), ..PeriodByPeriod::new(recurrence) }
+    }
+
+    /// The symbols that stand for ends of periods.
+    pub fn kept_ends(&self) -> Option<&KeptEnds> {
+        self.kept.as_ref()
     }
 
     /// The waves on the periods solved so far.
@@ -55,7 +98,9 @@ impl<'a> PeriodByPeriod<'a> {
                 Some(start) => self.integrate(step, start, n),
             };
             self.waves[step.wave].push(piece.map_err(explain)?);
-            self.ends[step.wave].push(None);
+            let kept = self.kept.as_mut().filter(|kept| kept.waves.contains(&step.wave));
+            let end = kept.map(|kept| kept.symbol(self.recurrence, step.wave, n));
+            self.ends[step.wave].push(end.map(|symbol| Expression::symbol(&symbol)));
         }
         Ok(())
     }

@@ -5,9 +5,11 @@ use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::echo::EchoByEcho;
 use crate::solution::error::{SolveError, check_degree};
 use crate::solution::general::{GeneralForm, Unknown};
+use crate::solution::period::{KeptEnds, PeriodByPeriod};
 use crate::solution::rows::EchoRow;
 use crate::solution::template::EchoTemplate;
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use wavestep_polynomial::{Integer, Rational, Univariate};
 
 /// A recurrence together with what is known of its waves in general n.
@@ -95,6 +97,29 @@ impl Solution {
             sum.piece(n).map_err(explain)
         };
         (first..=last).map(piece).collect()
+    }
+
+    /// The pieces `first … last` of a wave by the values of `kept` waves at the ends of earlier
+    /// periods, for which symbols stand.
+    ///
+    /// # Errors
+    /// [`SolveError`] where a piece cannot be given exactly.
+    ///
+    /// # Cost
+    /// That of [`PeriodByPeriod::advance`] for each period.
+    pub fn pieces_by_ends(
+        &self,
+        wave: WaveIndex,
+        first: usize,
+        last: usize,
+        kept: &BTreeSet<WaveIndex>,
+    ) -> Result<(Vec<Expression>, KeptEnds), SolveError> {
+        let mut solver = PeriodByPeriod::keeping_ends(&self.recurrence, kept);
+        for _ in 0..=last {
+            solver.advance()?;
+        }
+        let pieces = solver.waves()[wave].pieces().iter().skip(first).cloned().collect();
+        Ok((pieces, solver.kept_ends().cloned().unwrap_or_default()))
     }
 
     /// The echoes `φ_0 … φ_through` of a wave as rows of integers; `None` where a constant is no

@@ -3,9 +3,13 @@
 use nom::Parser;
 use nom::combinator::opt;
 
-use super::super::syntax::{Condition, Formula, Name, Spanned, Statement, StatementKind, Symbol};
+use super::super::syntax::{
+    Condition, Formula, Name, Rewriting, Spanned, Statement, StatementKind, Symbol,
+};
 use super::expression::{demand_index, end, expression};
-use super::lexical::{demand, demand_name, keyword, relation, string, symbol, token, word};
+use super::lexical::{
+    demand, demand_name, keyword, next_word, relation, string, symbol, token, word,
+};
 use super::{Input, Parsed, between, complaint};
 
 /// How a formula of a listing is written.
@@ -15,7 +19,7 @@ pub(super) const FORMULA_FORM: &str = "f[3](s) = exp(-s)*(1 + s)";
 pub(super) const SYMBOL_FORM: &str = "symbol mu > 0, r";
 
 /// The words that begin statements, and how each statement is written.
-pub(super) const FORMS: [(&str, &str); 8] = [
+pub(super) const FORMS: [(&str, &str); 9] = [
     ("recurrence", "recurrence \"Title\""),
     ("symbol", SYMBOL_FORM),
     ("nonzero", "nonzero a - b"),
@@ -24,6 +28,7 @@ pub(super) const FORMS: [(&str, &str); 8] = [
     ("equation", "equation g[n] = -f[n-1]"),
     ("continuous", "continuous f[n] + g[n] starts at 1"),
     ("observe", "observe velocity = f[n] + g[n]"),
+    ("written", "written f in V/c, s as mu*z/L, constants of f as B"),
 ];
 
 /// The first word of a statement, and the input after it, which from now on knows its form.
@@ -84,6 +89,10 @@ pub(super) fn statement<'a>(input: Input<'a>, title: &Spanned<String>) -> Parsed
             let (rest, start) = expression(rest)?;
             (rest, StatementKind::Continuous { quantity, start })
         }
+        "written" => {
+            let (rest, items) = listed(rest, rewriting)?;
+            (rest, StatementKind::Written(items))
+        }
         _ => {
             let (rest, name) = demand_name("the name of an observable", rest)?;
             let (rest, _) = demand("=", rest)?;
@@ -122,6 +131,37 @@ fn parameter(input: Input<'_>) -> Parsed<'_, Symbol> {
         }
     };
     Ok((rest, Symbol { name, condition }))
+}
+
+/// `f in V/c`, `s as mu*z/L`, `constants of f as B`, `ends of a`
+fn rewriting(input: Input<'_>) -> Parsed<'_, Rewriting> {
+    let (rest, name) = demand_name("the name of a wave, a time or a symbol", input)?;
+    let follows = next_word(rest).map(|word| word.value);
+    match (name.value.as_str(), follows) {
+        (_, Some("in")) => {
+            let (rest, _) = keyword("in", rest)?;
+            let (rest, unit) = expression(rest)?;
+            Ok((rest, Rewriting::Unit { wave: name, unit }))
+        }
+        ("ends", Some("of")) => {
+            let (rest, _) = keyword("of", rest)?;
+            let (rest, wave) = demand_name("the name of a wave", rest)?;
+            Ok((rest, Rewriting::Ends(wave)))
+        }
+        ("constants", Some("of")) => {
+            let (rest, _) = keyword("of", rest)?;
+            let (rest, wave) = demand_name("the name of a wave", rest)?;
+            let (rest, _) = keyword("as", rest)?;
+            let (rest, name) = demand_name("the name of the constants", rest)?;
+            Ok((rest, Rewriting::Constants { wave, name }))
+        }
+        (_, Some("as")) => {
+            let (rest, _) = keyword("as", rest)?;
+            let (rest, written) = expression(rest)?;
+            Ok((rest, Rewriting::Name { name, written }))
+        }
+        _ => Err(complaint::expected(rest, "`in` or `as`")),
+    }
 }
 
 /// What follows `period`.

@@ -1,0 +1,138 @@
+//! The source's form: its symbols, its units, its constants stated apart, its shorthand.
+
+use crate::export::arrangement::{Arrangement, Node, Sign, Term, arrange};
+use crate::export::formula::{Formula, Head, Right, indexed};
+use crate::export::names::{Name, Names, product_node};
+use crate::export::notation::{Latex, Text, write_named};
+use crate::expression::Expression;
+use crate::recurrence::{Recurrence, WaveIndex};
+use crate::solution::KeptEnds;
+use std::sync::Arc;
+use wavestep_polynomial::Symbol;
+
+/// How the source of a recurrence writes its waves.
+///
+/// ```
+/// use wavestep::export::{SourceForm, latex};
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let rigid_mass = wavestep::scenes::find("rigid-mass").unwrap();
+/// let source = Source::new(rigid_mass.name, rigid_mass.text)?;
+/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+/// let f_0 = &solution.pieces(0, 0, 0).unwrap()[0];
+/// let formulas = SourceForm::new(solution.recurrence(), None).piece(0, 0, f_0);
+/// assert_eq!(formulas[0].to_line(), "f[0] = V/c*exp(-mu*z/L)");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct SourceForm<'a> {
+    recurrence: &'a Recurrence,
+    names: Arc<Names>,
+}
+
+impl<'a> SourceForm<'a> {
+    /// The notation that the recurrence states; with `ends`, their symbols are written as values of
+    /// waves at the end of a period.
+    pub fn new(recurrence: &'a Recurrence, ends: Option<&KeptEnds>) -> SourceForm<'a> {
+        let statement = recurrence.statement();
+        let mut names: Names = statement
+            .notation
+            .symbols
+            .iter()
+            .map(|(symbol, value)| (symbol.clone(), Name::of(value)))
+            .collect();
+        let period = arrange(&statement.period.clone().into(), None);
+        let (end, latex_end) =
+            (write_named(&period, &Text, &names), write_named(&period, &Latex, &names));
+        for (symbol, wave, n) in ends.into_iter().flat_map(KeptEnds::symbols) {
+            let (text, latex) = head(recurrence, wave, &n.to_string());
+            let name = Name {
+                text: format!("{text}({})", end.text()),
+                latex: format!("{latex}({})", latex_end.text()),
+                compound: false,
+            };
+            names.insert(symbol.clone(), name);
+        }
+        SourceForm { recurrence, names: Arc::new(names) }
+    }
+
+    /// The formulas of a piece: the wave function, and its constant where it is stated apart.
+    pub fn piece(&self, wave: WaveIndex, n: usize, piece: &Expression) -> Vec<Formula> {
+        let statement = self.recurrence.statement();
+        let symbol = statement.notation.constants.get(&wave).map(|name| {
+            Symbol::new(&format!("{name}_{n}")).expect("a name with an index is a name")
+        });
+        let arrangement = Arrangement {
+            variable: Some(statement.local.clone()),
+            factored: true,
+            constant: symbol.clone(),
+        };
+        let (terms, apart) = match (piece.as_fraction(), statement.notation.units.get(&wave)) {
+            // A quotient takes the unit in.
+            (Some(value), Some(unit)) if value.as_polynomial().is_none() => {
+                (arrange(&(&value * &unit.to_fraction()).into(), None), None)
+            }
+            _ => {
+                let (terms, apart) = arrangement.terms(piece);
+                (self.in_unit(wave, terms), apart)
+            }
+        };
+        let mut formulas = vec![self.formula(head(self.recurrence, wave, &n.to_string()), terms)];
+        if let (Some(apart), Some(symbol)) = (apart, symbol) {
+            let latex = Latex::name(symbol.name());
+            formulas.push(self.formula((symbol.name().to_owned(), latex), apart));
+        }
+        formulas
+    }
+
+    /// What [`general_form`](crate::export::general_form) says of a wave, in the source's symbols:
+    /// single values, and last the one for every n. `None` where the wave is a sum of echoes.
+    pub fn general(&self, wave: WaveIndex, formulas: &[Formula]) -> Option<Vec<Formula>> {
+        let last = formulas.len().checked_sub(1)?;
+        let written = |(i, formula): (usize, &Formula)| {
+            let Right::Terms(terms) = &formula.right else { return None };
+            let index = if i == last { "n".to_owned() } else { i.to_string() };
+            let terms = self.in_unit(wave, terms.clone());
+            let written = self.formula(head(self.recurrence, wave, &index), terms);
+            Some(Formula { remark: formula.remark.clone(), ..written })
+        };
+        formulas.iter().enumerate().map(written).collect()
+    }
+
+    fn formula(&self, (text, latex): (String, String), terms: Vec<Term>) -> Formula {
+        let head = Head::Written(text, latex);
+        Formula { head, right: Right::Named(terms, self.names.clone()), remark: None }
+    }
+
+    /// `unit · terms`: the unit after a number or a sum, else in front.
+    fn in_unit(&self, wave: WaveIndex, mut terms: Vec<Term>) -> Vec<Term> {
+        let Some(unit) = self.recurrence.statement().notation.units.get(&wave) else {
+            return terms;
+        };
+        let unit = product_node(unit);
+        match &terms[..] {
+            [] => terms,
+            [(_, Node::Sum(_))] | [_, _, ..] => {
+                vec![(Sign::Plus, Node::Product(vec![Node::Sum(terms), unit]))]
+            }
+            [_] => {
+                let (sign, node) = terms.remove(0);
+                let mut factors = node.into_factors();
+                let after_number = usize::from(matches!(factors.first(), Some(Node::Number(_))));
+                factors.insert(after_number, unit);
+                vec![(sign, Node::product(factors))]
+            }
+        }
+    }
+}
+
+/// `f[2]` with the source's name of the wave, as text and in LaTeX.
+fn head(recurrence: &Recurrence, wave: WaveIndex, index: &str) -> (String, String) {
+    let statement = recurrence.statement();
+    let name = statement.notation.waves.get(&wave).unwrap_or(&statement.waves[wave]);
+    let text = match name.strip_suffix("_prime") {
+        Some(name) => format!("{name}'[{index}]"),
+        None => format!("{name}[{index}]"),
+    };
+    (text, indexed(name, index))
+}

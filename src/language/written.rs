@@ -1,0 +1,146 @@
+//! `written` statements: how the source of a recurrence writes it.
+
+use num_traits::{ToPrimitive, Zero};
+use wavestep_polynomial::Symbol;
+
+use super::constant::constant;
+use super::diagnostic::Diagnostic;
+use super::scope::{Scope, with_likely};
+use super::syntax::{Expression, Node, Operator, Recurrence, Rewriting, Spanned, StatementKind};
+use crate::recurrence::{SourceNotation, SourceProduct, WaveIndex};
+
+type Outcome<T> = Result<T, Diagnostic>;
+
+/// The largest power of a symbol.
+const MAX_POWER: i32 = 100;
+
+/// Lowers all `written` statements. Names that mean nothing in the recurrence are symbols of the
+/// source.
+///
+/// # Errors
+/// The first item that names no wave, time or symbol, says something twice, or is no product.
+pub(super) fn notation(tree: &Recurrence, scope: &Scope) -> Outcome<SourceNotation> {
+    let mut notation = SourceNotation::default();
+    for statement in &tree.statements {
+        let StatementKind::Written(items) = &statement.value else { continue };
+        for item in items {
+            let (name, again) = match item {
+                Rewriting::Unit { wave: name, unit } => {
+                    let unit = scope.product(unit)?;
+                    (name, notation.units.insert(scope.wave(name)?, unit).is_some())
+                }
+                Rewriting::Ends(name) => (name, !notation.ends.insert(scope.wave(name)?)),
+                Rewriting::Constants { wave, name } => {
+                    let taken = notation.constants.values().any(|other| *other == name.value);
+                    let constants = &mut notation.constants;
+                    let again = constants.insert(scope.wave(wave)?, name.value.clone()).is_some();
+                    (name, again || taken)
+                }
+                Rewriting::Name { name, written } => {
+                    (name, scope.rename(name, written, &mut notation)?)
+                }
+            };
+            if again {
+                let message = format!("`{}` is written in two ways", name.value);
+                return Err(scope
+                    .error(message, name.span, "again here")
+                    .with_remedy("say once how the source writes it"));
+            }
+        }
+    }
+    Ok(notation)
+}
+
+impl Scope {
+    fn wave(&self, name: &Spanned<String>) -> Outcome<WaveIndex> {
+        self.waves.get(&name.value).copied().ok_or_else(|| {
+            let message = format!("`{}` is no wave of this recurrence", name.value);
+            let names: Vec<&str> = self.waves.keys().map(String::as_str).collect();
+            let error = self.error(message, name.span, "not a wave");
+            with_likely(error, &name.value, names.iter().copied())
+                .or_remedy(format!("its waves are {}", names.join(", ")))
+        })
+    }
+
+    /// Notes what the source writes for a name; whether it was noted before.
+    fn rename(
+        &self,
+        name: &Spanned<String>,
+        written: &Expression,
+        notation: &mut SourceNotation,
+    ) -> Outcome<bool> {
+        if let Some(wave) = self.waves.get(&name.value) {
+            let Node::Name(other) = &written.value else {
+                return Err(self
+                    .error("a wave is written as a name", written.span, "not a name")
+                    .with_remedy(format!("write its unit as `{} in …`", name.value)));
+            };
+            return Ok(notation.waves.insert(*wave, other.clone()).is_some());
+        }
+        let times = [&self.local, &self.time];
+        let is_time = times.into_iter().flatten().any(|time| time.name() == name.value);
+        match self.symbols.get(&name.value) {
+            None if !is_time => Err(self
+                .error(format!("unknown name `{}`", name.value), name.span, "not declared")
+                .with_remedy("name a wave, a symbol or a time of this recurrence")),
+            // A symbol that has a value is no longer written.
+            Some(Some(_)) => self.product(written).map(|_| false),
+            _ => {
+                let product = self.product(written)?;
+                Ok(notation.symbols.insert(symbol(&name.value), product).is_some())
+            }
+        }
+    }
+
+    /// A product of numbers and powers of symbols, in its order.
+    fn product(&self, tree: &Expression) -> Outcome<SourceProduct> {
+        let mut product = SourceProduct::one();
+        self.multiply(&mut product, tree, 1)?;
+        Ok(product)
+    }
+
+    fn multiply(&self, product: &mut SourceProduct, tree: &Expression, power: i32) -> Outcome<()> {
+        let refuse = |label: &str| {
+            Err(self
+                .error("this is no notation of a source", tree.span, label)
+                .with_remedy("write a product of numbers and powers of symbols, such as `V/c`"))
+        };
+        match &tree.value {
+            Node::Number(value) if value.is_zero() => refuse("zero"),
+            Node::Number(value) => {
+                product.coefficient *= value.pow(power);
+                Ok(())
+            }
+            Node::Name(name) if self.waves.contains_key(name) => refuse("a wave"),
+            Node::Name(name) => match self.symbols.get(name) {
+                Some(Some(value)) if value.is_zero() => refuse("zero"),
+                Some(Some(value)) => {
+                    product.coefficient *= value.pow(power);
+                    Ok(())
+                }
+                _ => {
+                    product.multiply(symbol(name), power);
+                    Ok(())
+                }
+            },
+            Node::Product(factors) => factors.iter().try_for_each(|factor| {
+                let sign = if factor.operator == Operator::Divide { -1 } else { 1 };
+                self.multiply(product, &factor.value, sign * power)
+            }),
+            Node::Power { base, exponent } => {
+                let value = constant(exponent, &self.source)?;
+                let whole = value.is_integer().then(|| value.to_integer().to_i32()).flatten();
+                let total = whole.and_then(|whole| whole.checked_mul(power));
+                match total.filter(|total| total.abs() <= MAX_POWER) {
+                    Some(total) => self.multiply(product, base, total),
+                    None => refuse("not a small whole power"),
+                }
+            }
+            _ => refuse("not a product"),
+        }
+    }
+}
+
+fn symbol(name: &str) -> Symbol {
+    Symbol::new(name).expect("names of the language are names of symbols")
+}

@@ -1,0 +1,79 @@
+//! How the source of a recurrence writes what wavestep derives: its names, units and shorthand.
+
+use crate::expression::Fraction;
+use crate::recurrence::WaveIndex;
+use num_traits::One;
+use std::collections::{BTreeMap, BTreeSet};
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
+
+/// The notation of a source, beside the one that a statement uses. It changes how formulas look,
+/// never what is derived.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+/// let rigid_mass = wavestep::scenes::find("rigid-mass").unwrap();
+/// let source = Source::new(rigid_mass.name, rigid_mass.text)?;
+/// let recurrence = read_recurrence(&source, &Default::default())?;
+/// let notation = &recurrence.statement().notation;
+/// let names = notation.units[&0].powers.iter().map(|(symbol, power)| (symbol.name(), *power));
+/// assert!(names.eq([("V", 1), ("c", -1)]));
+/// assert_eq!(notation.constants[&0], "B");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct SourceNotation {
+    /// What a wave is measured in: the source's wave is the unit times ours.
+    pub units: BTreeMap<WaveIndex, SourceProduct>,
+    /// Waves that the source calls otherwise.
+    pub waves: BTreeMap<WaveIndex, String>,
+    /// Symbols and times that the source writes as an expression in symbols of its own.
+    pub symbols: BTreeMap<Symbol, SourceProduct>,
+    /// The name of a wave's constants of integration, which are stated apart where they are long.
+    pub constants: BTreeMap<WaveIndex, String>,
+    /// Waves whose values at the ends of periods are kept as shorthand.
+    pub ends: BTreeSet<WaveIndex>,
+}
+
+impl SourceNotation {
+    /// Whether nothing is said of the source.
+    pub fn is_empty(&self) -> bool {
+        *self == SourceNotation::default()
+    }
+}
+
+/// A product of powers of the source's symbols, in the order in which it writes them:
+/// `coefficient · Π symbol^power`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SourceProduct {
+    /// The number in front, not zero.
+    pub coefficient: Rational,
+    /// Symbols with their powers, none zero.
+    pub powers: Vec<(Symbol, i32)>,
+}
+
+impl SourceProduct {
+    /// The product 1.
+    pub fn one() -> SourceProduct {
+        SourceProduct { coefficient: Rational::one(), powers: Vec::new() }
+    }
+
+    /// Multiplies by a power of a symbol, at the end where it is new.
+    pub fn multiply(&mut self, symbol: Symbol, power: i32) {
+        match self.powers.iter_mut().find(|(own, _)| *own == symbol) {
+            Some((_, own)) => *own += power,
+            None => self.powers.push((symbol, power)),
+        }
+        self.powers.retain(|(_, power)| *power != 0);
+    }
+
+    /// Its value.
+    pub fn to_fraction(&self) -> Fraction {
+        self.powers.iter().fold(Fraction::constant(&self.coefficient), |product, (x, power)| {
+            let base = match *power < 0 {
+                true => Fraction::reciprocal(&Polynomial::symbol(x)).expect("a symbol is a unit"),
+                false => Fraction::symbol(x),
+            };
+            &product * &base.pow(power.unsigned_abs())
+        })
+    }
+}

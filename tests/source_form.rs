@@ -1,0 +1,173 @@
+//! The source's form: that it says the same as the plain form, and how it looks.
+
+use std::collections::BTreeMap;
+
+use wavestep::export::{self, Formula, LATEX_WIDTH, SourceForm, TEXT_WIDTH};
+use wavestep::expression::{Expression, Fraction};
+use wavestep::language::{Source, read_expression, read_recurrence};
+use wavestep::recurrence::WaveIndex;
+use wavestep::scenes::{self, SCENES};
+use wavestep::solution::{GeneralForm, Solution};
+use wavestep_polynomial::Symbol;
+
+fn solution(name: &str) -> Solution {
+    let scene = scenes::find(name).expect("a scene of the library");
+    let source = Source::new(scene.name, scene.text).expect("a text");
+    Solution::new(read_recurrence(&source, &BTreeMap::new()).expect("a recurrence"))
+}
+
+fn expression(text: &str) -> Expression {
+    let source = Source::new("text", text).expect("a text");
+    read_expression(&source).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The pieces `0 … last` of a wave, with the shorthand that the scene asks for.
+fn formulas(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
+    let notation = &solution.recurrence().statement().notation;
+    let (pieces, kept) =
+        solution.pieces_by_ends(wave, 0, last, &notation.ends).expect("it can be solved");
+    let form = SourceForm::new(solution.recurrence(), Some(&kept));
+    pieces.iter().enumerate().flat_map(|(n, piece)| form.piece(wave, n, piece)).collect()
+}
+
+/// Left and right sides of formulas as they are written.
+fn sides(formulas: &[Formula]) -> Vec<(String, String)> {
+    let split = |formula: &Formula| {
+        let line = formula.to_line();
+        let (left, right) = line.split_once(" = ").expect("an equation");
+        (left.to_owned(), right.to_owned())
+    };
+    formulas.iter().map(split).collect()
+}
+
+fn substituted(value: &Expression, name: &str, by: &str) -> Expression {
+    let by = expression(by).as_fraction().expect("no exponential");
+    value.substitute(&Symbol::new(name).expect("a name"), &by).expect("a substitution")
+}
+
+/// With the constants put back in, a formula is the unit times the piece at `s = μz/L`.
+#[test]
+fn constants_and_units_say_what_the_pieces_say() {
+    for (name, last) in [("rigid-mass", 8), ("constant-force", 5), ("two-bars", 5)] {
+        let solution = solution(name);
+        let statement = solution.recurrence().statement();
+        for wave in 0..statement.waves.len() {
+            let written = sides(&formulas(&solution, wave, last));
+            let constants: BTreeMap<&str, &str> = written
+                .iter()
+                .filter(|(left, _)| !left.contains('['))
+                .map(|(left, right)| (left.as_str(), right.as_str()))
+                .collect();
+            let pieces = solution.pieces(wave, 0, last).expect("it can be solved");
+            let unit = Expression::from(statement.notation.units[&wave].to_fraction());
+            let waves = written.iter().filter(|(left, _)| left.contains('['));
+            for (n, ((_, right), piece)) in waves.zip(&pieces).enumerate() {
+                let mut right = right.clone();
+                if let Some(constant) = constants.get(&*format!("B_{n}")) {
+                    right = right.replace(&format!("B_{n}"), &format!("({constant})"));
+                }
+                let expected = &unit * &substituted(piece, "s", "mu*z/L");
+                assert_eq!(expression(&right), expected, "{name}: {right}");
+            }
+            if name == "rigid-mass" && wave == 0 {
+                // B_0 and B_1 are short; the others are stated apart.
+                assert_eq!(constants.len(), last - 1);
+            }
+        }
+    }
+}
+
+/// With the values at the ends of earlier periods put back in, the shorthand is the piece.
+#[test]
+fn shorthand_says_what_the_pieces_say() {
+    let solution = solution("pulse-shape");
+    let pieces = solution.pieces(0, 0, 8).expect("it can be solved");
+    let ends: Vec<String> = pieces
+        .iter()
+        .map(|piece| {
+            let end = substituted(piece, "t", "mu");
+            let head = export::Head::Written(String::new(), String::new());
+            let line = Formula::new(head, &end, &Symbol::new("t").expect("a name")).to_line();
+            line.trim_start_matches(" = ").to_owned()
+        })
+        .collect();
+    for (n, (left, mut right)) in sides(&formulas(&solution, 0, 8)).into_iter().enumerate() {
+        assert_eq!(left, format!("alpha_tilde[{n}]"));
+        assert_eq!(right.contains("alpha_tilde"), n > 0);
+        for (i, end) in ends.iter().enumerate() {
+            right = right.replace(&format!("alpha_tilde[{i}](mu)"), &format!("({end})"));
+        }
+        assert_eq!(substituted(&expression(&right), "t_tilde", "t"), pieces[n], "{n}");
+    }
+}
+
+/// With ends kept, as many products as in the source: the coefficients are numbers and ends.
+#[test]
+fn kept_ends_hold_for_every_scene() {
+    for scene in SCENES {
+        let solution = solution(scene.name);
+        let statement = solution.recurrence().statement();
+        let all = (0..statement.waves.len()).collect();
+        for wave in 0..statement.waves.len() {
+            let pieces = solution.pieces(wave, 0, 5).expect("it can be solved");
+            let (kept, ends) = solution.pieces_by_ends(wave, 0, 5, &all).expect("the same");
+            for (piece, kept) in pieces.iter().zip(&kept) {
+                let mut value = kept.clone();
+                for (symbol, wave, n) in ends.symbols() {
+                    let end = solution.pieces(wave, n, n).expect("the same")[0]
+                        .substitute(&statement.local, &statement.period)
+                        .expect("an end");
+                    value = replaced(&value, symbol, &end);
+                }
+                assert_eq!(value, *piece, "{}: {wave}", scene.name);
+            }
+        }
+    }
+}
+
+/// A polynomial in `x` of degree 1 with `by` in place of `x`.
+fn replaced(value: &Expression, x: &Symbol, by: &Expression) -> Expression {
+    let rest = value.substitute(x, &Fraction::zero()).expect("no denominator");
+    let slope = value.derivative(x);
+    assert!(!slope.contains(x), "ends occur linearly");
+    &rest + &(&slope * by)
+}
+
+fn assert_looks(name: &str, formulas: &[Formula]) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/source-form"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| {
+        insta::assert_snapshot!(format!("{name}-text"), export::text(formulas, TEXT_WIDTH));
+        insta::assert_snapshot!(format!("{name}-latex"), export::latex(formulas, LATEX_WIDTH));
+    });
+}
+
+#[test]
+fn how_the_source_writes_it() {
+    for (name, wave, last) in
+        [("two-bars", 1, 3), ("constant-force", 0, 3), ("pulse-shape", 0, 4), ("rigid-mass", 0, 3)]
+    {
+        assert_looks(name, &formulas(&solution(name), wave, last));
+    }
+}
+
+#[test]
+fn sequences_for_every_n() {
+    for name in ["two-bars", "constant-force"] {
+        let solution = solution(name);
+        let form = SourceForm::new(solution.recurrence(), None);
+        let waves = 0..solution.recurrence().statement().waves.len();
+        let all = waves.flat_map(|wave| {
+            let general: &GeneralForm = solution.general(wave).expect("a closed form");
+            let formulas = export::general_form(solution.recurrence(), wave, general);
+            form.general(wave, &formulas).expect("a sequence")
+        });
+        assert_looks(&format!("{name}-general"), &all.collect::<Vec<_>>());
+    }
+    let solution = solution("rigid-mass");
+    let general = solution.general(0).expect("echoes");
+    let formulas = export::general_form(solution.recurrence(), 0, general);
+    assert!(SourceForm::new(solution.recurrence(), None).general(0, &formulas).is_none());
+}
