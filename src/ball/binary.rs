@@ -24,7 +24,7 @@ pub(super) const LEAST_PRECISION: u64 = 2;
 /// # Panics
 /// Every operation panics when the exponent of its result leaves `i64`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Binary {
+pub(crate) struct Binary {
     mantissa: BigInt,
     exponent: i64,
 }
@@ -89,15 +89,6 @@ impl Binary {
     #[must_use]
     pub fn negate(self) -> Self {
         Self { mantissa: -self.mantissa, exponent: self.exponent }
-    }
-
-    /// `self·2^exponent`.
-    #[must_use]
-    pub fn scale(self, exponent: i64) -> Self {
-        if self.is_zero() {
-            return self;
-        }
-        Self { exponent: shifted(self.exponent, exponent), mantissa: self.mantissa }
     }
 
     /// The exact sum. The cost grows with the distance of the exponents; see [`Self::add_rounded`].
@@ -198,16 +189,6 @@ impl Binary {
             if remainder.is_zero() { Magnitude::ZERO } else { Magnitude::power_of_two(exponent) };
         let (rounded, rounding) = Self::new(quotient, exponent).round(precision);
         (rounded, truncation.add(&rounding))
-    }
-
-    /// `floor(self)`, and whether that is exact. The cost grows with the exponent.
-    pub(super) fn floor(&self) -> (BigInt, bool) {
-        if self.exponent >= 0 {
-            (&self.mantissa << self.exponent.unsigned_abs(), true)
-        } else {
-            // The mantissa is odd, so a shift by one bit or more loses something.
-            (&self.mantissa >> self.exponent.unsigned_abs(), false)
-        }
     }
 }
 

@@ -10,6 +10,26 @@ use super::decimal::{Decimal, proven_digits};
 const SPARE_BITS: u64 = 32;
 
 /// A decimal that is proven, and what it took.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let (evaluator, third) = (Evaluator::new(&solution).unwrap(), parse_number("1/3")?);
+/// // Before the first return f is exp(-t), which is no rational number.
+/// let Ok(Value::Certified(certified)) = evaluator.value(&f, &third, Side::Right, 6, 200) else {
+///     panic!("exp(-1/3) is irrational");
+/// };
+/// assert_eq!(certified.decimal.to_string(), "0.716531");
+/// assert!(!certified.ball.contains(&certified.decimal.to_rational()));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Certified {
     /// The correctly rounded value.
@@ -25,7 +45,7 @@ pub struct Certified {
 /// Why there are no proven digits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum CertifyError<E> {
+pub(crate) enum CertifyError<E> {
     /// The enclosures up to the limit leave several decimals.
     AccuracyNotReached {
         /// The enclosure of least radius.
@@ -77,22 +97,7 @@ impl<E: Error + 'static> Error for CertifyError<E> {
 ///
 /// # Cost
 /// When the cost of an enclosure grows at least linearly, at most twice that of the last attempt.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep::ball::{BallError, certify, exp_of_rational};
-/// // e^(10^−20) − 1 loses twenty digits.
-/// let tiny = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(20));
-/// let one = BigRational::from_integer(1.into());
-/// let proven = certify(10, 4096, |bits| {
-///     let one = wavestep::ball::Ball::from_rational(&one, bits);
-///     Ok::<_, BallError>(exp_of_rational(&tiny, bits)?.subtract(&one, bits))
-/// });
-/// let proven = proven.unwrap();
-/// assert_eq!(proven.decimal.to_string(), "1.000000000e-20");
-/// assert_eq!(proven.bits, 132);
-/// ```
-pub fn certify<E>(
+pub(crate) fn certify<E>(
     digits: usize,
     limit_bits: u64,
     mut enclosure: impl FnMut(u64) -> Result<Ball, E>,
@@ -126,7 +131,9 @@ mod tests {
 
     use num_rational::BigRational;
 
-    use super::super::{BallError, Binary, Magnitude, exp_of_rational};
+    use super::super::binary::Binary;
+    use super::super::magnitude::Magnitude;
+    use super::super::{BallError, exp_of_rational};
     use super::*;
 
     fn ratio(above: i64, below: i64) -> BigRational {
@@ -137,7 +144,7 @@ mod tests {
     fn precision_is_doubled_until_the_digits_are_proven() {
         let mut tried = Vec::new();
         // 1/3 hidden below a term that cancels 200 bits.
-        let offset = Ball::from_integer(&1.into()).scale(200);
+        let offset = Ball::new(Binary::new(1.into(), 200), Magnitude::ZERO);
         let proven = certify(15, 1 << 12, |bits| {
             tried.push(bits);
             let third = Ball::from_rational(&ratio(1, 3), bits);
@@ -148,6 +155,19 @@ mod tests {
         assert_eq!(tried, [82, 164, 328]);
         assert_eq!((proven.bits, proven.attempts), (328, 3));
         assert!(proven.ball.contains(&ratio(1, 3)));
+    }
+
+    #[test]
+    fn digits_that_cancel_are_made_up_for() {
+        // e^(10^−20) − 1 loses twenty digits.
+        let tiny = BigRational::new(1.into(), 10.into()).pow(20);
+        let one = Ball::from_integer(&1.into());
+        let proven =
+            certify(10, 4096, |bits| Ok(exp_of_rational(&tiny, bits)?.subtract(&one, bits)));
+        let proven: Result<_, CertifyError<BallError>> = proven;
+        let proven = proven.unwrap();
+        assert_eq!(proven.decimal.to_string(), "1.000000000e-20");
+        assert_eq!(proven.bits, 132);
     }
 
     #[test]

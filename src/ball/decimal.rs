@@ -36,6 +36,8 @@ const EXACT_EXPONENT: u64 = 1 << 16;
 /// let (decimal, _) = Decimal::from_rational(&third, 4);
 /// assert_eq!(decimal.to_string(), "-0.003333");
 /// assert_eq!(format!("{decimal:e}"), "-3.333e-3");
+/// assert_eq!(decimal.to_rational(), BigRational::new((-3333).into(), 1_000_000.into()));
+/// assert!(!decimal.is_zero());
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Decimal {
@@ -45,6 +47,15 @@ pub struct Decimal {
 }
 
 /// Whether a decimal is the number it stands for.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep::ball::{Decimal, Exactness};
+/// let seventh = BigRational::new(1.into(), 7.into());
+/// assert_eq!(Decimal::from_rational(&seventh, 50).1, Exactness::Rounded);
+/// let part = BigRational::new(1.into(), 1024.into());
+/// assert_eq!(Decimal::from_rational(&part, 50).1, Exactness::Exact);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exactness {
     /// The decimal is the number.
@@ -113,7 +124,7 @@ impl Decimal {
 
     /// The count of digits.
     #[must_use]
-    pub fn significant(&self) -> usize {
+    pub(super) fn significant(&self) -> usize {
         self.digits.len()
     }
 
@@ -125,7 +136,7 @@ impl Decimal {
 
     /// The power of ten of the first digit.
     #[must_use]
-    pub const fn exponent(&self) -> i64 {
+    pub(super) const fn exponent(&self) -> i64 {
         self.exponent
     }
 
@@ -200,16 +211,8 @@ impl fmt::LowerExp for Decimal {
 /// # Cost
 /// Products and divisions of integers as long as the digits and the exponent of the ball, up to
 /// `2^16`; independent of the exponent beyond.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep::ball::{Ball, proven_digits};
-/// let ball = Ball::from_rational(&BigRational::new(2.into(), 3.into()), 32);
-/// assert_eq!(proven_digits(&ball, 6).unwrap().to_string(), "0.666667");
-/// assert_eq!(proven_digits(&ball, 12), None);
-/// ```
 #[must_use]
-pub fn proven_digits(ball: &Ball, significant: usize) -> Option<Decimal> {
+pub(super) fn proven_digits(ball: &Ball, significant: usize) -> Option<Decimal> {
     assert!(significant > 0, "a decimal has at least one digit");
     if ball.contains_zero() {
         return ball.is_exact().then(|| Decimal::zero(significant));
@@ -446,6 +449,13 @@ mod tests {
     }
 
     #[test]
+    fn digits_beyond_the_radius_are_undecided() {
+        let ball = Ball::from_rational(&ratio(2, 3), 32);
+        assert_eq!(proven_digits(&ball, 6).unwrap().to_string(), "0.666667");
+        assert_eq!(proven_digits(&ball, 12), None);
+    }
+
+    #[test]
     fn zero_and_ties_within_are_undecided() {
         let ball = |mantissa: i64, exponent: i64, radius: i64| {
             Ball::new(Binary::new(mantissa.into(), exponent), Magnitude::power_of_two(radius))
@@ -538,6 +548,7 @@ mod tests {
         assert_eq!(Magnitude::from_u64(1).to_string(), "1.0e0");
         assert_eq!(Magnitude::from_u64(99).to_string(), "9.9e1");
         assert_eq!(Magnitude::from_u64(991).to_string(), "1.0e3");
+        assert_eq!(Magnitude::power_of_two(-100).to_string(), "7.9e-31");
         // log_10 2^(10^12) = 301029995663.981…
         assert_eq!(Magnitude::power_of_two(1_000_000_000_000).to_string(), "9.6e301029995663");
     }

@@ -40,19 +40,8 @@ use super::magnitude::Magnitude;
 /// A step multiplies, divides and adds integers of about `p + log_2 n` bits, whatever the length of
 /// the coefficients; one with a numerator and a denominator of `x` below some `2^40` costs no more
 /// than a few machine operations for each word of these.
-///
-/// ```
-/// use num_bigint::BigInt;
-/// use num_rational::BigRational;
-/// use wavestep::ball::evaluate_divided;
-/// use wavestep_polynomial::IntegerRow;
-/// // 1 − 4x + 8x²/2! at one half is exactly 0; at one quarter it is 1/4.
-/// let coefficients: IntegerRow = [1, -4, 8].map(BigInt::from).iter().collect();
-/// let quarter = BigRational::new(1.into(), 4.into());
-/// assert!(evaluate_divided(&coefficients, &quarter, 64).contains(&quarter));
-/// ```
 #[must_use]
-pub fn evaluate_divided(coefficients: &IntegerRow, x: &BigRational, precision: u64) -> Ball {
+pub(crate) fn evaluate_divided(coefficients: &IntegerRow, x: &BigRational, precision: u64) -> Ball {
     let precision = precision.max(LEAST_PRECISION);
     let weights = weights(x, coefficients.len());
     // 2^(largest) exceeds every term: |c| < 2^bits(c).
@@ -257,6 +246,16 @@ mod tests {
             ball.to_string().starts_with("4.24835425529158899532923478285865801787956"),
             "{ball}"
         );
+    }
+
+    /// `1 − 4x + 8x²/2!` is `1/4` at one quarter, and 0 at one half, where its terms cancel.
+    #[test]
+    fn encloses_a_sum_that_cancels() {
+        let coefficients = [1, -4, 8].map(BigInt::from);
+        for (x, value) in [((1, 4), (1, 4)), ((1, 2), (0, 1))] {
+            let [x, value] = [x, value].map(|(p, q)| BigRational::new(p.into(), q.into()));
+            assert!(evaluate_divided(&coefficients.iter().collect(), &x, 64).contains(&value));
+        }
     }
 
     #[test]

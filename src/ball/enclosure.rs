@@ -26,7 +26,10 @@ const EXACT_EXPONENT: u64 = 1 << 16;
 /// use num_rational::BigRational;
 /// use wavestep::ball::Ball;
 /// let ball = Ball::from_rational(&BigRational::new(2.into(), 3.into()), 32);
-/// assert_eq!(ball.to_decimal(100).to_string(), "0.666666666744 ± 2.4e-10");
+/// let enclosure = ball.to_decimal(100);
+/// assert_eq!(enclosure.to_string(), "0.666666666744 ± 2.4e-10");
+/// assert_eq!(enclosure.midpoint().to_string(), "0.666666666744");
+/// assert_eq!(format!("{:e}", enclosure.radius()), "2.4e-10");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct DecimalEnclosure {
@@ -113,7 +116,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::binary::Binary;
-    use super::super::proven_digits;
+    use super::super::decimal::proven_digits;
     use super::super::samples;
     use super::*;
 

@@ -5,12 +5,16 @@ use std::fmt;
 
 use super::exponential::ARGUMENT_BITS;
 
-/// An operation that has no result, or none that is supported.
+/// An operation that has no result that is supported.
+///
+/// ```
+/// use wavestep::ball::BallError;
+/// let error = BallError::ArgumentTooLarge;
+/// assert_eq!(error.to_string(), "the argument of an exponential exceeds 2^40 in absolute value");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BallError {
-    /// The divisor is zero: the quotient is undefined.
-    DivisionByZero,
     /// The argument of an exponential may exceed `2^40` in absolute value: not supported.
     ArgumentTooLarge,
 }
@@ -18,7 +22,6 @@ pub enum BallError {
 impl fmt::Display for BallError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::DivisionByZero => formatter.write_str("division by zero"),
             Self::ArgumentTooLarge => write!(
                 formatter,
                 "the argument of an exponential exceeds 2^{ARGUMENT_BITS} in absolute value"

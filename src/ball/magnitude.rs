@@ -25,17 +25,10 @@ const BITS: u32 = 32;
 ///
 /// # Panics
 /// Every operation panics when the exponent of its result leaves `i64`, that is beyond
-/// `2^(2^63)`: no sum of exponentials whose arguments [`Ball::exp`](super::Ball::exp) admits comes
-/// near.
-///
-/// ```
-/// use wavestep::ball::Magnitude;
-/// let third = Magnitude::from_u64(1).divide(3);
-/// assert!(third.scale(1).add(&third) >= Magnitude::from_u64(1));
-/// assert_eq!(Magnitude::power_of_two(-100).to_string(), "7.9e-31");
-/// ```
+/// `2^(2^63)`: no sum of exponentials whose arguments [`exp_of_rational`](super::exp_of_rational)
+/// admits comes near.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Magnitude {
+pub(crate) struct Magnitude {
     mantissa: u64,
     exponent: i64,
 }
@@ -181,23 +174,8 @@ impl Magnitude {
 
     /// The bound itself as an exact binary number.
     #[must_use]
-    pub fn to_binary(&self) -> Binary {
+    pub fn to_binary(self) -> Binary {
         Binary::new(BigInt::from(self.mantissa), self.exponent)
-    }
-
-    /// The bound itself as a double, rounded up; infinite beyond the range of doubles.
-    #[must_use]
-    pub fn to_f64(&self) -> f64 {
-        let Some(top) = self.top() else { return 0.0 };
-        if top > 1024 {
-            return f64::INFINITY;
-        }
-        if top < -1021 {
-            return f64::MIN_POSITIVE;
-        }
-        // Both factors and the product are exact: 32 bits within the normal range.
-        let half = self.exponent / 2;
-        self.mantissa as f64 * 2f64.powi(half as i32) * 2f64.powi((self.exponent - half) as i32)
     }
 }
 
@@ -278,15 +256,5 @@ mod tests {
         assert!(Magnitude::from_u64(1).add(&tiny) > Magnitude::from_u64(1));
         assert_eq!(Magnitude::from_u64(u64::MAX), Magnitude::power_of_two(64));
         assert_eq!(Magnitude::power_of_two(-5).top(), Some(-4));
-    }
-
-    #[test]
-    fn doubles_bound_from_above() {
-        assert_eq!(Magnitude::from_u64(3).to_f64(), 3.0);
-        assert_eq!(Magnitude::ZERO.to_f64(), 0.0);
-        assert_eq!(Magnitude::power_of_two(-1022).to_f64(), f64::MIN_POSITIVE);
-        assert_eq!(Magnitude::power_of_two(-5000).to_f64(), f64::MIN_POSITIVE);
-        assert_eq!(Magnitude::power_of_two(1023).to_f64(), 2f64.powi(1023));
-        assert_eq!(Magnitude::power_of_two(1024).to_f64(), f64::INFINITY);
     }
 }

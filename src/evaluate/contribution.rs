@@ -39,12 +39,13 @@ impl Amount {
         }
     }
 
-    fn enclose(&self, bits: u64) -> Result<Ball, BallError> {
+    fn enclose(&self, bits: u64) -> Ball {
         match self {
-            Amount::Number(value) => Ok(Ball::from_rational(value, bits)),
+            Amount::Number(value) => Ball::from_rational(value, bits),
             Amount::Polynomial(polynomial, x) => {
                 let value = evaluate_divided(polynomial.coefficients(), x, bits);
-                value.divide_integer(polynomial.denominator(), bits)
+                let share = Rational::new(1.into(), polynomial.denominator().clone());
+                value.multiply_rational(&share, bits)
             }
         }
     }
@@ -90,8 +91,7 @@ pub(crate) fn enclose(contributions: &[Contribution], bits: u64) -> Result<Ball,
     let mut sum = Ball::zero();
     for contribution in contributions {
         let exponential = exp_of_rational(&contribution.exponent, bits)?;
-        let amount = contribution.amount.enclose(bits)?;
-        let product = amount.multiply(&exponential, bits);
+        let product = contribution.amount.enclose(bits).multiply(&exponential, bits);
         sum = sum.add(&product.multiply_rational(&contribution.factor, bits), bits);
     }
     Ok(sum)

@@ -13,18 +13,113 @@ use std::rc::Rc;
 use wavestep_polynomial::{Integer, Rational, Symbol, Univariate};
 
 /// The most significant digits that are certified.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Evaluator, MAX_DIGITS, Side, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let (evaluator, third) = (Evaluator::new(&solution).unwrap(), parse_number("1/3")?);
+/// let value = evaluator.value(&f, &third, Side::Right, MAX_DIGITS, 1 << 16).unwrap();
+/// let Value::Certified(certified) = value else { panic!("exp(-1/3) is irrational") };
+/// assert!(certified.decimal.to_string().starts_with("0.716531310573789250425"));
+/// assert_eq!(certified.decimal.to_string().len(), "0.".len() + MAX_DIGITS);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub const MAX_DIGITS: usize = 10_000;
 
 /// The most periods before a time, where echoes have a closed form.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{EvaluateError, Evaluator, MAX_ORDER, Side};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/2")?)]); // a period lasts 1
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let late = parse_number(&format!("{MAX_ORDER} + 1"))?;
+/// let refused = Evaluator::new(&solution).unwrap().value(&f, &late, Side::Right, 6, 200);
+/// let periods = late.to_integer();
+/// assert_eq!(refused, Err(EvaluateError::TooManyPeriods { periods, limit: MAX_ORDER }));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub const MAX_ORDER: usize = 2_000;
 
 /// The most periods before a time, where waves are sequences in closed form.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Evaluator, MAX_ORDER_OF_SEQUENCE, Side, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// // Constant force, 6.42: f[n] = n + 1; a period lasts 2.
+/// let text = wavestep::scenes::find("constant-force").unwrap().text;
+/// let source = Source::new("constant-force", text)?;
+/// let solution = Solution::new(read_recurrence(&source, &BTreeMap::new())?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let value = |at| Evaluator::new(&solution).unwrap().value(&f, &at, Side::Right, 6, 200);
+/// let last = parse_number(&format!("2*{MAX_ORDER_OF_SEQUENCE}"))?;
+/// let n_plus_1 = parse_number(&format!("{MAX_ORDER_OF_SEQUENCE} + 1"))?;
+/// assert_eq!(value(last.clone()), Ok(Value::Exact(n_plus_1)));
+/// assert!(value(last + parse_number("2")?).is_err());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub const MAX_ORDER_OF_SEQUENCE: usize = 50_000;
 
 /// The most periods before a time, where echoes are derived one from another.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{EvaluateError, Evaluator, MAX_ORDER_WITHOUT_FORM, Side};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let source = Source::new("two lags", r#"
+///     recurrence "No closed form is known"
+///     period 1, local s, time t
+///     wave f
+///     equation f[n]' + f[n] = f[n-2]
+///     continuous f[n] starts at 1
+/// "#)?;
+/// let solution = Solution::new(read_recurrence(&source, &BTreeMap::new())?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let late = parse_number(&format!("{MAX_ORDER_WITHOUT_FORM} + 1"))?;
+/// let refused = Evaluator::new(&solution).unwrap().value(&f, &late, Side::Right, 6, 200);
+/// let (periods, limit) = (late.to_integer(), MAX_ORDER_WITHOUT_FORM);
+/// assert_eq!(refused, Err(EvaluateError::TooManyPeriods { periods, limit }));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub const MAX_ORDER_WITHOUT_FORM: usize = 400;
 
 /// Which limit is meant at an arrival.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// // A constant force: f rises by 1 at every arrival, at t = 2 from 1 to 2.
+/// let text = wavestep::scenes::find("constant-force").unwrap().text;
+/// let source = Source::new("constant-force", text)?;
+/// let solution = Solution::new(read_recurrence(&source, &BTreeMap::new())?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let value = |side| {
+///     Evaluator::new(&solution).unwrap().value(&f, &parse_number("2").unwrap(), side, 6, 200)
+/// };
+/// assert_eq!(value(Side::Left), Ok(Value::Exact(parse_number("1")?)));
+/// assert_eq!(value(Side::Right), Ok(Value::Exact(parse_number("2")?)));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Side {
     /// The limit from earlier times.
@@ -35,6 +130,28 @@ pub enum Side {
 }
 
 /// A value at one time.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
+/// let evaluator = Evaluator::new(&solution).unwrap();
+/// let value = |at| {
+///     evaluator.value(&strain, &parse_number(at).unwrap(), Side::Right, 6, 200).unwrap()
+/// };
+/// // The fixed end is at rest until the front is there, at t = mu; it then feels it twice.
+/// assert_eq!(value("1/8"), Value::Exact(parse_number("0")?));
+/// assert_eq!(value("1/4"), Value::Exact(parse_number("-2")?));
+/// let Value::Certified(later) = value("1/2") else { panic!("-2 exp(-1/4) is irrational") };
+/// assert_eq!(later.decimal.to_string(), "-1.55760");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Value {
     /// A rational number, exactly.
@@ -44,6 +161,24 @@ pub enum Value {
 }
 
 /// Why there is no value.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{EvaluateError, Evaluator, Side};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// // Thirty digits do not fit 60 bits; the best enclosure is told.
+/// let (evaluator, at) = (Evaluator::new(&solution).unwrap(), parse_number("33/10")?);
+/// let error = evaluator.value(&f, &at, Side::Right, 30, 60).unwrap_err();
+/// let EvaluateError::AccuracyNotReached { best, bits: 60 } = error else { panic!("{error}") };
+/// assert!(best.to_string().starts_with("0.30538526440879"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum EvaluateError {
@@ -112,6 +247,24 @@ enum Echoes {
 type Row = Vec<(Rational, Rc<Univariate>)>;
 
 /// Evaluates waves and observables of a solution in which every symbol has a value.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let evaluator = Evaluator::new(&solution).unwrap();
+/// assert_eq!(evaluator.period(), &parse_number("1/2")?);
+/// let value = evaluator.value(&f, &parse_number("33/10")?, Side::Right, 30, 1000).unwrap();
+/// let Value::Certified(certified) = value else { panic!("f is irrational there") };
+/// assert_eq!(certified.decimal.to_string(), "0.305385264408791064086396952466");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub struct Evaluator<'a> {
     solution: &'a Solution,
     period: Rational,
@@ -124,6 +277,17 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// [`EvaluateError::MissingValue`] where a symbol is left.
+    ///
+    /// ```
+    /// use wavestep::{evaluate::Evaluator, language, solution::Solution};
+    ///
+    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    /// let source = language::Source::new("rigid-mass", text)?;
+    /// let solution = Solution::new(language::read_recurrence(&source, &Default::default())?);
+    /// let error = Evaluator::new(&solution).err().unwrap();
+    /// assert_eq!(error.to_string(), "the symbol mu has no value");
+    /// # Ok::<(), language::Diagnostic>(())
+    /// ```
     pub fn new(solution: &'a Solution) -> Result<Evaluator<'a>, EvaluateError> {
         let recurrence = solution.recurrence();
         if let Some(symbol) = recurrence.symbols().next() {

@@ -8,6 +8,16 @@ use std::fmt;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// How a symbol compares with a number.
+///
+/// ```
+/// use wavestep::expression::{Condition, Relation};
+/// use wavestep_polynomial::Rational;
+///
+/// let bound = Rational::new(1.into(), 2.into());
+/// for (relation, text) in [(Relation::Greater, "> 1/2"), (Relation::Unequal, "!= 1/2")] {
+///     assert_eq!(Condition { relation, bound: bound.clone() }.to_string(), text);
+/// }
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Relation {
     /// `>`
@@ -23,6 +33,15 @@ pub enum Relation {
 }
 
 /// A condition on the value of one symbol, such as `> 0`.
+///
+/// ```
+/// use wavestep::expression::{Condition, Relation};
+/// use wavestep_polynomial::Rational;
+///
+/// let [one, two] = [1, 2].map(|value| Rational::from_integer(value.into()));
+/// let condition = Condition { relation: Relation::AtMost, bound: one.clone() };
+/// assert!(condition.holds(&one) && !condition.holds(&two));
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Condition {
     /// The comparison.
@@ -73,8 +92,30 @@ impl fmt::Display for Condition {
 
 /// What answers may rely on: conditions on symbols, and irreducible factors taken to be non-zero.
 ///
-/// Only declared factors, and such as cannot vanish under the conditions, are divided by. A symbolic answer therefore holds wherever the conditions
-/// hold and no factor vanishes; other values are put in before anything is derived.
+/// Only declared factors, and such as cannot vanish under the conditions, are divided by. A
+/// symbolic answer therefore holds wherever the conditions hold and no factor vanishes; other
+/// values are put in before anything is derived.
+///
+/// ```
+/// use wavestep::expression::{Assumptions, Condition, Fraction, Relation};
+/// use wavestep::language::{Source, read_expression};
+/// use wavestep_polynomial::{Polynomial, Rational, Symbol};
+///
+/// let mut known = Assumptions::default();
+/// let zero = Rational::from_integer(0.into());
+/// let positive = Condition { relation: Relation::Greater, bound: zero };
+/// known.declare_symbol(Symbol::new("r").unwrap(), Some(positive));
+/// assert_eq!(known.symbols().count(), 1);
+/// // 1 + r cannot vanish where r > 0; r − 1 can, until it is declared not to.
+/// let polynomial = |text: &str| text.parse::<Polynomial>().unwrap();
+/// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
+/// assert!(known.is_positive(&polynomial("1 + r").into()));
+/// assert_eq!(known.invert(&read("(1 + r)*exp(-r)")), Ok(read("exp(r)/(1 + r)")));
+/// assert!(known.invert(&read("r - 1")).is_err());
+/// known.declare_factors(&Fraction::reciprocal(&polynomial("r - 1")).unwrap());
+/// assert_eq!(known.invert(&read("r - 1")), Ok(read("1/(r - 1)")));
+/// assert!(known.factors().eq(&[polynomial("r"), polynomial("r - 1")]));
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Assumptions {
     conditions: BTreeMap<Symbol, Option<Condition>>,
@@ -82,6 +123,16 @@ pub struct Assumptions {
 }
 
 /// An expression that the declared factors do not allow to divide by.
+///
+/// ```
+/// use wavestep::expression::{Assumptions, Expression, NotInvertible};
+/// use wavestep_polynomial::Symbol;
+///
+/// let known = Assumptions::default();
+/// assert_eq!(known.invert(&Expression::zero()), Err(NotInvertible::Zero));
+/// let error = known.invert(&Expression::symbol(&Symbol::new("r").unwrap())).unwrap_err();
+/// assert_eq!(error.to_string(), "division by r, which is not known to be non-zero");
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum NotInvertible {
     /// The expression is zero.

@@ -24,9 +24,21 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 ///
 /// ```
 /// use wavestep::expression::Fraction;
-/// let r: wavestep_polynomial::Polynomial = "r + 1".parse().unwrap();
-/// let inverse = Fraction::reciprocal(&r).unwrap();
-/// assert_eq!(&inverse * &Fraction::from(r), Fraction::one());
+/// use wavestep_polynomial::{Polynomial, Rational, Symbol};
+///
+/// let polynomial = |text: &str| text.parse::<Polynomial>().unwrap();
+/// let r = Symbol::new("r").unwrap();
+/// // (r − 1)/(1 + r), the share of a wave that an interface reflects.
+/// let inverse = Fraction::reciprocal(&polynomial("1 + r")).unwrap();
+/// let reflected = &Fraction::from(polynomial("r - 1")) * &inverse;
+/// assert_eq!(&reflected + &inverse.scale(&Rational::from_integer(2.into())), Fraction::one());
+/// assert_eq!(reflected.numerator(), &polynomial("r - 1"));
+/// assert_eq!(reflected.denominator(), polynomial("r + 1"));
+/// assert!(reflected.pow(3).factors().eq([(&polynomial("r + 1"), 3)]));
+/// // d/dr = 2/(1 + r)²; equal bars reflect nothing.
+/// let slope = inverse.pow(2).with_numerator(polynomial("2"));
+/// assert_eq!(reflected.derivative(&r), slope);
+/// assert_eq!(reflected.substitute(&r, &Fraction::one()), Ok(Fraction::zero()));
 /// ```
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Fraction {
@@ -36,6 +48,16 @@ pub struct Fraction {
 
 /// A polynomial that cannot be divided by: zero, or not a product of symbols and at most one
 /// further factor that is linear in some symbol.
+///
+/// ```
+/// use wavestep::expression::{Fraction, NotAUnit};
+/// use wavestep_polynomial::Polynomial;
+///
+/// let p: Polynomial = "r*r + 1".parse().unwrap();
+/// let error = Fraction::reciprocal(&p).unwrap_err();
+/// assert_eq!(error, NotAUnit(p));
+/// assert_eq!(error.to_string(), "cannot divide by r^2 + 1: it is not linear in any symbol");
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct NotAUnit(pub Polynomial);
 
@@ -63,6 +85,18 @@ impl Fraction {
     }
 
     /// A rational constant.
+    ///
+    /// ```
+    /// use wavestep::expression::Fraction;
+    /// use wavestep_polynomial::{Rational, Symbol};
+    ///
+    /// let mu = Symbol::new("mu").unwrap();
+    /// let half = Fraction::constant(&Rational::new(1.into(), 2.into()));
+    /// let value = &half * &Fraction::symbol(&mu);
+    /// assert!(value.contains(&mu) && value.as_constant().is_none());
+    /// assert_eq!((&half + &half).as_constant(), Some(Rational::from_integer(1.into())));
+    /// assert!((&value - &value).is_zero() && (&half + &half).is_one());
+    /// ```
     pub fn constant(value: &Rational) -> Fraction {
         Polynomial::constant(value).into()
     }
@@ -126,7 +160,7 @@ impl Fraction {
     }
 
     /// The polynomial, where there is no denominator.
-    pub fn as_polynomial(&self) -> Option<&Polynomial> {
+    pub(crate) fn as_polynomial(&self) -> Option<&Polynomial> {
         self.factors.is_empty().then_some(&self.numerator)
     }
 
@@ -142,7 +176,7 @@ impl Fraction {
     }
 
     /// The symbols that occur, ascending.
-    pub fn symbols(&self) -> Vec<Symbol> {
+    pub(crate) fn symbols(&self) -> Vec<Symbol> {
         let all = std::iter::once(&self.numerator).chain(self.factors.keys());
         let mut symbols: Vec<_> = all.flat_map(|p| p.symbols().iter().cloned()).collect();
         symbols.sort();
@@ -243,6 +277,18 @@ impl Fraction {
     ///
     /// # Panics
     /// Where a factor of the denominator is zero there.
+    ///
+    /// ```
+    /// use wavestep::expression::Fraction;
+    /// use wavestep_polynomial::{Rational, Symbol};
+    ///
+    /// let r = Symbol::new("r").unwrap();
+    /// let third = Rational::new(1.into(), 3.into());
+    /// let inverse = Fraction::reciprocal(&"3*r + 1".parse().unwrap()).unwrap();
+    /// let value = inverse.evaluate(&|x| (*x == r).then(|| third.clone()));
+    /// assert_eq!(value, Ok(Rational::new(1.into(), 2.into())));
+    /// assert_eq!(inverse.evaluate(&|_| None), Err(r));
+    /// ```
     pub fn evaluate(
         &self,
         values: &impl Fn(&Symbol) -> Option<Rational>,

@@ -13,6 +13,23 @@ use wavestep_polynomial::Symbol;
 ///
 /// The value at `nD` is that of the piece that starts there, the right-hand limit; the left-hand
 /// limit is the piece before at `s = D`.
+///
+/// ```
+/// use wavestep::language::{Source, read_expression, read_recurrence};
+/// use wavestep::solution::PeriodByPeriod;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let mut solver = PeriodByPeriod::new(&recurrence);
+/// (0..2).for_each(|_| solver.advance().unwrap());
+/// let f = &solver.waves()[recurrence.wave("f").unwrap()];
+/// // At the first return the front of height 1 is back: f jumps from exp(-2*mu) by 1.
+/// let read = |text| read_expression(&Source::new("text", text).unwrap());
+/// assert_eq!(f.pieces()[0], read("exp(-s)")?);
+/// assert_eq!(f.end(0), Ok(read("exp(-2*mu)")?));
+/// assert_eq!(f.start(1), read("1 + exp(-2*mu)")?);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Piecewise {
     period: Fraction,
@@ -22,23 +39,13 @@ pub struct Piecewise {
 
 impl Piecewise {
     /// A function with no pieces yet.
-    pub fn new(period: Fraction, local: Symbol) -> Piecewise {
+    pub(crate) fn new(period: Fraction, local: Symbol) -> Piecewise {
         Piecewise { period, local, pieces: Vec::new() }
     }
 
     /// Adds the next piece.
-    pub fn push(&mut self, piece: Expression) {
+    pub(crate) fn push(&mut self, piece: Expression) {
         self.pieces.push(piece);
-    }
-
-    /// The length `D` of a period.
-    pub fn period(&self) -> &Fraction {
-        &self.period
-    }
-
-    /// The local variable `s`.
-    pub fn local(&self) -> &Symbol {
-        &self.local
     }
 
     /// The pieces known so far, from period 0 on.

@@ -17,6 +17,26 @@ use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, factorial};
 ///
 /// # Invariants
 /// - the last coefficient of every pole is not zero; poles without coefficients are absent.
+///
+/// ```
+/// use wavestep::expression::{Assumptions, Expression, Fraction, Transform};
+/// use wavestep::language::{Source, read_expression};
+/// use wavestep_polynomial::Symbol;
+///
+/// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
+/// let s = Symbol::new("s").unwrap();
+/// // s e^{−s} ↔ 1/(p + 1)²: it starts at 0, and its derivative at 1.
+/// let echo = Transform::of(&read("s*exp(-s)"), &s);
+/// assert_eq!(echo.poles().next().unwrap().1, [Expression::zero(), Expression::one()]);
+/// assert!(echo.initial_value().is_zero() && !echo.is_zero());
+/// assert!(echo.derivative().initial_value().is_one());
+/// // Divided by p + 1 it is 1/(p + 1)³ ↔ s²/2 e^{−s}.
+/// let minus_one = -&Fraction::one();
+/// let mut later = echo.divide_by_pole(&minus_one, &Assumptions::default()).unwrap();
+/// assert_eq!(later.function(&s), read("s^2/2*exp(-s)"));
+/// later.add_scaled(&echo, &read("2"));
+/// assert_eq!(later.function(&s), read("(s^2/2 + 2*s)*exp(-s)"));
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Transform {
     poles: BTreeMap<Fraction, Vec<Expression>>,
@@ -24,12 +44,12 @@ pub struct Transform {
 
 impl Transform {
     /// The transform 0.
-    pub fn zero() -> Transform {
+    pub(crate) fn zero() -> Transform {
         Transform::default()
     }
 
     /// `value / (p − pole)`.
-    pub fn simple(pole: Fraction, value: Expression) -> Transform {
+    pub(crate) fn simple(pole: Fraction, value: Expression) -> Transform {
         Transform::normal(BTreeMap::from([(pole, vec![value])]))
     }
 

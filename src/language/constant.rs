@@ -10,6 +10,14 @@ use super::source::Source;
 use super::syntax::{Expression, Node, Operator, Sign, Span};
 
 /// The most bits of numerator and denominator together in a constant, before cancellation.
+///
+/// ```
+/// use wavestep::language::{MAX_CONSTANT_BITS, parse_number};
+///
+/// assert!(parse_number(&format!("2^{}", MAX_CONSTANT_BITS / 4)).is_ok());
+/// let error = parse_number(&format!("2^{MAX_CONSTANT_BITS}")).unwrap_err();
+/// assert_eq!(error.message(), "the value of this constant has too many digits");
+/// ```
 pub const MAX_CONSTANT_BITS: u64 = 1 << 15;
 
 /// The value of an expression of numbers, `+ - * /`, and whole powers; `0^0` is 1.
@@ -20,7 +28,10 @@ pub const MAX_CONSTANT_BITS: u64 = 1 << 15;
 /// # Errors
 /// Refuses names, waves, functions, division by zero, powers that are no whole numbers, and values
 /// longer than [`MAX_CONSTANT_BITS`].
-pub fn constant(expression: &Expression, source: &Source) -> Result<BigRational, Diagnostic> {
+pub(super) fn constant(
+    expression: &Expression,
+    source: &Source,
+) -> Result<BigRational, Diagnostic> {
     let Fraction(numerator, denominator) = evaluate(expression, source)?;
     Ok(BigRational::new(numerator, denominator))
 }

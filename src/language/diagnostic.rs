@@ -15,13 +15,15 @@ use super::syntax::Span;
 /// `Display` is [`Diagnostic::render`] in plain text.
 ///
 /// ```
-/// use wavestep::language::{Diagnostic, Source, Span};
+/// use wavestep::language::{Diagnostic, Source, Style, read_number};
 ///
-/// let source = Source::new("example", "wave f, g")?;
-/// let error = Diagnostic::new(&source, "no equation names `g`", Span::new(8, 9), "declared here")
-///     .with_remedy("add an equation, or remove the wave");
-/// assert_eq!(error.span(), Span::new(8, 9));
-/// assert!(error.to_string().contains("example:1:9"));
+/// let source = Source::new("example", "3/mu")?;
+/// let error = read_number(&source).unwrap_err();
+/// assert_eq!(error.message(), "this is not a constant");
+/// assert_eq!((source.slice(error.span()), error.label()), ("mu", "a number is needed here"));
+/// assert_eq!(error.remedy(), Some("write a number such as `3`, `0.25`, `33/10` or `1e-3`"));
+/// assert_eq!(error.render(Style::Plain), error.to_string());
+/// assert!(error.to_string().contains("example:1:3"));
 /// # Ok::<(), Diagnostic>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -38,6 +40,17 @@ struct Content {
 }
 
 /// A remark about a place.
+///
+/// ```
+/// use wavestep::language::{Label, Source, read_recurrence};
+///
+/// let source = Source::new("twice.wave", "recurrence \"Twice\"\nsymbol f\nwave f")?;
+/// let error = read_recurrence(&source, &Default::default()).unwrap_err();
+/// let [Label { span, text }] = error.secondary() else { panic!("one more place") };
+/// assert_eq!((source.slice(*span), span.start), ("f", 26));
+/// assert_eq!(text, "first declared here");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The place.
@@ -47,6 +60,14 @@ pub struct Label {
 }
 
 /// How a [`Diagnostic`] is rendered.
+///
+/// ```
+/// use wavestep::language::{Style, parse_number};
+///
+/// let error = parse_number("1/0").unwrap_err();
+/// assert!(error.render(Style::Plain).starts_with("error: division by zero"));
+/// assert!(error.render(Style::Coloured).contains("\u{1b}["));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// Text alone.
@@ -58,7 +79,7 @@ pub enum Style {
 impl Diagnostic {
     /// An error with its message and the place it is about.
     #[must_use]
-    pub fn new(
+    pub(super) fn new(
         source: &Source,
         message: impl Into<String>,
         span: Span,
@@ -75,21 +96,21 @@ impl Diagnostic {
 
     /// Adds a place that helps to understand the error.
     #[must_use]
-    pub fn with_secondary(mut self, span: Span, label: impl Into<String>) -> Self {
+    pub(super) fn with_secondary(mut self, span: Span, label: impl Into<String>) -> Self {
         self.0.secondary.push(Label { span, text: label.into() });
         self
     }
 
     /// Says what to do, replacing what was said before.
     #[must_use]
-    pub fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
+    pub(super) fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
         self.0.remedy = Some(remedy.into());
         self
     }
 
     /// Says `did you mean …?` if one of the candidates is close to the name, see [`closest`].
     #[must_use]
-    pub fn with_closest<'a>(
+    pub(super) fn with_closest<'a>(
         self,
         name: &str,
         candidates: impl IntoIterator<Item = &'a str>,
@@ -102,7 +123,7 @@ impl Diagnostic {
 
     /// Adds a remedy where there is none yet.
     #[must_use]
-    pub fn or_remedy(self, remedy: impl Into<String>) -> Self {
+    pub(super) fn or_remedy(self, remedy: impl Into<String>) -> Self {
         if self.remedy().is_some() { self } else { self.with_remedy(remedy) }
     }
 

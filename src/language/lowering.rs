@@ -429,6 +429,20 @@ fn relation(relation: syntax::Relation) -> Relation {
 }
 
 /// One formula of a listing: the wave, the period, the variable, and the exact expression.
+///
+/// ```
+/// use wavestep::language::{ExactFormula, Source, read_expression, read_listing};
+/// use wavestep_polynomial::Symbol;
+///
+/// let formula = ExactFormula {
+///     wave: "g".to_owned(),
+///     n: 2,
+///     variable: Symbol::new("s").unwrap(),
+///     expression: read_expression(&Source::new("value", "2*s*exp(-s)")?)?,
+/// };
+/// assert_eq!(read_listing(&Source::new("listing", "g[2](s) = exp(-s)*2*s")?)?, [formula]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ExactFormula {
     /// The wave.

@@ -48,21 +48,29 @@ use num_rational::BigRational;
 use crate::expression;
 use crate::recurrence;
 
-pub use constant::{MAX_CONSTANT_BITS, constant};
+pub use constant::MAX_CONSTANT_BITS;
 pub use diagnostic::{Diagnostic, Label, Style, closest};
 pub use lowering::ExactFormula;
-pub use number::{MAX_DECIMAL_EXPONENT, MAX_DIGITS};
-pub use scope::{MAX_EXPONENT, MAX_LAG};
+pub use number::MAX_DIGITS;
 pub use source::{MAX_SOURCE_BYTES, Source};
 pub use syntax::Span;
 
 use syntax::{Expression, Listing, Recurrence};
 
 /// How deep parentheses, arguments, unary minuses and exponents may nest, all together.
+///
+/// ```
+/// use wavestep::language::{MAX_DEPTH, parse_number};
+///
+/// let nested = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
+/// assert!(parse_number(&nested(MAX_DEPTH.into())).is_ok());
+/// let error = parse_number(&nested(usize::from(MAX_DEPTH) + 1)).unwrap_err();
+/// assert_eq!(error.message(), "nested deeper than 200 levels");
+/// ```
 pub const MAX_DEPTH: u16 = 200;
 
 /// The largest index of a wave, and the largest number added to one.
-pub const MAX_INDEX: u32 = 1_000_000;
+const MAX_INDEX: u32 = 1_000_000;
 
 /// Reads a recurrence: a title, then statements in any order.
 ///
@@ -70,6 +78,15 @@ pub const MAX_INDEX: u32 = 1_000_000;
 ///
 /// # Errors
 /// The first place where the text does not follow the grammar or exceeds a limit.
+///
+/// ```
+/// use wavestep::language::{Source, parse_recurrence};
+///
+/// let text = "recurrence \"Example\"\nwave μ\nequation mu[n] = 2·mu[n−1]\n";
+/// let recurrence = parse_recurrence(&Source::new("example.wave", text)?)?;
+/// assert_eq!(recurrence.to_string(), text.replace('μ', "mu").replace('·', "*").replace('−', "-"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn parse_recurrence(source: &Source) -> Result<Recurrence, Diagnostic> {
     parser::recurrence(source)
 }
@@ -95,6 +112,16 @@ pub fn parse_listing(source: &Source) -> Result<Listing, Diagnostic> {
 ///
 /// # Errors
 /// As [`parse_recurrence`].
+///
+/// ```
+/// use wavestep::language::{Source, parse_expression};
+///
+/// let parse = |text| parse_expression(&Source::new("text", text).unwrap());
+/// assert_eq!(parse("-f[n]'^2")?, parse("-((f[n]')^2)")?);
+/// assert_ne!(parse("a + b")?, parse("b + a")?); // trees, not values
+/// assert_eq!(parse("((a) + (b))*(c)")?.to_string(), "(a + b)*c");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn parse_expression(source: &Source) -> Result<Expression, Diagnostic> {
     parser::expression(source)
 }
@@ -102,7 +129,8 @@ pub fn parse_expression(source: &Source) -> Result<Expression, Diagnostic> {
 /// Reads one exact rational number, such as a value on a command line: `33/10`, `12.34`, `1e3`.
 ///
 /// # Errors
-/// As [`parse_expression`] and [`constant`].
+/// As [`parse_expression`]; also names, waves, functions, division by zero, powers that are no
+/// whole numbers, and values longer than [`MAX_CONSTANT_BITS`].
 ///
 /// ```
 /// use wavestep::language::parse_number;
@@ -120,11 +148,28 @@ pub fn parse_number(text: &str) -> Result<BigRational, Diagnostic> {
 ///
 /// # Errors
 /// As [`parse_number`].
+///
+/// ```
+/// use wavestep::language::{Source, parse_number, read_number};
+///
+/// assert_eq!(read_number(&Source::new("--at", "33/10")?)?, parse_number("3.3")?);
+/// // Errors call the text by its name.
+/// let error = read_number(&Source::new("--at", "33/0")?).unwrap_err();
+/// assert!(error.to_string().contains("--at:1:4"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn read_number(source: &Source) -> Result<BigRational, Diagnostic> {
-    constant(&parser::number(source)?, source)
+    constant::constant(&parser::number(source)?, source)
 }
 
 /// The name as it is kept: Greek letters spelt out, `μ` as `mu`.
+///
+/// ```
+/// use wavestep::language::normalise_name;
+///
+/// assert_eq!(normalise_name("ω_0"), "omega_0");
+/// assert_eq!(normalise_name("strain"), "strain");
+/// ```
 #[must_use]
 pub fn normalise_name(written: &str) -> String {
     name::normalise(written)
@@ -161,6 +206,16 @@ pub fn read_recurrence(
 ///
 /// # Errors
 /// The first place where the text does not follow the grammar, or divides by what it cannot.
+///
+/// ```
+/// use wavestep::language::{Source, read_expression, read_listing};
+///
+/// let text = "f[0](s) = exp(-s)\nf[1](s) = exp(-s)*(-2*s + 1 + exp(-2*mu))\n";
+/// let listing = read_listing(&Source::new("listing", text)?)?;
+/// assert_eq!(listing[0].expression, read_expression(&Source::new("6.78", "exp(-s)")?)?);
+/// assert_eq!((listing[1].wave.as_str(), listing[1].n), ("f", 1));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn read_listing(source: &Source) -> Result<Vec<ExactFormula>, Diagnostic> {
     lowering::listing(&parse_listing(source)?)
 }

@@ -6,10 +6,19 @@ use num_rational::BigRational;
 use num_traits::{Pow, ToPrimitive, Zero};
 
 /// The most digits a literal may have before its exponent.
+///
+/// ```
+/// use wavestep::language::{MAX_DIGITS, parse_number};
+///
+/// let mut third = format!("0.{}", "3".repeat(MAX_DIGITS - 1));
+/// assert!(parse_number(&third).is_ok());
+/// third.push('3');
+/// assert_eq!(parse_number(&third).unwrap_err().message(), "a number with more than 1000 digits");
+/// ```
 pub const MAX_DIGITS: usize = 1000;
 
 /// The largest power of ten, up or down, by which a literal may be scaled.
-pub const MAX_DECIMAL_EXPONENT: i64 = 1000;
+pub(super) const MAX_DECIMAL_EXPONENT: i64 = 1000;
 
 /// Why a literal is not accepted although its form is right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

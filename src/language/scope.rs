@@ -18,10 +18,10 @@ use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::WaveIndex;
 
 /// The furthest a recurrence may look back.
-pub const MAX_LAG: i64 = 1000;
+const MAX_LAG: i64 = 1000;
 
 /// The largest whole exponent of a power in an expression.
-pub const MAX_EXPONENT: u32 = 1000;
+const MAX_EXPONENT: u32 = 1000;
 
 /// Functions that people write and that the language does not have.
 const FUNCTIONS: [&str; 10] =

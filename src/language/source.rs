@@ -7,6 +7,13 @@ use super::diagnostic::Diagnostic;
 use super::syntax::Span;
 
 /// The largest text [`Source::new`] accepts, in bytes: one MiB.
+///
+/// ```
+/// use wavestep::language::{MAX_SOURCE_BYTES, Source};
+///
+/// assert!(Source::new("long", "#".repeat(MAX_SOURCE_BYTES)).is_ok());
+/// assert!(Source::new("too long", "#".repeat(MAX_SOURCE_BYTES + 1)).is_err());
+/// ```
 pub const MAX_SOURCE_BYTES: usize = 1 << 20;
 
 /// A checked text and its name; cloning is cheap.
@@ -16,6 +23,16 @@ pub const MAX_SOURCE_BYTES: usize = 1 << 20;
 /// - Of the control characters it holds only tab, line feed, and carriage return before a line feed.
 /// - It holds no character that reverses or isolates the direction of writing, because such a text
 ///   does not read the way it is parsed.
+///
+/// ```
+/// use wavestep::language::{Source, Span};
+///
+/// let source = Source::new("mass.wave", b"\xEF\xBB\xBFwave f, g")?; // the mark is dropped
+/// assert_eq!((source.name(), source.text()), ("mass.wave", "wave f, g"));
+/// assert_eq!(source.slice(Span::new(5, 6)), "f");
+/// assert!(Source::new("binary", [0xFF, 0xFE]).is_err());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     name: Arc<str>,
@@ -36,6 +53,15 @@ impl Source {
     ///
     /// # Errors
     /// As [`Source::new`].
+    ///
+    /// ```
+    /// use wavestep::language::{MAX_SOURCE_BYTES, Source};
+    ///
+    /// let text = "#".repeat(MAX_SOURCE_BYTES + 1);
+    /// assert!(Source::with_limit("listing", &text, 10 * MAX_SOURCE_BYTES).is_ok());
+    /// let error = Source::with_limit("listing", &text, 100).unwrap_err();
+    /// assert!(error.message().ends_with("the limit is 100 bytes"));
+    /// ```
     pub fn with_limit(
         name: &str,
         bytes: impl AsRef<[u8]>,

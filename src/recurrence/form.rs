@@ -14,6 +14,21 @@ use wavestep_polynomial::Symbol;
 ///
 /// # Invariants
 /// - coefficients are free of time; trailing zeros are dropped.
+///
+/// ```
+/// use wavestep::expression::Expression;
+/// use wavestep::recurrence::LinearForm;
+///
+/// // w' + 2 w[n−1] + Σ_{i<n} w[i] for the wave of place 0.
+/// let mut form = LinearForm::slope(0, 0);
+/// form.add_scaled(&LinearForm::wave(0, 1), &Expression::integer(2), 0);
+/// form.add_scaled(&LinearForm::sum(0, 0), &Expression::one(), 0);
+/// let (wave, operator) = form.operators().next().unwrap();
+/// assert_eq!(wave, 0);
+/// assert_eq!(operator.value(), [Expression::zero(), Expression::integer(2)]);
+/// assert_eq!(operator.slope(), [Expression::one()]);
+/// assert_eq!(operator.sum(), [Expression::one()]);
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Operator {
     pub(crate) value: Vec<Expression>,
@@ -52,17 +67,17 @@ impl Operator {
     }
 
     /// One more than the largest lag of a value or a slope.
-    pub fn reach(&self) -> usize {
+    pub(crate) fn reach(&self) -> usize {
         self.value.len().max(self.slope.len())
     }
 
     /// The coefficient of `w[n]`.
-    pub fn value_now(&self) -> Expression {
+    pub(crate) fn value_now(&self) -> Expression {
         coefficient(&self.value, 0)
     }
 
     /// The coefficient of `w'[n]`.
-    pub fn slope_now(&self) -> Expression {
+    pub(crate) fn slope_now(&self) -> Expression {
         coefficient(&self.slope, 0)
     }
 
@@ -86,6 +101,22 @@ impl Operator {
 /// ```
 ///
 /// with `t` the scene time: like a wave, forcing at lag `j` is the function of lag 0, `jD` later.
+///
+/// ```
+/// use wavestep::expression::Expression;
+/// use wavestep::recurrence::LinearForm;
+///
+/// // f[n] − f[n−1] − 1: f is the wave of place 0, and 1 acts from the start.
+/// let (f, minus_one) = (LinearForm::wave(0, 0), Expression::integer(-1));
+/// let mut form = LinearForm::zero();
+/// form.add_scaled(&f, &Expression::one(), 0);
+/// form.add_scaled(&f, &minus_one, 1);
+/// form.add_scaled(&LinearForm::forcing(Expression::one()), &minus_one, 0);
+/// assert_eq!(form.forcing_terms(), [minus_one.clone()]);
+/// assert_eq!(-&form, form.scaled(&minus_one));
+/// form.add_scaled(&-&form.clone(), &Expression::one(), 0);
+/// assert!(form.is_zero());
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct LinearForm {
     pub(crate) operators: BTreeMap<WaveIndex, Operator>,
@@ -132,7 +163,7 @@ impl LinearForm {
     }
 
     /// The operator of one wave.
-    pub fn operator(&self, wave: WaveIndex) -> Operator {
+    pub(crate) fn operator(&self, wave: WaveIndex) -> Operator {
         self.operators.get(&wave).cloned().unwrap_or_default()
     }
 
@@ -142,7 +173,7 @@ impl LinearForm {
     }
 
     /// Whether no wave occurs.
-    pub fn is_free_of_waves(&self) -> bool {
+    pub(crate) fn is_free_of_waves(&self) -> bool {
         self.operators.is_empty()
     }
 
@@ -152,12 +183,12 @@ impl LinearForm {
     }
 
     /// Whether a derivative of a wave occurs.
-    pub fn has_slopes(&self) -> bool {
+    pub(crate) fn has_slopes(&self) -> bool {
         self.operators.values().any(|operator| !operator.slope.is_empty())
     }
 
     /// The waves that occur at lag 0.
-    pub fn waves_now(&self) -> impl Iterator<Item = WaveIndex> + '_ {
+    pub(crate) fn waves_now(&self) -> impl Iterator<Item = WaveIndex> + '_ {
         let now = |row: &Vec<Expression>| row.first().is_some_and(|c| !c.is_zero());
         let occurs = move |operator: &Operator| now(&operator.value) || now(&operator.slope);
         self.operators().filter(move |(_, operator)| occurs(operator)).map(|(wave, _)| wave)
@@ -223,7 +254,7 @@ impl LinearForm {
 
     /// The form with sums over all earlier pieces removed: where there are any, the difference
     /// `form[n] − form[n−1]`, in which `Σ_{i<n} w[i]` leaves `w[n−1]`.
-    pub fn without_sums(&self) -> LinearForm {
+    pub(crate) fn without_sums(&self) -> LinearForm {
         if self.operators.values().all(|operator| operator.sum.is_empty()) {
             return self.clone();
         }

@@ -18,6 +18,7 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// let names = notation.units[&0].powers.iter().map(|(symbol, power)| (symbol.name(), *power));
 /// assert!(names.eq([("V", 1), ("c", -1)]));
 /// assert_eq!(notation.constants[&0], "B");
+/// assert!(!notation.is_empty());
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -43,6 +44,17 @@ impl SourceNotation {
 
 /// A product of powers of the source's symbols, in the order in which it writes them:
 /// `coefficient · Π symbol^power`.
+///
+/// ```
+/// use wavestep::recurrence::SourceProduct;
+/// use wavestep_polynomial::Symbol;
+/// let mut strain = SourceProduct::one();
+/// for (name, power) in [("X", 1), ("E", -1), ("A", -1)] {
+///     strain.multiply(Symbol::new(name).unwrap(), power);
+/// }
+/// assert_eq!(strain.powers.len(), 3);
+/// assert_eq!(strain.to_fraction().to_string(), "(X)/(A*E)");
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SourceProduct {
     /// The number in front, not zero.

@@ -15,6 +15,23 @@ use wavestep_polynomial::{Polynomial, Symbol};
 /// - the period is certainly positive;
 /// - `steps` holds one step a wave, and each uses on the current period only waves of steps
 ///   before it.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::recurrence::Recurrence;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// assert_eq!(recurrence.statement().title, "Rigid mass on a fixed bar");
+/// assert!(recurrence.symbols().map(|symbol| symbol.name()).eq(["mu"]));
+/// // g follows from f before f itself on the same period is asked for: g[n] = −f[n−1].
+/// let order: Vec<_> = recurrence.steps().iter().map(|step| step.wave).collect();
+/// assert_eq!(order, [recurrence.wave("g").unwrap(), recurrence.wave("f").unwrap()]);
+/// // Waves and observables may be observed; only the latter are observables.
+/// assert!(recurrence.observation("f").is_some() && recurrence.observable("f").is_none());
+/// assert_eq!(Recurrence::new(recurrence.statement().clone()), Ok(recurrence));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Recurrence {
     statement: Statement,
@@ -68,7 +85,7 @@ impl Recurrence {
     /// An estimate from above of the degree of pieces and echoes of an order: on each period every
     /// step may bring the degree of a coefficient, an integration, and a substitution of the
     /// period.
-    pub fn degree_estimate(&self, order: usize) -> u64 {
+    pub(crate) fn degree_estimate(&self, order: usize) -> u64 {
         let Statement { period, continuity, .. } = &self.statement;
         let period = degree_of_fraction(period).max(1);
         let mut growth = 0;

@@ -9,6 +9,21 @@ use wavestep_polynomial::Symbol;
 
 /// A form that is continuous over all arrivals and starts at a value:
 /// `form[n](0) = form[n−1](D)`, `form[0](0) = start`.
+///
+/// ```
+/// use wavestep::expression::Expression;
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::recurrence::{Continuity, LinearForm};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// // The velocity of the mass, f[n] + g[n], starts at 1.
+/// let mut form = LinearForm::wave(0, 0);
+/// form.add_scaled(&LinearForm::wave(1, 0), &Expression::one(), 0);
+/// let rule = Continuity { form, start: Expression::one() };
+/// assert_eq!(recurrence.statement().continuity, [rule]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Continuity {
     /// The continuous form.
@@ -18,6 +33,18 @@ pub struct Continuity {
 }
 
 /// A named quantity, linear in the waves.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let [_, _, last] = &recurrence.statement().observables[..] else { panic!("three of them") };
+/// assert_eq!(last.name, "strain_fixed");
+/// let velocity = recurrence.observable("velocity").unwrap();
+/// assert_eq!(recurrence.observation("velocity"), Some(velocity.observation.clone()));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Observable {
     /// Its name.
@@ -31,6 +58,22 @@ pub struct Observable {
 /// ```text
 /// Σ_i coefficient_i · w_i^{(order_i)}(t − delay_i) + forcing(t)
 /// ```
+///
+/// ```
+/// use wavestep::expression::{Expression, Fraction};
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::recurrence::Observation;
+/// use wavestep_polynomial::Symbol;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// // The strain at the fixed end is −2 f, one passage later.
+/// let (f, mu) = (recurrence.wave("f").unwrap(), Fraction::symbol(&Symbol::new("mu").unwrap()));
+/// let terms = vec![(Expression::integer(-2), f, 0, mu)];
+/// let strain = Observation { terms, forcing: Expression::zero() };
+/// assert_eq!(recurrence.observation("strain_fixed"), Some(strain));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Observation {
     /// The delayed waves: coefficient, wave, order of the derivative (0 or 1), delay.
@@ -40,6 +83,31 @@ pub struct Observation {
 }
 
 /// All that a person states of a recurrence.
+///
+/// ```
+/// use wavestep::expression::{Assumptions, Expression, Fraction};
+/// use wavestep::recurrence::{LinearForm, Recurrence, Statement};
+/// use wavestep::solution::Solution;
+/// use wavestep_polynomial::{Rational, Symbol};
+///
+/// // A constant force pushes a bar with a fixed end: f[n] − f[n−1] − 1 = 0.
+/// let mut equation = LinearForm::wave(0, 0);
+/// equation.add_scaled(&LinearForm::wave(0, 1), &Expression::integer(-1), 0);
+/// equation.add_scaled(&LinearForm::forcing(Expression::one()), &Expression::integer(-1), 0);
+/// let statement = Statement {
+///     title: "Constant force".to_owned(),
+///     assumptions: Assumptions::default(),
+///     period: Fraction::constant(&Rational::from_integer(2.into())),
+///     local: Symbol::new("s").unwrap(),
+///     time: Symbol::new("t").unwrap(),
+///     waves: vec!["f".to_owned()],
+///     equations: vec![equation],
+///     continuity: Vec::new(),
+///     observables: Vec::new(),
+/// };
+/// let solution = Solution::new(Recurrence::new(statement).unwrap());
+/// assert_eq!(solution.pieces(0, 0, 2).unwrap(), [1, 2, 3].map(Expression::integer));
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Statement {
     /// What is modelled, in words.
@@ -65,6 +133,19 @@ pub struct Statement {
 }
 
 /// A part of a statement, by its place in the list of its kind.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::recurrence::{Part, Recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// // Stated twice, an equation determines nothing the second time, and one is too many.
+/// let mut statement = recurrence.statement().clone();
+/// statement.equations.push(statement.equations[0].clone());
+/// assert_eq!(Recurrence::new(statement).unwrap_err().part, Part::Equation(2));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Part {
     /// The period.
@@ -78,6 +159,18 @@ pub enum Part {
 }
 
 /// Why a statement is no recurrence that can be solved step by step.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::recurrence::{Fault, Recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let mut statement = recurrence.statement().clone();
+/// statement.continuity.clear();
+/// assert_eq!(Recurrence::new(statement).unwrap_err().fault, Fault::NoStart("f".to_owned()));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Fault {
     /// The period is not certainly positive.
@@ -111,6 +204,21 @@ pub enum Fault {
 }
 
 /// A statement that was refused: the part at fault, and why.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::recurrence::{Fault, InvalidRecurrence, Part, Recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let mut statement = recurrence.statement().clone();
+/// statement.period = -&statement.period;
+/// let invalid = Recurrence::new(statement).unwrap_err();
+/// let expected = InvalidRecurrence { part: Part::Period, fault: Fault::PeriodNotPositive };
+/// assert_eq!(invalid, expected);
+/// assert_eq!(invalid.to_string(), "the period is not certainly positive");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct InvalidRecurrence {
     /// The part at fault.
