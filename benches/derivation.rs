@@ -3,10 +3,11 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::collections::BTreeMap;
 use std::hint::black_box;
+use wavestep::export::{Formula, Head, LATEX_WIDTH, latex};
 use wavestep::language::{Source, read_recurrence};
 use wavestep::recurrence::Recurrence;
 use wavestep::scenes;
-use wavestep::solution::{EchoByEcho, EchoRow, PeriodByPeriod, Solution, expand_piece};
+use wavestep::solution::{EchoByEcho, EchoTable, PeriodByPeriod, Solution};
 
 fn scene(text: &str) -> Recurrence {
     let source = Source::new("bench", text).expect("a text");
@@ -24,18 +25,40 @@ fn another() -> Recurrence {
     )
 }
 
-fn rows(solution: &Solution, through: usize) -> Vec<EchoRow> {
-    solution.rows(0, through).expect("solvable").expect("numbers")
+fn table(solution: &Solution, through: usize) -> EchoTable {
+    solution.table(0, through).expect("solvable").expect("numbers")
 }
 
 /// Streams all terms of f_0 … f_through; the sum of bits keeps the work from being left out.
 fn expand(solution: &Solution, through: usize) -> u64 {
-    let rows = rows(solution, through);
+    let table = table(solution, through);
     let mut bits = 0;
     for n in 0..=through {
-        expand_piece(&rows, n, |term| bits += term.numerator.bits());
+        table.for_each_term(n, |term| bits += term.numerator.bits());
     }
     bits
+}
+
+/// Streams all coefficients of f_0 … f_through in ordinary powers of s and μ, reduced.
+fn reduce(solution: &Solution, through: usize) -> usize {
+    let ordinary = table(solution, through).to_ordinary();
+    let mut limbs = 0;
+    for n in 0..=through {
+        ordinary.for_each_coefficient(n, 2, |term| {
+            let (numerator, denominator) = term.value.limbs();
+            limbs += numerator.len() + denominator.len();
+        });
+    }
+    limbs
+}
+
+/// f_80 derived and written as LaTeX.
+fn formula(recurrence: &Recurrence) -> usize {
+    let solution = Solution::new(recurrence.clone());
+    let piece = &solution.pieces(0, 80, 80).expect("solvable")[0];
+    let local = recurrence.statement().local.clone();
+    let head = Head::Piece { wave: "f".to_owned(), n: 80, local: local.clone() };
+    latex(&[Formula::new(head, piece, &local)], LATEX_WIDTH).len()
 }
 
 fn expanded(c: &mut Criterion) {
@@ -49,6 +72,14 @@ fn expanded(c: &mut Criterion) {
             });
         }
     }
+    let solution = Solution::new(rigid_mass());
+    group.bench_function("rigid mass to 80, reduced in ordinary powers", |b| {
+        b.iter(|| black_box(reduce(&solution, 80)));
+    });
+    let recurrence = rigid_mass();
+    group.bench_function("rigid mass, f_80 as LaTeX", |b| {
+        b.iter(|| black_box(formula(&recurrence)));
+    });
     group.finish();
 }
 
@@ -56,7 +87,7 @@ fn echoes(c: &mut Criterion) {
     let mut group = c.benchmark_group("echoes");
     group.sample_size(10);
     let solution = Solution::new(rigid_mass());
-    group.bench_function("rows to 1000", |b| b.iter(|| black_box(rows(&solution, 1000))));
+    group.bench_function("rows to 1000", |b| b.iter(|| black_box(table(&solution, 1000))));
     let recurrence = rigid_mass();
     group.bench_function("general ring to 80", |b| {
         b.iter(|| {

@@ -8,8 +8,8 @@ use wavestep::language::{Source, read_expression, read_recurrence};
 use wavestep::recurrence::{Fault, LinearForm, Part, Recurrence, WaveIndex};
 use wavestep::scenes;
 use wavestep::solution::{
-    EchoByEcho, EchoRow, EchoTemplate, Family, GeneralForm, Geometric, PeriodByPeriod, Proof,
-    Solution, expand_piece,
+    EchoByEcho, EchoTable, EchoTemplate, Family, GeneralForm, Geometric, PeriodByPeriod, Proof,
+    Solution,
 };
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, binomial, factorial};
 
@@ -325,9 +325,9 @@ fn two_poles_are_unknown() {
 
 // ---- Pieces, term by term ----------------------------------------------------------------------
 
-fn rows(solution: &Solution, wave: WaveIndex, through: usize) -> Vec<EchoRow> {
-    let rows = solution.rows(wave, through).unwrap_or_else(|error| panic!("{error}"));
-    rows.expect("the constants are numbers")
+fn table(solution: &Solution, wave: WaveIndex, through: usize) -> EchoTable {
+    let table = solution.table(wave, through).unwrap_or_else(|error| panic!("{error}"));
+    table.expect("the constants are numbers")
 }
 
 #[test]
@@ -336,11 +336,11 @@ fn streamed_terms_add_up_to_pieces() {
         let solution = Solution::new(scene(name));
         let statement = solution.recurrence().statement();
         let (s, period) = (Fraction::symbol(&statement.local), &statement.period);
-        let rows = rows(&solution, wave, 12);
+        let table = table(&solution, wave, 12);
         let pieces = solution.pieces(wave, 0, 12).unwrap_or_else(|error| panic!("{error}"));
         for (n, piece) in pieces.iter().enumerate() {
             let mut sum = Expression::zero();
-            expand_piece(&rows, n, |term| {
+            table.for_each_term(n, |term| {
                 let (i, l) = (term.local_power, term.period_power);
                 let below = term.denominator * factorial(i) * factorial(l);
                 let value = Rational::new(term.numerator.to_integer(), below);
@@ -353,15 +353,42 @@ fn streamed_terms_add_up_to_pieces() {
     }
 }
 
+/// In ordinary powers the same pieces, each coefficient reduced.
+#[test]
+fn streamed_coefficients_add_up_to_pieces() {
+    for (name, multiple) in [("rigid-mass", 2), ("pulse-shape", 1)] {
+        let solution = Solution::new(scene(name));
+        let statement = solution.recurrence().statement();
+        let (s, period) = (Fraction::symbol(&statement.local), &statement.period);
+        let x = period.scale(&Rational::new(1.into(), multiple.into()));
+        let ordinary = table(&solution, 0, 12).to_ordinary();
+        let pieces = solution.pieces(0, 0, 12).unwrap_or_else(|error| panic!("{error}"));
+        for (n, piece) in pieces.iter().enumerate() {
+            let mut sum = Expression::zero();
+            ordinary.for_each_coefficient(n, multiple, |term| {
+                let value = term.value.to_rational();
+                let (numerator, denominator) = term.value.limbs();
+                assert!(value.numer().magnitude().iter_u64_digits().eq(numerator.iter().copied()));
+                assert!(value.denom().iter_u64_digits().eq(denominator.iter().copied()));
+                let age = Rational::from_integer(term.age.into());
+                let exponent = (&s + &period.scale(&age)).scale(term.rate);
+                let powers = &s.pow(term.local_power) * &x.pow(term.period_power);
+                sum.add_term(exponent, powers.scale(&value));
+            });
+            assert_eq!(sum, *piece, "{name}: {n}");
+        }
+    }
+}
+
 /// The coefficient of `e^{−s−mD} s^j/j! D^l/l!` in `f_n` is `C(k,i) (−2)^i m^l`, `k = n − m`,
 /// `i = j + l`; with `D = 2μ` the period form of 6.80–6.82.
 #[test]
 fn rigid_mass_period_form_is_closed() {
     let solution = Solution::new(scene("rigid-mass"));
-    let rows = rows(&solution, 0, 80);
+    let table = table(&solution, 0, 80);
     for n in [0usize, 1, 7, 30] {
         let mut count = 0;
-        expand_piece(&rows, n, |term| {
+        table.for_each_term(n, |term| {
             let (m, j, l) = (term.age, term.local_power, term.period_power);
             let (k, i) = (n as u32 - m, j + l);
             let power = |base: i64, exponent: u32| Integer::from(base).pow(exponent);
@@ -376,7 +403,7 @@ fn rigid_mass_period_form_is_closed() {
         assert_eq!(count, expected, "n = {n}");
     }
     let mut count = 0usize;
-    expand_piece(&rows, 80, |_| count += 1);
+    table.for_each_term(80, |_| count += 1);
     assert_eq!(count, 88_641);
 }
 

@@ -435,8 +435,8 @@ impl<'a> Evaluator<'a> {
         }
         // With some in reserve: times are often asked for in ascending order.
         let through = (last + last / 2).max(16);
-        let echoes = Rc::new(match self.solution.rows(wave, through)? {
-            Some(rows) => Echoes::Rows(rows.into_iter().map(shared).collect()),
+        let echoes = Rc::new(match self.solution.table(wave, through)? {
+            Some(table) => Echoes::Rows(table.into_rows().into_iter().map(shared).collect()),
             None => Echoes::Expressions(self.solution.echoes(wave, through)?),
         });
         self.echoes.borrow_mut().insert(wave, (through, echoes.clone()));
@@ -445,7 +445,7 @@ impl<'a> Evaluator<'a> {
 }
 
 fn shared(row: EchoRow) -> Row {
-    row.parts.into_iter().map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect()
+    row.into_parts().into_iter().map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect()
 }
 
 /// Adds the echo, or with `order` 1 its derivative `Σ e^{λx} (P' + λP)`, at `x`.

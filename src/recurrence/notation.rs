@@ -53,7 +53,7 @@ impl SourceNotation {
 ///     strain.multiply(Symbol::new(name).unwrap(), power);
 /// }
 /// assert_eq!(strain.powers.len(), 3);
-/// assert_eq!(strain.to_fraction().to_string(), "(X)/(A*E)");
+/// assert_eq!(strain.to_fraction().to_string(), "(X)/(A)/(E)");
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SourceProduct {

@@ -86,7 +86,7 @@ pub struct Observation {
 ///
 /// ```
 /// use wavestep::expression::{Assumptions, Expression, Fraction};
-/// use wavestep::recurrence::{LinearForm, Recurrence, Statement};
+/// use wavestep::recurrence::{LinearForm, Recurrence, SourceNotation, Statement};
 /// use wavestep::solution::Solution;
 /// use wavestep_polynomial::{Rational, Symbol};
 ///
@@ -104,6 +104,7 @@ pub struct Observation {
 ///     equations: vec![equation],
 ///     continuity: Vec::new(),
 ///     observables: Vec::new(),
+///     notation: SourceNotation::default(),
 /// };
 /// let solution = Solution::new(Recurrence::new(statement).unwrap());
 /// assert_eq!(solution.pieces(0, 0, 2).unwrap(), [1, 2, 3].map(Expression::integer));

@@ -13,8 +13,8 @@ mod general;
 mod geometric;
 mod observed;
 mod period;
-mod rows;
 mod solved;
+mod table;
 mod template;
 
 pub use echo::EchoByEcho;
@@ -23,6 +23,6 @@ pub use general::{GeneralForm, Proof, Unknown};
 pub use geometric::{Geometric, GeometricTerm};
 pub use observed::{MixedOffsets, ObservedPieces};
 pub use period::{KeptEnds, PeriodByPeriod};
-pub use rows::{EchoRow, ExpandedTerm, expand_piece};
 pub use solved::Solution;
+pub use table::{Coefficient, EchoRow, EchoTable, ExpandedTerm, OrdinaryTable};
 pub use template::{EchoTemplate, Family};

@@ -6,8 +6,9 @@ use crate::solution::echo::EchoByEcho;
 use crate::solution::error::{SolveError, check_degree};
 use crate::solution::general::{GeneralForm, Unknown};
 use crate::solution::period::{KeptEnds, PeriodByPeriod};
-use crate::solution::rows::EchoRow;
+use crate::solution::table::{EchoRow, EchoTable};
 use crate::solution::template::EchoTemplate;
+use num_integer::Integer as _;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Integer, Rational, Univariate};
@@ -122,7 +123,7 @@ impl Solution {
         Ok((pieces, solver.kept_ends().cloned().unwrap_or_default()))
     }
 
-    /// The echoes `φ_0 … φ_through` of a wave as rows of integers; `None` where a constant is no
+    /// The echoes `φ_0 … φ_through` of a wave as a table of integers; `None` where a constant is no
     /// rational number.
     ///
     /// # Errors
@@ -130,32 +131,23 @@ impl Solution {
     ///
     /// # Cost
     /// A product and a sum for each coefficient where the echoes have a closed form.
-    pub fn rows(
-        &self,
-        wave: WaveIndex,
-        through: usize,
-    ) -> Result<Option<Vec<EchoRow>>, SolveError> {
+    pub fn table(&self, wave: WaveIndex, through: usize) -> Result<Option<EchoTable>, SolveError> {
         let Some(template) = self.template(wave) else {
-            let transforms = self.expanded(through)?;
-            return Ok(transforms.transforms(wave).iter().map(row_of).collect());
+            let solver = self.expanded(through)?;
+            let rows: Option<_> = solver.transforms(wave).iter().map(row_of).collect();
+            return Ok(rows.map(EchoTable::new));
         };
         let local = &self.recurrence.statement().local;
         let first = template.first.iter().take(through + 1);
         let mut rows: Option<Vec<EchoRow>> =
             first.map(|echo| row_of(&Transform::of(echo, local))).collect();
         if template.first.len() <= through {
-            let later = template.numeric_rows(through);
-            rows = rows.zip(later).map(|(mut rows, (rate, later))| {
-                rows.extend(later.into_iter().map(|polynomial| EchoRow {
-                    parts: match polynomial.is_zero() {
-                        true => Vec::new(),
-                        false => vec![(-&rate, polynomial)],
-                    },
-                }));
+            rows = rows.zip(template.numeric_rows(through)).map(|(mut rows, (rate, later))| {
+                rows.extend(later.into_iter().map(|row| EchoRow::new(vec![(-&rate, row)])));
                 rows
             });
         }
-        Ok(rows)
+        Ok(rows.map(EchoTable::new))
     }
 }
 
@@ -164,13 +156,9 @@ fn row_of(transform: &Transform) -> Option<EchoRow> {
     let parts = transform.poles().map(|(pole, coefficients)| {
         let values = coefficients.iter().map(|c| c.as_constant());
         let values = values.collect::<Option<Vec<Rational>>>()?;
-        let common = values
-            .iter()
-            .fold(Integer::from(1), |d, value| num_integer::Integer::lcm(&d, value.denom()));
+        let common = values.iter().fold(Integer::from(1), |d, value| d.lcm(value.denom()));
         let integers = values.iter().map(|value| value.numer() * (&common / value.denom()));
         Some((pole.as_constant()?, Univariate::new(integers, common.clone())))
     });
-    let mut row = EchoRow { parts: parts.collect::<Option<_>>()? };
-    row.parts.retain(|(_, polynomial)| !polynomial.is_zero());
-    Some(row)
+    parts.collect::<Option<_>>().map(EchoRow::new)
 }

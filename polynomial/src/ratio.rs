@@ -1,0 +1,173 @@
+//! Reduced fractions that are multiplied by fractions of words, in place.
+
+use crate::integer::fraction;
+use num_bigint::{BigInt, BigUint, Sign};
+use num_rational::BigRational;
+use num_traits::Zero;
+
+/// A rational number `±numerator/denominator` that is multiplied by small fractions: a step takes
+/// gcds of words only, and no allocation once the limbs have room.
+///
+/// # Invariants
+/// - numerator and denominator are coprime, their highest limbs not zero;
+/// - zero has no limbs in the numerator, the denominator 1 and no sign.
+///
+/// ```
+/// use wavestep_polynomial::{Rational, WordRatio};
+/// let mut value = WordRatio::from(&Rational::new(5.into(), 6.into()));
+/// value.multiply(4, 15); // 5/6 · 4/15
+/// assert_eq!(value.to_rational(), Rational::new(2.into(), 9.into()));
+/// ```
+#[derive(PartialEq, Eq, Debug)]
+pub struct WordRatio {
+    negative: bool,
+    numerator: Vec<u64>,
+    denominator: Vec<u64>,
+}
+
+impl Clone for WordRatio {
+    fn clone(&self) -> WordRatio {
+        WordRatio {
+            numerator: self.numerator.clone(),
+            denominator: self.denominator.clone(),
+            ..*self
+        }
+    }
+
+    /// Without an allocation where the limbs have room.
+    fn clone_from(&mut self, other: &WordRatio) {
+        self.negative = other.negative;
+        self.numerator.clone_from(&other.numerator);
+        self.denominator.clone_from(&other.denominator);
+    }
+}
+
+impl From<&BigRational> for WordRatio {
+    fn from(value: &BigRational) -> WordRatio {
+        WordRatio {
+            negative: value.numer().sign() == Sign::Minus,
+            numerator: value.numer().iter_u64_digits().collect(),
+            denominator: value.denom().iter_u64_digits().collect(),
+        }
+    }
+}
+
+impl WordRatio {
+    /// Multiplies by `a/b`. Four passes over the limbs and gcds of words.
+    ///
+    /// # Panics
+    /// Where `b` is zero.
+    pub fn multiply(&mut self, a: u32, b: u32) {
+        assert!(b > 0, "a division by zero");
+        if a == 0 || self.numerator.is_empty() {
+            (self.negative, self.numerator, self.denominator) = (false, Vec::new(), vec![1]);
+            return;
+        }
+        let common = gcd(a, b);
+        let (a, b) = (a / common, b / common);
+        let above = gcd(b, remainder(&self.numerator, b));
+        let below = gcd(a, remainder(&self.denominator, a));
+        divide(&mut self.numerator, above);
+        divide(&mut self.denominator, below);
+        multiply(&mut self.numerator, a / below);
+        multiply(&mut self.denominator, b / above);
+    }
+
+    /// Whether this is less than 0. O(1).
+    pub fn is_negative(&self) -> bool {
+        self.negative
+    }
+
+    /// The limbs of the numerator's magnitude and of the denominator in base `2^64`, the lowest
+    /// first. O(1).
+    pub fn limbs(&self) -> (&[u64], &[u64]) {
+        (&self.numerator, &self.denominator)
+    }
+
+    /// The number itself. O(limbs).
+    pub fn to_rational(&self) -> BigRational {
+        let integer = |limbs: &[u64], sign: Sign| {
+            let halves = limbs.iter().flat_map(|limb| [*limb as u32, (*limb >> 32) as u32]);
+            BigInt::from_biguint(sign, BigUint::new(halves.collect()))
+        };
+        let sign = if self.negative { Sign::Minus } else { Sign::Plus };
+        let numerator = integer(&self.numerator, sign);
+        let denominator = integer(&self.denominator, Sign::Plus);
+        if numerator.is_zero() { BigRational::zero() } else { fraction(numerator, denominator) }
+    }
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+/// The next 64 bits of a division by a word: the quotient, and the rest.
+fn step(rest: u64, limb: u64, word: u64) -> (u64, u64) {
+    let high = rest << 32 | limb >> 32;
+    let low = (high % word) << 32 | (limb & u64::from(u32::MAX));
+    (((high / word) << 32) | (low / word), low % word)
+}
+
+fn remainder(limbs: &[u64], word: u32) -> u32 {
+    if word == 1 {
+        return 0;
+    }
+    let rest = limbs.iter().rev().fold(0, |rest, limb| step(rest, *limb, word.into()).1);
+    rest as u32
+}
+
+/// Divides by a word that leaves no rest.
+fn divide(limbs: &mut Vec<u64>, word: u32) {
+    if word == 1 {
+        return;
+    }
+    let mut rest = 0;
+    for limb in limbs.iter_mut().rev() {
+        (*limb, rest) = step(rest, *limb, word.into());
+    }
+    debug_assert_eq!(rest, 0);
+    if limbs.last() == Some(&0) {
+        limbs.pop();
+    }
+}
+
+fn multiply(limbs: &mut Vec<u64>, word: u32) {
+    if word == 1 {
+        return;
+    }
+    let mut carry = 0;
+    for limb in limbs.iter_mut() {
+        let product = u128::from(*limb) * u128::from(word) + u128::from(carry);
+        (*limb, carry) = (product as u64, (product >> 64) as u64);
+    }
+    if carry > 0 {
+        limbs.push(carry);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn products_stay_reduced(
+            start in (any::<i128>(), 1..=i128::MAX),
+            steps in prop::collection::vec((any::<u16>(), 1..=u32::MAX), 0..12),
+        ) {
+            let mut exact = BigRational::new(start.0.into(), start.1.into());
+            let mut value = WordRatio::from(&exact);
+            for (a, b) in steps {
+                value.multiply(a.into(), b);
+                exact *= BigRational::new(a.into(), b.into());
+                prop_assert_eq!(value.to_rational(), exact.clone());
+                // Reduced, and no limb too many: the only representation.
+                prop_assert_eq!(&value, &WordRatio::from(&exact));
+                let mut copy = WordRatio::from(&BigRational::zero());
+                copy.clone_from(&value);
+                prop_assert_eq!(&copy, &value);
+            }
+        }
+    }
+}

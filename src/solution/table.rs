@@ -1,0 +1,192 @@
+//! Echoes as rows of integers: the factored table from which pieces are streamed term by term.
+
+use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate, WordRatio};
+
+/// One echo whose constants are all rational numbers,
+///
+/// ```text
+/// φ(x) = Σ_i e^{λ_i x} P_i(x)
+/// ```
+///
+/// with each `P_i` a row of integers in divided powers.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct EchoRow {
+    parts: Vec<(Rational, Univariate)>,
+}
+
+impl EchoRow {
+    /// `Σ_i e^{λ_i x} P_i(x)`, the `λ_i` pairwise different.
+    pub(crate) fn new(mut parts: Vec<(Rational, Univariate)>) -> EchoRow {
+        parts.retain(|(_, polynomial)| !polynomial.is_zero());
+        EchoRow { parts }
+    }
+
+    /// Exponents `λ_i`, pairwise different, and polynomials `P_i`, none zero.
+    pub fn parts(&self) -> &[(Rational, Univariate)] {
+        &self.parts
+    }
+
+    pub(crate) fn into_parts(self) -> Vec<(Rational, Univariate)> {
+        self.parts
+    }
+}
+
+/// One term of a piece expanded in the local variable `s` and the period `D`:
+///
+/// ```text
+/// numerator/denominator · e^{λ (s + mD)} · s^i/i! · D^l/l!
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ExpandedTerm<'a> {
+    /// The exponent `λ`.
+    pub rate: &'a Rational,
+    /// The number `m` of periods that the echo is old.
+    pub age: u32,
+    /// The power of the local variable.
+    pub local_power: u32,
+    /// The power of the period.
+    pub period_power: u32,
+    /// The integer in front.
+    pub numerator: IntegerRef<'a>,
+    /// The shared denominator of the row.
+    pub denominator: &'a Integer,
+}
+
+/// One coefficient of a piece in ordinary powers of the local variable `s` and of `x`, where the
+/// period is `D = c x` with a whole number c:
+///
+/// ```text
+/// value · e^{λ (s + mD)} · s^i · x^l
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Coefficient<'a> {
+    /// The exponent `λ`.
+    pub rate: &'a Rational,
+    /// The number `m` of periods that the echo is old.
+    pub age: u32,
+    /// The power of the local variable.
+    pub local_power: u32,
+    /// The power of `x`.
+    pub period_power: u32,
+    /// The reduced number in front, not zero.
+    pub value: &'a WordRatio,
+}
+
+/// The echoes `φ_0 … φ_N` of a wave whose constants are all rational numbers: the factored form of
+/// all its pieces up to the N-th, about N²/2 integers from which the N³/6 terms of a piece follow
+/// by a product each.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EchoTable {
+    rows: Vec<EchoRow>,
+}
+
+impl EchoTable {
+    pub(crate) fn new(rows: Vec<EchoRow>) -> EchoTable {
+        EchoTable { rows }
+    }
+
+    pub(crate) fn into_rows(self) -> Vec<EchoRow> {
+        self.rows
+    }
+
+    /// The echoes.
+    pub fn rows(&self) -> &[EchoRow] {
+        &self.rows
+    }
+
+    /// Calls `visit` for every term of the n-th piece `Σ_k φ_k(s + (n−k)D)`.
+    ///
+    /// By Taylor's theorem a coefficient `c_{k,j}` of `x^j/j!` gives, with `m = n−k` and `j = i+l`,
+    /// the integer `c_{k,i+l} m^l`: one product a term, and nothing is added up, since no two terms
+    /// agree in `λ, m, i, l`. Zero coefficients are passed over.
+    ///
+    /// # Panics
+    /// Where an echo up to the n-th is missing.
+    pub fn for_each_term(&self, n: usize, mut visit: impl FnMut(ExpandedTerm<'_>)) {
+        let mut spare = IntegerRow::default();
+        for (age, rate, polynomial) in self.parts(n) {
+            let denominator = polynomial.denominator();
+            let mut scaled = polynomial.coefficients().clone();
+            let count = if age == 0 { 1 } else { scaled.len() };
+            for period_power in 0..count as u32 {
+                for (local_power, numerator) in (0..).zip(scaled.iter()) {
+                    if !numerator.is_zero() {
+                        visit(ExpandedTerm {
+                            rate,
+                            age,
+                            local_power,
+                            period_power,
+                            numerator,
+                            denominator,
+                        });
+                    }
+                }
+                scaled.advance(u64::from(age), &mut spare);
+            }
+        }
+    }
+
+    /// Ages, rates and polynomials of the echoes that make up the n-th piece.
+    fn parts(&self, n: usize) -> impl Iterator<Item = (u32, &Rational, &Univariate)> {
+        self.rows[..=n].iter().enumerate().flat_map(move |(k, row)| {
+            let age = u32::try_from(n - k).expect("orders fit 32 bits");
+            row.parts.iter().map(move |(rate, polynomial)| (age, rate, polynomial))
+        })
+    }
+
+    /// The table in ordinary powers. One gcd a coefficient.
+    pub fn to_ordinary(&self) -> OrdinaryTable {
+        let ratios = |polynomial: &Univariate| {
+            let count = polynomial.coefficients().len();
+            (0..count).map(|j| WordRatio::from(&polynomial.coefficient(j))).collect()
+        };
+        let row = |row: &EchoRow| {
+            row.parts.iter().map(|(rate, polynomial)| (rate.clone(), ratios(polynomial))).collect()
+        };
+        OrdinaryTable { rows: self.rows.iter().map(row).collect() }
+    }
+}
+
+/// The coefficients of an [`EchoTable`] in ordinary powers, reduced.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct OrdinaryTable {
+    rows: Vec<Vec<(Rational, Vec<WordRatio>)>>,
+}
+
+impl OrdinaryTable {
+    /// Calls `visit` for every coefficient of the n-th piece in ordinary powers, with the period
+    /// `D = multiple · x`.
+    ///
+    /// With `m = n−k` and `j = i+l` it is `a_{k,j} C(j,l) (cm)^l`, where `a_{k,j}` belongs to `x^j`
+    /// in the k-th echo: from `l` to `l+1` it changes by `cm (j−l)/(l+1)`, so that only gcds of
+    /// words are taken.
+    ///
+    /// # Panics
+    /// Where an echo up to the n-th is missing, or `n · multiple · N` does not fit 32 bits.
+    pub fn for_each_coefficient(
+        &self,
+        n: usize,
+        multiple: u32,
+        mut visit: impl FnMut(Coefficient<'_>),
+    ) {
+        let mut value = WordRatio::from(&Rational::default());
+        for (k, row) in self.rows[..=n].iter().enumerate() {
+            let age = u32::try_from(n - k).expect("orders fit 32 bits");
+            let step = age.checked_mul(multiple).expect("a delay fits 32 bits");
+            for (rate, start) in row {
+                for (j, start) in (0_u32..).zip(start) {
+                    value.clone_from(start);
+                    for l in 0..=j {
+                        if value.limbs().0.is_empty() {
+                            break;
+                        }
+                        let (local_power, period_power) = (j - l, l);
+                        visit(Coefficient { rate, age, local_power, period_power, value: &value });
+                        let above = step.checked_mul(j - l).expect("a step fits 32 bits");
+                        value.multiply(above, l + 1);
+                    }
+                }
+            }
+        }
+    }
+}
