@@ -14,11 +14,17 @@
 //! # Ok::<(), language::Diagnostic>(())
 //! ```
 
+/// The examples of the README are run as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod ball;
 pub mod evaluate;
 pub mod export;
 pub mod expression;
 pub mod language;
+pub mod lock;
 pub mod recurrence;
 pub mod scenes;
 pub mod solution;

@@ -1,71 +1,125 @@
 //! What the documents show is what the command does: every `console` block is run, every `wave`
-//! block is read.
+//! block is read, and the Rust of the README is an example that is built.
+//!
+//! With `UPDATE_DOCUMENTS=1` the output in the documents is written anew; read it before you keep it.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use wavestep::language::{Source, read_recurrence};
 
-const DOCUMENTS: [&str; 3] = ["README.md", "docs/language.md", "docs/output.md"];
+const DOCUMENTS: [&str; 4] =
+    ["README.md", "docs/language.md", "docs/output.md", "docs/tutorial.md"];
 
-/// The fenced blocks of a language in a document.
-fn blocks(document: &str, language: &str) -> Vec<String> {
-    let mut blocks = Vec::new();
-    let mut current: Option<String> = None;
-    let opening = format!("```{language}");
-    for line in document.lines() {
-        match (&mut current, line.trim_end()) {
-            (None, line) if line == opening => current = Some(String::new()),
-            (Some(_), "```") => blocks.extend(current.take()),
-            (Some(block), line) => {
-                block.push_str(line);
-                block.push('\n');
-            }
-            (None, _) => {}
-        }
-    }
-    blocks
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
 }
 
 fn read(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
-    std::fs::read_to_string(path).expect("the document exists")
+    fs::read_to_string(path(name)).expect("the document exists")
 }
 
-/// A `console` block is commands after `$ wavestep`, each with its output.
+/// A fenced block: what stands behind its fence, and its lines.
+struct Block<'a> {
+    info: &'a str,
+    lines: Vec<&'a str>,
+}
+
+/// A document as text between blocks, and blocks.
+fn blocks(document: &str) -> Vec<Result<Block<'_>, &str>> {
+    let mut parts = Vec::new();
+    let mut current: Option<Block<'_>> = None;
+    for line in document.lines() {
+        match (&mut current, line.strip_prefix("```")) {
+            (None, Some(info)) => current = Some(Block { info, lines: Vec::new() }),
+            (None, None) => parts.push(Err(line)),
+            (Some(_), Some("")) => parts.extend(current.take().map(Ok)),
+            (Some(block), _) => block.lines.push(line),
+        }
+    }
+    assert!(current.is_none(), "a block is not closed");
+    parts
+}
+
+/// The arguments of a command; single quotes keep blanks.
+fn arguments(line: &str) -> Vec<String> {
+    let quoted = line.split('\'').enumerate();
+    let words = quoted.flat_map(|(i, part)| match i % 2 {
+        0 => part.split_whitespace().map(str::to_owned).collect::<Vec<_>>(),
+        _ => vec![part.to_owned()],
+    });
+    words.collect()
+}
+
+/// A command with what it prints.
+fn run(line: &str, folder: &Path) -> String {
+    let arguments = arguments(line.strip_prefix("$ wavestep ").expect("a command of wavestep"));
+    let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
+        .current_dir(folder)
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the command runs");
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    format!("{line}\n{}{}", text(output.stdout), text(output.stderr))
+}
+
+/// The document with the real output of its commands, and how many they are. Files that it names,
+/// as in "```wave mine.wave", are written first.
+fn with_real_output(name: &str) -> (String, usize) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name.replace('/', "-"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    let document = read(name);
+    let (mut real, mut commands) = (String::new(), 0);
+    for part in blocks(&document) {
+        let Block { info, lines } = match part {
+            Ok(block) => block,
+            Err(line) => {
+                real.push_str(&format!("{line}\n"));
+                continue;
+            }
+        };
+        if let Some(file) = info.strip_prefix("wave ") {
+            fs::write(folder.join(file), lines.join("\n") + "\n").expect("a file");
+        }
+        let text: String = match info {
+            "console" => {
+                let asked = lines.iter().filter(|line| line.starts_with("$ "));
+                asked.inspect(|_| commands += 1).map(|line| run(line, &folder)).collect()
+            }
+            _ => lines.iter().map(|line| format!("{line}\n")).collect(),
+        };
+        real.push_str(&format!("```{info}\n{text}```\n"));
+    }
+    (real, commands)
+}
+
 #[test]
 fn console_blocks_show_the_real_output() {
     let mut shown = 0;
     for name in DOCUMENTS {
-        for block in blocks(&read(name), "console") {
-            let mut expected = String::new();
-            let mut actual = String::new();
-            for line in block.lines() {
-                expected.push_str(line);
-                expected.push('\n');
-                let Some(arguments) = line.strip_prefix("$ wavestep ") else { continue };
-                let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
-                    .current_dir(env!("CARGO_MANIFEST_DIR"))
-                    .args(arguments.split_whitespace())
-                    .output()
-                    .expect("the command runs");
-                let text = String::from_utf8(output.stdout).expect("text");
-                let errors = String::from_utf8(output.stderr).expect("text");
-                actual.push_str(&format!("{line}\n{text}{errors}"));
-                shown += 1;
-            }
-            assert_eq!(actual, expected, "in {name}");
+        let (real, commands) = with_real_output(name);
+        shown += commands;
+        if real != read(name) && std::env::var_os("UPDATE_DOCUMENTS").is_some() {
+            fs::write(path(name), &real).expect("the document can be written");
         }
+        assert_eq!(real, read(name), "in {name}");
     }
-    assert!(shown >= 3, "the documents show {shown} commands");
+    assert!(shown >= 10, "the documents show {shown} commands");
 }
 
 #[test]
 fn wave_blocks_are_recurrences() {
     let mut read_blocks = 0;
     for name in DOCUMENTS {
-        for block in blocks(&read(name), "wave") {
-            let source = Source::new(name, block.as_bytes()).expect("a text");
+        let document = read(name);
+        for block in blocks(&document).into_iter().flatten() {
+            if block.info.split(' ').next() != Some("wave") {
+                continue;
+            }
+            let source = Source::new(name, block.lines.join("\n")).expect("a text");
             if let Err(diagnostic) = read_recurrence(&source, &BTreeMap::new()) {
                 panic!("in {name}:\n{diagnostic}");
             }
@@ -73,4 +127,18 @@ fn wave_blocks_are_recurrences() {
         }
     }
     assert!(read_blocks >= 2);
+}
+
+#[test]
+fn the_rust_of_the_readme_is_the_example() {
+    let readme = read("README.md");
+    let rust: Vec<String> = blocks(&readme)
+        .into_iter()
+        .flatten()
+        .filter(|block| block.info == "rust")
+        .map(|block| block.lines.join("\n") + "\n")
+        .collect();
+    let example = read("examples/derive.rs");
+    let (_, code) = example.split_once("\n\n").expect("a comment, then the code");
+    assert_eq!(rust, [code]);
 }

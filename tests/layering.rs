@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("ball", &[]),
     ("expression", &[]),
     ("recurrence", &["expression"]),
@@ -16,6 +16,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
     ("evaluate", &["ball", "expression", "recurrence", "solution"]),
     ("export", &["expression", "recurrence", "solution"]),
     ("language", &["expression", "recurrence"]),
+    ("lock", &["evaluate", "export", "expression", "language", "solution"]),
     ("scenes", &[]),
     (
         "command",
@@ -25,6 +26,7 @@ const LAYERS: [(&str, &[&str]); 9] = [
             "export",
             "expression",
             "language",
+            "lock",
             "recurrence",
             "scenes",
             "solution",

@@ -30,8 +30,12 @@ pub enum Subcommand {
     Eval(Eval),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
+    /// Lock derived forms and certified values in a file, for `check --locked`
+    Lock(Lock),
     /// List the built-in scenes, or show the text of one
     Scenes(Scenes),
+    /// Write the completions of a shell, or the manual page
+    Generate(Generate),
 }
 
 /// A scene, with values in place of symbols.
@@ -201,8 +205,68 @@ pub struct Scenes {
 
 /// Options of `check`.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  wavestep check my.wave\n  wavestep check rigid-mass")]
+#[command(after_help = "Examples:\n  \
+    wavestep check my.wave\n  \
+    wavestep check rigid-mass\n  \
+    wavestep check my.wave --locked my.lock")]
 pub struct Check {
     #[command(flatten)]
     pub scene: Scene,
+    /// Compare with what `wavestep lock` wrote to this file, with the values that stand there
+    #[arg(long, value_name = "FILE", conflicts_with = "set")]
+    pub locked: Option<String>,
+}
+
+/// Options of `lock`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep lock my.wave --through 4 -o my.lock\n  \
+    wavestep lock rigid-mass --through 2 --set mu=1/4 --at 33/10 --at 5\n  \
+    wavestep check my.wave --locked my.lock\n\n\
+    The file holds the pieces of all waves on the periods 0 … N, and at each time the values of all\n\
+    waves and observables, just after arrivals. A file that exists is replaced.")]
+pub struct Lock {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Lock the pieces on the periods 0 … N
+    #[arg(long, value_name = "N")]
+    pub through: usize,
+    /// Lock values at this scene time; may be given several times
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// How many significant digits values have
+    #[arg(long, value_name = "D", default_value_t = 20)]
+    pub digits: usize,
+    /// The file to write; standard output without it
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<String>,
+}
+
+/// Options of `generate`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep generate bash > /etc/bash_completion.d/wavestep\n  \
+    wavestep generate zsh > ~/.zfunc/_wavestep\n  \
+    wavestep generate manual > wavestep.1 && man ./wavestep.1")]
+pub struct Generate {
+    /// What to write
+    #[arg(value_enum)]
+    pub what: Generated,
+}
+
+/// What `generate` writes.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Generated {
+    /// Completions for bash
+    Bash,
+    /// Completions for elvish
+    Elvish,
+    /// Completions for fish
+    Fish,
+    /// Completions for PowerShell
+    Powershell,
+    /// Completions for zsh
+    Zsh,
+    /// The manual page, for man
+    Manual,
 }

@@ -1,8 +1,10 @@
-//! `check`: a scene is read, ordered, and derived in two ways that must agree.
+//! `check`: a scene is read, ordered, and derived in two ways that must agree; or it is compared
+//! with what is locked.
 
 use super::arguments::Check;
 use super::failure::Failure;
 use super::input;
+use super::lock;
 use wavestep::export;
 use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
 
@@ -11,6 +13,9 @@ const PERIODS: usize = 6;
 
 /// Checks a scene and says what was found.
 pub fn run(options: &Check) -> Result<String, Failure> {
+    if let Some(file) = &options.locked {
+        return lock::check(&options.scene.scene, file);
+    }
     let recurrence = input::recurrence(&options.scene)?;
     let statement = recurrence.statement();
     let mut by_period = PeriodByPeriod::new(&recurrence);

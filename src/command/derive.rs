@@ -1,6 +1,7 @@
 //! `derive`: exact wave functions as text, LaTeX or JSON.
 
 use super::arguments::{Derive, DeriveFormat, Form};
+use super::bounds;
 use super::failure::Failure;
 use super::input;
 use super::progress;
@@ -10,9 +11,6 @@ use wavestep::expression::{Expression, Fraction};
 use wavestep::language;
 use wavestep::recurrence::{Observable, Recurrence, WaveIndex};
 use wavestep::solution::{GeneralForm, MixedOffsets, ObservedPieces, Solution, Unknown};
-
-/// The most terms that are derived at once.
-const MAX_TERMS: u128 = 2_000_000;
 
 /// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
@@ -78,29 +76,22 @@ fn observable(recurrence: &Recurrence, name: &str) -> Result<Observable, Failure
     }
 }
 
-/// Refuses before work starts what would have too many terms: a piece of a wave with one pole has
-/// about n³/6, an echo n.
+/// Refuses before work starts what would have too many terms.
 fn refuse_explosion(
     recurrence: &Recurrence,
     options: &Derive,
     parts: usize,
 ) -> Result<(), Failure> {
-    let last = options.piece.unwrap_or(options.through) as u128;
-    let differential = recurrence.steps().iter().any(|step| step.start.is_some());
-    let one = match (options.form, differential) {
-        (Form::Echo, true) => last + 1,
-        (_, true) => (last + 1).saturating_pow(3) / 6 + 1,
-        (_, false) => last + 1,
+    let last = options.piece.unwrap_or(options.through);
+    let one = match options.form {
+        Form::Echo => last as u128 + 1,
+        Form::Period | Form::Piecewise => bounds::terms_of_piece(recurrence, last),
     };
-    let all = if options.piece.is_some() { one } else { one.saturating_mul(last / 4 + 1) };
-    let terms = all.saturating_mul(parts.max(1) as u128);
-    if terms <= MAX_TERMS {
-        return Ok(());
-    }
-    let message =
-        format!("this would have about {terms:.1e} terms; at most {MAX_TERMS} are derived at once");
-    let message = message.replace(".0e", "e");
-    Err(Failure::usage(message, "ask for a smaller order, one wave, one piece, or --form echo"))
+    let terms = match options.piece {
+        Some(_) => one.saturating_mul(parts.max(1) as u128),
+        None => bounds::terms_through(one, last, parts),
+    };
+    bounds::refuse_terms(terms, "ask for a smaller order, one wave, one piece, or --form echo")
 }
 
 /// The functions asked for, of one wave or observable.

@@ -99,14 +99,8 @@ fn time_on_period(
 
 /// The scene times asked for.
 fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
-    let early = |time: &BigRational| {
-        Failure::usage(format!("the time {time} lies before the start"), "give times from 0 on")
-    };
     if let (Some(from), Some(to), Some(points)) = (&options.from, &options.to, options.points) {
-        let (from, to) = (input::number("--from", from)?, input::number("--to", to)?);
-        if from.is_negative() {
-            return Err(early(&from));
-        }
+        let (from, to) = (input::time("--from", from)?, input::number("--to", to)?);
         if to < from {
             let message = format!("the window from {from} to {to} is empty");
             return Err(Failure::usage(message, "give --from before --to"));
@@ -123,40 +117,13 @@ fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
         let remedy = "give --at T, or --from T --to T --points N, or --piece N --local S";
         return Err(Failure::usage("no time is given", remedy));
     }
-    let time = |text: &String| {
-        let time = input::number("--at", text)?;
-        if time.is_negative() { Err(early(&time)) } else { Ok(time) }
-    };
-    options.at.iter().map(time).collect()
-}
-
-/// The digits of a value, and whether they are all of it.
-fn decimal(value: &Value, digits: usize) -> (Decimal, Exactness) {
-    match value {
-        Value::Exact(value) => Decimal::from_rational(value, digits),
-        Value::Certified(certified) => (certified.decimal.clone(), Exactness::Rounded),
-    }
-}
-
-/// The longest fraction that is shown beside its decimals; JSON has them all.
-const MAX_FRACTION: usize = 60;
-
-/// A value in plain text; an exact value that has more digits is given as a fraction as well.
-fn value_text(value: &Value, digits: usize) -> String {
-    match (value, decimal(value, digits)) {
-        (Value::Exact(value), (_, Exactness::Exact)) => value.to_string(),
-        (Value::Exact(value), (decimal, _)) => match value.to_string() {
-            fraction if fraction.len() <= MAX_FRACTION => format!("{decimal} = {fraction}"),
-            _ => decimal.to_string(),
-        },
-        (_, (decimal, _)) => decimal.to_string(),
-    }
+    options.at.iter().map(|time| input::time("--at", time)).collect()
 }
 
 fn text(rows: &[Row], options: &Eval) -> String {
     let limit = if options.side == SideOption::Left { "-" } else { "" };
     let line = |row: &Row| {
-        let value = value_text(&row.value, options.digits);
+        let value = row.value.to_text(options.digits);
         format!("{}({}{limit}) = {value}\n", options.quantity, row.time)
     };
     rows.iter().map(line).collect()
@@ -164,7 +131,7 @@ fn text(rows: &[Row], options: &Eval) -> String {
 
 fn csv(rows: &[Row], digits: usize) -> String {
     let line = |row: &Row| {
-        let (decimal, exactness) = decimal(&row.value, digits);
+        let (decimal, exactness) = row.value.decimal(digits);
         let exact = exactness == Exactness::Exact;
         let time = Decimal::from_rational(&row.time, digits.max(17)).0;
         format!("{},{time},{decimal},{exact}\n", row.time)
@@ -191,7 +158,7 @@ fn json_document(solution: &Solution, rows: &[Row], options: &Eval) -> String {
 /// `value` has the digits asked for, correctly rounded. `midpoint` and `radius` enclose the number
 /// with every digit that is proven; an exact value is given as a fraction instead.
 fn json_value(row: &Row, digits: usize) -> Json {
-    let (decimal, _) = decimal(&row.value, digits);
+    let (decimal, _) = row.value.decimal(digits);
     let (time, decimal) = (row.time.to_string(), decimal.to_string());
     match &row.value {
         Value::Exact(value) => {

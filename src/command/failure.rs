@@ -3,6 +3,7 @@
 use wavestep::evaluate::EvaluateError;
 use wavestep::expression::NotInvertible;
 use wavestep::language::{Diagnostic, Style};
+use wavestep::lock::LockError;
 use wavestep::solution::{SolveError, Unsolvable};
 
 /// Exit code: could not compute.
@@ -22,6 +23,15 @@ pub enum Failure {
     Computation(String, String),
     /// The accuracy asked for is not reached: what, and the remedy.
     Accuracy(String, String),
+    /// What is derived differs from what is locked.
+    Difference {
+        /// What differs, for standard output.
+        report: String,
+        /// What was compared.
+        message: String,
+        /// The remedy.
+        remedy: String,
+    },
 }
 
 impl Failure {
@@ -29,7 +39,7 @@ impl Failure {
     pub fn code(&self) -> u8 {
         match self {
             Failure::Text(_) | Failure::Usage(..) => USAGE,
-            Failure::Computation(..) => COMPUTATION,
+            Failure::Computation(..) | Failure::Difference { .. } => COMPUTATION,
             Failure::Accuracy(..) => ACCURACY,
         }
     }
@@ -40,7 +50,10 @@ impl Failure {
             Failure::Text(diagnostic) => diagnostic.render(style).trim_end().to_owned(),
             Failure::Usage(message, remedy)
             | Failure::Computation(message, remedy)
-            | Failure::Accuracy(message, remedy) => format!("error: {message}\nhelp: {remedy}"),
+            | Failure::Accuracy(message, remedy)
+            | Failure::Difference { message, remedy, .. } => {
+                format!("error: {message}\nhelp: {remedy}")
+            }
         }
     }
 
@@ -66,6 +79,15 @@ impl From<SolveError> for Failure {
             _ => "give values with --set".to_owned(),
         };
         Failure::Computation(error.to_string(), remedy)
+    }
+}
+
+impl From<LockError> for Failure {
+    fn from(error: LockError) -> Failure {
+        match error {
+            LockError::Solve(error) => error.into(),
+            LockError::Evaluate(error) => error.into(),
+        }
     }
 }
 

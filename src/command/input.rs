@@ -3,6 +3,7 @@
 use super::arguments::Scene;
 use super::failure::Failure;
 use num_rational::BigRational;
+use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use wavestep::language::{self, MAX_SOURCE_BYTES, Source};
@@ -11,8 +12,15 @@ use wavestep::scenes;
 
 /// Reads the scene that the arguments name, with the values put in.
 pub fn recurrence(arguments: &Scene) -> Result<Recurrence, Failure> {
-    let values = values(&arguments.set)?;
-    Ok(language::read_recurrence(&source(&arguments.scene)?, &values)?)
+    recurrence_with(&arguments.scene, &values(&arguments.set)?)
+}
+
+/// Reads a scene with values put in.
+pub fn recurrence_with(
+    scene: &str,
+    values: &BTreeMap<String, BigRational>,
+) -> Result<Recurrence, Failure> {
+    Ok(language::read_recurrence(&source(scene)?, values)?)
 }
 
 /// The built-in scene called `name`.
@@ -46,7 +54,8 @@ fn source(name: &str) -> Result<Source, Failure> {
     Ok(Source::new(name, bytes)?)
 }
 
-fn values(settings: &[String]) -> Result<BTreeMap<String, BigRational>, Failure> {
+/// The values that `--set` gives, by name.
+pub fn values(settings: &[String]) -> Result<BTreeMap<String, BigRational>, Failure> {
     let mut values = BTreeMap::new();
     for setting in settings {
         let (name, value) = setting.split_once('=').unwrap_or((setting, ""));
@@ -68,6 +77,16 @@ fn values(settings: &[String]) -> Result<BTreeMap<String, BigRational>, Failure>
         }
     }
     Ok(values)
+}
+
+/// Reads a scene time given as this argument.
+pub fn time(argument: &str, text: &str) -> Result<BigRational, Failure> {
+    let time = number(argument, text)?;
+    if time.is_negative() {
+        let message = format!("the time {time} lies before the start");
+        return Err(Failure::usage(message, "give times from 0 on"));
+    }
+    Ok(time)
 }
 
 /// Reads an exact number given as this argument.

@@ -4,11 +4,14 @@
 //! 0 done, 1 could not compute, 2 usage or bad scene, 3 accuracy not reached.
 
 mod arguments;
+mod bounds;
 mod check;
 mod derive;
 mod eval;
 mod failure;
+mod generate;
 mod input;
+mod lock;
 mod progress;
 
 use arguments::{Arguments, Scenes, Subcommand};
@@ -36,11 +39,16 @@ pub fn run() -> ExitCode {
         Subcommand::Derive(options) => derive::run(options),
         Subcommand::Eval(options) => eval::run(options),
         Subcommand::Check(options) => check::run(options),
+        Subcommand::Lock(options) => lock::run(options),
         Subcommand::Scenes(options) => scenes(options),
+        Subcommand::Generate(options) => generate::run(options),
     };
     match result {
         Ok(output) => written(io::stdout().lock().write_all(output.as_bytes())),
         Err(failure) => {
+            if let Failure::Difference { report, .. } = &failure {
+                let _ = io::stdout().lock().write_all(report.as_bytes());
+            }
             let coloured = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
             let style = if coloured { Style::Coloured } else { Style::Plain };
             let _ = writeln!(io::stderr(), "{}", failure.render(style));

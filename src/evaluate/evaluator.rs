@@ -1,7 +1,8 @@
 //! The value of a wave or an observable at a time, certified.
 
-use crate::ball::{Ball, BallError, Certified, CertifyError, certify};
+use crate::ball::{Ball, BallError, CertifyError, certify};
 use crate::evaluate::contribution::{Amount, Contribution, enclose, rational_value};
+use crate::evaluate::value::Value;
 use crate::expression::{EchoSum, ExponentialSum, Expression};
 use crate::recurrence::{Observation, WaveIndex};
 use crate::solution::{EchoRow, GeneralForm, Solution, SolveError};
@@ -127,37 +128,6 @@ pub enum Side {
     /// The limit from later times, which is the value on the half-open period.
     #[default]
     Right,
-}
-
-/// A value at one time.
-///
-/// ```
-/// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, Side, Value};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
-/// let evaluator = Evaluator::new(&solution).unwrap();
-/// let value = |at| {
-///     evaluator.value(&strain, &parse_number(at).unwrap(), Side::Right, 6, 200).unwrap()
-/// };
-/// // The fixed end is at rest until the front is there, at t = mu; it then feels it twice.
-/// assert_eq!(value("1/8"), Value::Exact(parse_number("0")?));
-/// assert_eq!(value("1/4"), Value::Exact(parse_number("-2")?));
-/// let Value::Certified(later) = value("1/2") else { panic!("-2 exp(-1/4) is irrational") };
-/// assert_eq!(later.decimal.to_string(), "-1.55760");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Value {
-    /// A rational number, exactly.
-    Exact(Rational),
-    /// A number that is not rational, with proven digits.
-    Certified(Certified),
 }
 
 /// Why there is no value.

@@ -7,8 +7,10 @@
 mod contribution;
 mod evaluator;
 mod modular;
+mod value;
 
 pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
-    Side, Value,
+    Side,
 };
+pub use value::Value;

@@ -79,7 +79,7 @@ pub enum Style {
 impl Diagnostic {
     /// An error with its message and the place it is about.
     #[must_use]
-    pub(super) fn new(
+    pub(crate) fn new(
         source: &Source,
         message: impl Into<String>,
         span: Span,
@@ -103,7 +103,7 @@ impl Diagnostic {
 
     /// Says what to do, replacing what was said before.
     #[must_use]
-    pub(super) fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
+    pub(crate) fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
         self.0.remedy = Some(remedy.into());
         self
     }

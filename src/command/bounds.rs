@@ -1,0 +1,38 @@
+//! Work that would explode is refused before it starts.
+
+use super::failure::Failure;
+use wavestep::recurrence::Recurrence;
+
+/// The most terms that are derived at once.
+const MAX_TERMS: u128 = 2_000_000;
+
+/// About how many terms the n-th piece has: of a wave with one pole n³/6.
+pub fn terms_of_piece(recurrence: &Recurrence, n: usize) -> u128 {
+    let n = n as u128 + 1;
+    match recurrence.steps().iter().any(|step| step.start.is_some()) {
+        true => n.saturating_pow(3) / 6 + 1,
+        false => n,
+    }
+}
+
+/// About how many terms there are in `parts` waves with all pieces to the n-th, where that has
+/// `last` terms.
+pub fn terms_through(last: u128, n: usize, parts: usize) -> u128 {
+    last.saturating_mul(n as u128 / 4 + 1).saturating_mul(parts.max(1) as u128)
+}
+
+/// Refuses more terms than are derived at once.
+pub fn refuse_terms(terms: u128, remedy: &str) -> Result<(), Failure> {
+    if terms <= MAX_TERMS {
+        return Ok(());
+    }
+    let message =
+        format!("this would have about {terms:.1e} terms; at most {MAX_TERMS} are derived at once");
+    Err(Failure::usage(message.replace(".0e", "e"), remedy))
+}
+
+/// Refuses too many pieces of all waves.
+pub fn refuse_pieces(recurrence: &Recurrence, through: usize, remedy: &str) -> Result<(), Failure> {
+    let last = terms_of_piece(recurrence, through);
+    refuse_terms(terms_through(last, through, recurrence.statement().waves.len()), remedy)
+}

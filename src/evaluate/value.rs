@@ -1,0 +1,64 @@
+//! Values: rational ones exactly, others with proven digits.
+
+use crate::ball::{Certified, Decimal, Exactness};
+use wavestep_polynomial::Rational;
+
+/// The longest fraction that is written beside its decimals.
+const MAX_FRACTION: usize = 60;
+
+/// A value at one time.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
+/// let evaluator = Evaluator::new(&solution).unwrap();
+/// let value = |at| {
+///     evaluator.value(&strain, &parse_number(at).unwrap(), Side::Right, 6, 200).unwrap()
+/// };
+/// // The fixed end is at rest until the front is there, at t = mu; it then feels it twice.
+/// assert_eq!(value("1/8"), Value::Exact(parse_number("0")?));
+/// assert_eq!(value("1/4"), Value::Exact(parse_number("-2")?));
+/// let Value::Certified(later) = value("1/2") else { panic!("-2 exp(-1/4) is irrational") };
+/// assert_eq!(later.decimal.to_string(), "-1.55760");
+/// assert_eq!(value("1/4").to_text(6), "-2");
+/// assert_eq!(value("1/2").decimal(6).0.to_string(), "-1.55760");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Value {
+    /// A rational number, exactly.
+    Exact(Rational),
+    /// A number that is not rational, with proven digits.
+    Certified(Certified),
+}
+
+impl Value {
+    /// The value rounded to `digits` significant digits, and whether they are all of it. A
+    /// certified value has the digits that it was asked for.
+    pub fn decimal(&self, digits: usize) -> (Decimal, Exactness) {
+        match self {
+            Value::Exact(value) => Decimal::from_rational(value, digits),
+            Value::Certified(certified) => (certified.decimal.clone(), Exactness::Rounded),
+        }
+    }
+
+    /// The value as plain text: its digits; a rational number that has more of them as a fraction
+    /// as well, where that is short.
+    pub fn to_text(&self, digits: usize) -> String {
+        match (self, self.decimal(digits)) {
+            (Value::Exact(value), (_, Exactness::Exact)) => value.to_string(),
+            (Value::Exact(value), (decimal, _)) => match value.to_string() {
+                fraction if fraction.len() <= MAX_FRACTION => format!("{decimal} = {fraction}"),
+                _ => decimal.to_string(),
+            },
+            (_, (decimal, _)) => decimal.to_string(),
+        }
+    }
+}

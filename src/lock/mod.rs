@@ -1,0 +1,179 @@
+//! Locks: derived forms and certified values in a small text file, to be compared with what is
+//! derived later.
+//!
+//! A [`Lock`] is derived from a recurrence, written as text, read back, and compared with another.
+//! Pieces are compared as exact expressions, term by term; values as decimals, which are correctly
+//! rounded and therefore the same on every machine.
+
+mod difference;
+mod file;
+
+use crate::evaluate::{EvaluateError, Evaluator, Side};
+use crate::expression::Expression;
+use crate::solution::{Solution, SolveError};
+use std::collections::BTreeMap;
+use std::fmt;
+use wavestep_polynomial::{Rational, Symbol};
+
+pub use difference::Difference;
+pub use file::{FORMAT_VERSION, MAX_FILE_BYTES};
+
+/// How precisely the values of a lock may be worked out.
+const LIMIT_BITS: u64 = 1 << 18;
+
+/// What is locked of a recurrence.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::lock::{Lock, Request};
+/// use wavestep::solution::Solution;
+///
+/// let derive = |text: &str| {
+///     let source = Source::new("mine.wave", text).unwrap();
+///     let solution = Solution::new(read_recurrence(&source, &BTreeMap::new()).unwrap());
+///     Lock::derive(&solution, &Request { through: 2, ..Request::default() }).unwrap()
+/// };
+/// let text = "recurrence \"Mine\"\nperiod 1, local s, time t\nwave f\n\
+///             equation f[n]' + f[n] = f[n-1]' - f[n-1]\ncontinuous f[n] starts at 1\n";
+/// let lock = derive(text);
+/// let read = Lock::read(&Source::new("mine.lock", lock.to_text())?)?;
+/// assert!(read.differences(&derive(text)).is_empty());
+/// assert_eq!((read.request().through, read.counts()), (2, (3, 0)));
+///
+/// let differences = read.differences(&derive(&text.replace("- f[n-1]", "- 2*f[n-1]")));
+/// assert!(differences[0].to_string().contains("s*exp(-s): locked -2, now -3"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Lock {
+    title: String,
+    request: Request,
+    pieces: BTreeMap<(String, usize), Piece>,
+    values: BTreeMap<(String, Rational), String>,
+}
+
+/// What to lock.
+///
+/// ```
+/// let request = wavestep::lock::Request::default();
+/// assert_eq!((request.through, request.digits), (0, 20));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Request {
+    /// The last period of which the pieces are locked.
+    pub through: usize,
+    /// The scene times at which the values of all waves and observables are locked, each the limit
+    /// from later times.
+    pub times: Vec<Rational>,
+    /// How many significant digits the values have.
+    pub digits: usize,
+    /// The values that the symbols had when the recurrence was read.
+    pub set: BTreeMap<String, Rational>,
+}
+
+impl Default for Request {
+    fn default() -> Request {
+        Request { through: 0, times: Vec::new(), digits: 20, set: BTreeMap::new() }
+    }
+}
+
+/// A wave function on one period.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Piece {
+    variable: Symbol,
+    expression: Expression,
+}
+
+/// Why nothing can be locked.
+///
+/// ```
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::lock::{Lock, LockError, Request};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let source = Source::new("rigid-mass", text)?;
+/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+/// let request = Request { times: vec![parse_number("33/10")?], ..Request::default() };
+/// // A value needs a number for mu.
+/// assert!(matches!(Lock::derive(&solution, &request), Err(LockError::Evaluate(_))));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum LockError {
+    /// A piece cannot be given exactly.
+    Solve(SolveError),
+    /// A value cannot be certified.
+    Evaluate(EvaluateError),
+}
+
+impl fmt::Display for LockError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LockError::Solve(error) => error.fmt(f),
+            LockError::Evaluate(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for LockError {}
+
+impl From<SolveError> for LockError {
+    fn from(error: SolveError) -> LockError {
+        LockError::Solve(error)
+    }
+}
+
+impl From<EvaluateError> for LockError {
+    fn from(error: EvaluateError) -> LockError {
+        LockError::Evaluate(error)
+    }
+}
+
+impl Lock {
+    /// Derives what is to be locked.
+    ///
+    /// # Errors
+    /// [`LockError`] where a piece or a value cannot be given.
+    ///
+    /// # Cost
+    /// That of the pieces and of the values.
+    pub fn derive(solution: &Solution, request: &Request) -> Result<Lock, LockError> {
+        let statement = solution.recurrence().statement();
+        let mut pieces = BTreeMap::new();
+        for (wave, name) in statement.waves.iter().enumerate() {
+            let derived = solution.pieces(wave, 0, request.through)?;
+            for (n, expression) in derived.into_iter().enumerate() {
+                let piece = Piece { variable: statement.local.clone(), expression };
+                pieces.insert((name.clone(), n), piece);
+            }
+        }
+        let mut values = BTreeMap::new();
+        if !request.times.is_empty() {
+            let evaluator = Evaluator::new(solution)?;
+            let observables = statement.observables.iter().map(|observable| &observable.name);
+            for name in statement.waves.iter().chain(observables) {
+                let quantity = solution.recurrence().observation(name).expect("a known name");
+                for time in &request.times {
+                    let Request { digits, .. } = *request;
+                    let value =
+                        evaluator.value(&quantity, time, Side::Right, digits, LIMIT_BITS)?;
+                    values.insert((name.clone(), time.clone()), value.to_text(digits));
+                }
+            }
+        }
+        let title = statement.title.clone();
+        Ok(Lock { title, request: request.clone(), pieces, values })
+    }
+
+    /// What was asked for.
+    pub fn request(&self) -> &Request {
+        &self.request
+    }
+
+    /// How many pieces and how many values are locked.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.pieces.len(), self.values.len())
+    }
+}

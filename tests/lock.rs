@@ -1,0 +1,264 @@
+//! Locks: written, read, compared, and files of old versions.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use proptest::prelude::*;
+use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep::lock::{Lock, MAX_FILE_BYTES, Request};
+use wavestep::scenes::{self, SCENES};
+use wavestep::solution::Solution;
+
+fn solution(text: &str, request: &Request) -> Solution {
+    let source = Source::new("scene", text).expect("a text");
+    Solution::new(read_recurrence(&source, &request.set).unwrap_or_else(|error| panic!("{error}")))
+}
+
+fn derived(text: &str, request: &Request) -> Lock {
+    Lock::derive(&solution(text, request), request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn read(name: &str, text: &str) -> Result<Lock, String> {
+    let source = Source::with_limit(name, text, MAX_FILE_BYTES).map_err(|e| e.to_string())?;
+    Lock::read(&source).map_err(|error| error.to_string())
+}
+
+fn scene(name: &str) -> &'static str {
+    scenes::find(name).expect("a scene of the library").text
+}
+
+fn request(through: usize, set: &str, times: &[&str]) -> Request {
+    let number = |text: &str| parse_number(text).expect("a number");
+    Request {
+        through,
+        set: set
+            .split_terminator(',')
+            .map(|setting| setting.split_once('=').expect("a setting"))
+            .map(|(name, value)| (name.to_owned(), number(value)))
+            .collect(),
+        times: times.iter().map(|time| number(time)).collect(),
+        ..Request::default()
+    }
+}
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/locks").join(name)
+}
+
+fn snapshot(name: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/lock"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name, text));
+}
+
+fn run(arguments: &[&str], folder: &Path) -> (i32, String, String) {
+    let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_wavestep"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the command runs");
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    (status.code().expect("an exit code"), text(stdout), text(stderr))
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lock-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Recurrences whose pieces hold denominators, several exponentials, and names with subscripts.
+const OTHERS: [&str; 2] = [
+    "recurrence \"Two poles\"\nsymbol a > 0, b > 0\nnonzero a - b\nperiod 1, local s, time t\n\
+     wave u_left, v\nequation u_left[n]' + a*u_left[n] = v[n-1]\n\
+     equation v[n]' + b*v[n] = -u_left[n]\ncontinuous u_left[n] starts at 1\n\
+     continuous v[n] starts at 0\n",
+    "recurrence \"Forced\"\nperiod 1/3, local s, time t\nwave f\n\
+     equation f[n]' + 2*f[n] = t*exp(-2*t) - f[n-1]\ncontinuous f[n] starts at 1/7\n",
+];
+
+#[test]
+fn locks_are_read_as_they_were_written() {
+    let numeric = request(3, "mu=1/4", &["0", "1/2", "33/10", "7"]);
+    let mut all = vec![(scene("rigid-mass"), numeric.clone()), (scene("pulse-shape"), numeric)];
+    all.push((scene("two-bars"), request(3, "r=3", &["0", "5"])));
+    all.extend(SCENES.iter().map(|scene| (scene.text, request(6, "", &[]))));
+    all.extend(OTHERS.iter().map(|text| (*text, request(3, "", &[]))));
+    for (text, request) in all {
+        let lock = derived(text, &request);
+        let read = read("own.lock", &lock.to_text()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(read, lock, "{}", lock.to_text());
+        assert!(read.differences(&lock).is_empty());
+        assert_eq!(read.to_text(), lock.to_text());
+    }
+}
+
+/// Files of version 1 are never changed; they are read, and hold, for ever.
+#[test]
+fn old_files_are_read() {
+    for (name, scene_name, values) in
+        [("version-1.lock", "rigid-mass", 10), ("version-1-symbolic.lock", "two-bars", 0)]
+    {
+        let text = fs::read_to_string(fixture(name)).expect("a file");
+        let lock = read(name, &text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(lock.counts().1, values);
+        let differences = lock.differences(&derived(scene(scene_name), lock.request()));
+        assert!(differences.is_empty(), "{}", differences[0]);
+    }
+}
+
+#[test]
+fn a_changed_coefficient_is_named() {
+    let lock = derived(scene("rigid-mass"), &request(2, "", &[]));
+    let changed = scene("rigid-mass").replace("= -(f[n] - g[n])  ", "= -(f[n] - 2*g[n])");
+    assert_ne!(changed, scene("rigid-mass"));
+    let differences = lock.differences(&derived(&changed, &request(2, "", &[])));
+    let report: String = differences.iter().map(ToString::to_string).collect();
+    assert!(report.contains("s*exp(-s): locked -2, now -3"), "{report}");
+    snapshot("changed-coefficient", &report);
+    // Values as well.
+    let numeric = request(0, "mu=1", &["1/2", "5/2"]);
+    let lock = derived(scene("rigid-mass"), &numeric);
+    let differences = lock.differences(&derived(&changed, &numeric));
+    snapshot("changed-values", &differences.iter().map(ToString::to_string).collect::<String>());
+}
+
+#[test]
+fn what_is_gone_and_what_is_new_is_named() {
+    let lock = derived(scene("two-bars"), &request(2, "", &[]));
+    let later = derived(scene("two-bars"), &request(3, "", &[]));
+    let report = |differences: Vec<wavestep::lock::Difference>| {
+        differences.iter().map(ToString::to_string).collect::<String>()
+    };
+    snapshot("new-pieces", &report(lock.differences(&later)));
+    snapshot("gone-pieces", &report(later.differences(&lock)));
+    let other_impedance = scene("two-bars").replace("r*(f[n]", "(r + 1)*(f[n]");
+    let changed = derived(&other_impedance, &request(2, "", &[]));
+    snapshot("changed-quotients", &report(lock.differences(&changed)));
+    let other_time = scene("two-bars").replace("local s", "local x");
+    snapshot(
+        "changed-variable",
+        &report(lock.differences(&derived(&other_time, &request(0, "", &[])))),
+    );
+}
+
+#[test]
+fn long_differences_are_cut() {
+    let lock = derived(scene("rigid-mass"), &request(8, "", &[]));
+    let changed = scene("rigid-mass").replace("starts at 1 ", "starts at 2 ");
+    let differences = lock.differences(&derived(&changed, &request(8, "", &[])));
+    let longest = differences.iter().map(|d| d.to_string().lines().count()).max();
+    assert_eq!(longest, Some(12), "a heading, ten terms, and how many more");
+    assert!(differences.iter().any(|d| d.to_string().contains("more terms")));
+}
+
+#[test]
+fn damaged_files_are_explained() {
+    let good = derived(scene("constant-force"), &request(1, "", &["1"])).to_text();
+    let cases = [
+        ("heading", good.replace("# wavestep lock 1", "# my notes")),
+        ("version", good.replace("lock 1", "lock 2")),
+        ("empty", String::new()),
+        ("count", good.replace("through 1", "through many")),
+        ("value", good.replace("value f(1)", "value f")),
+        ("value-time", good.replace("value f(1)", "value f(soon)")),
+        ("setting", good.replace("digits 20", "set mu")),
+        ("piece", good.replace("f[1](s) = 2", "f[1](s) = 2 +")),
+        ("line", good.replace("f[1](s) = 2", "f[1] is two")),
+        ("cut", good[..good.find("\nvalue ").expect("a value")].to_owned()),
+        ("binary", good.replace("= 2", "= \0")),
+    ];
+    for (name, text) in cases {
+        assert_ne!(text, good, "{name}");
+        let error = read("damaged.lock", &text).expect_err(name);
+        snapshot(&format!("damaged-{name}"), &error);
+    }
+    assert!(read("good.lock", &good).is_ok());
+    assert!(read("windows.lock", &good.replace('\n', "\r\n")).is_ok());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+    /// Another digit anywhere in a piece or a value is a difference or an error, never passed over.
+    #[test]
+    fn no_changed_digit_is_passed_over(place in any::<prop::sample::Index>(), digit in 0_u8..10) {
+        let text = fs::read_to_string(fixture("version-1.lock")).expect("a file");
+        let lock = read("old.lock", &text).expect("a lock");
+        let now = derived(scene("rigid-mass"), lock.request());
+        let start = text.find("f[0]").expect("pieces");
+        let digits: Vec<usize> =
+            (start..text.len()).filter(|i| text.as_bytes()[*i].is_ascii_digit()).collect();
+        let at = *place.get(&digits);
+        let mut bytes = text.clone().into_bytes();
+        bytes[at] = b'0' + digit;
+        let changed = String::from_utf8(bytes).expect("text");
+        if changed == text {
+            return Ok(());
+        }
+        if let Ok(lock) = read("changed.lock", &changed) {
+            prop_assert!(!lock.differences(&now).is_empty(), "{}", changed);
+        }
+    }
+
+    #[test]
+    fn damaged_files_never_panic(start in 0_usize..600, length in 0_usize..40, with in "\\PC{0,12}") {
+        let text = fs::read_to_string(fixture("version-1.lock")).expect("a file");
+        let mut characters: Vec<char> = text.chars().collect();
+        let start = start.min(characters.len());
+        let end = (start + length).min(characters.len());
+        characters.splice(start..end, with.chars());
+        let _ = read("damaged.lock", &characters.into_iter().collect::<String>());
+    }
+}
+
+#[test]
+fn the_command_locks_and_checks() {
+    let folder = folder("command");
+    fs::write(folder.join("my.wave"), scene("rigid-mass")).expect("a file");
+    let lock = ["lock", "my.wave", "--through", "2", "-o", "my.lock"];
+    let (code, out, err) = run(&lock, &folder);
+    assert_eq!((code, &*out, &*err), (0, "my.lock: locked 6 pieces\n", ""));
+    let check = ["check", "my.wave", "--locked", "my.lock"];
+    let (code, out, err) = run(&check, &folder);
+    assert_eq!((code, &*out, &*err), (0, "my.lock: 6 pieces as locked\n", ""));
+    let changed = scene("rigid-mass").replace("starts at 1 ", "starts at 1/2 ");
+    fs::write(folder.join("my.wave"), changed).expect("a file");
+    let (code, out, err) = run(&check, &folder);
+    assert_eq!(code, 1);
+    assert!(out.starts_with("f[0] differs\n  exp(-s): locked 1, now 1/2\n"), "{out}");
+    let message = "error: my.wave differs in 5 places from my.lock\nhelp: ";
+    assert!(err.starts_with(message), "{err}");
+    // Without a file, what would be in it; an old file stays whole when there is nothing to write.
+    let (_, out, _) = run(&["lock", "two-bars", "--through", "2"], &folder);
+    assert_eq!(out, fs::read_to_string(fixture("version-1-symbolic.lock")).expect("a file"));
+    let before = fs::read_to_string(folder.join("my.lock")).expect("a file");
+    let (code, _, err) =
+        run(&["lock", "my.wave", "--through", "2", "--at", "1", "-o", "my.lock"], &folder);
+    assert_eq!((code, err.contains("mu has no value")), (2, true), "{err}");
+    assert_eq!(fs::read_to_string(folder.join("my.lock")).expect("a file"), before);
+    let files = fs::read_dir(&folder).expect("a folder").count();
+    assert_eq!(files, 2, "no partial file is left");
+}
+
+#[test]
+fn bad_requests_are_refused() {
+    let folder = folder("refused");
+    let cases: [(&[&str], &str); 6] = [
+        (&["lock", "rigid-mass", "--through", "500"], "terms"),
+        (&["lock", "rigid-mass", "--through", "1", "-o", "nowhere/my.lock"], "cannot be written"),
+        (&["lock", "rigid-mass", "--through", "1", "--digits", "0"], "cannot be certified"),
+        (&["lock", "rigid-mass", "--through", "1", "--at", "-1"], "before the start"),
+        (&["check", "rigid-mass", "--locked", "nowhere.lock"], "cannot be read"),
+        (&["check", "rigid-mass", "--locked", "x", "--set", "mu=1"], "cannot be used with"),
+    ];
+    for (arguments, expected) in cases {
+        let (code, out, err) = run(arguments, &folder);
+        assert_eq!((code, &*out), (2, ""), "{arguments:?}: {err}");
+        assert!(err.contains(expected), "{arguments:?}: {err}");
+    }
+}
