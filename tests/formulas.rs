@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use wavestep::export::{
-    self, Formula, Head, LATEX_WIDTH, Latex, Notation, TEXT_WIDTH, general_form, pieces_json,
+    self, Formula, Head, LATEX_WIDTH, TEXT_WIDTH, general_form, latex_width, pieces_json,
 };
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_listing, read_recurrence};
@@ -292,7 +292,7 @@ fn assert_sound_latex(latex: &str) {
         if !right.starts_with('=') && !right.starts_with("\\quad") {
             continue;
         }
-        let width = Latex.width(head) + Latex.width(right);
+        let width = latex_width(head) + latex_width(right);
         assert!(width <= LATEX_WIDTH + 2 || !breakable(right), "{width}: {line}");
     }
 }

@@ -12,6 +12,15 @@ use num_traits::{One, Signed, Zero};
 /// ```text
 /// p = (1/m) Σ_α n_α Π_i x_i^{α_i}         gcd(m, all n_α) = 1
 /// ```
+///
+/// ```
+/// use wavestep_polynomial::{Polynomial, Rational};
+/// let p: Polynomial = "1/2*x^2 - 1/3*x".parse().unwrap();
+/// let ordinary = p.ordinary(&1.into()); // (3x² − 2x)/6
+/// assert_eq!(*ordinary.denominator(), 6.into());
+/// let mut coefficients = ordinary.coefficients();
+/// assert_eq!(coefficients.next(), Some((&[2][..], Rational::new(1.into(), 2.into()))));
+/// ```
 pub struct Ordinary<'a> {
     polynomial: &'a Polynomial,
     denominator: BigInt,

@@ -79,6 +79,13 @@ pub(crate) fn add_exponents(a: u32, b: u32) -> u32 {
 
 impl Polynomial {
     /// The largest exponent of a symbol.
+    ///
+    /// ```
+    /// use wavestep_polynomial::Polynomial;
+    /// let power = |exponent: u32| format!("x^{exponent}").parse::<Polynomial>();
+    /// assert!(power(Polynomial::MAX_EXPONENT).is_ok());
+    /// assert!(power(Polynomial::MAX_EXPONENT + 1).is_err());
+    /// ```
     pub const MAX_EXPONENT: u32 = 4095;
 
     /// The polynomial 0. O(1).
@@ -119,6 +126,13 @@ impl Polynomial {
     }
 
     /// The polynomial `x`. O(1).
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    /// let p = &Polynomial::symbol(&Symbol::new("x").unwrap()) + &Polynomial::one();
+    /// assert_eq!((&p * &p).to_string(), "x^2 + 2*x + 1");
+    /// assert_eq!(&p - &p, Polynomial::zero());
+    /// ```
     pub fn symbol(x: &Symbol) -> Polynomial {
         Polynomial::monomial(&BigRational::one(), &[(x, 1)])
     }
@@ -213,6 +227,13 @@ impl Polynomial {
 
     /// Whether the invariants of the type hold, for tests. O(terms), and gcds while they are
     /// not 1.
+    ///
+    /// ```
+    /// use wavestep_polynomial::Polynomial;
+    /// let p: Polynomial = "2/4*x - 3/6*x + 4/4".parse().unwrap();
+    /// assert!(p.is_valid());
+    /// assert_eq!(p, Polynomial::one());
+    /// ```
     pub fn is_valid(&self) -> bool {
         let width = self.symbols.len();
         let in_form = self.symbols.windows(2).all(|pair| pair[0] < pair[1])

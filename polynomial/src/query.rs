@@ -11,6 +11,13 @@ use std::collections::BTreeMap;
 
 impl Polynomial {
     /// Whether this is 0. O(1).
+    ///
+    /// ```
+    /// use wavestep_polynomial::Polynomial;
+    /// let p: Polynomial = "x*y - 1/2".parse().unwrap();
+    /// assert!((&p - &p).is_zero());
+    /// assert!(p.pow(0).is_one());
+    /// ```
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
@@ -45,6 +52,13 @@ impl Polynomial {
     }
 
     /// The symbols that occur, ascending by name. O(1).
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    /// let p: Polynomial = "s*mu + a - a".parse().unwrap();
+    /// assert_eq!(p.symbols(), ["mu", "s"].map(|name| Symbol::new(name).unwrap()));
+    /// assert_eq!(p.term_count(), 1);
+    /// ```
     pub fn symbols(&self) -> &[Symbol] {
         &self.symbols
     }
@@ -106,6 +120,12 @@ impl Polynomial {
 
     /// The coefficient of the first term in the documented order, of ordinary powers; 0 for 0.
     /// One gcd.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Rational};
+    /// let p: Polynomial = "3*y^2 - 1/2*x".parse().unwrap(); // x weighs most
+    /// assert_eq!(p.leading_coefficient(), Rational::new((-1).into(), 2.into()));
+    /// ```
     pub fn leading_coefficient(&self) -> BigRational {
         self.terms().next().map_or_else(BigRational::zero, |(_, coefficient)| coefficient)
     }
@@ -130,6 +150,13 @@ impl Polynomial {
 
     /// The non-zero coefficients of `x^j/j!`, `j` descending, each a polynomial in the other
     /// symbols. O(terms · log).
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    /// let p: Polynomial = "x^3*y - 2*x".parse().unwrap(); // 6y x^3/3! − 2x
+    /// let by_x = p.divided_coefficients(&Symbol::new("x").unwrap());
+    /// assert_eq!(by_x, [(3, "6*y".parse().unwrap()), (1, Polynomial::integer(-2))]);
+    /// ```
     pub fn divided_coefficients(&self, x: &Symbol) -> Vec<(u32, Polynomial)> {
         let Some(column) = self.column(x) else {
             return if self.is_zero() { Vec::new() } else { vec![(0, self.clone())] };

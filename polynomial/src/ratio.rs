@@ -14,9 +14,11 @@ use num_traits::Zero;
 ///
 /// ```
 /// use wavestep_polynomial::{Rational, WordRatio};
-/// let mut value = WordRatio::from(&Rational::new(5.into(), 6.into()));
-/// value.multiply(4, 15); // 5/6 · 4/15
-/// assert_eq!(value.to_rational(), Rational::new(2.into(), 9.into()));
+/// let mut value = WordRatio::from(&Rational::new((-5).into(), 6.into()));
+/// value.multiply(4, 15); // −5/6 · 4/15
+/// assert_eq!(value.to_rational(), Rational::new((-2).into(), 9.into()));
+/// assert!(value.is_negative());
+/// assert_eq!(value.limbs(), (&[2][..], &[9][..]));
 /// ```
 #[derive(PartialEq, Eq, Debug)]
 pub struct WordRatio {

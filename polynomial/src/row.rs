@@ -24,6 +24,8 @@ use std::fmt;
 /// let next = IntegerRow::combination(&1.into(), &row, &(-1).into(), &row, 1);
 /// assert_eq!(next, [1, -5, 10, -6].map(Integer::from).iter().collect());
 /// assert_eq!(next.get(2).to_integer(), Integer::from(10));
+/// assert_eq!(next.len(), 4);
+/// assert!(IntegerRow::default().is_empty());
 /// ```
 #[derive(Clone, PartialEq, Eq, Hash, Default)]
 pub struct IntegerRow {
@@ -39,6 +41,15 @@ struct Entry {
 }
 
 /// An integer that lies in a row.
+///
+/// ```
+/// use wavestep_polynomial::{Integer, IntegerRow};
+/// let row: IntegerRow = [-10, 0].map(Integer::from).iter().collect();
+/// let (ten, zero) = (row.get(0), row.get(1));
+/// assert!(ten.is_negative() && zero.is_zero());
+/// assert_eq!(ten.bits(), 4);
+/// assert_eq!(ten.modulo(7), 4); // −10 = 4 − 2·7
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct IntegerRef<'a> {
     negative: bool,
@@ -73,13 +84,13 @@ impl IntegerRow {
     }
 
     /// Adds an entry at the end. O(limbs).
-    pub fn push(&mut self, value: IntegerRef<'_>) {
+    pub(crate) fn push(&mut self, value: IntegerRef<'_>) {
         self.limbs.extend_from_slice(value.limbs);
         self.close(value.negative);
     }
 
     /// Adds an integer at the end. O(limbs).
-    pub fn push_integer(&mut self, value: &BigInt) {
+    pub(crate) fn push_integer(&mut self, value: &BigInt) {
         self.limbs.extend(value.iter_u64_digits());
         self.close(value.sign() == Sign::Minus);
     }
@@ -185,7 +196,7 @@ impl IntegerRow {
     }
 }
 
-impl<'a> IntegerRef<'a> {
+impl IntegerRef<'_> {
     /// The integer itself. One allocation.
     pub fn to_integer(self) -> BigInt {
         let halves = self.limbs.iter().flat_map(|limb| [*limb as u32, (*limb >> 32) as u32]);
@@ -202,11 +213,6 @@ impl<'a> IntegerRef<'a> {
     /// Whether this is less than 0. O(1).
     pub fn is_negative(self) -> bool {
         self.negative
-    }
-
-    /// The limbs of the magnitude in base `2^64`, the lowest first, the highest not zero. O(1).
-    pub fn limbs(self) -> &'a [u64] {
-        self.limbs
     }
 
     /// The number of bits of the magnitude; 0 for 0. O(1).

@@ -12,6 +12,7 @@ use std::sync::Arc;
 /// use wavestep_polynomial::Symbol;
 /// assert!(Symbol::new("mu").unwrap() < Symbol::new("s").unwrap());
 /// assert!(Symbol::new("2x").is_none());
+/// assert_eq!(Symbol::new("x_1").unwrap().name(), "x_1");
 /// ```
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Symbol(Arc<str>);

@@ -66,6 +66,15 @@ pub struct ReadError {
 }
 
 /// What a reader of polynomials may miss.
+///
+/// ```
+/// use wavestep_polynomial::{Expected, Polynomial};
+/// let missed = |text: &str| text.parse::<Polynomial>().unwrap_err().expected;
+/// assert_eq!(missed("x +"), Expected::Factor);
+/// assert_eq!(missed("x y"), Expected::Operator);
+/// assert_eq!(missed("x^y"), Expected::Exponent);
+/// assert_eq!(missed("1/x"), Expected::Denominator);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Expected {
     /// A number or a name.

@@ -51,6 +51,15 @@ impl Univariate {
     ///
     /// # Panics
     /// Where the denominator is zero.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Integer, IntegerRow, Univariate};
+    /// let row = |values: [i64; 2]| values.map(Integer::from).iter().collect::<IntegerRow>();
+    /// let p = Univariate::from_row(row([2, -4]), 6.into()); // (2 − 4x)/6
+    /// assert_eq!(p.coefficients(), &row([1, -2]));
+    /// assert_eq!(*p.denominator(), Integer::from(3));
+    /// assert!(p.is_valid());
+    /// ```
     pub fn from_row(mut coefficients: IntegerRow, mut denominator: BigInt) -> Univariate {
         assert!(!denominator.is_zero(), "a polynomial over the denominator zero");
         coefficients.trim();
@@ -72,6 +81,13 @@ impl Univariate {
     }
 
     /// The polynomial 0. O(1).
+    ///
+    /// ```
+    /// use wavestep_polynomial::Univariate;
+    /// let constant = Univariate::new([5.into()], 7.into());
+    /// assert_eq!(constant.derivative(), Univariate::zero());
+    /// assert!(Univariate::new([0.into()], 7.into()).is_zero());
+    /// ```
     pub fn zero() -> Univariate {
         Univariate { coefficients: IntegerRow::default(), denominator: BigInt::one() }
     }
@@ -210,6 +226,13 @@ impl Univariate {
     }
 
     /// The antiderivative `∫_0^x p`: the coefficients go up by one place. O(degree).
+    ///
+    /// ```
+    /// use wavestep_polynomial::Univariate;
+    /// let p = Univariate::new([1, 2].map(Into::into), 1.into()); // 1 + 2x
+    /// let integral = Univariate::new([0, 1, 2].map(Into::into), 1.into()); // x + x²
+    /// assert_eq!(p.antiderivative(), integral);
+    /// ```
     pub fn antiderivative(&self) -> Univariate {
         let mut raised = IntegerRow::default();
         raised.push_integer(&BigInt::ZERO);

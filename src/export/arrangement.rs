@@ -15,7 +15,7 @@ use wavestep_polynomial::{Integer, Ordinary, Polynomial, Rational, Symbol, facto
 
 /// The sign in front of a term.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Sign {
+pub(crate) enum Sign {
     /// `+`
     Plus,
     /// `−`
@@ -36,7 +36,7 @@ impl Sign {
 
 /// A formula as it is to be written.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Node {
+pub(crate) enum Node {
     /// A number, not negative.
     Number(Rational),
     /// A name.
@@ -63,7 +63,7 @@ pub enum Node {
 
 /// A positive number times powers of symbols.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Monomial {
+pub(crate) struct Monomial {
     /// The number.
     pub coefficient: Rational,
     /// The symbols.
@@ -73,7 +73,7 @@ pub struct Monomial {
 }
 
 /// Exponents of a few symbols.
-pub type Exponents = SmallVec<[u32; 4]>;
+pub(crate) type Exponents = SmallVec<[u32; 4]>;
 
 impl Monomial {
     /// As a node, of the simplest kind.
@@ -95,7 +95,7 @@ impl Monomial {
 }
 
 /// A term: sign and what follows it.
-pub type Term = (Sign, Node);
+pub(crate) type Term = (Sign, Node);
 
 impl Node {
     /// Whether it is higher than a line.
@@ -154,7 +154,7 @@ impl Node {
 
 /// How an expression is arranged.
 #[derive(Clone, Default, Debug)]
-pub struct Arrangement {
+pub(crate) struct Arrangement {
     /// The time variable, if there is one.
     pub variable: Option<Symbol>,
     /// Takes a common integer factor out of a bracket that holds a further bracket.
@@ -164,15 +164,8 @@ pub struct Arrangement {
     pub constant: Option<Symbol>,
 }
 
-impl Arrangement {
-    /// Arranged by powers of a variable.
-    pub fn by(variable: &Symbol) -> Arrangement {
-        Arrangement { variable: Some(variable.clone()), ..Arrangement::default() }
-    }
-}
-
 /// The terms of an expression in writing order; zero has no terms.
-pub fn arrange(expression: &Expression, variable: Option<&Symbol>) -> Vec<Term> {
+pub(crate) fn arrange(expression: &Expression, variable: Option<&Symbol>) -> Vec<Term> {
     let arrangement = Arrangement { variable: variable.cloned(), ..Arrangement::default() };
     arrangement.terms(expression).0
 }

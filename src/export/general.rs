@@ -30,6 +30,20 @@ fn echo_index(recurrence: &Recurrence) -> Symbol {
 }
 
 /// The formulas that give a wave in general n, each proved as its remark says.
+///
+/// ```
+/// use wavestep::export::general_form;
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let source = Source::new("rigid-mass", text)?;
+/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+/// let formulas = general_form(solution.recurrence(), 0, solution.general(0).unwrap());
+/// assert_eq!(formulas[0].to_line(), "f(t) = sum(phi_f[k](t - 2*k*mu), 0 <= 2*k*mu <= t)");
+/// assert_eq!(formulas[1].to_line(), "phi_f[k](s) = exp(-s)*L[k](2*s)");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm) -> Vec<Formula> {
     let mut formulas = match form {
         GeneralForm::Geometric(form) => geometric(recurrence, wave, form),
@@ -37,9 +51,9 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
     };
     if let Some(last) = formulas.last_mut() {
         let (index, first) = match form {
-            GeneralForm::Geometric(form) => ("n".to_owned(), form.first.len()),
+            GeneralForm::Geometric(form) => ("n".to_owned(), form.first().len()),
             GeneralForm::Echoes(template) => {
-                (echo_index(recurrence).to_string(), template.first.len())
+                (echo_index(recurrence).to_string(), template.first().len())
             }
         };
         let proof = match form.proof() {
@@ -47,7 +61,7 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
             Proof::CoefficientIdentity => format!("the step from {index} to {index} + 1"),
         };
         let laguerre = match form {
-            GeneralForm::Echoes(template) if template.family != Family::Power => {
+            GeneralForm::Echoes(template) if *template.family() != Family::Power => {
                 "; L are the Laguerre polynomials"
             }
             _ => "",
@@ -67,17 +81,17 @@ fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<
         right: Right::Terms(terms),
         remark: None,
     };
-    let first = form.first.iter().enumerate();
+    let first = form.first().iter().enumerate();
     let mut formulas: Vec<Formula> =
         first.map(|(i, value)| formula(&i.to_string(), arrange(value, None))).collect();
     let mut terms = Vec::new();
-    let polynomial = form.terms.iter().filter(|term| term.ratio.is_one());
+    let polynomial = form.terms().iter().filter(|term| term.ratio.is_one());
     let polynomial = polynomial.fold(Expression::zero(), |sum, term| {
         let power = Polynomial::symbol(&n).pow(term.power);
         &sum + &(&term.coefficient * &power.into())
     });
     terms.extend(arrange(&polynomial, Some(&n)));
-    for term in form.terms.iter().filter(|term| !term.ratio.is_one()) {
+    for term in form.terms().iter().filter(|term| !term.ratio.is_one()) {
         terms.push(geometric_term(term, &n));
     }
     formulas.push(formula("n", terms));
@@ -136,7 +150,7 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
     let wave = &statement.waves[wave];
     let (x, k) = (&statement.local, echo_index(recurrence));
     let mut formulas = vec![sum_of_echoes(recurrence, wave)];
-    for (i, echo) in template.first.iter().enumerate() {
+    for (i, echo) in template.first().iter().enumerate() {
         let head = Head::Echo { wave: wave.clone(), k: i, local: x.clone() };
         formulas.push(Formula::new(head, echo, x));
     }
@@ -175,10 +189,10 @@ fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
 /// `ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)`.
 fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> {
     let mut sum = Vec::new();
-    for (lag, coefficient) in &template.terms {
+    for (lag, coefficient) in template.terms() {
         let index = &Polynomial::symbol(k) - &Polynomial::integer(*lag);
         let index = Node::sum(arrange(&index.into(), Some(k))).1;
-        let function = match &template.family {
+        let function = match template.family() {
             Family::Laguerre(c) => {
                 let argument = Expression::from(c * &Fraction::symbol(x));
                 vec![laguerre(index, &argument, x)]
@@ -188,15 +202,15 @@ fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> 
                 Node::Factorial(Box::new(index)),
             ],
         };
-        sum.push(scaled(coefficient, function, &template.family));
+        sum.push(scaled(coefficient, function, template.family()));
     }
     let mut front = Vec::new();
-    if !template.ratio.is_one() {
-        let base = ratio_node(&template.ratio.clone().into());
+    if !template.ratio().is_one() {
+        let base = ratio_node(&template.ratio().clone().into());
         front.push(Node::Power(Box::new(base), Box::new(Node::Symbol(k.clone()))));
     }
-    if !template.rate.is_zero() {
-        let exponent = -&(&template.rate * &Fraction::symbol(x));
+    if !template.rate().is_zero() {
+        let exponent = -&(template.rate() * &Fraction::symbol(x));
         let (sign, exponent) = Node::sum(arrange(&exponent.into(), Some(x)));
         front.push(Node::Exponential(sign, Box::new(exponent)));
     }
@@ -234,13 +248,40 @@ fn scaled(coefficient: &Fraction, mut function: Vec<Node>, family: &Family) -> T
 }
 
 /// Names for the derivative and for the delay by one period, in [`operator_of`].
+///
+/// ```
+/// use wavestep::export::operator_names;
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let text = "recurrence \"A symbol p\"\nsymbol p > 0\nperiod 1, local s, time t\nwave f\n\
+///     equation f[n] = p*f[n-1] + 1\n";
+/// let recurrence = read_recurrence(&Source::new("p", text)?, &Default::default())?;
+/// // p and s have a meaning already.
+/// let (derivative, delay) = operator_names(&recurrence);
+/// assert_eq!((derivative.name(), delay.name()), ("P", "q"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn operator_names(recurrence: &Recurrence) -> (Symbol, Symbol) {
     let p = free_name(recurrence, &["p", "s", "P", "S"]);
     (p, free_name(recurrence, &["q", "z", "Q", "Z"]))
 }
 
 /// The equation for which no closed form was found, in the names of [`operator_names`]:
-/// `(p + 1 + (1 - p)*q)*f`.
+/// `(p + 1 + (1 - p)*q)*f = 0`.
+///
+/// ```
+/// use wavestep::export::operator_of;
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = "recurrence \"Two lags\"\nperiod 1, local s, time t\nwave f\n\
+///     equation f[n]' + f[n-1] + 3*f[n-2] = 0\ncontinuous f[n] starts at 1\n";
+/// let recurrence = read_recurrence(&Source::new("two lags", text)?, &Default::default())?;
+/// let solution = Solution::new(recurrence);
+/// let unknown = solution.general(0).unwrap_err();
+/// assert_eq!(operator_of(solution.recurrence(), unknown), "(3*q^2 + q + p)*f = 0");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
     let (p, q) = operator_names(recurrence);
     let (slope, delay) = (Expression::symbol(&p), Expression::symbol(&q));
@@ -263,6 +304,17 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
 }
 
 /// The factors of more than one term that are taken to be non-zero, as text.
+///
+/// ```
+/// use wavestep::export::assumed_factors;
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let text = "recurrence \"Two rates\"\nsymbol a > 0, b > 0\nnonzero a - b\n\
+///     period 1, local s, time t\nwave f\nequation f[n] = f[n-1]/(a - b) + 1\n";
+/// let recurrence = read_recurrence(&Source::new("two rates", text)?, &Default::default())?;
+/// assert_eq!(assumed_factors(&recurrence.statement().assumptions), ["a - b"]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn assumed_factors(assumptions: &Assumptions) -> Vec<String> {
     let factor = |p: &Polynomial| write_flat(&arrange(&p.clone().into(), None), &Text);
     assumptions.factors().filter(|p| p.term_count() > 1).map(factor).collect()

@@ -2,7 +2,7 @@
 
 /// A formula as it is written, with the places where a line may end.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub struct Writing {
+pub(crate) struct Writing {
     text: String,
     stretches: Vec<Stretch>,
 }

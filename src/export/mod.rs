@@ -1,6 +1,6 @@
 //! Exact results as text, LaTeX and JSON.
 //!
-//! [`arrange`] puts an expression in the order a person would write it; one walk with two
+//! A [`Formula`] holds an expression in the order a person would write it; one walk with two
 //! notations then writes plain text, which the language reads back, or LaTeX. Breaking of long
 //! lines is shared as well. JSON gives reduced rationals, term by term.
 
@@ -13,11 +13,9 @@ mod names;
 mod notation;
 mod source;
 
-pub use arrangement::{Arrangement, Exponents, Monomial, Node, Sign, Term, arrange};
-pub use formula::{Formula, Head, LATEX_WIDTH, Right, TEXT_WIDTH, latex, latex_cases, text};
+pub use formula::{
+    Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,
+};
 pub use general::{assumed_factors, general_form, operator_names, operator_of};
 pub use json::{SCHEMA_VERSION, expression_json, fraction_json, pieces_json};
-pub use lines::Writing;
-pub use names::{Name, Names};
-pub use notation::{Latex, Notation, Text, write, write_named};
 pub use source::SourceForm;

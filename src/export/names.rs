@@ -9,7 +9,7 @@ use wavestep_polynomial::{Integer, Rational, Symbol};
 
 /// What is written for a symbol, in each notation.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Name {
+pub(crate) struct Name {
     /// In plain text.
     pub text: String,
     /// In LaTeX.
@@ -19,7 +19,7 @@ pub struct Name {
 }
 
 /// What is written for symbols; others keep their names.
-pub type Names = BTreeMap<Symbol, Name>;
+pub(crate) type Names = BTreeMap<Symbol, Name>;
 
 impl Name {
     /// A product in place of a symbol. In LaTeX a quotient stays on the line: `μz/L`.

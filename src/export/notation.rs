@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol, decimal};
 
 /// How the parts of a formula are written.
-pub trait Notation {
+pub(crate) trait Notation {
     /// A number, not negative.
     fn number(&self, value: &Rational) -> String;
     /// A name.
@@ -38,12 +38,12 @@ pub trait Notation {
 }
 
 /// A sum of terms as it is written; zero where there are none.
-pub fn write(terms: &[Term], notation: &dyn Notation) -> Writing {
+pub(crate) fn write(terms: &[Term], notation: &dyn Notation) -> Writing {
     write_named(terms, notation, &Names::new())
 }
 
 /// A sum of terms as it is written, with names for symbols.
-pub fn write_named(terms: &[Term], notation: &dyn Notation, names: &Names) -> Writing {
+pub(crate) fn write_named(terms: &[Term], notation: &dyn Notation, names: &Names) -> Writing {
     let mut writer = Writer::new(notation, names);
     if terms.is_empty() {
         writer.push(&notation.number(&Rational::default()));
@@ -215,7 +215,7 @@ impl<'a> Writer<'a> {
 }
 
 /// Plain text: explicit `*`, `exp(…)` and `^`, which the language reads back.
-pub struct Text;
+pub(crate) struct Text;
 
 impl Notation for Text {
     fn number(&self, value: &Rational) -> String {
@@ -279,7 +279,7 @@ impl Notation for Text {
 }
 
 /// LaTeX for amsmath and KaTeX.
-pub struct Latex;
+pub(crate) struct Latex;
 
 /// Names that have a command of their own.
 const GREEK: [&str; 34] = [

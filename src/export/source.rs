@@ -87,6 +87,21 @@ impl<'a> SourceForm<'a> {
 
     /// What [`general_form`](crate::export::general_form) says of a wave, in the source's symbols:
     /// single values, and last the one for every n. `None` where the wave is a sum of echoes.
+    ///
+    /// ```
+    /// use wavestep::export::{SourceForm, general_form};
+    /// use wavestep::language::{Source, read_recurrence};
+    /// use wavestep::solution::Solution;
+    ///
+    /// let text = wavestep::scenes::find("constant-force").unwrap().text;
+    /// let source = Source::new("constant-force", text)?;
+    /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+    /// let recurrence = solution.recurrence();
+    /// let formulas = general_form(recurrence, 0, solution.general(0).unwrap());
+    /// let written = SourceForm::new(recurrence, None).general(0, &formulas).unwrap();
+    /// assert_eq!(written[0].to_line(), "f'[n] = (n + 1)*X/(E*A)");
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
     pub fn general(&self, wave: WaveIndex, formulas: &[Formula]) -> Option<Vec<Formula>> {
         let last = formulas.len().checked_sub(1)?;
         let written = |(i, formula): (usize, &Formula)| {

@@ -1,6 +1,6 @@
 //! What differs between two locks: which piece, which term, old and new.
 
-use crate::export::{Text, arrange, write};
+use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::lock::{Lock, Piece};
 use std::collections::{BTreeMap, BTreeSet};
@@ -147,7 +147,6 @@ fn different_monomials(
 }
 
 fn line(term: &Expression, old: &Expression, new: &Expression) -> String {
-    let written = |value: &Expression| write(&arrange(value, None), &Text).text().to_owned();
-    let both = format!("locked {}, now {}", written(old), written(new));
-    if term.is_one() { both } else { format!("{}: {both}", written(term)) }
+    let both = format!("locked {}, now {}", expression_text(old), expression_text(new));
+    if term.is_one() { both } else { format!("{}: {both}", expression_text(term)) }
 }

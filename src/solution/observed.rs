@@ -14,6 +14,23 @@ use wavestep_polynomial::Rational;
 /// ```
 ///
 /// It is zero before the offset.
+///
+/// ```
+/// use wavestep::language::{Source, read_expression, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let source = Source::new("rigid-mass", text)?;
+/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+/// // strain_fixed = −2 f(t − mu): at the fixed end, one passage later.
+/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
+/// let observed = solution.observed(&strain, 0, 0).unwrap().unwrap();
+/// let read = |text| read_expression(&Source::new("text", text).unwrap());
+/// assert_eq!(observed.pieces, [read("-2*exp(-s)")?]);
+/// assert_eq!(Some(observed.offset.clone()), read("mu")?.as_fraction());
+/// assert_eq!(solution.offset(&strain), Some(observed.offset));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ObservedPieces {
     /// When the first period begins.
@@ -23,6 +40,18 @@ pub struct ObservedPieces {
 }
 
 /// An observable of waves that do not arrive together, so that no period suits all of them.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::solution::{MixedOffsets, Solution};
+///
+/// let scene = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let source = Source::new("apart", format!("{scene}observe apart = f(t) + f(t - mu)\n"))?;
+/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+/// let apart = solution.recurrence().observation("apart").unwrap();
+/// assert_eq!(solution.observed(&apart, 0, 0).unwrap(), Err(MixedOffsets));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct MixedOffsets;
 

@@ -18,6 +18,22 @@ use wavestep_polynomial::{
 };
 
 /// The family of functions `T_k` that the echoes are made of.
+///
+/// ```
+/// use wavestep::language::{Source, read_expression, read_recurrence};
+/// use wavestep::solution::{Family, GeneralForm, Solution};
+///
+/// let text = "recurrence \"One pole\"\nperiod 1, local s, time t\nwave f\n\
+///     equation f[n]' + f[n] = f[n-1]\ncontinuous f[n] starts at 1\n";
+/// let source = Source::new("one pole", text)?;
+/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+/// let Ok(GeneralForm::Echoes(f)) = solution.general(0) else { panic!("1/(p + 1)^(k + 1)") };
+/// assert_eq!(f.family(), &Family::Power);
+/// let local = &solution.recurrence().statement().local;
+/// let third = Source::new("text", "exp(-s)*s^3/6")?;
+/// assert_eq!(f.echo(3, local), read_expression(&third)?);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Family {
     /// `T_k(x) = L_k(c x)`, Laguerre polynomials, with `c = a + b`.
@@ -34,22 +50,67 @@ pub enum Family {
 /// ```
 ///
 /// with `i` at most `first.len()` for every term.
+///
+/// ```
+/// use wavestep::expression::Fraction;
+/// use wavestep::language::{Source, read_expression, read_recurrence};
+/// use wavestep::solution::{Family, GeneralForm, Solution};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let source = Source::new("rigid-mass", text)?;
+/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+/// let Ok(GeneralForm::Echoes(f)) = solution.general(0) else { panic!("e^(-s) L_k(2s)") };
+/// let one = Fraction::one();
+/// assert_eq!(f.family(), &Family::Laguerre(&one + &one));
+/// assert_eq!((f.rate(), f.ratio()), (&one, &one));
+/// assert_eq!((f.first(), f.terms()), (&[][..], &[(0, one.clone())][..]));
+/// let second = Source::new("L_2(2s)", "exp(-s)*(1 - 4*s + 2*s^2)")?;
+/// let local = &solution.recurrence().statement().local;
+/// assert_eq!(f.echo(2, local), read_expression(&second)?);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EchoTemplate {
-    /// The functions `T_k`.
-    pub family: Family,
-    /// The rate `b`.
-    pub rate: Fraction,
-    /// The ratio `ρ`.
-    pub ratio: Fraction,
-    /// The terms: lag `i` (−1 where `T_{k+1}` occurs) and coefficient `c_i`, by ascending lag;
-    /// none is zero.
-    pub terms: Vec<(isize, Fraction)>,
-    /// The echoes before the sum holds, in the local variable.
-    pub first: Vec<Expression>,
+    family: Family,
+    rate: Fraction,
+    ratio: Fraction,
+    terms: Vec<(isize, Fraction)>,
+    first: Vec<Expression>,
 }
 
 impl EchoTemplate {
+    /// The functions `T_k`.
+    pub fn family(&self) -> &Family {
+        &self.family
+    }
+
+    /// The rate `b`.
+    pub fn rate(&self) -> &Fraction {
+        &self.rate
+    }
+
+    /// The ratio `ρ`.
+    pub fn ratio(&self) -> &Fraction {
+        &self.ratio
+    }
+
+    /// The terms: lag `i` (−1 where `T_{k+1}` occurs) and coefficient `c_i`, by ascending lag;
+    /// none is zero.
+    pub fn terms(&self) -> &[(isize, Fraction)] {
+        &self.terms
+    }
+
+    /// The echoes before the sum holds, in the local variable.
+    pub fn first(&self) -> &[Expression] {
+        &self.first
+    }
+
+    /// The template with these echoes before the sum.
+    pub(crate) fn beginning_with(mut self, first: Vec<Expression>) -> EchoTemplate {
+        self.first = first;
+        self
+    }
+
     /// The k-th echo as a function of `x`. O(k) operations on coefficients.
     pub fn echo(&self, k: usize, x: &Symbol) -> Expression {
         if let Some(echo) = self.first.get(k) {
@@ -67,7 +128,7 @@ impl EchoTemplate {
 
     /// The echoes `0 … through` as functions of `x`. Where all constants are rational numbers, a
     /// product and a sum for each coefficient, else as for [`EchoTemplate::echo`].
-    pub fn echoes(&self, through: usize, x: &Symbol) -> Vec<Expression> {
+    pub(crate) fn echoes(&self, through: usize, x: &Symbol) -> Vec<Expression> {
         let first = self.first.iter().take(through + 1).cloned();
         let later = (through >= self.first.len()).then(|| self.numeric_rows(through)).flatten();
         let Some((rate, rows)) = later else {
@@ -81,7 +142,7 @@ impl EchoTemplate {
 
     /// Where all constants are rational numbers: the rate `b`, and the echoes `first.len() …
     /// through` without their exponential `e^{−bx}`. A product and a sum for each coefficient.
-    pub fn numeric_rows(&self, through: usize) -> Option<(Rational, Vec<Univariate>)> {
+    pub(crate) fn numeric_rows(&self, through: usize) -> Option<(Rational, Vec<Univariate>)> {
         let (rate, ratio) = (self.rate.as_constant()?, self.ratio.as_constant()?);
         let terms = self.terms.iter().map(|(lag, c)| Some((*lag, c.as_constant()?)));
         let terms: Vec<(isize, Rational)> = terms.collect::<Option<_>>()?;
@@ -320,4 +381,34 @@ pub(crate) fn multiplier(form: &LinearForm, wave: WaveIndex) -> Option<Vec<Expre
     let operator = form.operator(wave);
     let alone = form.operators().all(|(other, _)| other == wave);
     (alone && operator.slope().is_empty()).then(|| operator.value().to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `L_k(cx) = Σ_j C(k,j) (−c)^j x^j/j!`, with numbers and with a symbol.
+    #[test]
+    fn laguerre_rows_are_binomials() {
+        let x = Symbol::new("x").unwrap();
+        for c in ["2", "-1/3", "a", "a + 1/2"] {
+            let c = Fraction::from(c.parse::<Polynomial>().unwrap());
+            let template = EchoTemplate {
+                family: Family::Laguerre(c.clone()),
+                rate: Fraction::zero(),
+                ratio: Fraction::one(),
+                terms: vec![(0, Fraction::one())],
+                first: Vec::new(),
+            };
+            for k in 0..=12u32 {
+                let mut expected = Expression::zero();
+                for j in 0..=k {
+                    let weight = Rational::new(binomial(k, j), factorial(j));
+                    let power = Polynomial::monomial(&weight, &[(&x, j)]);
+                    expected += &(&Expression::from(-&c).pow(j) * &power.into());
+                }
+                assert_eq!(template.echo(k as usize, &x), expected, "L_{k}({c} x)");
+            }
+        }
+    }
 }
