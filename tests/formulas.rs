@@ -126,7 +126,7 @@ fn rigid_mass_observables() {
     let mut formulas = Vec::new();
     for observable in &statement.observables {
         let seen = solution.observed(&observable.observation, 0, 2);
-        let seen = seen.unwrap_or_else(|error| panic!("{error}")).expect("one offset");
+        let seen = seen.unwrap_or_else(|error| panic!("{error}"));
         for (n, piece) in seen.pieces.iter().enumerate() {
             let (wave, local) = (observable.name.clone(), statement.local.clone());
             let formula = Formula::new(Head::Piece { wave, n, local }, piece, &statement.local);

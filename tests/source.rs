@@ -36,19 +36,18 @@ fn observed(solution: &Solution, name: &str, back: &Fraction, last: usize) -> Ve
     let observation = recurrence.observation(name).expect("an observable of the scene");
     assert!(!observation.forcing.contains(&statement.time));
     let mut values = vec![observation.forcing.clone(); last + 1];
-    for (coefficient, wave, order, delay) in &observation.terms {
-        assert_eq!(*order, 0);
-        let lag = whole_periods(recurrence, &(delay - back));
-        let pieces = solution.pieces(*wave, 0, last).unwrap_or_else(|error| panic!("{error}"));
+    for seen in &observation.waves {
+        assert!(!seen.slope);
+        let lag = whole_periods(recurrence, &(&seen.delay - back));
+        let pieces = solution.pieces(seen.wave, 0, last).unwrap_or_else(|error| panic!("{error}"));
         for (value, piece) in values.iter_mut().skip(lag).zip(&pieces) {
-            *value += &(piece * coefficient);
+            *value += &(piece * &seen.coefficient);
         }
     }
     let derived = solution.observed(&observation, 0, last).unwrap_or_else(|e| panic!("{e}"));
-    let derived = derived.expect("its waves arrive together");
     assert_eq!((&derived.offset, &derived.pieces), (back, &values), "{name}");
-    let later = solution.observed(&observation, last, last).map(|seen| seen.map(|s| s.pieces));
-    assert_eq!(later, Ok(Ok(values[last..].to_vec())), "{name}");
+    let later = solution.observed(&observation, last, last).map(|seen| seen.pieces);
+    assert_eq!(later, Ok(values[last..].to_vec()), "{name}");
     values
 }
 

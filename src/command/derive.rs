@@ -10,7 +10,7 @@ use wavestep::export::{self, Formula, Head, SourceForm};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language;
 use wavestep::recurrence::{Observable, Recurrence, WaveIndex};
-use wavestep::solution::{GeneralForm, MixedOffsets, ObservedPieces, Solution, Unknown};
+use wavestep::solution::{GeneralForm, ObserveError, ObservedPieces, Solution, Unknown};
 
 /// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
@@ -28,7 +28,7 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
     }
     let observable = options.observable.as_deref().map(|name| observable(&recurrence, name));
     let observable = observable.transpose()?;
-    let parts = observable.as_ref().map_or(waves.len(), |o| o.observation.terms.len());
+    let parts = observable.as_ref().map_or(waves.len(), |o| o.observation.waves.len());
     refuse_explosion(&recurrence, options, parts)?;
     let solution = Solution::new(recurrence);
     let _progress = progress::spinner("deriving");
@@ -129,12 +129,12 @@ fn observed(
         return Err(Failure::usage(message, "derive the waves with --form echo"));
     }
     let (first, last) = orders(options);
-    match solution.observed(&observable.observation, first, last)? {
-        Ok(observed) => {
-            let ObservedPieces { offset, pieces } = observed;
+    match solution.observed(&observable.observation, first, last) {
+        Ok(ObservedPieces { offset, pieces }) => {
             Ok(Functions { name, first, offset, expressions: pieces })
         }
-        Err(MixedOffsets) => Err(Failure::Computation(
+        Err(ObserveError::Solve(error)) => Err(error.into()),
+        Err(ObserveError::MixedOffsets) => Err(Failure::Computation(
             format!("the waves in {name} do not arrive together, so it has no common periods"),
             "evaluate it with `wavestep eval`, or derive its waves".to_owned(),
         )),

@@ -313,13 +313,13 @@ impl<'a> Evaluator<'a> {
         side: Side,
     ) -> Result<Vec<Contribution>, EvaluateError> {
         let mut contributions = Vec::new();
-        for (coefficient, wave, order, delay) in &observation.terms {
-            let coefficient = number(coefficient, |_| None)?;
-            let delay = delay.as_constant().expect("a delay without symbols is a number");
+        for seen in &observation.waves {
+            let coefficient = number(&seen.coefficient, |_| None)?;
+            let delay = seen.delay.as_constant().expect("a delay without symbols is a number");
             let time = at - delay;
             for (extra, factor) in &coefficient {
                 let first = contributions.len();
-                self.add_wave(*wave, *order, &time, side, &mut contributions)?;
+                self.add_wave(seen.wave, seen.slope, &time, side, &mut contributions)?;
                 for contribution in &mut contributions[first..] {
                     contribution.factor *= factor;
                     contribution.exponent += extra;
@@ -339,7 +339,7 @@ impl<'a> Evaluator<'a> {
     fn add_wave(
         &self,
         wave: WaveIndex,
-        order: u32,
+        slope: bool,
         time: &Rational,
         side: Side,
         contributions: &mut Vec<Contribution>,
@@ -347,7 +347,7 @@ impl<'a> Evaluator<'a> {
         let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
         if let Ok(GeneralForm::Geometric(sequence)) = self.solution.general(wave) {
             // Constant on each period: no echo needs to be added up, and slopes are zero.
-            if order == 0 {
+            if !slope {
                 contributions.extend(numbers(number(&sequence.value(last), |_| None)?));
             }
             return Ok(());
@@ -357,10 +357,10 @@ impl<'a> Evaluator<'a> {
         for k in 0..=last {
             let x = time - &self.period * Rational::from_integer(k.into());
             match &*echoes {
-                Echoes::Rows(rows) => add_row(&rows[k], order, x, contributions),
+                Echoes::Rows(rows) => add_row(&rows[k], slope, x, contributions),
                 Echoes::Expressions(sum) => {
                     let mut echo = sum.echoes()[k].clone();
-                    for _ in 0..order {
+                    if slope {
                         echo = echo.derivative(local);
                     }
                     let value = number(&echo, |symbol| (symbol == local).then(|| x.clone()))?;
@@ -418,8 +418,8 @@ fn shared(row: EchoRow) -> Row {
     row.into_parts().into_iter().map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect()
 }
 
-/// Adds the echo, or with `order` 1 its derivative `Σ e^{λx} (P' + λP)`, at `x`.
-fn add_row(row: &Row, order: u32, x: Rational, contributions: &mut Vec<Contribution>) {
+/// Adds the echo, or its derivative `Σ e^{λx} (P' + λP)`, at `x`.
+fn add_row(row: &Row, slope: bool, x: Rational, contributions: &mut Vec<Contribution>) {
     for (rate, polynomial) in row {
         let mut add = |polynomial, factor| {
             contributions.push(Contribution {
@@ -429,11 +429,11 @@ fn add_row(row: &Row, order: u32, x: Rational, contributions: &mut Vec<Contribut
             });
         };
         let one = || Rational::from_integer(1.into());
-        if order == 0 {
-            add(polynomial.clone(), one());
-        } else {
+        if slope {
             add(Rc::new(polynomial.derivative()), one());
             add(polynomial.clone(), rate.clone());
+        } else {
+            add(polynomial.clone(), one());
         }
     }
 }

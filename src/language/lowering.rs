@@ -13,8 +13,8 @@ use super::syntax::{self, Span, Spanned, StatementKind};
 use super::written;
 use crate::expression::{Assumptions, Condition, Expression, Fraction, NotInvertible, Relation};
 use crate::recurrence::{
-    Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation, Part, Recurrence,
-    SourceNotation, Statement,
+    Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation, ObservedWave, Part,
+    Recurrence, SourceNotation, Statement,
 };
 
 type Outcome<T> = Result<T, Diagnostic>;
@@ -328,13 +328,13 @@ impl<'a> Lowering<'a> {
             let StatementKind::Observe { name, value } = kind else { continue };
             self.declare(name)?;
             let linear = self.scope.lower(value, Place::Observable)?;
-            let mut observation = Observation { forcing: linear.rest, terms: Vec::new() };
+            let mut observation = Observation { forcing: linear.rest, waves: Vec::new() };
             for term in linear.waves {
-                let (order, delay) = match term.reference {
+                let (slope, delay) = match term.reference {
                     Reference::Lagged { lag, primes } => {
-                        (primes, statement.period.scale(&Rational::from_integer(lag.into())))
+                        (primes > 0, statement.period.scale(&Rational::from_integer(lag.into())))
                     }
-                    Reference::Delayed { delay } => (0, delay),
+                    Reference::Delayed { delay } => (false, delay),
                     Reference::Summed { .. } => {
                         return Err(self
                             .scope
@@ -342,7 +342,8 @@ impl<'a> Lowering<'a> {
                             .with_remedy("give the sum a wave of its own, by an equation"));
                     }
                 };
-                observation.terms.push((term.coefficient, term.wave, order, delay));
+                let (coefficient, wave) = (term.coefficient, term.wave);
+                observation.waves.push(ObservedWave { coefficient, wave, slope, delay });
             }
             observables.push(Observable { name: name.value.clone(), observation });
         }
@@ -391,7 +392,7 @@ impl<'a> Lowering<'a> {
                     NotInvertible::Zero => "check the signs, and the values given".to_owned(),
                 },
             ),
-            Fault::RateNotPolynomial => {
+            Fault::RateHoldsExponential => {
                 ("a rate with an exponential", "introduce a symbol for it".to_owned())
             }
             Fault::NoStart(wave) => (

@@ -17,7 +17,7 @@ pub use notation::{SourceNotation, SourceProduct};
 pub use ordering::{Start, Step};
 pub use recurrence::Recurrence;
 pub use statement::{
-    Continuity, Fault, InvalidRecurrence, Observable, Observation, Part, Statement,
+    Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Part, Statement,
 };
 
 /// The place of a wave among the waves of a recurrence.

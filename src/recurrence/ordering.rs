@@ -180,7 +180,7 @@ fn part_key(row: &Row) -> usize {
 fn with_rate(mut step: Step, part: Part) -> Outcome<Step> {
     if !step.equation.operator(step.wave).slope_now().is_zero() {
         let rate = step.equation.rate_now(step.wave);
-        let rate = rate.ok_or(InvalidRecurrence { part, fault: Fault::RateNotPolynomial })?;
+        let rate = rate.ok_or(InvalidRecurrence { part, fault: Fault::RateHoldsExponential })?;
         let (continuous, initial) = (LinearForm::zero(), Expression::zero());
         step.start = Some(Start { rate, continuous, initial });
     }

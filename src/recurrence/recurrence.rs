@@ -5,7 +5,7 @@ use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::ordering::{self, Step};
 use crate::recurrence::statement::{
-    Continuity, Fault, InvalidRecurrence, Observable, Observation, Part, Statement,
+    Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Part, Statement,
 };
 use wavestep_polynomial::{Polynomial, Symbol};
 
@@ -105,8 +105,9 @@ impl Recurrence {
     /// The wave or the observable called `name`, as what is observed.
     pub fn observation(&self, name: &str) -> Option<Observation> {
         if let Some(wave) = self.wave(name) {
-            let term = (Expression::one(), wave, 0, Fraction::zero());
-            return Some(Observation { terms: vec![term], forcing: Expression::zero() });
+            let (coefficient, delay) = (Expression::one(), Fraction::zero());
+            let seen = ObservedWave { coefficient, wave, slope: false, delay };
+            return Some(Observation { waves: vec![seen], forcing: Expression::zero() });
         }
         self.observable(name).map(|observable| observable.observation.clone())
     }

@@ -56,30 +56,55 @@ pub struct Observable {
 /// What is observed: delayed waves with coefficients, and a function of scene time.
 ///
 /// ```text
-/// Σ_i coefficient_i · w_i^{(order_i)}(t − delay_i) + forcing(t)
+/// Σ_i coefficient_i · w_i(t − delay_i) + forcing(t),     with w_i' in place of w_i where asked for
 /// ```
 ///
 /// ```
 /// use wavestep::expression::{Expression, Fraction};
 /// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::Observation;
+/// use wavestep::recurrence::{Observation, ObservedWave};
 /// use wavestep_polynomial::Symbol;
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
 /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
 /// // The strain at the fixed end is −2 f, one passage later.
 /// let (f, mu) = (recurrence.wave("f").unwrap(), Fraction::symbol(&Symbol::new("mu").unwrap()));
-/// let terms = vec![(Expression::integer(-2), f, 0, mu)];
-/// let strain = Observation { terms, forcing: Expression::zero() };
+/// let seen = ObservedWave { coefficient: Expression::integer(-2), wave: f, slope: false, delay: mu };
+/// let strain = Observation { waves: vec![seen], forcing: Expression::zero() };
 /// assert_eq!(recurrence.observation("strain_fixed"), Some(strain));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Observation {
-    /// The delayed waves: coefficient, wave, order of the derivative (0 or 1), delay.
-    pub terms: Vec<(Expression, WaveIndex, u32, Fraction)>,
+    /// The delayed waves.
+    pub waves: Vec<ObservedWave>,
     /// The function of scene time that is added.
     pub forcing: Expression,
+}
+
+/// One wave in an [`Observation`]: `coefficient · w(t − delay)`, or `coefficient · w'(t − delay)`.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let scene = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let source = Source::new("power", format!("{scene}observe rate = 3*f[n-1]'\n"))?;
+/// let recurrence = read_recurrence(&source, &Default::default())?;
+/// let rate = &recurrence.observation("rate").unwrap().waves[0];
+/// assert_eq!((rate.wave, rate.slope), (recurrence.wave("f").unwrap(), true));
+/// assert_eq!(rate.delay, recurrence.statement().period);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ObservedWave {
+    /// The coefficient, free of time.
+    pub coefficient: Expression,
+    /// The wave.
+    pub wave: WaveIndex,
+    /// Whether its derivative is seen, not its value.
+    pub slope: bool,
+    /// By how much it is delayed.
+    pub delay: Fraction,
 }
 
 /// All that a person states of a recurrence.
@@ -190,7 +215,7 @@ pub enum Fault {
     /// A coefficient that has to be divided by.
     NotInvertible(NotInvertible),
     /// The rate of a differential equation has an exponential in it.
-    RateNotPolynomial,
+    RateHoldsExponential,
     /// A wave with a differential equation and no continuity rule to start it.
     NoStart(String),
     /// A continuity rule that starts no wave.
@@ -243,7 +268,7 @@ impl fmt::Display for InvalidRecurrence {
                 write!(f, "{} depend on each other on the same period", waves.join(" and "))
             }
             Fault::NotInvertible(reason) => write!(f, "solving this needs a {reason}"),
-            Fault::RateNotPolynomial => {
+            Fault::RateHoldsExponential => {
                 f.write_str("the rate of this differential equation holds an exponential")
             }
             Fault::NoStart(wave) => write!(f, "nothing says how {wave} starts and goes on"),

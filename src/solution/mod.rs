@@ -21,7 +21,7 @@ pub use echo::EchoByEcho;
 pub use error::{SolveError, Unsolvable};
 pub use general::{GeneralForm, Proof, Unknown};
 pub use geometric::{Geometric, GeometricTerm};
-pub use observed::{MixedOffsets, ObservedPieces};
+pub use observed::{ObserveError, ObservedPieces};
 pub use period::{KeptEnds, PeriodByPeriod};
 pub use solved::Solution;
 pub use table::{Coefficient, EchoRow, EchoTable, ExpandedTerm, OrdinaryTable};

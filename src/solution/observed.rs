@@ -5,6 +5,7 @@ use crate::recurrence::Observation;
 use crate::solution::error::SolveError;
 use crate::solution::solved::Solution;
 use num_traits::ToPrimitive;
+use std::fmt;
 use wavestep_polynomial::Rational;
 
 /// An observable on periods of its own, which begin at an offset from those of the waves:
@@ -24,7 +25,7 @@ use wavestep_polynomial::Rational;
 /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
 /// // strain_fixed = −2 f(t − mu): at the fixed end, one passage later.
 /// let strain = solution.recurrence().observation("strain_fixed").unwrap();
-/// let observed = solution.observed(&strain, 0, 0).unwrap().unwrap();
+/// let observed = solution.observed(&strain, 0, 0).unwrap();
 /// let read = |text| read_expression(&Source::new("text", text).unwrap());
 /// assert_eq!(observed.pieces, [read("-2*exp(-s)")?]);
 /// assert_eq!(Some(observed.offset.clone()), read("mu")?.as_fraction());
@@ -39,21 +40,45 @@ pub struct ObservedPieces {
     pub pieces: Vec<Expression>,
 }
 
-/// An observable of waves that do not arrive together, so that no period suits all of them.
+/// Why an observable has no pieces.
 ///
 /// ```
 /// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{MixedOffsets, Solution};
+/// use wavestep::solution::{ObserveError, Solution};
 ///
 /// let scene = wavestep::scenes::find("rigid-mass").unwrap().text;
 /// let source = Source::new("apart", format!("{scene}observe apart = f(t) + f(t - mu)\n"))?;
 /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
 /// let apart = solution.recurrence().observation("apart").unwrap();
-/// assert_eq!(solution.observed(&apart, 0, 0).unwrap(), Err(MixedOffsets));
+/// assert_eq!(solution.observed(&apart, 0, 0), Err(ObserveError::MixedOffsets));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct MixedOffsets;
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum ObserveError {
+    /// Its waves do not arrive together, so that no period suits all of them.
+    MixedOffsets,
+    /// A piece cannot be given exactly.
+    Solve(SolveError),
+}
+
+impl fmt::Display for ObserveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ObserveError::MixedOffsets => {
+                f.write_str("its waves do not arrive together, so it has no common periods")
+            }
+            ObserveError::Solve(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ObserveError {}
+
+impl From<SolveError> for ObserveError {
+    fn from(error: SolveError) -> ObserveError {
+        ObserveError::Solve(error)
+    }
+}
 
 /// How many periods a delay is, where that is a whole number.
 fn whole_periods(delay: &Fraction, period: &Fraction) -> Option<i64> {
@@ -87,16 +112,15 @@ impl Solution {
     }
 
     fn offset_and_lags(&self, observation: &Observation) -> Option<(Fraction, Vec<usize>)> {
-        let delays: Vec<&Fraction> = observation.terms.iter().map(|(.., delay)| delay).collect();
+        let delays: Vec<&Fraction> = observation.waves.iter().map(|term| &term.delay).collect();
         let common = common_offset(&delays, &self.recurrence().statement().period);
         common.filter(|(offset, _)| observation.forcing.is_zero() || offset.is_zero())
     }
 
-    /// The pieces `first … last` of an observable; an error inside the first result where its
-    /// waves do not arrive together.
+    /// The pieces `first … last` of an observable.
     ///
     /// # Errors
-    /// [`SolveError`] where a piece cannot be given exactly.
+    /// [`ObserveError`] where its waves do not arrive together, or a piece cannot be given exactly.
     ///
     /// # Cost
     /// That of the pieces of the waves, and a pass over them for each term.
@@ -105,24 +129,24 @@ impl Solution {
         observation: &Observation,
         first: usize,
         last: usize,
-    ) -> Result<Result<ObservedPieces, MixedOffsets>, SolveError> {
+    ) -> Result<ObservedPieces, ObserveError> {
         let statement = self.recurrence().statement();
         let Some((offset, lags)) = self.offset_and_lags(observation) else {
-            return Ok(Err(MixedOffsets));
+            return Err(ObserveError::MixedOffsets);
         };
         let forced = !observation.forcing.is_zero();
         let mut pieces = vec![Expression::zero(); (last + 1).saturating_sub(first)];
-        for ((coefficient, wave, order, _), lag) in observation.terms.iter().zip(lags) {
+        for (seen, lag) in observation.waves.iter().zip(lags) {
             if lag > last {
                 continue;
             }
             let start = first.saturating_sub(lag);
-            let waves = self.pieces(*wave, start, last - lag)?;
+            let waves = self.pieces(seen.wave, start, last - lag)?;
             for (n, mut piece) in (start + lag..).zip(waves) {
-                for _ in 0..*order {
+                if seen.slope {
                     piece = piece.derivative(&statement.local);
                 }
-                pieces[n - first].add_scaled(&piece, coefficient);
+                pieces[n - first].add_scaled(&piece, &seen.coefficient);
             }
         }
         for (n, piece) in (first..).zip(&mut pieces).filter(|_| forced) {
@@ -131,6 +155,6 @@ impl Solution {
             let forcing = observation.forcing.substitute(&statement.time, &time);
             *piece += &forcing.expect("forcing has no time in denominators");
         }
-        Ok(Ok(ObservedPieces { offset, pieces }))
+        Ok(ObservedPieces { offset, pieces })
     }
 }
