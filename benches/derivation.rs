@@ -44,7 +44,7 @@ fn reduce(solution: &Solution, through: usize) -> usize {
     let ordinary = table(solution, through).to_ordinary();
     let mut limbs = 0;
     for n in 0..=through {
-        ordinary.for_each_coefficient(n, 2, |term| {
+        ordinary.for_each_ordinary_term(n, 2, |term| {
             let (numerator, denominator) = term.value.limbs();
             limbs += numerator.len() + denominator.len();
         });

@@ -395,3 +395,52 @@ fn pieces_of_derive_and_eval_are_the_same() {
 fn term((exponent, value): (&BigRational, &BigRational)) -> f64 {
     value.to_f64().unwrap() * exponent.to_f64().unwrap().exp()
 }
+
+#[test]
+fn completions_and_the_manual_name_every_subcommand() {
+    const SUBCOMMANDS: [&str; 6] = ["derive", "eval", "check", "lock", "scenes", "generate"];
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = output(&format!("generate {shell}"));
+        for name in SUBCOMMANDS {
+            assert!(script.contains(name), "{shell}: {name}");
+        }
+        assert!(script.contains("source-form") && script.contains("locked"), "{shell}");
+    }
+    let manual = output("generate manual");
+    for name in SUBCOMMANDS {
+        let heading = format!(".SH \"WAVESTEP {}\"", name.to_uppercase());
+        assert_eq!(manual.matches(&heading).count(), 1, "{name}");
+        assert!(manual.contains(&format!("wavestep {name}")), "{name}");
+    }
+    assert!(!manual.contains("(1)"), "no page but this one is named");
+    assert_eq!(manual.matches(".nf").count(), manual.matches(".fi").count());
+    assert!(manual.contains("\\-\\-quantity f \\-\\-at 33/10"), "{manual}");
+    assert!(output("--version").starts_with("wavestep "));
+}
+
+#[test]
+fn the_form_of_a_source_that_says_nothing_is_refused() {
+    let folder = folder("source-form");
+    let text =
+        "recurrence \"plain\"\nperiod 1, local s, time t\nwave f\nequation f[n] = f[n-1] + 1\n";
+    fs::write(folder.join("plain.wave"), text).unwrap();
+    for (line, expected) in [
+        ("derive plain.wave --source-form", "does not say how its source writes it"),
+        ("derive rigid-mass --source-form --format json", "for reading, not for programs"),
+        ("derive rigid-mass --source-form --general", "no form for every n"),
+        ("derive rigid-mass --source-form --observable velocity", "cannot be used with"),
+    ] {
+        let Output { status, stdout, stderr } = run_in(&folder, &split(line));
+        let stderr = String::from_utf8(stderr).unwrap();
+        assert_eq!((status.code(), stdout.len()), (Some(2), 0), "{line}: {stderr}");
+        assert!(stderr.contains(expected), "{line}: {stderr}");
+    }
+}
+
+#[test]
+fn from_alone_gives_four_periods() {
+    let formulas = output("derive rigid-mass --wave f --from 4");
+    let heads: Vec<&str> =
+        formulas.lines().filter(|line| line.starts_with('f')).map(|line| &line[..4]).collect();
+    assert_eq!(heads, ["f[4]", "f[5]", "f[6]", "f[7]"]);
+}

@@ -336,14 +336,14 @@ fn streamed_coefficients_add_up_to_pieces() {
         let pieces = solution.pieces(0, 0, 12).unwrap_or_else(|error| panic!("{error}"));
         for (n, piece) in pieces.iter().enumerate() {
             let mut sum = Expression::zero();
-            ordinary.for_each_coefficient(n, multiple, |term| {
+            ordinary.for_each_ordinary_term(n, multiple, |term| {
                 let value = term.value.to_rational();
                 let (numerator, denominator) = term.value.limbs();
                 assert!(value.numer().magnitude().iter_u64_digits().eq(numerator.iter().copied()));
                 assert!(value.denom().iter_u64_digits().eq(denominator.iter().copied()));
                 let age = Rational::from_integer(term.age.into());
                 let exponent = (&s + &period.scale(&age)).scale(term.rate);
-                let powers = &s.pow(term.local_power) * &x.pow(term.period_power);
+                let powers = &s.pow(term.local_power) * &x.pow(term.symbol_power);
                 sum.add_term(exponent, powers.scale(&value));
             });
             assert_eq!(sum, *piece, "{name}: {n}");

@@ -16,7 +16,7 @@ const LAYERS: [(&str, &[&str]); 10] = [
     ("evaluate", &["ball", "expression", "recurrence", "solution"]),
     ("export", &["expression", "recurrence", "solution"]),
     ("language", &["expression", "recurrence"]),
-    ("lock", &["evaluate", "export", "expression", "language", "solution"]),
+    ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
     ("scenes", &[]),
     (
         "command",

@@ -128,6 +128,24 @@ fn a_changed_coefficient_is_named() {
     snapshot("changed-values", &differences.iter().map(ToString::to_string).collect::<String>());
 }
 
+/// Everything that the scene states is locked, not only its waves.
+#[test]
+fn changed_statements_are_named() {
+    let lock = derived(scene("rigid-mass"), &request(0, "", &[]));
+    for (old, new, named) in [
+        ("period 2*mu", "period 3*mu", "period"),
+        ("symbol mu > 0", "symbol mu > 1", "symbol mu"),
+        ("-2*f(t - mu)", "-3*f(t - mu)", "observable strain_fixed"),
+        ("observe velocity ", "observe speed ", "observable velocity"),
+        ("Rigid mass on a fixed bar\"", "Rigid mass\"", "title"),
+    ] {
+        let changed = scene("rigid-mass").replace(old, new);
+        let differences = lock.differences(&derived(&changed, &request(0, "", &[])));
+        let report: String = differences.iter().map(ToString::to_string).collect();
+        assert!(report.contains(named), "{old}: {report}");
+    }
+}
+
 #[test]
 fn what_is_gone_and_what_is_new_is_named() {
     let lock = derived(scene("two-bars"), &request(2, "", &[]));
@@ -167,6 +185,9 @@ fn damaged_files_are_explained() {
         ("count", good.replace("through 1", "through many")),
         ("value", good.replace("value f(1)", "value f")),
         ("value-time", good.replace("value f(1)", "value f(soon)")),
+        ("digits", good.replace("digits 20", "digits 0")),
+        ("twice", good.replace("f[1](s) = 2", "f[0](s) = 2")),
+        ("value-number", good.replace("value f(1) = 1", "value f(1) = one")),
         ("setting", good.replace("digits 20", "set mu")),
         ("piece", good.replace("f[1](s) = 2", "f[1](s) = 2 +")),
         ("line", good.replace("f[1](s) = 2", "f[1] is two")),
@@ -241,6 +262,9 @@ fn the_command_locks_and_checks() {
         run(&["lock", "my.wave", "--through", "2", "--at", "1", "-o", "my.lock"], &folder);
     assert_eq!((code, err.contains("mu has no value")), (2, true), "{err}");
     assert_eq!(fs::read_to_string(folder.join("my.lock")).expect("a file"), before);
+    // What is no ordinary file is written to, and stays what it is.
+    let (code, _, _) = run(&["lock", "two-bars", "--through", "0", "-o", "/dev/null"], &folder);
+    assert!(code == 0 && !fs::metadata("/dev/null").expect("a device").is_file());
     let files = fs::read_dir(&folder).expect("a folder").count();
     assert_eq!(files, 2, "no partial file is left");
 }
@@ -248,10 +272,16 @@ fn the_command_locks_and_checks() {
 #[test]
 fn bad_requests_are_refused() {
     let folder = folder("refused");
-    let cases: [(&[&str], &str); 6] = [
+    fs::write(folder.join("m.wave"), scene("rigid-mass")).expect("a file");
+    let long = "recurrence \"long\"\nperiod 1, local s, time t\nwave f\n\
+                equation f[n] = 1e100*f[n-1] + 1/3\n";
+    fs::write(folder.join("long.wave"), long).expect("a file");
+    let cases: [(&[&str], &str); 8] = [
         (&["lock", "rigid-mass", "--through", "500"], "terms"),
         (&["lock", "rigid-mass", "--through", "1", "-o", "nowhere/my.lock"], "cannot be written"),
         (&["lock", "rigid-mass", "--through", "1", "--digits", "0"], "cannot be certified"),
+        (&["lock", "m.wave", "--through", "0", "-o", "m.wave"], "the scene itself"),
+        (&["lock", "long.wave", "--through", "15"], "too long to be read back"),
         (&["lock", "rigid-mass", "--through", "1", "--at", "-1"], "before the start"),
         (&["check", "rigid-mass", "--locked", "nowhere.lock"], "cannot be read"),
         (&["check", "rigid-mass", "--locked", "x", "--set", "mu=1"], "cannot be used with"),

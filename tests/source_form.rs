@@ -24,10 +24,9 @@ fn expression(text: &str) -> Expression {
 /// The pieces `0 … last` of a wave, with the shorthand that the scene asks for.
 fn formulas(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
     let notation = &solution.recurrence().statement().notation;
-    let (pieces, kept) =
-        solution.pieces_by_ends(wave, 0, last, &notation.ends).expect("it can be solved");
+    let (pieces, kept) = solution.pieces_by_ends(last, &notation.ends).expect("it can be solved");
     let form = SourceForm::new(solution.recurrence(), Some(&kept));
-    pieces.iter().enumerate().flat_map(|(n, piece)| form.piece(wave, n, piece)).collect()
+    pieces[wave].iter().enumerate().flat_map(|(n, piece)| form.piece(wave, n, piece)).collect()
 }
 
 /// Left and right sides of formulas as they are written.
@@ -101,7 +100,7 @@ fn shorthand_says_what_the_pieces_say() {
     }
 }
 
-/// With ends kept, as many products as in the source: the coefficients are numbers and ends.
+/// With all ends kept, and put back in, every wave of every scene is what it was.
 #[test]
 fn kept_ends_hold_for_every_scene() {
     for scene in SCENES {
@@ -110,8 +109,8 @@ fn kept_ends_hold_for_every_scene() {
         let all = (0..statement.waves.len()).collect();
         for wave in 0..statement.waves.len() {
             let pieces = solution.pieces(wave, 0, 5).expect("it can be solved");
-            let (kept, ends) = solution.pieces_by_ends(wave, 0, 5, &all).expect("the same");
-            for (piece, kept) in pieces.iter().zip(&kept) {
+            let (kept, ends) = solution.pieces_by_ends(5, &all).expect("the same");
+            for (piece, kept) in pieces.iter().zip(&kept[wave]) {
                 let mut value = kept.clone();
                 for (symbol, wave, n) in ends.symbols() {
                     let end = solution.pieces(wave, n, n).expect("the same")[0]
@@ -131,6 +130,91 @@ fn replaced(value: &Expression, x: &Symbol, by: &Expression) -> Expression {
     let slope = value.derivative(x);
     assert!(!slope.contains(x), "ends occur linearly");
     &rest + &(&slope * by)
+}
+
+/// Scenes whose source writes symbols as products and quotients, where brackets matter.
+const OTHERS: [(&str, &[(&str, &str)], &str); 5] = [
+    (
+        "symbol tau > 0, mu > 0\nperiod 2*mu, local s, time t\nwave f\n\
+         equation tau*f[n]' + f[n] = tau*f[n-1]' - f[n-1]\ncontinuous f[n] - f[n-1] starts at 1/tau\n\
+         written tau as a_0*T, mu as L/c, f in 2*X/(E*A)\n",
+        &[("tau", "a_0*T"), ("mu", "L/c")],
+        "2*X/(E*A)",
+    ),
+    (
+        "symbol b > 0\nperiod 1, local s, time t\nwave f\nequation b*f[n] = 1 - f[n-1]\n\
+         written b as Z_1/Z_2, f in V/2\n",
+        &[("b", "Z_1/Z_2")],
+        "V/2",
+    ),
+    (
+        "symbol b > 0\nperiod 1, local s, time t\nwave f\nequation b*f[n]' + f[n] = f[n-1]\n\
+         continuous f[n] starts at 3\nwritten b as 1/omega, s as 2*z, f in 3*V^2\n",
+        &[("b", "1/omega"), ("s", "2*z")],
+        "3*V^2",
+    ),
+    (
+        "symbol mu > 0\nperiod 2*mu, local s, time t\nwave f\n\
+         equation f[n]' + f[n] = f[n-1]' - f[n-1]\ncontinuous f[n] - f[n-1] starts at 1\n\
+         written s as 2*z, mu as 3*m/M, constants of f as B\n",
+        &[("mu", "3*m/M"), ("s", "2*z")],
+        "1",
+    ),
+    (
+        "symbol r > 0\nperiod 2, local s, time t\nwave f\nequation f[n] = 2*r*f[n-1] + r\n\
+         written f in V/c\n",
+        &[],
+        "V/c",
+    ),
+];
+
+#[test]
+fn symbols_written_as_products_keep_their_value() {
+    for (text, renamed, unit) in OTHERS {
+        let source = Source::new("other", format!("recurrence \"other\"\n{text}")).expect("a text");
+        let recurrence = read_recurrence(&source, &BTreeMap::new());
+        let solution = Solution::new(recurrence.unwrap_or_else(|error| panic!("{error}")));
+        let written = sides(&formulas(&solution, 0, 4));
+        let constants: Vec<_> = written.iter().filter(|(left, _)| !left.contains('[')).collect();
+        let waves = written.iter().filter(|(left, _)| left.contains('['));
+        for (n, (_, right)) in waves.enumerate() {
+            let mut right = right.clone();
+            for (name, constant) in constants.iter().rev() {
+                right = right.replace(name.as_str(), &format!("({constant})"));
+            }
+            let mut expected = solution.pieces(0, n, n).expect("it can be solved")[0].clone();
+            for (name, by) in renamed {
+                expected = substituted(&expected, name, by);
+            }
+            assert_eq!(expression(&right), &expression(unit) * &expected, "{text}{right}");
+        }
+        let latex = export::latex(&formulas(&solution, 0, 4), LATEX_WIDTH);
+        for bad in ["2 3", "3 2", "2 2", "4 3", "2 1", "- -", "+ -"] {
+            assert!(!latex.contains(bad), "{bad}: {latex}");
+        }
+    }
+}
+
+/// With n put in, the sequence for every n is the unit times the piece.
+#[test]
+fn sequences_say_what_the_pieces_say() {
+    for name in ["two-bars", "constant-force"] {
+        let solution = solution(name);
+        let form = SourceForm::new(solution.recurrence(), None);
+        let statement = solution.recurrence().statement();
+        for wave in 0..statement.waves.len() {
+            let general = solution.general(wave).expect("a closed form");
+            let (_, right) = sides(&form.general(wave, general).expect("a sequence")).remove(0);
+            let unit = Expression::from(statement.notation.units[&wave].to_fraction());
+            for (n, piece) in solution.pieces(wave, 0, 5).expect("solved").iter().enumerate() {
+                let power = format!("^({n} + 1)");
+                let right = right.replace("^(n + 1)", &power).replace("^n", &format!("^{n}"));
+                let right = right.replace("(n + 1)", &format!("({n} + 1)"));
+                let whole = right.replace(&power, &format!("^{}", n + 1));
+                assert_eq!(expression(&whole), &unit * piece, "{name}: {whole}");
+            }
+        }
+    }
 }
 
 fn assert_looks(name: &str, formulas: &[Formula]) {
@@ -161,13 +245,11 @@ fn sequences_for_every_n() {
         let waves = 0..solution.recurrence().statement().waves.len();
         let all = waves.flat_map(|wave| {
             let general: &GeneralForm = solution.general(wave).expect("a closed form");
-            let formulas = export::general_form(solution.recurrence(), wave, general);
-            form.general(wave, &formulas).expect("a sequence")
+            form.general(wave, general).expect("a sequence")
         });
         assert_looks(&format!("{name}-general"), &all.collect::<Vec<_>>());
     }
     let solution = solution("rigid-mass");
     let general = solution.general(0).expect("echoes");
-    let formulas = export::general_form(solution.recurrence(), 0, general);
-    assert!(SourceForm::new(solution.recurrence(), None).general(0, &formulas).is_none());
+    assert!(SourceForm::new(solution.recurrence(), None).general(0, general).is_none());
 }

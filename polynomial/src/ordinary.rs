@@ -102,10 +102,10 @@ impl Ordinary<'_> {
     /// denominator.
     ///
     /// # Panics
-    /// Where `common` is no multiple of the denominator: in debug builds.
+    /// Where `common` is no multiple of the denominator.
     pub fn integers(&self, common: &BigInt) -> impl Iterator<Item = (&[u32], BigInt)> + use<'_> {
         let (factor, rest) = common.div_rem(&self.denominator);
-        debug_assert!(rest.is_zero(), "{common} is no common denominator");
+        assert!(rest.is_zero(), "{common} is no common denominator");
         let exponents = self.polynomial.terms.iter().map(|term| &term.exponents[..]);
         exponents.zip(&self.numerators).map(move |(exponents, numerator)| {
             (exponents, if factor.is_one() { numerator.clone() } else { numerator * &factor })
@@ -117,7 +117,11 @@ impl Ordinary<'_> {
     pub fn coefficients(&self) -> impl Iterator<Item = (&[u32], BigRational)> + '_ {
         let exponents = self.polynomial.terms.iter().map(|term| &term.exponents[..]);
         exponents.zip(&self.numerators).map(|(exponents, numerator)| {
-            (exponents, fraction(numerator.clone(), self.denominator.clone()))
+            let value = match self.denominator.is_one() {
+                true => BigRational::from_integer(numerator.clone()),
+                false => fraction(numerator.clone(), self.denominator.clone()),
+            };
+            (exponents, value)
         })
     }
 }

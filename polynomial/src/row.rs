@@ -1,6 +1,6 @@
 //! Rows of integers whose limbs lie one after another in one allocation.
 //!
-//! An echo of order 1000 is a thousand integers of some hundred bits; one allocation for each
+//! A polynomial of degree 1000 is a thousand integers of some hundred bits; one allocation for each
 //! would cost more than the arithmetic. Only what rows need is here: combinations of two rows,
 //! products with a word, decimal digits. Everything else goes by way of [`Integer`].
 
@@ -137,8 +137,9 @@ impl IntegerRow {
         row
     }
 
-    /// Adds `a x + b y` at the end: the limbs of a two's complement number, whose carry has at most
-    /// 32 bits more than a limb, and its magnitude where it came out negative.
+    /// Adds `a x + b y` at the end: the limbs of a two's complement number, and its magnitude where it
+    /// came out negative. By induction |carry| ≤ 2^32, since |a x_i + b y_i| ≤ 2·(2^64−1)·2^31
+    /// = 2^96 − 2^32: with the carry at most 2^96, whose floor by 2^64 is at most 2^32.
     fn push_combination(&mut self, a: i32, x: IntegerRef<'_>, b: i32, y: IntegerRef<'_>) {
         let start = self.limbs.len();
         let signed = |factor: i32, negative: bool| {
@@ -157,7 +158,7 @@ impl IntegerRow {
         self.limbs.extend(pairs.map(|(x, y)| low(i128::from(*x) * a + i128::from(*y) * b)));
         let (longer, factor) = if x.limbs.len() > both { (x.limbs, a) } else { (y.limbs, b) };
         self.limbs.extend(longer[both..].iter().map(|limb| low(i128::from(*limb) * factor)));
-        // What is left lies between −2^33 and 2^33.
+        // What is left fits a limb with its sign.
         let negative = carry < 0;
         self.limbs.push(carry as u64);
         if negative {
@@ -350,7 +351,10 @@ mod tests {
         }
 
         #[test]
-        fn advancing_agrees_with_integers(values in rows(), word in any::<u64>()) {
+        fn advancing_agrees_with_integers(
+            values in rows(),
+            word in prop_oneof![4 => any::<u64>(), 1 => Just(0), 1 => Just(u64::MAX), 1 => 1..99_u64],
+        ) {
             let (mut found, mut spare) = (row(&values), row(&values));
             found.advance(word, &mut spare);
             let expected: Vec<BigInt> = values.iter().skip(1).map(|value| value * word).collect();

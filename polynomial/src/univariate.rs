@@ -64,7 +64,8 @@ impl Univariate {
         assert!(!denominator.is_zero(), "a polynomial over the denominator zero");
         coefficients.trim();
         let mut common = denominator.clone();
-        for value in coefficients.iter() {
+        // The last ones first: they are the least likely to share what early ones were scaled by.
+        for value in coefficients.iter().rev() {
             if common.is_one() {
                 break;
             }
@@ -323,8 +324,9 @@ impl Mul for &Univariate {
     fn mul(self, other: &Univariate) -> Univariate {
         let length = (self.coefficients.len() + other.coefficients.len()).saturating_sub(1);
         let mut products = vec![BigInt::zero(); length];
+        let others = other.integers();
         for (a, left) in self.integers().iter().enumerate() {
-            for (b, right) in other.integers().iter().enumerate() {
+            for (b, right) in others.iter().enumerate() {
                 let mut product = left * right;
                 multiply_by_binomial(&mut product, index(a), index(b));
                 products[a + b] += product;

@@ -1,6 +1,6 @@
 //! The arguments of the command, with their help.
 
-use clap::{Args, Parser, Subcommand as Subcommands, ValueEnum};
+use clap::{Args, Parser, Subcommand as Subcommands, ValueEnum, ValueHint};
 use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
 
 /// Exact solutions of wave propagation in bars with lumped ends.
@@ -13,7 +13,8 @@ use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
         wavestep derive rigid-mass\n  \
         wavestep derive rigid-mass --wave f --through 8 --format latex\n  \
         wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n\n\
-        Exit codes: 0 done, 1 could not compute, 2 usage or bad scene, 3 accuracy not reached."
+        Exit codes: 0 done, 1 could not compute or not as locked, 2 usage or bad scene,\n\
+        3 accuracy not reached."
 )]
 pub struct Arguments {
     /// What to do.
@@ -41,10 +42,12 @@ pub enum Subcommand {
 /// A scene, with values in place of symbols.
 #[derive(Args)]
 pub struct Scene {
-    /// A file, or the name of a built-in scene (see `wavestep scenes`)
+    /// A file, or the name of a built-in scene (see `wavestep scenes`), which comes first
+    #[arg(value_hint = ValueHint::FilePath)]
     pub scene: String,
-    /// Put an exact value in place of a symbol, before anything is derived
-    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    /// Put an exact value in place of a symbol, before anything is derived; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true,
+          value_hint = ValueHint::Other)]
     pub set: Vec<String>,
 }
 
@@ -63,14 +66,14 @@ pub struct Derive {
     #[command(flatten)]
     pub scene: Scene,
     /// Derive this wave only
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
     pub wave: Option<String>,
     /// Derive this observable instead of the waves
     #[arg(long, value_name = "NAME", conflicts_with_all = ["wave", "general"])]
     pub observable: Option<String>,
-    /// Derive the periods 0 … N
-    #[arg(long, value_name = "N", default_value_t = 3, conflicts_with_all = ["piece", "general"])]
-    pub through: usize,
+    /// Derive the periods 0 … N [default: 3, or three after --from]
+    #[arg(long, value_name = "N", conflicts_with_all = ["piece", "general"])]
+    pub through: Option<usize>,
     /// Begin with period N, before --through
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with_all = ["piece", "general"])]
     pub from: usize,
@@ -83,7 +86,8 @@ pub struct Derive {
     /// In which form
     #[arg(long, value_enum, default_value_t = Form::Period, conflicts_with = "general")]
     pub form: Form,
-    /// Use the symbols, units and shorthand of the scene's source, as its `written` statements say
+    /// Use the symbols, units and shorthand of the scene's source, as its `written` statements say:
+    /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
     #[arg(long, conflicts_with_all = ["observable", "form"])]
     pub source_form: bool,
     /// Written how
@@ -95,6 +99,15 @@ pub struct Derive {
 }
 
 impl Derive {
+    /// The first and the last order asked for.
+    pub fn orders(&self) -> (usize, usize) {
+        match (self.piece, self.through) {
+            (Some(n), _) => (n, n),
+            (None, Some(through)) => (self.from, through),
+            (None, None) => (self.from, self.from.saturating_add(3)),
+        }
+    }
+
     /// The most characters in a line.
     pub fn width(&self) -> usize {
         let own = match self.format {
@@ -119,7 +132,7 @@ pub enum Form {
 /// How formulas are written.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum DeriveFormat {
-    /// Plain text that can be read back
+    /// Plain text; pieces and echoes in the scene's own symbols can be read back
     Text,
     /// An `align*` environment for amsmath
     Latex,
@@ -213,7 +226,7 @@ pub struct Check {
     #[command(flatten)]
     pub scene: Scene,
     /// Compare with what `wavestep lock` wrote to this file, with the values that stand there
-    #[arg(long, value_name = "FILE", conflicts_with = "set")]
+    #[arg(long, value_name = "FILE", conflicts_with = "set", value_hint = ValueHint::FilePath)]
     pub locked: Option<String>,
 }
 
@@ -223,8 +236,9 @@ pub struct Check {
     wavestep lock my.wave --through 4 -o my.lock\n  \
     wavestep lock rigid-mass --through 2 --set mu=1/4 --at 33/10 --at 5\n  \
     wavestep check my.wave --locked my.lock\n\n\
-    The file holds the pieces of all waves on the periods 0 … N, and at each time the values of all\n\
-    waves and observables, just after arrivals. A file that exists is replaced.")]
+    The file holds what the scene states of its period, symbols and observables, the pieces of all\n\
+    waves on the periods 0 … N, and at each time the values of all waves and observables, just\n\
+    after arrivals. A file that exists is replaced.")]
 pub struct Lock {
     #[command(flatten)]
     pub scene: Scene,
@@ -238,14 +252,14 @@ pub struct Lock {
     #[arg(long, value_name = "D", default_value_t = 20)]
     pub digits: usize,
     /// The file to write; standard output without it
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<String>,
 }
 
 /// Options of `generate`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
-    wavestep generate bash > /etc/bash_completion.d/wavestep\n  \
+    wavestep generate bash > ~/.local/share/bash-completion/completions/wavestep\n  \
     wavestep generate zsh > ~/.zfunc/_wavestep\n  \
     wavestep generate manual > wavestep.1 && man ./wavestep.1")]
 pub struct Generate {

@@ -6,17 +6,20 @@ use wavestep::recurrence::Recurrence;
 /// The most terms that are derived at once.
 const MAX_TERMS: u128 = 2_000_000;
 
-/// About how many terms the n-th piece has: of a wave with one pole n³/6.
+/// About how many terms the n-th piece has: of a wave with one pole n³/6. A sequence in symbols has
+/// n, and takes the work of n².
 pub fn terms_of_piece(recurrence: &Recurrence, n: usize) -> u128 {
     let n = n as u128 + 1;
-    match recurrence.steps().iter().any(|step| step.start.is_some()) {
-        true => n.saturating_pow(3) / 6 + 1,
-        false => n,
+    let differential = recurrence.steps().iter().any(|step| step.start.is_some());
+    match (differential, recurrence.symbols().next()) {
+        (true, _) => n.saturating_pow(3) / 6 + 1,
+        (false, Some(_)) => n.saturating_pow(2),
+        (false, None) => n,
     }
 }
 
 /// About how many terms there are in `parts` waves with all pieces to the n-th, where that has
-/// `last` terms.
+/// `last` terms: a sum of cubes, `Σ k³ ≈ n n³/4`.
 pub fn terms_through(last: u128, n: usize, parts: usize) -> u128 {
     last.saturating_mul(n as u128 / 4 + 1).saturating_mul(parts.max(1) as u128)
 }

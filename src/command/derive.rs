@@ -22,8 +22,9 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
     if options.general {
         return general(&Solution::new(recurrence), &waves, options);
     }
-    if options.from > options.through && options.piece.is_none() {
-        let message = format!("no period lies from {} through {}", options.from, options.through);
+    let (first, last) = options.orders();
+    if first > last {
+        let message = format!("no period lies from {first} through {last}");
         return Err(Failure::usage(message, "give --through N with N at least --from"));
     }
     let observable = options.observable.as_deref().map(|name| observable(&recurrence, name));
@@ -82,7 +83,7 @@ fn refuse_explosion(
     options: &Derive,
     parts: usize,
 ) -> Result<(), Failure> {
-    let last = options.piece.unwrap_or(options.through);
+    let (_, last) = options.orders();
     let one = match options.form {
         Form::Echo => last as u128 + 1,
         Form::Period | Form::Piecewise => bounds::terms_of_piece(recurrence, last),
@@ -103,13 +104,8 @@ struct Functions {
     expressions: Vec<Expression>,
 }
 
-/// The first and the last order asked for.
-fn orders(options: &Derive) -> (usize, usize) {
-    options.piece.map_or((options.from, options.through), |n| (n, n))
-}
-
 fn functions(solution: &Solution, wave: WaveIndex, options: &Derive) -> Result<Functions, Failure> {
-    let (first, last) = orders(options);
+    let (first, last) = options.orders();
     let expressions = match options.form {
         Form::Echo => solution.echoes(wave, last)?.echoes()[first..].to_vec(),
         Form::Period | Form::Piecewise => solution.pieces(wave, first, last)?,
@@ -128,7 +124,7 @@ fn observed(
         let message = format!("the echoes of {name} are those of its waves");
         return Err(Failure::usage(message, "derive the waves with --form echo"));
     }
-    let (first, last) = orders(options);
+    let (first, last) = options.orders();
     match solution.observed(&observable.observation, first, last) {
         Ok(ObservedPieces { offset, pieces }) => {
             Ok(Functions { name, first, offset, expressions: pieces })
@@ -162,18 +158,17 @@ fn source_form(
     waves: &[WaveIndex],
     options: &Derive,
 ) -> Result<Vec<Formula>, Failure> {
-    let (first, last) = orders(options);
+    let (first, last) = options.orders();
     let ends = &solution.recurrence().statement().notation.ends;
+    let by_ends = (!ends.is_empty()).then(|| solution.pieces_by_ends(last, ends)).transpose()?;
+    let kept = by_ends.as_ref().map(|(_, kept)| kept);
+    let form = SourceForm::new(solution.recurrence(), kept);
     let mut formulas = Vec::new();
     for wave in waves {
-        let (pieces, kept) = match ends.is_empty() {
-            true => (solution.pieces(*wave, first, last)?, None),
-            false => {
-                let (pieces, kept) = solution.pieces_by_ends(*wave, first, last, ends)?;
-                (pieces, Some(kept))
-            }
+        let pieces = match &by_ends {
+            Some((pieces, _)) => pieces[*wave][first..].to_vec(),
+            None => solution.pieces(*wave, first, last)?,
         };
-        let form = SourceForm::new(solution.recurrence(), kept.as_ref());
         let piece = |(n, piece)| form.piece(*wave, n, piece);
         formulas.extend((first..).zip(&pieces).flat_map(piece));
     }
@@ -283,7 +278,7 @@ fn general(solution: &Solution, waves: &[WaveIndex], options: &Derive) -> Result
         })?;
         let mut wave_formulas = export::general_form(recurrence, *wave, form);
         if options.source_form {
-            let written = SourceForm::new(recurrence, None).general(*wave, &wave_formulas);
+            let written = SourceForm::new(recurrence, None).general(*wave, form);
             let message = "a source gives no form for every n of a wave that is a sum of echoes";
             let remedy = "leave out --source-form, or --general";
             wave_formulas = written.ok_or_else(|| Failure::usage(message, remedy))?;

@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::Signed as _;
 use serde_json::{Value as Json, json};
 use wavestep::ball::{Decimal, Exactness};
-use wavestep::evaluate::{Evaluator, MAX_DIGITS, Side, Value};
+use wavestep::evaluate::{Evaluator, Side, Value};
 use wavestep::export::SCHEMA_VERSION;
 use wavestep::language;
 use wavestep::recurrence::Recurrence;
@@ -28,10 +28,7 @@ struct Row {
 
 /// Evaluates what is asked for.
 pub fn run(options: &Eval) -> Result<String, Failure> {
-    if options.digits == 0 || options.digits > MAX_DIGITS {
-        let message = format!("{} significant digits cannot be certified", options.digits);
-        return Err(Failure::usage(message, format!("ask for 1 to {MAX_DIGITS} digits")));
-    }
+    input::digits(options.digits)?;
     let recurrence = input::recurrence(&options.scene)?;
     let observation = recurrence.observation(&language::normalise_name(&options.quantity));
     let Some(observation) = observation else { return Err(unknown_quantity(&recurrence, options)) };

@@ -3,10 +3,9 @@
 use wavestep::evaluate::EvaluateError;
 use wavestep::expression::NotInvertible;
 use wavestep::language::{Diagnostic, Style};
-use wavestep::lock::LockError;
 use wavestep::solution::{SolveError, Unsolvable};
 
-/// Exit code: could not compute.
+/// Exit code: could not compute, or not as locked.
 pub const COMPUTATION: u8 = 1;
 /// Exit code: usage, or a bad scene.
 pub const USAGE: u8 = 2;
@@ -57,6 +56,17 @@ impl Failure {
         }
     }
 
+    /// The same failure with another remedy, where it has one to replace.
+    pub fn with_remedy(self, remedy: &str) -> Failure {
+        let remedy = remedy.to_owned();
+        match self {
+            Failure::Usage(message, _) => Failure::Usage(message, remedy),
+            Failure::Computation(message, _) => Failure::Computation(message, remedy),
+            Failure::Accuracy(message, _) => Failure::Accuracy(message, remedy),
+            other => other,
+        }
+    }
+
     /// A fault of usage.
     pub fn usage(message: impl Into<String>, remedy: impl Into<String>) -> Failure {
         Failure::Usage(message.into(), remedy.into())
@@ -79,15 +89,6 @@ impl From<SolveError> for Failure {
             _ => "give values with --set".to_owned(),
         };
         Failure::Computation(error.to_string(), remedy)
-    }
-}
-
-impl From<LockError> for Failure {
-    fn from(error: LockError) -> Failure {
-        match error {
-            LockError::Solve(error) => error.into(),
-            LockError::Evaluate(error) => error.into(),
-        }
     }
 }
 

@@ -53,6 +53,19 @@ fn manual(command: clap::Command) -> Result<String, Failure> {
     }
     let mut page =
         text(out).replace(".SH EXTRA", ".SH EXAMPLES").replace(".SS EXTRA", ".SS EXAMPLES");
+    // Examples keep their lines.
+    let mut lines: Vec<&str> = Vec::new();
+    for line in page.lines().filter(|line| *line != "Examples:") {
+        let heading = line.starts_with(".SH ") || line.starts_with(".SS ");
+        if heading && lines.iter().rev().find(|l| matches!(**l, ".nf" | ".fi")) == Some(&".nf") {
+            lines.push(".fi");
+        }
+        lines.push(line);
+        if heading && line.ends_with("EXAMPLES") {
+            lines.push(".nf");
+        }
+    }
+    page = lines.join("\n") + "\n.fi\n";
     for subcommand in command.get_subcommands() {
         // Subcommands have sections here, no pages of their own.
         let name = subcommand.get_name();

@@ -6,6 +6,7 @@ use num_rational::BigRational;
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use std::io::Read as _;
+use wavestep::evaluate::MAX_DIGITS;
 use wavestep::language::{self, MAX_SOURCE_BYTES, Source};
 use wavestep::recurrence::Recurrence;
 use wavestep::scenes;
@@ -36,14 +37,7 @@ fn source(name: &str) -> Result<Source, Failure> {
     if let Some(scene) = scenes::find(name) {
         return Ok(Source::new(scene.name, scene.text)?);
     }
-    let read = || {
-        // One byte more than allowed is enough to see that a file is too long.
-        let mut bytes = Vec::new();
-        let limit = MAX_SOURCE_BYTES as u64 + 1;
-        std::fs::File::open(name)?.take(limit).read_to_end(&mut bytes)?;
-        Ok::<_, std::io::Error>(bytes)
-    };
-    let bytes = read().map_err(|error| {
+    let bytes = bytes(name, MAX_SOURCE_BYTES).map_err(|error| {
         let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
         let remedy = match language::closest(name, names.iter().copied()) {
             Some(scene) => format!("did you mean the built-in scene `{scene}`?"),
@@ -52,6 +46,22 @@ fn source(name: &str) -> Result<Source, Failure> {
         Failure::usage(format!("the scene `{name}` cannot be read: {error}"), remedy)
     })?;
     Ok(Source::new(name, bytes)?)
+}
+
+/// The bytes of a file; of a longer one, one byte more than `limit`, which is enough to see that.
+pub fn bytes(name: &str, limit: usize) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(name)?.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// A number of significant digits that can be certified.
+pub fn digits(digits: usize) -> Result<usize, Failure> {
+    if digits == 0 || digits > MAX_DIGITS {
+        let message = format!("{digits} significant digits cannot be certified");
+        return Err(Failure::usage(message, format!("ask for 1 to {MAX_DIGITS} digits")));
+    }
+    Ok(digits)
 }
 
 /// The values that `--set` gives, by name.

@@ -5,54 +5,61 @@ use super::bounds;
 use super::failure::Failure;
 use super::input;
 use super::progress;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use wavestep::evaluate::MAX_DIGITS;
+use wavestep::evaluate::EvaluateError;
 use wavestep::language::Source;
-use wavestep::lock::{Lock, MAX_FILE_BYTES, Request};
+use wavestep::lock::{Lock, LockError, MAX_FILE_BYTES, Request};
+use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
 
 /// Locks a scene.
 pub fn run(options: &Options) -> Result<String, Failure> {
     let recurrence = input::recurrence(&options.scene)?;
-    if options.digits == 0 || options.digits > MAX_DIGITS {
-        let message = format!("{} significant digits cannot be certified", options.digits);
-        return Err(Failure::usage(message, format!("ask for 1 to {MAX_DIGITS} digits")));
-    }
     let times = options.at.iter().map(|time| input::time("--at", time));
     let request = Request {
         through: options.through,
         times: times.collect::<Result<_, _>>()?,
-        digits: options.digits,
+        digits: input::digits(options.digits)?,
         set: input::values(&options.scene.set)?,
     };
-    bounds::refuse_pieces(&recurrence, options.through, "ask for a smaller --through")?;
-    let lock = {
-        let _progress = progress::spinner("deriving");
-        Lock::derive(&Solution::new(recurrence), &request)?
-    };
-    let Some(file) = &options.output else { return Ok(lock.to_text()) };
-    write_whole(Path::new(file), &lock.to_text())?;
+    let lock = derive(recurrence, &request)?;
+    let text = lock.to_text();
+    if text.len() > MAX_FILE_BYTES {
+        let message = format!("this would be a file of {} bytes", text.len());
+        let remedy = format!("files have at most {MAX_FILE_BYTES}: ask for a smaller --through");
+        return Err(Failure::usage(message, remedy));
+    }
+    // What cannot be read back, such as numbers of a thousand digits, is not written.
+    let read = Source::with_limit("lock", &text, MAX_FILE_BYTES).and_then(|text| Lock::read(&text));
+    if !read.is_ok_and(|read| read == lock) {
+        let message = "the numbers or powers in these pieces are too long to be read back";
+        return Err(Failure::usage(message, "ask for a smaller --through, or shorter values"));
+    }
+    let Some(file) = options.output.as_ref().filter(|file| *file != "-") else { return Ok(text) };
+    if fs::canonicalize(file)
+        .is_ok_and(|file| fs::canonicalize(&options.scene.scene).ok() == Some(file))
+    {
+        return Err(Failure::usage(
+            "the scene itself would be replaced",
+            "name another file with -o",
+        ));
+    }
+    write_whole(Path::new(file), &text)?;
     Ok(format!("{file}: locked {}\n", counted(&lock)))
 }
 
 /// Compares a scene with what is locked.
 pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
-    let bytes = fs::read(file).map_err(|error| {
-        let message = format!("the file `{file}` cannot be read: {error}");
-        Failure::usage(
-            message,
-            format!("write it with `wavestep lock {scene} --through N -o {file}`"),
-        )
+    let bytes = input::bytes(file, MAX_FILE_BYTES).map_err(|error| {
+        let remedy = format!("write it with `wavestep lock {scene} --through N -o {file}`");
+        Failure::usage(format!("the file `{file}` cannot be read: {error}"), remedy)
     })?;
     let locked = Lock::read(&Source::with_limit(file, bytes, MAX_FILE_BYTES)?)?;
-    let request = locked.request();
-    let recurrence = input::recurrence_with(scene, &request.set)?;
-    bounds::refuse_pieces(&recurrence, request.through, "lock fewer periods")?;
-    let now = {
-        let _progress = progress::spinner("deriving");
-        Lock::derive(&Solution::new(recurrence), request)?
-    };
+    let recurrence = input::recurrence_with(scene, &locked.request().set)?;
+    let again = "undo what was changed in the scene, or lock it again";
+    let now = derive(recurrence, locked.request()).map_err(|failure| failure.with_remedy(again))?;
     let differences = locked.differences(&now);
     if differences.is_empty() {
         return Ok(format!("{file}: {} as locked\n", counted(&locked)));
@@ -69,6 +76,19 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
     })
 }
 
+fn derive(recurrence: Recurrence, request: &Request) -> Result<Lock, Failure> {
+    bounds::refuse_pieces(&recurrence, request.through, "ask for a smaller --through")?;
+    let _progress = progress::spinner("deriving");
+    Lock::derive(&Solution::new(recurrence), request).map_err(|error| match error {
+        LockError::Solve(error) => error.into(),
+        LockError::Evaluate(error @ EvaluateError::AccuracyNotReached { .. }) => {
+            Failure::from(error).with_remedy("ask for fewer digits")
+        }
+        LockError::Evaluate(error) => error.into(),
+        error @ LockError::Digits(_) => Failure::usage(error.to_string(), "ask for fewer digits"),
+    })
+}
+
 fn counted(lock: &Lock) -> String {
     let plural = |count: usize, what: &str| match count {
         1 => format!("1 {what}"),
@@ -81,15 +101,32 @@ fn counted(lock: &Lock) -> String {
     }
 }
 
-/// Writes a file as a whole or not at all: beside it first, then in its place.
+/// Writes a file as a whole or not at all: beside it first, under a name that is free, then in its
+/// place. What is no ordinary file, such as a pipe, is written to.
 fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
-    let mut beside = file.as_os_str().to_owned();
-    beside.push(".part");
-    let beside = PathBuf::from(beside);
-    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, file));
+    let written = match fs::metadata(file) {
+        Ok(found) if !found.is_file() => fs::write(file, text),
+        // A link stays a link: its target is replaced.
+        Ok(_) => fs::canonicalize(file).and_then(|target| replace(&target, text)),
+        Err(_) => replace(file, text),
+    };
     written.map_err(|error| {
-        let _ = fs::remove_file(&beside);
         let message = format!("the file `{}` cannot be written: {error}", file.display());
         Failure::usage(message, "name a file in a folder that exists and can be written to")
+    })
+}
+
+fn replace(file: &Path, text: &str) -> std::io::Result<()> {
+    let mut name = file.as_os_str().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let beside = PathBuf::from(name);
+    let mut part = File::options().write(true).create_new(true).open(&beside)?;
+    let written = part.write_all(text.as_bytes()).and_then(|()| part.sync_all());
+    let written = written.and_then(|()| match fs::metadata(file) {
+        Ok(old) => fs::set_permissions(&beside, old.permissions()),
+        Err(_) => Ok(()),
+    });
+    written.and_then(|()| fs::rename(&beside, file)).inspect_err(|_| {
+        let _ = fs::remove_file(&beside);
     })
 }

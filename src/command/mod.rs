@@ -1,7 +1,7 @@
 //! The command line: what is asked for, and how failures are told.
 //!
 //! Standard output carries results alone; errors and progress go to standard error. Exit codes:
-//! 0 done, 1 could not compute, 2 usage or bad scene, 3 accuracy not reached.
+//! 0 done, 1 could not compute or not as locked, 2 usage or bad scene, 3 accuracy not reached.
 
 mod arguments;
 mod bounds;

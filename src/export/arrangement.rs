@@ -182,11 +182,11 @@ impl Arrangement {
         };
         let mut apart = None;
         let mut terms = Vec::new();
-        for (rate, by_power) in by_rate_and_power(expression, x) {
+        for (i, (rate, by_power)) in by_rate_and_power(expression, x).into_iter().enumerate() {
             let mut inner = Vec::new();
             for (power, coefficient) in by_power.into_iter().rev() {
                 match (power, &self.constant) {
-                    (0, Some(name)) if apart.is_none() && coefficient.is_nested() => {
+                    (0, Some(name)) if i == 0 && coefficient.is_nested() => {
                         apart = Some(coefficient.terms());
                         inner.push((Sign::Plus, Node::Symbol(name.clone())));
                     }

@@ -101,7 +101,7 @@ impl Head {
     fn latex(&self) -> String {
         match self {
             Head::Piece { wave, n, local } => {
-                format!("{}({})", indexed(wave, &n.to_string()), Latex.symbol(local))
+                format!("{}({})", Latex::indexed(wave, &n.to_string()), Latex.symbol(local))
             }
             Head::Echo { wave, k, local } => {
                 let wave = Latex::name(wave);
@@ -109,15 +109,6 @@ impl Head {
             }
             Head::Written(_, latex) => latex.clone(),
         }
-    }
-}
-
-/// A name with an index, in LaTeX; a name that has a subscript already takes it in there.
-pub(crate) fn indexed(name: &str, index: &str) -> String {
-    let name = Latex::name(name);
-    match name.strip_suffix('}').filter(|name| name.contains("_{")) {
-        Some(subscripted) => format!("{subscripted},{index}}}"),
-        None => format!("{name}_{{{index}}}"),
     }
 }
 
@@ -261,15 +252,16 @@ impl Formula {
     fn latex_case(&self, width: usize) -> String {
         let remark = self.remark.as_ref().map_or("", |(_, latex)| latex);
         let right = self.right.latex();
-        let lines = right.lines(width.saturating_sub(Latex.width(remark)), 0, 2);
+        // The columns stand two quads apart, and the brace takes some room.
+        let lines = right.lines(width.saturating_sub(Latex.width(remark) + 6), 0, 2);
         let body = match &lines[..] {
-            [line] => (*line).to_owned(),
+            [line] => format!("{line},"),
             _ => format!(
-                "\\begin{{aligned}}[t] &{} \\end{{aligned}}",
+                "\\begin{{aligned}}[t] &{}, \\end{{aligned}}",
                 lines.join(" \\\\ &\\quad {}")
             ),
         };
-        format!("{body}, & {remark}")
+        format!("{body} & {remark}")
     }
 }
 
@@ -370,8 +362,9 @@ pub fn latex(formulas: &[Formula], width: usize) -> String {
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub fn latex_cases(name: &str, variable: &Symbol, formulas: &[Formula], width: usize) -> String {
-    let cases: Vec<String> = formulas.iter().map(|formula| formula.latex_case(width)).collect();
     let head = format!("{}({})", Latex::name(name), Latex.symbol(variable));
+    let left = width.saturating_sub(Latex.width(&head) + 3);
+    let cases: Vec<String> = formulas.iter().map(|formula| formula.latex_case(left)).collect();
     let cases = cases.join(" \\\\\n");
     format!(
         "\\begin{{align*}}\n{head} &= \\begin{{cases}}\n{cases}\n\\end{{cases}}\n\\end{{align*}}\n"

@@ -1,7 +1,7 @@
 //! General forms, and the equations for which none was found, as formulas.
 
 use crate::export::arrangement::{Node, Sign, Term, arrange};
-use crate::export::formula::{Formula, Head, Right, indexed};
+use crate::export::formula::{Formula, Head, Right};
 use crate::export::notation::{Latex, Notation, Text, write_flat};
 use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::{Recurrence, WaveIndex};
@@ -77,7 +77,7 @@ fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<
     let wave = &recurrence.statement().waves[wave];
     let n = Symbol::new("n").expect("a name");
     let formula = |index: &str, terms: Vec<Term>| Formula {
-        head: Head::Written(format!("{wave}[{index}]"), indexed(wave, index)),
+        head: Head::Written(format!("{wave}[{index}]"), Latex::indexed(wave, index)),
         right: Right::Terms(terms),
         remark: None,
     };

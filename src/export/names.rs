@@ -3,7 +3,7 @@
 use crate::export::arrangement::{Node, Sign};
 use crate::export::notation::{Latex, Notation, Text, write_flat};
 use crate::recurrence::SourceProduct;
-use num_traits::One;
+use num_traits::{One, Signed};
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Integer, Rational, Symbol};
 
@@ -16,6 +16,8 @@ pub(crate) struct Name {
     pub latex: String,
     /// Whether it is an expression, which takes brackets as a base or before a factor.
     pub compound: bool,
+    /// Whether it begins with a number or a sign, which takes brackets after a factor as well.
+    pub leads: bool,
 }
 
 /// What is written for symbols; others keep their names.
@@ -23,8 +25,9 @@ pub(crate) type Names = BTreeMap<Symbol, Name>;
 
 impl Name {
     /// A product in place of a symbol. In LaTeX a quotient stays on the line: `μz/L`.
-    pub(crate) fn of(product: &SourceProduct) -> Name {
+    pub fn of(product: &SourceProduct) -> Name {
         let node = product_node(product);
+        let minus = if product.coefficient().is_negative() { "-" } else { "" };
         let flat = |node: &Node, notation: &dyn Notation| {
             write_flat(&[(Sign::Plus, node.clone())], notation)
         };
@@ -36,22 +39,29 @@ impl Name {
             }
             node => flat(node, &Latex),
         };
-        let compound = !matches!(node, Node::Symbol(_) | Node::Number(_));
-        Name { text: flat(&node, &Text), latex, compound }
+        let simple = matches!(node, Node::Symbol(_)) && minus.is_empty();
+        let text = flat(&node, &Text);
+        Name {
+            text: format!("{minus}{text}"),
+            latex: format!("{minus}{latex}"),
+            compound: !simple,
+            leads: !minus.is_empty() || text.starts_with(|first: char| first.is_ascii_digit()),
+        }
     }
 }
 
-/// A product in its own order, as one quotient.
+/// A product in its own order and without its sign, as one quotient.
 pub(crate) fn product_node(product: &SourceProduct) -> Node {
     let side = |number: &Integer, sign: i32| {
         let number = (!number.is_one()).then(|| Node::Number(Rational::from(number.clone())));
-        let powers = product.powers.iter().filter(|(_, power)| power.signum() == sign);
+        let powers = product.powers().iter().filter(|(_, power)| power.signum() == sign);
         let powers =
             powers.map(|(x, power)| Node::power(Node::Symbol(x.clone()), power.unsigned_abs()));
         number.into_iter().chain(powers).collect::<Vec<Node>>()
     };
-    let top = Node::product(side(product.coefficient.numer(), 1));
-    match side(product.coefficient.denom(), -1) {
+    let coefficient = product.coefficient().abs();
+    let top = Node::product(side(coefficient.numer(), 1));
+    match side(coefficient.denom(), -1) {
         bottom if bottom.is_empty() => top,
         bottom => Node::Quotient(Box::new(top), Box::new(Node::product(bottom))),
     }

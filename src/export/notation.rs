@@ -119,8 +119,8 @@ impl<'a> Writer<'a> {
                     self.sum(terms, depth + 1);
                     self.push(close);
                 }
-                Node::Monomial(monomial) => self.monomial(monomial, last),
-                Node::Symbol(symbol) => self.power(symbol, 1, last),
+                Node::Monomial(monomial) => self.monomial(monomial, i == 0, last),
+                Node::Symbol(symbol) => self.power(symbol, 1, i == 0, last),
                 other => {
                     let text = self.flat(other);
                     self.push(&text);
@@ -129,29 +129,33 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A number and powers; `last` says that no factor follows.
-    fn monomial(&mut self, monomial: &Monomial, last: bool) {
-        let mut first = true;
-        if !monomial.coefficient.is_one() {
+    /// A number and powers; `first` and `last` say that no factor stands before, and none after.
+    fn monomial(&mut self, monomial: &Monomial, mut first: bool, last: bool) {
+        let has_number = !monomial.coefficient.is_one();
+        if has_number {
             self.push(&self.notation.number(&monomial.coefficient));
             first = false;
         }
         let mut powers = monomial.powers().peekable();
+        let mut separated = !has_number;
         while let Some((symbol, exponent)) = powers.next() {
-            if !first {
+            if !separated {
                 self.push(self.notation.times_symbol());
             }
+            separated = false;
+            self.power(symbol, exponent, first, last && powers.peek().is_none());
             first = false;
-            self.power(symbol, exponent, last && powers.peek().is_none());
         }
     }
 
-    /// A power of a symbol; a compound symbol is bracketed where a factor follows.
-    fn power(&mut self, symbol: &Symbol, exponent: u32, last: bool) {
+    /// A power of a symbol. A compound name is bracketed where a factor follows, and after a factor
+    /// where it begins with a number or a sign.
+    fn power(&mut self, symbol: &Symbol, exponent: u32, first: bool, last: bool) {
         let n = self.notation;
-        if self.is_compound(symbol) && exponent == 1 {
-            let name = self.symbol(symbol);
-            return self.push(&if last { name } else { n.enclosed(&name) });
+        if let Some(name) = self.names.get(symbol).filter(|name| name.compound && exponent == 1) {
+            let brackets = !last || (name.leads && !first);
+            let text = n.choose(name);
+            return self.push(&if brackets { n.enclosed(text) } else { text.to_owned() });
         }
         let known = self.powers.entry(symbol.clone()).or_default();
         if known.len() <= exponent as usize {
@@ -166,10 +170,10 @@ impl<'a> Writer<'a> {
         self.writing.push(text, *width);
     }
 
-    /// A sum inside something else: its brackets are inner ones.
+    /// A sum inside something else, in one line.
     fn inner(&self, terms: &[Term]) -> String {
         let mut writer = Writer::new(self.notation, self.names);
-        writer.sum(terms, 1);
+        writer.sum(terms, 0);
         writer.writing.text().to_owned()
     }
 
@@ -180,12 +184,21 @@ impl<'a> Writer<'a> {
             Node::Number(value) => n.number(value),
             Node::Symbol(symbol) => self.symbol(symbol),
             Node::Sum(terms) | Node::Bracket(terms) => self.inner(terms),
-            Node::Monomial(_) | Node::Product(_) => self.inner(&[(Sign::Plus, node.clone())]),
+            Node::Monomial(_) | Node::Product(_) => {
+                let mut writer = Writer::new(self.notation, self.names);
+                writer.term(node, 0);
+                writer.writing.text().to_owned()
+            }
             Node::Quotient(top, bottom) => {
                 let side = |node: &Node| self.flat(node);
                 let top_brackets = matches!(**top, Node::Sum(_));
-                let bottom_brackets =
-                    matches!(**bottom, Node::Sum(_) | Node::Product(_) | Node::Monomial(_));
+                let bottom_brackets = match &**bottom {
+                    Node::Sum(_) | Node::Product(_) | Node::Monomial(_) | Node::Quotient(..) => {
+                        true
+                    }
+                    Node::Symbol(symbol) => self.is_compound(symbol),
+                    _ => false,
+                };
                 n.quotient((&side(top), top_brackets), (&side(bottom), bottom_brackets))
             }
             Node::Power(base, exponent) => {
@@ -296,17 +309,33 @@ impl Latex {
     /// A name: Greek letters as such, one letter in italics, a word upright, `a_1` as subscript,
     /// `a_tilde` with an accent, `a_prime` with a prime.
     pub fn name(name: &str) -> String {
+        let (letter, subscript) = Latex::parts(name);
+        subscript.map_or_else(|| letter.clone(), |subscript| format!("{letter}_{{{subscript}}}"))
+    }
+
+    /// A name with an index, which joins a subscript that is there already: `f_{1,2}`.
+    pub(crate) fn indexed(name: &str, index: &str) -> String {
+        let (letter, subscript) = Latex::parts(name);
+        let before = subscript.map_or_else(String::new, |subscript| format!("{subscript},"));
+        format!("{letter}_{{{before}{index}}}")
+    }
+
+    /// The letter with its accent, and the subscript.
+    fn parts(name: &str) -> (String, Option<String>) {
         let accented = ACCENTS.iter().find_map(|accent| {
             let base = name.strip_suffix(accent)?.strip_suffix('_')?;
             (!base.is_empty()).then_some((base, accent))
         });
-        match accented {
-            Some((base, &"prime")) => return format!("{}'", Latex::name(base)),
-            Some((base, accent)) => return format!("\\{accent}{{{}}}", Latex::name(base)),
-            None => {}
+        if let Some((base, accent)) = accented {
+            let (letter, subscript) = Latex::parts(base);
+            let letter = match *accent {
+                "prime" => format!("{letter}'"),
+                accent => format!("\\{accent}{{{letter}}}"),
+            };
+            return (letter, subscript);
         }
         if GREEK.contains(&name) {
-            return format!("\\{name}");
+            return (format!("\\{name}"), None);
         }
         if let Some((base, subscript)) = name.split_once('_')
             && !base.is_empty()
@@ -316,15 +345,17 @@ impl Latex {
                 true => Latex::name(subscript),
                 false => format!("\\mathrm{{{}}}", subscript.replace('_', "\\_")),
             };
-            return format!("{}_{{{subscript}}}", Latex::name(base));
+            let (letter, digits) = Latex::parts(base);
+            let before = digits.map_or_else(String::new, |digits| format!("{digits},"));
+            return (letter, Some(before + &subscript));
         }
         let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
         if letters.len() < name.len() && !letters.is_empty() {
-            return format!("{}_{{{}}}", Latex::name(letters), &name[letters.len()..]);
+            return (Latex::name(letters), Some(name[letters.len()..].to_owned()));
         }
         match name.chars().count() {
-            1 => name.to_owned(),
-            _ => format!("\\mathrm{{{}}}", name.replace('_', "\\_")),
+            1 => (name.to_owned(), None),
+            _ => (format!("\\mathrm{{{}}}", name.replace('_', "\\_")), None),
         }
     }
 }

@@ -1,14 +1,16 @@
 //! The source's form: its symbols, its units, its constants stated apart, its shorthand.
 
 use crate::export::arrangement::{Arrangement, Node, Sign, Term, arrange};
-use crate::export::formula::{Formula, Head, Right, indexed};
+use crate::export::formula::{Formula, Head, Right};
+use crate::export::general::general_form;
 use crate::export::names::{Name, Names, product_node};
 use crate::export::notation::{Latex, Text, write_named};
 use crate::expression::Expression;
-use crate::recurrence::{Recurrence, WaveIndex};
-use crate::solution::KeptEnds;
+use crate::recurrence::{Recurrence, SourceProduct, WaveIndex};
+use crate::solution::{GeneralForm, KeptEnds};
+use num_traits::One;
 use std::sync::Arc;
-use wavestep_polynomial::Symbol;
+use wavestep_polynomial::{Rational, Symbol};
 
 /// How the source of a recurrence writes its waves.
 ///
@@ -50,6 +52,7 @@ impl<'a> SourceForm<'a> {
                 text: format!("{text}({})", end.text()),
                 latex: format!("{latex}({})", latex_end.text()),
                 compound: false,
+                leads: false,
             };
             names.insert(symbol.clone(), name);
         }
@@ -67,15 +70,17 @@ impl<'a> SourceForm<'a> {
             factored: true,
             constant: symbol.clone(),
         };
-        let (terms, apart) = match (piece.as_fraction(), statement.notation.units.get(&wave)) {
+        let unit = statement.notation.units.get(&wave);
+        let (terms, apart) = match (piece.as_fraction(), unit) {
             // A quotient takes the unit in.
             (Some(value), Some(unit)) if value.as_polynomial().is_none() => {
                 (arrange(&(&value * &unit.to_fraction()).into(), None), None)
             }
-            _ => {
-                let (terms, apart) = arrangement.terms(piece);
-                (self.in_unit(wave, terms), apart)
+            (_, Some(unit)) => {
+                let (terms, apart) = arrangement.terms(&piece.scale(unit.coefficient()));
+                (in_unit(unit, terms), apart)
             }
+            _ => arrangement.terms(piece),
         };
         let mut formulas = vec![self.formula(head(self.recurrence, wave, &n.to_string()), terms)];
         if let (Some(apart), Some(symbol)) = (apart, symbol) {
@@ -85,11 +90,11 @@ impl<'a> SourceForm<'a> {
         formulas
     }
 
-    /// What [`general_form`](crate::export::general_form) says of a wave, in the source's symbols:
-    /// single values, and last the one for every n. `None` where the wave is a sum of echoes.
+    /// A wave in general n, in the source's symbols: single values, and last the one for every n.
+    /// `None` where the wave is a sum of echoes.
     ///
     /// ```
-    /// use wavestep::export::{SourceForm, general_form};
+    /// use wavestep::export::SourceForm;
     /// use wavestep::language::{Source, read_recurrence};
     /// use wavestep::solution::Solution;
     ///
@@ -97,46 +102,60 @@ impl<'a> SourceForm<'a> {
     /// let source = Source::new("constant-force", text)?;
     /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
     /// let recurrence = solution.recurrence();
-    /// let formulas = general_form(recurrence, 0, solution.general(0).unwrap());
-    /// let written = SourceForm::new(recurrence, None).general(0, &formulas).unwrap();
-    /// assert_eq!(written[0].to_line(), "f'[n] = (n + 1)*X/(E*A)");
+    /// let form = solution.general(0).unwrap();
+    /// let written = SourceForm::new(recurrence, None).general(0, form).unwrap();
+    /// assert_eq!(written[0].to_line(), "f_prime[n] = (n + 1)*X/(E*A)");
     /// # Ok::<(), wavestep::language::Diagnostic>(())
     /// ```
-    pub fn general(&self, wave: WaveIndex, formulas: &[Formula]) -> Option<Vec<Formula>> {
-        let last = formulas.len().checked_sub(1)?;
-        let written = |(i, formula): (usize, &Formula)| {
-            let Right::Terms(terms) = &formula.right else { return None };
+    pub fn general(&self, wave: WaveIndex, form: &GeneralForm) -> Option<Vec<Formula>> {
+        let GeneralForm::Geometric(sequence) = form else { return None };
+        let unit = self.recurrence.statement().notation.units.get(&wave);
+        let sequence = unit.map_or_else(|| sequence.clone(), |u| sequence.scaled(u.coefficient()));
+        let last = sequence.first().len();
+        let formulas = general_form(self.recurrence, wave, &GeneralForm::Geometric(sequence));
+        let written = |(i, formula): (usize, Formula)| {
+            let Right::Terms(terms) = formula.right else { return None };
+            let terms = unit.map_or_else(|| terms.clone(), |unit| in_unit(unit, terms.clone()));
             let index = if i == last { "n".to_owned() } else { i.to_string() };
-            let terms = self.in_unit(wave, terms.clone());
             let written = self.formula(head(self.recurrence, wave, &index), terms);
-            Some(Formula { remark: formula.remark.clone(), ..written })
+            Some(Formula { remark: formula.remark, ..written })
         };
-        formulas.iter().enumerate().map(written).collect()
+        formulas.into_iter().enumerate().map(written).collect()
     }
 
     fn formula(&self, (text, latex): (String, String), terms: Vec<Term>) -> Formula {
         let head = Head::Written(text, latex);
         Formula { head, right: Right::Named(terms, self.names.clone()), remark: None }
     }
+}
 
-    /// `unit · terms`: the unit after a number or a sum, else in front.
-    fn in_unit(&self, wave: WaveIndex, mut terms: Vec<Term>) -> Vec<Term> {
-        let Some(unit) = self.recurrence.statement().notation.units.get(&wave) else {
-            return terms;
-        };
-        let unit = product_node(unit);
-        match &terms[..] {
-            [] => terms,
-            [(_, Node::Sum(_))] | [_, _, ..] => {
-                vec![(Sign::Plus, Node::Product(vec![Node::Sum(terms), unit]))]
+/// `unit · terms` with the unit's symbols: after a number or a sum, else in front.
+fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
+    let unit = unit.without_number();
+    if unit.powers().is_empty() {
+        return terms;
+    }
+    let unit = product_node(&unit);
+    match &terms[..] {
+        [] => terms,
+        [(_, Node::Sum(_))] | [_, _, ..] => {
+            vec![(Sign::Plus, Node::product(vec![Node::Sum(terms), unit]))]
+        }
+        [_] => {
+            let (sign, node) = terms.remove(0);
+            let mut rest = node.into_factors();
+            let mut factors = Vec::new();
+            match rest.first_mut() {
+                Some(Node::Number(_)) => factors.push(rest.remove(0)),
+                Some(Node::Monomial(monomial)) => {
+                    let number = std::mem::replace(&mut monomial.coefficient, Rational::one());
+                    factors.extend(Node::Number(number).into_factors());
+                }
+                _ => {}
             }
-            [_] => {
-                let (sign, node) = terms.remove(0);
-                let mut factors = node.into_factors();
-                let after_number = usize::from(matches!(factors.first(), Some(Node::Number(_))));
-                factors.insert(after_number, unit);
-                vec![(sign, Node::product(factors))]
-            }
+            factors.push(unit);
+            factors.extend(rest);
+            vec![(sign, Node::product(factors))]
         }
     }
 }
@@ -145,9 +164,5 @@ impl<'a> SourceForm<'a> {
 fn head(recurrence: &Recurrence, wave: WaveIndex, index: &str) -> (String, String) {
     let statement = recurrence.statement();
     let name = statement.notation.waves.get(&wave).unwrap_or(&statement.waves[wave]);
-    let text = match name.strip_suffix("_prime") {
-        Some(name) => format!("{name}'[{index}]"),
-        None => format!("{name}[{index}]"),
-    };
-    (text, indexed(name, index))
+    (format!("{name}[{index}]"), Latex::indexed(name, index))
 }

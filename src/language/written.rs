@@ -6,7 +6,9 @@ use wavestep_polynomial::Symbol;
 use super::constant::constant;
 use super::diagnostic::Diagnostic;
 use super::scope::{Scope, with_likely};
-use super::syntax::{Expression, Node, Operator, Recurrence, Rewriting, Spanned, StatementKind};
+use super::syntax::{
+    Expression, Node, Operator, Recurrence, Rewriting, Span, Spanned, StatementKind,
+};
 use crate::recurrence::{SourceNotation, SourceProduct, WaveIndex};
 
 type Outcome<T> = Result<T, Diagnostic>;
@@ -21,37 +23,93 @@ const MAX_POWER: i32 = 100;
 /// The first item that names no wave, time or symbol, says something twice, or is no product.
 pub(super) fn notation(tree: &Recurrence, scope: &Scope) -> Outcome<SourceNotation> {
     let mut notation = SourceNotation::default();
-    for statement in &tree.statements {
-        let StatementKind::Written(items) = &statement.value else { continue };
-        for item in items {
-            let (name, again) = match item {
-                Rewriting::Unit { wave: name, unit } => {
-                    let unit = scope.product(unit)?;
-                    (name, notation.units.insert(scope.wave(name)?, unit).is_some())
-                }
-                Rewriting::Ends(name) => (name, !notation.ends.insert(scope.wave(name)?)),
-                Rewriting::Constants { wave, name } => {
-                    let taken = notation.constants.values().any(|other| *other == name.value);
-                    let constants = &mut notation.constants;
-                    let again = constants.insert(scope.wave(wave)?, name.value.clone()).is_some();
-                    (name, again || taken)
-                }
-                Rewriting::Name { name, written } => {
-                    (name, scope.rename(name, written, &mut notation)?)
-                }
-            };
-            if again {
-                let message = format!("`{}` is written in two ways", name.value);
-                return Err(scope
-                    .error(message, name.span, "again here")
-                    .with_remedy("say once how the source writes it"));
+    let items = || {
+        tree.statements.iter().flat_map(|statement| match &statement.value {
+            StatementKind::Written(items) => &items[..],
+            _ => &[],
+        })
+    };
+    for item in items() {
+        let (name, again) = match item {
+            Rewriting::Unit { wave: name, unit } => {
+                let unit = scope.product(unit)?;
+                (name, notation.units.insert(scope.wave(name)?, unit).is_some())
             }
+            Rewriting::Ends(name) => (name, !notation.ends.insert(scope.wave(name)?)),
+            Rewriting::Constants { wave, name } => {
+                let constants = &mut notation.constants;
+                let again = constants.insert(scope.wave(wave)?, name.value.clone()).is_some();
+                (wave, again)
+            }
+            Rewriting::Name { name, written } => {
+                (name, scope.rename(name, written, &mut notation)?)
+            }
+        };
+        if again {
+            let message = format!("`{}` is written in two ways", name.value);
+            return Err(scope
+                .error(message, name.span, "again here")
+                .with_remedy("say once how the source writes it"));
         }
     }
+    items().try_for_each(|item| scope.check_names(item, &notation))?;
     Ok(notation)
 }
 
 impl Scope {
+    /// Refuses names of the source that mean something else already: they would make its formulas
+    /// ambiguous.
+    fn check_names(&self, item: &Rewriting, notation: &SourceNotation) -> Outcome<()> {
+        let (name, tree) = match item {
+            Rewriting::Ends(_) => return Ok(()),
+            Rewriting::Constants { name, .. } => (Some(&name.value), None),
+            Rewriting::Unit { unit, .. } => (None, Some(unit)),
+            Rewriting::Name { written, .. } => match &written.value {
+                Node::Name(name) => (Some(name), Some(written)),
+                _ => (None, Some(written)),
+            },
+        };
+        let span = match item {
+            Rewriting::Constants { name, .. } => name.span,
+            _ => tree.map_or(Span::new(0, 0), |tree| tree.span),
+        };
+        let refuse = |name: &str, what: &str| {
+            Err(self
+                .error(format!("`{name}` already means something"), span, what)
+                .with_remedy("choose a name that no wave, symbol, time or other item has"))
+        };
+        if let Some(name) = name {
+            let times = [&self.local, &self.time].into_iter().flatten().map(Symbol::name);
+            let own = self.waves.keys().chain(self.symbols.keys()).map(String::as_str);
+            let same = |other: &&str| *other == name || is_constant(other, name, item);
+            if let Some(other) = own.chain(times).chain(["n"]).find(same) {
+                return refuse(other, "a name of the recurrence");
+            }
+            let plain = |product: &SourceProduct| match product.powers() {
+                [(symbol, 1)] => Some(symbol.name().to_owned()),
+                _ => None,
+            };
+            let waves = notation.waves.values().chain(notation.constants.values()).cloned();
+            let all = waves.chain(notation.symbols.values().filter_map(plain));
+            if all.filter(|other| other == name).count() > 1 {
+                return refuse(name, "written for two things");
+            }
+        }
+        let mut product = SourceProduct::one();
+        let tree = tree.filter(|_| name.is_none());
+        tree.map_or(Ok(()), |tree| self.multiply(&mut product, tree, 1))?;
+        for (symbol, _) in product.powers() {
+            let is_time = [&self.local, &self.time].into_iter().flatten().any(|x| x == symbol);
+            if is_time || symbol.name() == "n" {
+                return refuse(symbol.name(), "a time, or the number of the period");
+            }
+            if notation.symbols.contains_key(symbol) {
+                return refuse(symbol.name(), "written otherwise by another item");
+            }
+        }
+        Ok(())
+    }
+
     fn wave(&self, name: &Spanned<String>) -> Outcome<WaveIndex> {
         self.waves.get(&name.value).copied().ok_or_else(|| {
             let message = format!("`{}` is no wave of this recurrence", name.value);
@@ -108,19 +166,24 @@ impl Scope {
         match &tree.value {
             Node::Number(value) if value.is_zero() => refuse("zero"),
             Node::Number(value) => {
-                product.coefficient *= value.pow(power);
+                product.scale(&value.pow(power));
                 Ok(())
             }
             Node::Name(name) if self.waves.contains_key(name) => refuse("a wave"),
             Node::Name(name) => match self.symbols.get(name) {
                 Some(Some(value)) if value.is_zero() => refuse("zero"),
                 Some(Some(value)) => {
-                    product.coefficient *= value.pow(power);
+                    product.scale(&value.pow(power));
                     Ok(())
                 }
                 _ => {
-                    product.multiply(symbol(name), power);
-                    Ok(())
+                    let symbol = symbol(name);
+                    product.multiply(symbol.clone(), power);
+                    let all = product.powers().iter().find(|(other, _)| *other == symbol);
+                    match all.is_none_or(|(_, power)| power.abs() <= MAX_POWER) {
+                        true => Ok(()),
+                        false => refuse("with the others a power that is too high"),
+                    }
                 }
             },
             Node::Product(factors) => factors.iter().try_for_each(|factor| {
@@ -139,6 +202,13 @@ impl Scope {
             _ => refuse("not a product"),
         }
     }
+}
+
+/// Whether a name is that of a constant `B_2`, where constants are called `B`.
+fn is_constant(other: &str, name: &str, item: &Rewriting) -> bool {
+    let index = other.strip_prefix(name).and_then(|rest| rest.strip_prefix('_'));
+    matches!(item, Rewriting::Constants { .. })
+        && index.is_some_and(|index| index.chars().all(|c| c.is_ascii_digit()))
 }
 
 fn symbol(name: &str) -> Symbol {

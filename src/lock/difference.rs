@@ -20,7 +20,7 @@ const MAX_SHOWN: usize = 10;
 /// use wavestep::lock::Lock;
 ///
 /// let read = |piece: &str| {
-///     let text = format!("# wavestep lock 1\nholds 1 pieces, 0 values\nf[1](s) = {piece}\n");
+///     let text = format!("# wavestep lock 1\nholds 0 statements, 1 pieces, 0 values\nf[1](s) = {piece}\n");
 ///     Lock::read(&Source::new("f.lock", text).unwrap()).unwrap()
 /// };
 /// let differences = read("2*s*exp(-s) + 1").differences(&read("3*s*exp(-s) + 1"));
@@ -47,12 +47,13 @@ impl Lock {
     /// How `now` differs from this lock, piece by piece and value by value. What only one of them
     /// has is a difference as well.
     pub fn differences(&self, now: &Lock) -> Vec<Difference> {
-        let name = |(wave, n): &(String, usize)| format!("{wave}[{n}]");
-        let mut differences = compared(&self.pieces, &now.pieces, name, of_pieces);
-        let name = |(quantity, time): &(String, Rational)| format!("{quantity}({time})");
-        let lines =
+        let both =
             |old: &String, new: &String| vec![format!("locked {old}"), format!("now    {new}")];
-        differences.extend(compared(&self.values, &now.values, name, lines));
+        let mut differences = compared(&self.stated, &now.stated, String::clone, both);
+        let name = |(wave, n): &(String, usize)| format!("{wave}[{n}]");
+        differences.extend(compared(&self.pieces, &now.pieces, name, of_pieces));
+        let name = |(quantity, time): &(String, Rational)| format!("{quantity}({time})");
+        differences.extend(compared(&self.values, &now.values, name, both));
         differences
     }
 }

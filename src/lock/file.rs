@@ -2,24 +2,28 @@
 //!
 //! ```text
 //! # wavestep lock 1
-//! title "Rigid mass on a fixed bar"
 //! through 1
 //! digits 20
 //! set mu = 1/4
-//! holds 2 pieces, 1 values
+//! stated observable velocity = (1)*f(t) + (1)*g(t)
+//! stated period = 1/2
+//! stated title = Rigid mass on a fixed bar
+//! holds 3 statements, 4 pieces, 1 values
 //!
 //! f[0](s) = exp(-s)
-//! f[1](s) = exp(-s)*(-2*s + 1 + exp(-1/2))
+//! …
 //!
 //! value f(33/10) = 0.30538526440879106409
 //! ```
 //!
-//! A heading that names the version, settings, pieces as a listing of the language, values.
+//! A heading with the version, settings, what is stated, pieces as a listing of the language, values.
 //! Comments begin with `#`. Versions to come read this one.
 
+use crate::evaluate::MAX_DIGITS;
 use crate::export::{self, Formula, Head, TEXT_WIDTH};
-use crate::language::{Diagnostic, Source, Span, parse_number, read_listing};
+use crate::language::{Diagnostic, Source, Span, normalise_name, parse_number, read_listing};
 use crate::lock::{Lock, Piece, Request};
+use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -50,16 +54,14 @@ impl Lock {
     /// The lock as text, in lines of at most 100 characters where they can be broken.
     pub fn to_text(&self) -> String {
         let Request { through, digits, set, .. } = &self.request;
-        let mut text = format!(
-            "{HEADING}{FORMAT_VERSION}\n\
-             title \"{}\"\nthrough {through}\ndigits {digits}\n",
-            self.title
-        );
+        let mut text = format!("{HEADING}{FORMAT_VERSION}\nthrough {through}\ndigits {digits}\n");
         for (name, value) in set {
             let _ = writeln!(text, "set {name} = {value}");
         }
-        let (pieces, values) = self.counts();
-        let _ = writeln!(text, "holds {pieces} pieces, {values} values\n");
+        for (what, value) in &self.stated {
+            let _ = writeln!(text, "stated {what} = {value}");
+        }
+        let _ = writeln!(text, "holds {}\n", self.contents());
         let formula = |((wave, n), piece): (&(String, usize), &Piece)| {
             let head = Head::Piece { wave: wave.clone(), n: *n, local: piece.variable.clone() };
             Formula::new(head, &piece.expression, &piece.variable)
@@ -75,14 +77,20 @@ impl Lock {
         text
     }
 
+    /// How much the lock holds.
+    fn contents(&self) -> String {
+        let (pieces, values) = self.counts();
+        format!("{} statements, {pieces} pieces, {values} values", self.stated.len())
+    }
+
     /// Reads a lock.
     ///
     /// ```
     /// use wavestep::language::Source;
     /// use wavestep::lock::Lock;
     ///
-    /// let text = "# wavestep lock 1\ntitle \"Mine\"\nthrough 0\ndigits 20\nholds 1 pieces, 0 values\n\n\
-    ///             f[0](s) = exp(-s)\n";
+    /// let text = "# wavestep lock 1\nthrough 0\ndigits 20\n\
+    ///             holds 0 statements, 1 pieces, 0 values\n\nf[0](s) = exp(-s)\n";
     /// let lock = Lock::read(&Source::new("mine.lock", text)?)?;
     /// assert_eq!(lock.to_text(), text);
     /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -93,73 +101,108 @@ impl Lock {
     pub fn read(source: &Source) -> Result<Lock, Diagnostic> {
         let lines = lines(source);
         check_heading(source, &lines)?;
-        let (mut title, mut holds) = (None, None);
-        let mut request = Request::default();
-        let mut values = BTreeMap::new();
+        let mut lock = Lock {
+            stated: BTreeMap::new(),
+            request: Request::default(),
+            pieces: BTreeMap::new(),
+            values: BTreeMap::new(),
+        };
+        let mut holds = None;
         // The listing is read with everything else blanked out, so that places stay what they are.
         let mut listing = source.text().to_owned().into_bytes();
         for line in &lines {
             let is_setting = match line.text.split_once(' ') {
-                Some(("title", rest)) => {
-                    title = Some(rest.trim().trim_matches('"').to_owned());
-                    true
-                }
-                Some(("through", rest)) => {
-                    request.through = count(source, *line, rest)?;
-                    true
-                }
-                Some(("digits", rest)) => {
-                    request.digits = count(source, *line, rest)?;
-                    true
-                }
                 Some(("holds", rest)) => {
                     holds = Some((rest.trim(), *line));
                     true
                 }
-                Some(("set", rest)) => {
-                    let (name, value) = equation(source, *line, rest)?;
-                    request.set.insert(name.to_owned(), number(source, *line, value)?);
-                    true
-                }
-                Some(("value", rest)) => {
-                    let (left, value) = equation(source, *line, rest)?;
-                    let call = left.strip_suffix(')').and_then(|left| left.split_once('('));
-                    let Some((quantity, time)) = call else {
-                        return Err(refused(source, *line, "write it as `value f(33/10) = 0.3`"));
-                    };
-                    let time = number(source, *line, time)?;
-                    if !request.times.contains(&time) {
-                        request.times.push(time.clone());
-                    }
-                    values.insert((quantity.to_owned(), time), value.to_owned());
-                    true
-                }
-                _ => line.text.is_empty() || line.text.starts_with('#'),
+                Some((word, rest)) => lock.read_line(source, *line, word, rest)?,
+                None => line.text.is_empty(),
             };
-            if is_setting {
+            if is_setting || line.text.starts_with('#') {
                 listing[line.span.start..line.span.end].fill(b' ');
             }
         }
         let listing = String::from_utf8(listing).expect("whole lines were blanked out");
-        let mut pieces = BTreeMap::new();
         if !listing.trim().is_empty() {
-            let source = Source::with_limit(source.name(), listing, MAX_FILE_BYTES)?;
-            for formula in read_listing(&source)? {
+            let blanked = Source::with_limit(source.name(), listing, MAX_FILE_BYTES)?;
+            for formula in read_listing(&blanked)? {
                 let piece = Piece { variable: formula.variable, expression: formula.expression };
-                pieces.insert((formula.wave, formula.n), piece);
+                let key = (formula.wave, formula.n);
+                let message = format!("{}[{}] stands there twice", key.0, key.1);
+                if lock.pieces.insert(key, piece).is_some() {
+                    return Err(Diagnostic::new(source, message, lines[0].span, "in this file")
+                        .with_remedy("restore the file, or lock again"));
+                }
             }
         }
-        let found = format!("{} pieces, {} values", pieces.len(), values.len());
+        let found = lock.contents();
+        let refuse = |message: String, span: Span, label: &str| {
+            Err(Diagnostic::new(source, message, span, label)
+                .with_remedy("restore the file, or lock again"))
+        };
         match holds {
-            Some((said, _)) if said == found => {}
+            Some((said, _)) if said == found => Ok(lock),
             Some((said, line)) => {
                 let message = format!("this file holds {found}, and says {said}");
-                return Err(Diagnostic::new(source, message, line.span, "something is missing")
-                    .with_remedy("restore the file, or lock again"));
+                refuse(message, line.span, "something is missing, or was added")
             }
-            None => return Err(refused(source, lines[0], "restore the file, or lock again")),
+            None => {
+                let message = "this file does not say what it holds".to_owned();
+                refuse(message, lines[0].span, "no line `holds …` follows: the file is cut off")
+            }
         }
-        Ok(Lock { title: title.unwrap_or_default(), request, pieces, values })
+    }
+
+    /// Takes one line that begins with `word`; whether it is none of the listing.
+    fn read_line(
+        &mut self,
+        source: &Source,
+        line: Line<'_>,
+        word: &str,
+        rest: &str,
+    ) -> Result<bool, Diagnostic> {
+        let twice = |old: bool| match old {
+            true => Err(refused(source, line, "it stands there twice: remove one of the two")),
+            false => Ok(true),
+        };
+        match word {
+            "through" => self.request.through = count(source, line, rest)?,
+            "digits" => {
+                self.request.digits = count(source, line, rest)?;
+                if self.request.digits == 0 || self.request.digits > MAX_DIGITS {
+                    let remedy = format!("values have 1 to {MAX_DIGITS} digits: lock again");
+                    return Err(refused(source, line, &remedy));
+                }
+            }
+            "set" => {
+                let (name, value) = equation(source, line, rest)?;
+                let value = number(source, line, value)?;
+                return twice(self.request.set.insert(normalise_name(name), value).is_some());
+            }
+            "stated" => {
+                let (what, value) = equation(source, line, rest)?;
+                return twice(self.stated.insert(what.to_owned(), value.to_owned()).is_some());
+            }
+            "value" => {
+                let (left, value) = equation(source, line, rest)?;
+                let call = left.strip_suffix(')').and_then(|left| left.split_once('('));
+                let Some((quantity, time)) = call else {
+                    return Err(refused(source, line, "write it as `value f(33/10) = 0.3`"));
+                };
+                let time = number(source, line, time)?;
+                if time.is_negative() || parse_number(value).is_err() {
+                    return Err(refused(source, line, "write a time from 0 on, and a number"));
+                }
+                if !self.request.times.contains(&time) {
+                    self.request.times.push(time.clone());
+                }
+                let key = (quantity.to_owned(), time);
+                return twice(self.values.insert(key, value.to_owned()).is_some());
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
     }
 }
 

@@ -8,8 +8,10 @@
 mod difference;
 mod file;
 
-use crate::evaluate::{EvaluateError, Evaluator, Side};
-use crate::expression::Expression;
+use crate::evaluate::{EvaluateError, Evaluator, MAX_DIGITS, Side};
+use crate::export::expression_text;
+use crate::expression::{Expression, Fraction};
+use crate::recurrence::{Observation, Statement};
 use crate::solution::{Solution, SolveError};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -47,7 +49,8 @@ const LIMIT_BITS: u64 = 1 << 18;
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lock {
-    title: String,
+    /// What the recurrence states of itself: title, period, symbols, observables.
+    stated: BTreeMap<String, String>,
     request: Request,
     pieces: BTreeMap<(String, usize), Piece>,
     values: BTreeMap<(String, Rational), String>,
@@ -106,6 +109,8 @@ pub enum LockError {
     Solve(SolveError),
     /// A value cannot be certified.
     Evaluate(EvaluateError),
+    /// Values cannot have this many digits.
+    Digits(usize),
 }
 
 impl fmt::Display for LockError {
@@ -113,6 +118,9 @@ impl fmt::Display for LockError {
         match self {
             LockError::Solve(error) => error.fmt(f),
             LockError::Evaluate(error) => error.fmt(f),
+            LockError::Digits(digits) => {
+                write!(f, "{digits} significant digits cannot be certified")
+            }
         }
     }
 }
@@ -135,11 +143,18 @@ impl Lock {
     /// Derives what is to be locked.
     ///
     /// # Errors
-    /// [`LockError`] where a piece or a value cannot be given.
+    /// [`LockError`] where a piece or a value cannot be given, or the digits are not between 1 and
+    /// [`MAX_DIGITS`].
     ///
     /// # Cost
     /// That of the pieces and of the values.
     pub fn derive(solution: &Solution, request: &Request) -> Result<Lock, LockError> {
+        if request.digits == 0 || request.digits > MAX_DIGITS {
+            return Err(LockError::Digits(request.digits));
+        }
+        let mut request = request.clone();
+        request.times.sort();
+        request.times.dedup();
         let statement = solution.recurrence().statement();
         let mut pieces = BTreeMap::new();
         for (wave, name) in statement.waves.iter().enumerate() {
@@ -156,15 +171,15 @@ impl Lock {
             for name in statement.waves.iter().chain(observables) {
                 let quantity = solution.recurrence().observation(name).expect("a known name");
                 for time in &request.times {
-                    let Request { digits, .. } = *request;
+                    let digits = request.digits;
                     let value =
                         evaluator.value(&quantity, time, Side::Right, digits, LIMIT_BITS)?;
-                    values.insert((name.clone(), time.clone()), value.to_text(digits));
+                    values
+                        .insert((name.clone(), time.clone()), value.decimal(digits).0.to_string());
                 }
             }
         }
-        let title = statement.title.clone();
-        Ok(Lock { title, request: request.clone(), pieces, values })
+        Ok(Lock { stated: stated(statement), request, pieces, values })
     }
 
     /// What was asked for.
@@ -176,4 +191,46 @@ impl Lock {
     pub fn counts(&self) -> (usize, usize) {
         (self.pieces.len(), self.values.len())
     }
+}
+
+/// What a recurrence states of itself, each in one line.
+fn stated(statement: &Statement) -> BTreeMap<String, String> {
+    let fraction = |value: &Fraction| expression_text(&value.clone().into());
+    let mut stated = BTreeMap::from([
+        ("title".to_owned(), statement.title.clone()),
+        ("period".to_owned(), fraction(&statement.period)),
+    ]);
+    for (symbol, condition) in statement.assumptions.symbols() {
+        let condition = condition.map_or_else(|| "any".to_owned(), ToString::to_string);
+        stated.insert(format!("symbol {symbol}"), condition);
+    }
+    for observable in &statement.observables {
+        let seen = observed(&observable.observation, statement);
+        stated.insert(format!("observable {}", observable.name), seen);
+    }
+    stated
+}
+
+/// `f(t) - 2*f'(t - mu) + forcing`, in the order of the statement.
+fn observed(observation: &Observation, statement: &Statement) -> String {
+    let time = &statement.time;
+    let grouped = |text: String| if text.contains(' ') { format!("({text})") } else { text };
+    let mut terms: Vec<String> = Vec::new();
+    for seen in &observation.waves {
+        let factor = match &*grouped(expression_text(&seen.coefficient)) {
+            "1" => String::new(),
+            "-1" => "-".to_owned(),
+            coefficient => format!("{coefficient}*"),
+        };
+        let (wave, prime) = (&statement.waves[seen.wave], if seen.slope { "'" } else { "" });
+        let since = match seen.delay.is_zero() {
+            true => time.to_string(),
+            false => format!("{time} - {}", grouped(expression_text(&seen.delay.clone().into()))),
+        };
+        terms.push(format!("{factor}{wave}{prime}({since})"));
+    }
+    if !observation.forcing.is_zero() || terms.is_empty() {
+        terms.push(expression_text(&observation.forcing));
+    }
+    terms.join(" + ").replace(" + -", " - ")
 }

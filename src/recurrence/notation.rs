@@ -2,7 +2,7 @@
 
 use crate::expression::Fraction;
 use crate::recurrence::WaveIndex;
-use num_traits::One;
+use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
@@ -15,7 +15,7 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// let source = Source::new(rigid_mass.name, rigid_mass.text)?;
 /// let recurrence = read_recurrence(&source, &Default::default())?;
 /// let notation = &recurrence.statement().notation;
-/// let names = notation.units[&0].powers.iter().map(|(symbol, power)| (symbol.name(), *power));
+/// let names = notation.units[&0].powers().iter().map(|(symbol, power)| (symbol.name(), *power));
 /// assert!(names.eq([("V", 1), ("c", -1)]));
 /// assert_eq!(notation.constants[&0], "B");
 /// assert!(!notation.is_empty());
@@ -45,28 +45,56 @@ impl SourceNotation {
 /// A product of powers of the source's symbols, in the order in which it writes them:
 /// `coefficient · Π symbol^power`.
 ///
+/// # Invariants
+/// - the coefficient is not zero;
+/// - the symbols are pairwise different, no power is zero.
+///
 /// ```
 /// use wavestep::recurrence::SourceProduct;
-/// use wavestep_polynomial::Symbol;
+/// use wavestep_polynomial::{Rational, Symbol};
 /// let mut strain = SourceProduct::one();
 /// for (name, power) in [("X", 1), ("E", -1), ("A", -1)] {
 ///     strain.multiply(Symbol::new(name).unwrap(), power);
 /// }
-/// assert_eq!(strain.powers.len(), 3);
+/// strain.scale(&Rational::from_integer(2.into()));
+/// assert_eq!((strain.powers().len(), strain.coefficient().is_integer()), (3, true));
+/// let strain = strain.without_number();
 /// assert_eq!(strain.to_fraction().to_string(), "(X)/(A)/(E)");
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SourceProduct {
-    /// The number in front, not zero.
-    pub coefficient: Rational,
-    /// Symbols with their powers, none zero.
-    pub powers: Vec<(Symbol, i32)>,
+    coefficient: Rational,
+    powers: Vec<(Symbol, i32)>,
 }
 
 impl SourceProduct {
     /// The product 1.
     pub fn one() -> SourceProduct {
         SourceProduct { coefficient: Rational::one(), powers: Vec::new() }
+    }
+
+    /// The number in front, not zero.
+    pub fn coefficient(&self) -> &Rational {
+        &self.coefficient
+    }
+
+    /// The symbols with their powers, in the order of the source.
+    pub fn powers(&self) -> &[(Symbol, i32)] {
+        &self.powers
+    }
+
+    /// The same product without its number.
+    pub fn without_number(&self) -> SourceProduct {
+        SourceProduct { coefficient: Rational::one(), powers: self.powers.clone() }
+    }
+
+    /// Multiplies by a number.
+    ///
+    /// # Panics
+    /// Where it is zero.
+    pub fn scale(&mut self, number: &Rational) {
+        assert!(!number.is_zero(), "a product of a source is not zero");
+        self.coefficient *= number;
     }
 
     /// Multiplies by a power of a symbol, at the end where it is new.

@@ -138,6 +138,16 @@ impl Generating {
 }
 
 impl Geometric {
+    /// The sequence times a number that is not zero.
+    pub(crate) fn scaled(&self, factor: &Rational) -> Geometric {
+        let first = self.first.iter().map(|value| value.scale(factor)).collect();
+        let scaled = |term: &GeometricTerm| GeometricTerm {
+            coefficient: term.coefficient.scale(factor),
+            ..term.clone()
+        };
+        Geometric { first, terms: self.terms.iter().map(scaled).collect() }
+    }
+
     /// The values `w[0], w[1], …` that the sum does not give.
     pub fn first(&self) -> &[Expression] {
         &self.first

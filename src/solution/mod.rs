@@ -24,5 +24,5 @@ pub use geometric::{Geometric, GeometricTerm};
 pub use observed::{ObserveError, ObservedPieces};
 pub use period::{KeptEnds, PeriodByPeriod};
 pub use solved::Solution;
-pub use table::{Coefficient, EchoRow, EchoTable, ExpandedTerm, OrdinaryTable};
+pub use table::{EchoRow, EchoTable, ExpandedTerm, OrdinaryTable, OrdinaryTerm};
 pub use template::{EchoTemplate, Family};

@@ -53,12 +53,12 @@ pub struct PeriodByPeriod<'a> {
 /// let text = wavestep::scenes::find("pulse-shape").unwrap().text;
 /// let source = Source::new("pulse-shape", text)?;
 /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let (pieces, ends) = solution.pieces_by_ends(0, 0, 1, &[0].into()).unwrap();
+/// let (pieces, ends) = solution.pieces_by_ends(1, &[0].into()).unwrap();
 /// // The first symbol stands for a_0(mu).
 /// let (symbol, wave, n) = ends.symbols().next().unwrap();
 /// assert_eq!((wave, n), (0, 0));
 /// let a_1 = format!("exp(-t)*(t + {symbol})");
-/// assert_eq!(pieces[1], read_expression(&Source::new("a_1", a_1)?)?);
+/// assert_eq!(pieces[0][1], read_expression(&Source::new("a_1", a_1)?)?);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -76,7 +76,9 @@ impl KeptEnds {
     /// A new symbol for the end of the n-th period of a wave, in the order of the periods.
     fn symbol(&mut self, recurrence: &Recurrence, wave: WaveIndex, n: usize) -> Symbol {
         let mut name = format!("{}_end_{n:05}", recurrence.statement().waves[wave]);
-        while recurrence.symbols().any(|symbol| symbol.name() == name) {
+        let statement = recurrence.statement();
+        let times = [&statement.local, &statement.time];
+        while recurrence.symbols().chain(times).any(|symbol| symbol.name() == name) {
             name.push('_');
         }
         let symbol = Symbol::new(&name).expect("a name of a wave with letters after it");

@@ -118,7 +118,7 @@ impl Solution {
         (first..=last).map(piece).collect()
     }
 
-    /// The pieces `first … last` of a wave by the values of `kept` waves at the ends of earlier
+    /// The pieces `0 … last` of all waves by the values of `kept` waves at the ends of earlier
     /// periods, for which symbols stand.
     ///
     /// # Errors
@@ -134,24 +134,22 @@ impl Solution {
     /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
     /// let source = Source::new("rigid-mass", text)?;
     /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-    /// let (pieces, ends) = solution.pieces_by_ends(0, 1, 1, &[0].into()).unwrap();
+    /// let (pieces, ends) = solution.pieces_by_ends(1, &[0].into()).unwrap();
     /// let (f_0, ..) = ends.symbols().next().unwrap(); // f[0] at s = 2*mu
     /// let f_1 = Source::new("f[1]", format!("exp(-s)*(-2*s + 1 + {f_0})"))?;
-    /// assert_eq!(pieces, [read_expression(&f_1)?]);
+    /// assert_eq!(pieces[0][1], read_expression(&f_1)?);
     /// # Ok::<(), wavestep::language::Diagnostic>(())
     /// ```
     pub fn pieces_by_ends(
         &self,
-        wave: WaveIndex,
-        first: usize,
         last: usize,
         kept: &BTreeSet<WaveIndex>,
-    ) -> Result<(Vec<Expression>, KeptEnds), SolveError> {
+    ) -> Result<(Vec<Vec<Expression>>, KeptEnds), SolveError> {
         let mut solver = PeriodByPeriod::keeping_ends(&self.recurrence, kept);
         for _ in 0..=last {
             solver.advance()?;
         }
-        let pieces = solver.waves()[wave].pieces().iter().skip(first).cloned().collect();
+        let pieces = solver.waves().iter().map(|wave| wave.pieces().to_vec()).collect();
         Ok((pieces, solver.kept_ends().cloned().unwrap_or_default()))
     }
 

@@ -86,7 +86,7 @@ pub struct ExpandedTerm<'a> {
     pub denominator: &'a Integer,
 }
 
-/// One coefficient of a piece in ordinary powers of the local variable `s` and of `x`, where the
+/// One term of a piece in ordinary powers of the local variable `s` and of `x`, where the
 /// period is `D = c x` with a whole number c:
 ///
 /// ```text
@@ -104,15 +104,15 @@ pub struct ExpandedTerm<'a> {
 /// let table = solution.table(0, 2).unwrap().expect("the constants are numbers");
 /// // With D = 2μ: f[2](s) = e^{−s} (1 − 4s + 2s²) + e^{−s−2μ} (1 − 2s − 4μ) + e^{−s−4μ}
 /// let mut found = Vec::new();
-/// table.to_ordinary().for_each_coefficient(2, 2, |c| {
-///     found.push((c.age, c.local_power, c.period_power, c.value.to_rational()));
+/// table.to_ordinary().for_each_ordinary_term(2, 2, |c| {
+///     found.push((c.age, c.local_power, c.symbol_power, c.value.to_rational()));
 /// });
 /// let number = |value: i64| Rational::from_integer(value.into());
 /// assert!(found.contains(&(0, 2, 0, number(2))) && found.contains(&(1, 0, 1, number(-4))));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Coefficient<'a> {
+pub struct OrdinaryTerm<'a> {
     /// The exponent `λ`.
     pub rate: &'a Rational,
     /// The number `m` of periods that the echo is old.
@@ -120,7 +120,7 @@ pub struct Coefficient<'a> {
     /// The power of the local variable.
     pub local_power: u32,
     /// The power of `x`.
-    pub period_power: u32,
+    pub symbol_power: u32,
     /// The reduced number in front, not zero.
     pub value: &'a WordRatio,
 }
@@ -230,7 +230,7 @@ impl EchoTable {
 /// let ordinary: OrdinaryTable = table.to_ordinary();
 /// // f[3](s) = e^{−s} (−4/3 s³ + …) + …
 /// let mut cubic = Vec::new();
-/// ordinary.for_each_coefficient(3, 2, |c| {
+/// ordinary.for_each_ordinary_term(3, 2, |c| {
 ///     cubic.extend((c.local_power == 3).then(|| c.value.to_rational()));
 /// });
 /// assert_eq!(cubic, [Rational::new((-4).into(), 3.into())]);
@@ -250,12 +250,12 @@ impl OrdinaryTable {
     /// words are taken.
     ///
     /// # Panics
-    /// Where an echo up to the n-th is missing, or `n · multiple · N` does not fit 32 bits.
-    pub fn for_each_coefficient(
+    /// Where an echo up to the n-th is missing, or `n · multiple ·` the degree does not fit 32 bits.
+    pub fn for_each_ordinary_term(
         &self,
         n: usize,
         multiple: u32,
-        mut visit: impl FnMut(Coefficient<'_>),
+        mut visit: impl FnMut(OrdinaryTerm<'_>),
     ) {
         let mut value = WordRatio::from(&Rational::default());
         for (k, row) in self.rows[..=n].iter().enumerate() {
@@ -268,8 +268,8 @@ impl OrdinaryTable {
                         if value.limbs().0.is_empty() {
                             break;
                         }
-                        let (local_power, period_power) = (j - l, l);
-                        visit(Coefficient { rate, age, local_power, period_power, value: &value });
+                        let (local_power, symbol_power) = (j - l, l);
+                        visit(OrdinaryTerm { rate, age, local_power, symbol_power, value: &value });
                         let above = step.checked_mul(j - l).expect("a step fits 32 bits");
                         value.multiply(above, l + 1);
                     }
