@@ -132,8 +132,11 @@ fn replaced(value: &Expression, x: &Symbol, by: &Expression) -> Expression {
     &rest + &(&slope * by)
 }
 
+/// The statements of a scene, what its source writes for symbols, and the unit of its wave.
+type Other = (&'static str, &'static [(&'static str, &'static str)], &'static str);
+
 /// Scenes whose source writes symbols as products and quotients, where brackets matter.
-const OTHERS: [(&str, &[(&str, &str)], &str); 5] = [
+const OTHERS: [Other; 5] = [
     (
         "symbol tau > 0, mu > 0\nperiod 2*mu, local s, time t\nwave f\n\
          equation tau*f[n]' + f[n] = tau*f[n-1]' - f[n-1]\ncontinuous f[n] - f[n-1] starts at 1/tau\n\

@@ -73,17 +73,17 @@ impl Scope {
             Rewriting::Constants { name, .. } => name.span,
             _ => tree.map_or(Span::new(0, 0), |tree| tree.span),
         };
-        let refuse = |name: &str, what: &str| {
-            Err(self
-                .error(format!("`{name}` already means something"), span, what)
-                .with_remedy("choose a name that no wave, symbol, time or other item has"))
+        let free = "choose a name that no wave, symbol, time or other item has";
+        let refuse = |name: &str, what: &str, remedy: &str| {
+            let message = format!("`{name}` already means something");
+            Err(self.error(message, span, what).with_remedy(remedy))
         };
         if let Some(name) = name {
             let times = [&self.local, &self.time].into_iter().flatten().map(Symbol::name);
             let own = self.waves.keys().chain(self.symbols.keys()).map(String::as_str);
             let same = |other: &&str| *other == name || is_constant(other, name, item);
             if let Some(other) = own.chain(times).chain(["n"]).find(same) {
-                return refuse(other, "a name of the recurrence");
+                return refuse(other, "a name of the recurrence", free);
             }
             let plain = |product: &SourceProduct| match product.powers() {
                 [(symbol, 1)] => Some(symbol.name().to_owned()),
@@ -92,19 +92,20 @@ impl Scope {
             let waves = notation.waves.values().chain(notation.constants.values()).cloned();
             let all = waves.chain(notation.symbols.values().filter_map(plain));
             if all.filter(|other| other == name).count() > 1 {
-                return refuse(name, "written for two things");
+                return refuse(name, "written for two things", free);
             }
         }
         let mut product = SourceProduct::one();
         let tree = tree.filter(|_| name.is_none());
         tree.map_or(Ok(()), |tree| self.multiply(&mut product, tree, 1))?;
+        let source = "use the source's own symbols here";
         for (symbol, _) in product.powers() {
             let is_time = [&self.local, &self.time].into_iter().flatten().any(|x| x == symbol);
             if is_time || symbol.name() == "n" {
-                return refuse(symbol.name(), "a time, or the number of the period");
+                return refuse(symbol.name(), "a time, or the number of the period", source);
             }
             if notation.symbols.contains_key(symbol) {
-                return refuse(symbol.name(), "written otherwise by another item");
+                return refuse(symbol.name(), "written otherwise by another item", source);
             }
         }
         Ok(())
