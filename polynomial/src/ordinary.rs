@@ -1,158 +1,168 @@
 //! Ordinary powers over one denominator, for writing.
 
-use crate::integer::{fraction, gcd};
+use crate::integer::{fraction, gcd, lcm};
 use crate::polynomial::Polynomial;
+use crate::symbol::Symbol;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
 
-/// A polynomial in ordinary powers, as integers over their least common denominator:
+/// Polynomials in ordinary powers, as integers over the least denominator that they share:
 ///
 /// ```text
-/// p = (1/m) Σ_α n_α Π_i x_i^{α_i}         gcd(m, all n_α) = 1
+/// p_i = (1/m) Σ_α n_{i,α} Π_j x_j^{α_j}         gcd(m, all n_{i,α}) = 1
 /// ```
 ///
+/// # Invariants
+/// - `m > 0`, and no prime divides `m` and all integers;
+/// - one integer for each term of a polynomial, in its order.
+///
 /// ```
-/// use wavestep_polynomial::{Polynomial, Rational};
-/// let p: Polynomial = "1/2*x^2 - 1/3*x".parse().unwrap();
-/// let ordinary = p.ordinary(&1.into()); // (3x² − 2x)/6
-/// assert_eq!(*ordinary.denominator(), 6.into());
-/// let mut coefficients = ordinary.coefficients();
-/// assert_eq!(coefficients.next(), Some((&[2][..], Rational::new(1.into(), 2.into()))));
+/// use wavestep_polynomial::{Integer, Ordinary, Polynomial};
+/// let p: Polynomial = "2*x^2 + 3*x".parse().unwrap();
+/// let q: Polynomial = "5*y - 1/2".parse().unwrap();
+/// let thirds = Ordinary::new([&p, &q], &3.into()); // p/3 and q/3
+/// assert_eq!(*thirds.denominator(), Integer::from(6));
+/// assert_eq!(thirds.integers(1), [10, -1].map(Integer::from));
+/// assert_eq!(thirds.coefficients(0).next().unwrap().1.to_string(), "2/3");
 /// ```
 pub struct Ordinary<'a> {
-    polynomial: &'a Polynomial,
+    polynomials: Vec<&'a Polynomial>,
     denominator: BigInt,
-    numerators: Vec<BigInt>,
+    integers: Vec<Vec<BigInt>>,
 }
 
-impl Polynomial {
-    /// `p / divisor` in ordinary powers. A product for each symbol of a term, and one division a
+impl<'a> Ordinary<'a> {
+    /// `p / divisor` for each polynomial. A product for each symbol of a term, and one division a
     /// term: the gcd with the denominator soon no longer changes.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Integer, Polynomial};
-    /// let p: Polynomial = "2*x^2 + 3*x".parse().unwrap();
-    /// let sixth = p.ordinary(&6.into()); // (2x² + 3x)/6
-    /// assert_eq!(*sixth.denominator(), Integer::from(6));
-    /// let twelfths: Vec<Integer> = sixth.integers(&12.into()).map(|(_, n)| n).collect();
-    /// assert_eq!(twelfths, [4, 6].map(Integer::from));
-    /// ```
     ///
     /// # Panics
     /// Where `divisor` is not positive.
-    pub fn ordinary(&self, divisor: &BigInt) -> Ordinary<'_> {
+    pub fn new(
+        polynomials: impl IntoIterator<Item = &'a Polynomial>,
+        divisor: &BigInt,
+    ) -> Ordinary<'a> {
         assert!(divisor.is_positive(), "coefficients over {divisor}");
-        let mut denominator = &self.denominator * divisor;
-        let tables: Vec<Vec<BigInt>> = (0..self.symbols.len())
-            .map(|column| {
-                let exponents = self.terms.iter().map(|term| term.exponents[column]);
-                let table = factorial_ratios(exponents.max().unwrap_or(0));
-                denominator *= &table[0];
-                table
-            })
-            .collect();
-        // So far: the common divisor of the denominator and the numerators divided by it.
-        let mut common = denominator.clone();
-        let mut numerators: Vec<BigInt> = Vec::with_capacity(self.terms.len());
-        for term in &self.terms {
-            let mut numerator = term.numerator.clone();
-            for (table, exponent) in tables.iter().zip(&term.exponents) {
-                let ratio = &table[*exponent as usize];
-                if !ratio.is_one() {
-                    numerator *= ratio;
+        let polynomials: Vec<&Polynomial> = polynomials.into_iter().collect();
+        let shared = polynomials.iter().fold(BigInt::one(), |d, p| lcm(&d, &p.denominator));
+        let tables = factorial_ratios(&polynomials);
+        // A denominator that does for all terms, and by what it and the integers are divided.
+        let whole = tables.values().fold(&shared * divisor, |whole, table| whole * &table[0]);
+        let mut common = whole.clone();
+        let mut integers: Vec<Vec<BigInt>> = vec![Vec::new(); polynomials.len()];
+        // Long polynomials first: they settle what is common.
+        let mut order: Vec<usize> = (0..polynomials.len()).collect();
+        order.sort_by_key(|i| std::cmp::Reverse(polynomials[*i].terms.len()));
+        for i in order {
+            let p = polynomials[i];
+            let absent = tables.iter().filter(|(x, _)| p.column(x).is_none());
+            let scale =
+                absent.fold(&shared / &p.denominator, |scale, (_, table)| scale * &table[0]);
+            let columns: Vec<&Vec<BigInt>> = p.symbols.iter().map(|x| &tables[x]).collect();
+            for term in &p.terms {
+                let mut integer = term.numerator.clone();
+                let ratios =
+                    columns.iter().zip(&term.exponents).map(|(table, e)| &table[*e as usize]);
+                for factor in ratios.chain([&scale]).filter(|factor| !factor.is_one()) {
+                    integer *= factor;
                 }
+                let (mut quotient, rest) = integer.div_rem(&common);
+                if !rest.is_zero() {
+                    let smaller = gcd(&common, &rest);
+                    let more = &common / &smaller;
+                    integers.iter_mut().flatten().for_each(|known| *known *= &more);
+                    quotient = integer / &smaller;
+                    common = smaller;
+                }
+                integers[i].push(quotient);
             }
-            if common.is_one() {
-                numerators.push(numerator);
-                continue;
-            }
-            let (mut quotient, rest) = numerator.div_rem(&common);
-            if !rest.is_zero() {
-                let smaller = gcd(&common, &rest);
-                let scale = &common / &smaller;
-                numerators.iter_mut().for_each(|numerator| *numerator *= &scale);
-                quotient = numerator / &smaller;
-                common = smaller;
-            }
-            numerators.push(quotient);
         }
-        Ordinary { polynomial: self, denominator: denominator / common, numerators }
+        Ordinary { polynomials, denominator: whole / common, integers }
     }
-}
 
-/// `n!/e!` for `e = 0 … n`.
-fn factorial_ratios(n: u32) -> Vec<BigInt> {
-    let mut ratios = vec![BigInt::one(); n as usize + 1];
-    for e in (0..n as usize).rev() {
-        ratios[e] = &ratios[e + 1] * (e + 1);
-    }
-    ratios
-}
-
-impl Ordinary<'_> {
     /// The least positive integer by which all coefficients become integers. O(1).
     pub fn denominator(&self) -> &BigInt {
         &self.denominator
     }
 
-    /// The coefficients times `common`, a multiple of the denominator, with the exponents, in the
-    /// order of [`Polynomial::terms`]. One product a term, and none where `common` is the
-    /// denominator.
+    /// The integers of the i-th polynomial, in the order of [`Polynomial::terms`]. O(1).
     ///
     /// # Panics
-    /// Where `common` is no multiple of the denominator.
-    pub fn integers(&self, common: &BigInt) -> impl Iterator<Item = (&[u32], BigInt)> + use<'_> {
-        let (factor, rest) = common.div_rem(&self.denominator);
-        assert!(rest.is_zero(), "{common} is no common denominator");
-        let exponents = self.polynomial.terms.iter().map(|term| &term.exponents[..]);
-        exponents.zip(&self.numerators).map(move |(exponents, numerator)| {
-            (exponents, if factor.is_one() { numerator.clone() } else { numerator * &factor })
-        })
+    /// Where there is no such polynomial.
+    pub fn integers(&self, i: usize) -> &[BigInt] {
+        &self.integers[i]
     }
 
-    /// The reduced coefficients, with the exponents, in the order of [`Polynomial::terms`]. One
-    /// gcd a term, and none where the denominator is 1.
-    pub fn coefficients(&self) -> impl Iterator<Item = (&[u32], BigRational)> + '_ {
-        let exponents = self.polynomial.terms.iter().map(|term| &term.exponents[..]);
-        exponents.zip(&self.numerators).map(|(exponents, numerator)| {
+    /// The reduced coefficients of the i-th polynomial, with the exponents, in the order of
+    /// [`Polynomial::terms`]. One gcd a term, and none where the denominator is 1.
+    ///
+    /// # Panics
+    /// Where there is no such polynomial.
+    pub fn coefficients(&self, i: usize) -> impl Iterator<Item = (&[u32], BigRational)> + '_ {
+        let exponents = self.polynomials[i].terms.iter().map(|term| &term.exponents[..]);
+        exponents.zip(&self.integers[i]).map(|(exponents, integer)| {
             let value = match self.denominator.is_one() {
-                true => BigRational::from_integer(numerator.clone()),
-                false => fraction(numerator.clone(), self.denominator.clone()),
+                true => BigRational::from_integer(integer.clone()),
+                false => fraction(integer.clone(), self.denominator.clone()),
             };
             (exponents, value)
         })
     }
 }
 
+/// `n!/e!` for `e = 0 … n`, for each symbol with its highest exponent n.
+fn factorial_ratios<'a>(polynomials: &[&'a Polynomial]) -> BTreeMap<&'a Symbol, Vec<BigInt>> {
+    let mut highest = BTreeMap::<&Symbol, u32>::new();
+    for p in polynomials {
+        for (column, x) in p.symbols.iter().enumerate() {
+            let own = p.terms.iter().map(|term| term.exponents[column]).max().unwrap_or(0);
+            let known = highest.entry(x).or_default();
+            *known = own.max(*known);
+        }
+    }
+    let table = |n: u32| {
+        let mut ratios = vec![BigInt::one(); n as usize + 1];
+        for e in (0..n as usize).rev() {
+            ratios[e] = &ratios[e + 1] * (e + 1);
+        }
+        ratios
+    };
+    highest.into_iter().map(|(x, n)| (x, table(n))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const TEXTS: [&str; 6] =
+        ["0", "7/3", "x", "4/3*x^3 - 1/6*x", "1/2*x^2*y^5 + 3/35*x*y - 9/8", "6*x^9 - 12*y^4"];
+
+    /// Alone and together, the coefficients are those of the polynomials, over the least
+    /// denominator.
     #[test]
-    fn coefficients_are_those_of_the_polynomial() {
-        for text in
-            ["0", "7/3", "x", "4/3*x^3 - 1/6*x", "1/2*x^2*y^5 + 3/35*x*y - 9/8", "6*x^9 - 12*y^4"]
-        {
-            let p: Polynomial = text.parse().unwrap();
-            for divisor in [1, 2, 12, 35] {
-                let divided = &p / &BigRational::from_integer(divisor.into());
-                let ordinary = p.ordinary(&divisor.into());
-                assert!(ordinary.coefficients().eq(divided.terms()), "({text})/{divisor}");
-                let common = ordinary.denominator() * 5;
-                let back =
-                    ordinary.integers(&common).map(|(e, n)| (e, fraction(n, common.clone())));
-                assert!(back.eq(divided.terms()), "({text})/{divisor}");
-                let all = divided.terms().fold(BigInt::one(), |d, (_, c)| d.lcm(c.denom()));
-                assert_eq!(*ordinary.denominator(), all, "({text})/{divisor}");
+    fn coefficients_are_those_of_the_polynomials() {
+        let all: Vec<Polynomial> = TEXTS.iter().map(|text| text.parse().unwrap()).collect();
+        let groups = (0..all.len()).map(|i| &all[i..=i]).chain([&all[..], &all[2..5]]);
+        for (polynomials, divisor) in groups.flat_map(|group| [1, 2, 12, 35].map(|d| (group, d))) {
+            let ordinary = Ordinary::new(polynomials, &divisor.into());
+            let mut least = BigInt::one();
+            for (i, p) in polynomials.iter().enumerate() {
+                let divided = p / &BigRational::from_integer(divisor.into());
+                assert!(ordinary.coefficients(i).eq(divided.terms()), "({p})/{divisor}");
+                let back = ordinary.integers(i).iter();
+                let back = back.map(|n| fraction(n.clone(), ordinary.denominator().clone()));
+                assert!(back.eq(divided.terms().map(|(_, c)| c)), "({p})/{divisor}");
+                least = divided.terms().fold(least, |d, (_, c)| d.lcm(c.denom()));
             }
+            assert_eq!(*ordinary.denominator(), least, "over {divisor}");
         }
     }
 
     #[test]
     #[should_panic(expected = "coefficients over 0")]
     fn the_divisor_is_positive() {
-        let _ = Polynomial::one().ordinary(&BigInt::ZERO);
+        let _ = Ordinary::new([&Polynomial::one()], &BigInt::ZERO);
     }
 }

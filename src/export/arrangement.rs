@@ -307,37 +307,31 @@ impl Coefficient {
     /// `front · (terms)` with integers in the terms: their common factor stays with them unless
     /// it is to be taken out of a nested bracket.
     fn over_common_denominator(&self, factored: bool) -> (Rational, Vec<Term>) {
-        let ordinaries: Vec<Ordinary<'_>> =
-            self.parts.iter().map(|(_, p)| p.numerator().ordinary(&self.divisor)).collect();
-        let mut common = Integer::one();
-        for own in ordinaries.iter().map(Ordinary::denominator) {
-            if !common.is_multiple_of(own) {
-                common = common.lcm(own);
-            }
-        }
+        let numerators = self.parts.iter().map(|(_, p)| p.numerator());
+        let ordinary = Ordinary::new(numerators, &self.divisor);
         let content = match factored && self.is_nested() {
-            true => ordinaries
-                .iter()
-                .flat_map(|ordinary| ordinary.integers(&common))
-                .fold(Integer::zero(), |gcd, (_, value)| gcd.gcd(&value)),
+            true => (0..self.parts.len())
+                .flat_map(|i| ordinary.integers(i))
+                .fold(Integer::zero(), |gcd, value| gcd.gcd(value)),
             false => Integer::one(),
         };
-        let front = Rational::new(content.clone(), common.clone());
-        let part = |((exponent, p), ordinary): (&(Fraction, Fraction), &Ordinary<'_>)| {
+        let front = Rational::new(content.clone(), ordinary.denominator().clone());
+        let part = |(i, (exponent, p)): (usize, &(Fraction, Fraction))| {
             let terms = match p.as_polynomial() {
                 Some(polynomial) => {
-                    let integers = ordinary.integers(&common);
-                    let integers = integers.map(|(e, value)| {
-                        let whole = if content.is_one() { value } else { value / &content };
-                        (e, Rational::from_integer(whole))
-                    });
-                    monomials(polynomial, integers)
+                    let whole = |value: &Integer| match content.is_one() {
+                        true => value.clone(),
+                        false => value / &content,
+                    };
+                    let values = ordinary.integers(i).iter().map(whole);
+                    monomials(polynomial, values.map(Rational::from_integer))
                 }
                 None => fraction_terms(&p.scale(&(front.recip() / &self.divisor))),
             };
             (exponent.clone(), terms)
         };
-        (front.clone(), sum_of_parts(self.parts.iter().zip(&ordinaries).map(part)))
+        let sum = sum_of_parts(self.parts.iter().enumerate().map(part));
+        (front, sum)
     }
 }
 
@@ -385,7 +379,7 @@ pub(crate) fn fraction_terms(fraction: &Fraction) -> Vec<Term> {
 /// The terms of a fraction over a number.
 fn divided_terms(fraction: &Fraction, divisor: &Integer) -> Vec<Term> {
     match fraction.as_polynomial() {
-        Some(p) => monomials(p, p.ordinary(divisor).coefficients()),
+        Some(p) => monomials(p, coefficients(p, divisor)),
         None => vec![quotient(&fraction.scale(&Rational::new(Integer::one(), divisor.clone())))],
     }
 }
@@ -439,14 +433,21 @@ fn common_factors(p: &Polynomial) -> (Rational, Vec<Node>, Polynomial) {
 
 /// The terms of a polynomial by ascending total degree.
 pub(crate) fn polynomial_terms(p: &Polynomial) -> Vec<Term> {
-    monomials(p, p.ordinary(&Integer::one()).coefficients())
+    monomials(p, coefficients(p, &Integer::one()))
 }
 
-/// Terms in the symbols of a polynomial, put in the order of ascending total degree.
-fn monomials<'a>(p: &Polynomial, terms: impl Iterator<Item = (&'a [u32], Rational)>) -> Vec<Term> {
+/// The reduced coefficients of a polynomial over a number, in the order of its terms.
+fn coefficients(p: &Polynomial, divisor: &Integer) -> Vec<Rational> {
+    Ordinary::new([p], divisor).coefficients(0).map(|(_, value)| value).collect()
+}
+
+/// Terms with the exponents of a polynomial, put in the order of ascending total degree.
+fn monomials(p: &Polynomial, coefficients: impl IntoIterator<Item = Rational>) -> Vec<Term> {
     let symbols: Arc<[Symbol]> = p.symbols().into();
+    let (_, terms) = p.divided_terms();
     let mut terms: Vec<(u32, Term)> = terms
-        .map(|(exponents, coefficient)| {
+        .zip(coefficients)
+        .map(|((exponents, _), coefficient)| {
             let sign = Sign::of(&coefficient);
             let coefficient = if sign == Sign::Minus { -coefficient } else { coefficient };
             let (symbols, exponents) = (symbols.clone(), Exponents::from_slice(exponents));
