@@ -1,6 +1,7 @@
 //! Reduced fractions that are multiplied by fractions of words, in place.
 
-use num_bigint::{BigInt, BigUint, Sign};
+use crate::integer::from_limbs;
+use num_bigint::Sign;
 use num_rational::BigRational;
 
 /// A rational number `±numerator/denominator` that is multiplied by small fractions: a step takes
@@ -92,14 +93,8 @@ impl WordRatio {
 
     /// The number itself. O(limbs).
     pub fn to_rational(&self) -> BigRational {
-        let integer = |limbs: &[u64], sign: Sign| {
-            let halves = limbs.iter().flat_map(|limb| [*limb as u32, (*limb >> 32) as u32]);
-            BigInt::from_biguint(sign, BigUint::new(halves.collect()))
-        };
-        let sign = if self.negative { Sign::Minus } else { Sign::Plus };
-        let numerator = integer(&self.numerator, sign);
-        let denominator = integer(&self.denominator, Sign::Plus);
-        BigRational::new_raw(numerator, denominator)
+        let numerator = from_limbs(self.negative, &self.numerator);
+        BigRational::new_raw(numerator, from_limbs(false, &self.denominator))
     }
 }
 

@@ -4,9 +4,9 @@
 //! would cost more than the arithmetic. Only what rows need is here: combinations of two rows,
 //! products with a word, decimal digits. Everything else goes by way of [`Integer`].
 
-use num_bigint::{BigInt, BigUint, Sign};
+use crate::integer::from_limbs;
+use num_bigint::{BigInt, Sign};
 use num_traits::ToPrimitive;
-use smallvec::SmallVec;
 use std::fmt;
 
 /// A row of integers `c_0, c_1, …` in one allocation.
@@ -200,10 +200,7 @@ impl IntegerRow {
 impl IntegerRef<'_> {
     /// The integer itself. One allocation.
     pub fn to_integer(self) -> BigInt {
-        let halves = self.limbs.iter().flat_map(|limb| [*limb as u32, (*limb >> 32) as u32]);
-        let halves: SmallVec<[u32; 64]> = halves.collect();
-        let sign = if self.negative { Sign::Minus } else { Sign::Plus };
-        BigInt::from_biguint(sign, BigUint::from_slice(&halves))
+        from_limbs(self.negative, self.limbs)
     }
 
     /// Whether this is 0. O(1).

@@ -148,7 +148,7 @@ pub enum DeriveFormat {
     wavestep eval rigid-mass --set mu=1 --quantity velocity --at 2 --side left\n  \
     wavestep eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json\n\n\
     Times and values are exact: 33/10, 12.34, 1e3. Rational values are printed exactly where\n\
-    they have no more digits than asked for; all others are rounded correctly.")]
+    they have no more digits than asked for; all others are rounded correctly, ties to even.")]
 pub struct Eval {
     #[command(flatten)]
     pub scene: Scene,

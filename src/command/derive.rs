@@ -269,11 +269,16 @@ fn general(solution: &Solution, waves: &[WaveIndex], options: &Derive) -> Result
             Failure::Computation(
                 format!(
                     "no closed form in n was found for {name}; with {p} the derivative and {q} \
-                     the delay by one period, its equation is\n    {operator}"
+                     the delay by one period, its equation is, apart from the start,\n    {operator}"
                 ),
-                "ask for single orders, with --through or --piece; where a factor may vanish, \
-                 stating `nonzero …` can help"
-                    .to_owned(),
+                match recurrence.symbols().next() {
+                    Some(_) => {
+                        "ask for single orders, with --through or --piece; where a factor of \
+                         symbols may vanish, stating `nonzero …` can help"
+                    }
+                    None => "ask for single orders, with --through or --piece",
+                }
+                .to_owned(),
             )
         })?;
         let mut wave_formulas = export::general_form(recurrence, *wave, form);

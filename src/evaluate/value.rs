@@ -49,11 +49,11 @@ impl Value {
         }
     }
 
-    /// The value as plain text: its digits; a rational number that has more of them as a fraction
-    /// as well, where that is short.
+    /// The value as plain text: its digits; a rational number that is no integer of so many digits
+    /// as a fraction as well, where that is short.
     pub fn to_text(&self, digits: usize) -> String {
         match (self, self.decimal(digits)) {
-            (Value::Exact(value), (_, Exactness::Exact)) => value.to_string(),
+            (Value::Exact(value), (_, Exactness::Exact)) if value.is_integer() => value.to_string(),
             (Value::Exact(value), (decimal, _)) => match value.to_string() {
                 fraction if fraction.len() <= MAX_FRACTION => format!("{decimal} = {fraction}"),
                 _ => decimal.to_string(),

@@ -92,7 +92,7 @@ fn of_pieces(old: &Piece, new: &Piece) -> Vec<String> {
         let old = *old_terms.get(exponent).unwrap_or(&&zero);
         let new = *new_terms.get(exponent).unwrap_or(&&zero);
         let exponential = Expression::exponential(exponent.clone());
-        match (polynomial(old), polynomial(new)) {
+        match (old.as_polynomial(), new.as_polynomial()) {
             (Some(old), Some(new)) => {
                 for (monomial, old, new) in different_monomials(old, new) {
                     let term = &Expression::from(monomial) * &exponential;
@@ -114,10 +114,6 @@ fn of_pieces(old: &Piece, new: &Piece) -> Vec<String> {
 
 fn by_exponent(expression: &Expression) -> BTreeMap<&Fraction, &Fraction> {
     expression.terms().collect()
-}
-
-fn polynomial(value: &Fraction) -> Option<&Polynomial> {
-    value.factors().next().is_none().then(|| value.numerator())
 }
 
 /// The monomials whose coefficients differ, with both coefficients.
