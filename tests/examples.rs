@@ -315,7 +315,7 @@ pub mod part;
 
 #[cfg(test)]
 mod tests {
-    pub fn helper() {}
+    pub fn inner() {}
 }
 "#;
     let other = "impl Shown<u8> {\n    pub fn other(&self) {}\n}\n\npub(super) fn f() {}\n";

@@ -377,7 +377,9 @@ impl Notation for Latex {
     }
 
     fn power(&self, base: &str, exponent: &str) -> String {
-        let base = if base.contains("_{") { format!("{{{base}}}") } else { base.to_owned() };
+        // A subscript and an exponent stand over each other only with braces.
+        let braces = base.contains("_{") && !base.starts_with('(');
+        let base = if braces { format!("{{{base}}}") } else { base.to_owned() };
         format!("{base}^{{{exponent}}}")
     }
 
