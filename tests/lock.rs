@@ -256,7 +256,7 @@ fn the_command_locks_and_checks() {
     assert!(err.starts_with(message), "{err}");
     // Without a file, what would be in it; an old file stays whole when there is nothing to write.
     let (_, out, _) = run(&["lock", "two-bars", "--through", "2"], &folder);
-    assert_eq!(out, fs::read_to_string(fixture("version-1-symbolic.lock")).expect("a file"));
+    assert_eq!(out, derived(scene("two-bars"), &request(2, "", &[])).to_text());
     let before = fs::read_to_string(folder.join("my.lock")).expect("a file");
     let (code, _, err) =
         run(&["lock", "my.wave", "--through", "2", "--at", "1", "-o", "my.lock"], &folder);

@@ -390,13 +390,21 @@ fn quotient(fraction: &Fraction) -> Term {
         let (own, terms) = positive_first(polynomial_terms(p));
         (own, Node::sum(terms).1)
     };
+    // Factors are stored with a positive leading term, and shown with a positive first term.
+    let mut power_of = |base: &Polynomial, power: u32| {
+        let (own, base) = positive(base);
+        if power % 2 == 1 {
+            sign = sign.times(own);
+        }
+        Node::power(base, power)
+    };
     let (content, common, rest) = common_factors(fraction.numerator());
-    let (own, rest) = positive(&rest);
-    sign = sign.times(own);
     let mut top = common;
-    if rest != Node::Number(Rational::one()) {
-        top.push(rest);
-    }
+    let rest = match linear_power(&rest) {
+        Some((base, power)) => power_of(&base, power),
+        None => power_of(&rest, 1),
+    };
+    top.extend(rest.into_factors());
     if !content.numer().is_one() {
         top.insert(0, Node::Number(Rational::from_integer(content.numer().clone())));
     }
@@ -404,15 +412,28 @@ fn quotient(fraction: &Fraction) -> Term {
     if !content.denom().is_one() {
         bottom.push(Node::Number(Rational::from_integer(content.denom().clone())));
     }
-    for (factor, power) in fraction.factors() {
-        // Factors are stored with a positive leading term, and shown with a positive first term.
-        let (own, base) = positive(factor);
-        if power % 2 == 1 {
-            sign = sign.times(own);
-        }
-        bottom.push(Node::power(base, power));
-    }
+    bottom.extend(fraction.factors().map(|(factor, power)| power_of(factor, power)));
     (sign, Node::Quotient(Box::new(Node::product(top)), Box::new(Node::product(bottom))))
+}
+
+/// A polynomial of content 1 in one symbol as a power of a linear one, `±(a x + b)^n` with n > 1,
+/// where it is one. The leading coefficients `a^n` and `n a^{n−1} b` give `b/a`.
+fn linear_power(p: &Polynomial) -> Option<(Polynomial, u32)> {
+    let [x] = p.symbols() else { return None };
+    let n = p.degree(x);
+    if n < 2 || p.term_count() != n as usize + 1 {
+        return None;
+    }
+    let leading: Vec<Rational> = p.terms().take(2).map(|(_, value)| value).collect();
+    let ratio = &leading[1] / (&leading[0] * Rational::from_integer(n.into()));
+    let base = (&Polynomial::symbol(x) + &Polynomial::constant(&ratio)).primitive_part().1;
+    let power = base.pow(n);
+    let minus = -&base;
+    match power == *p {
+        true => Some((base, n)),
+        // Odd powers take the sign in; an even one cannot.
+        false => (n % 2 == 1 && minus.pow(n) == *p).then_some((minus, n)),
+    }
 }
 
 /// The content of a polynomial, the powers of symbols common to its terms, and the rest.
