@@ -73,7 +73,9 @@ fn folder(name: &str) -> PathBuf {
 }
 
 /// Recurrences whose pieces hold denominators, several exponentials, and names with subscripts.
-const OTHERS: [&str; 2] = [
+const OTHERS: [&str; 3] = [
+    "recurrence \"  = spaces # and signs  \"\nperiod 1, local s, time t\nwave f\n\
+     equation f[n] = f[n-1] + 1\n",
     "recurrence \"Two poles\"\nsymbol a > 0, b > 0\nnonzero a - b\nperiod 1, local s, time t\n\
      wave u_left, v\nequation u_left[n]' + a*u_left[n] = v[n-1]\n\
      equation v[n]' + b*v[n] = -u_left[n]\ncontinuous u_left[n] starts at 1\n\

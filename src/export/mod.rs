@@ -1,7 +1,8 @@
 //! Exact results as text, LaTeX and JSON.
 //!
 //! A [`Formula`] holds an expression in the order a person would write it; one walk with two
-//! notations then writes plain text, which the language reads back, or LaTeX. Breaking of long
+//! notations then writes plain text or LaTeX. The language reads back the text of pieces and echoes in
+//! a scene's own symbols. Breaking of long
 //! lines is shared as well. JSON gives reduced rationals, term by term.
 
 mod arrangement;

@@ -197,7 +197,7 @@ impl Lock {
 fn stated(statement: &Statement) -> BTreeMap<String, String> {
     let fraction = |value: &Fraction| expression_text(&value.clone().into());
     let mut stated = BTreeMap::from([
-        ("title".to_owned(), statement.title.clone()),
+        ("title".to_owned(), statement.title.trim().to_owned()),
         ("period".to_owned(), fraction(&statement.period)),
     ]);
     for (symbol, condition) in statement.assumptions.symbols() {
