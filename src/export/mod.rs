@@ -1,9 +1,9 @@
 //! Exact results as text, LaTeX and JSON.
 //!
 //! A [`Formula`] holds an expression in the order a person would write it; one walk with two
-//! notations then writes plain text or LaTeX. The language reads back the text of pieces and echoes in
-//! a scene's own symbols. Breaking of long
-//! lines is shared as well. JSON gives reduced rationals, term by term.
+//! notations then writes plain text or LaTeX. The language reads back the text of pieces and echoes
+//! in a scene's own symbols. Breaking of long lines is shared as well. JSON gives reduced
+//! rationals, term by term.
 
 mod arrangement;
 mod formula;
