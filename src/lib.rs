@@ -26,5 +26,6 @@ pub mod expression;
 pub mod language;
 pub mod lock;
 pub mod recurrence;
+pub mod scene;
 pub mod scenes;
 pub mod solution;

@@ -8,9 +8,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 10] = [
+const LAYERS: [(&str, &[&str]); 11] = [
     ("ball", &[]),
     ("expression", &[]),
+    ("scene", &["expression"]),
     ("recurrence", &["expression"]),
     ("solution", &["expression", "recurrence"]),
     ("evaluate", &["ball", "expression", "recurrence", "solution"]),

@@ -1,0 +1,74 @@
+//! Scenes as physics: bars, lumped elements, loads, ends, the line that joins them, and what is
+//! observed; quantities with their dimensions. No text.
+//!
+//! A [`Scene`] is what the language reads and what the network is built from.
+
+mod dimension;
+mod element;
+mod observable;
+mod quantity;
+
+use crate::expression::Assumptions;
+use wavestep_polynomial::Symbol;
+
+pub use dimension::Dimension;
+pub use element::{Bar, Body, Drive, Element, ElementIndex, Kind, Load, Mass, Spring, Support};
+pub use observable::{Measure, Observable, Place, Position, Seen};
+pub use quantity::Quantity;
+
+/// A line of bars and lumped elements with what is known and observed of it.
+///
+/// Displacement and velocity are positive to the right, forces in bars and springs where they
+/// compress, strain and stress where they pull. Loads act to the right where they are positive.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Scene {
+    /// What is modelled, in words.
+    pub title: String,
+    /// Symbols with their conditions, and factors taken to be non-zero. `pi` is no symbol of a
+    /// scene: it is the number.
+    pub assumptions: Assumptions,
+    /// Whether quantities have units. Without, all of them are plain numbers.
+    pub dimensional: bool,
+    /// The elements, in the order in which they are declared.
+    pub elements: Vec<Element>,
+    /// How they are joined.
+    pub line: Line,
+    /// Quantities to observe.
+    pub observables: Vec<Observable>,
+    /// The time in loads, in seconds where the scene has units.
+    pub time: Symbol,
+}
+
+/// Elements from left to right, between two ends.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Line {
+    /// What is at the left.
+    pub left: End,
+    /// The elements, each once.
+    pub elements: Vec<ElementIndex>,
+    /// How they are joined: `joints[0]` is between the left end and the first element, the last one
+    /// between the last element and the right end; one more than there are elements.
+    pub joints: Vec<Joint>,
+    /// What is at the right.
+    pub right: End,
+}
+
+/// An end of a line.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// No force: `X = 0`.
+    Free,
+    /// No motion: `v = 0`.
+    Fixed,
+    /// The bar beside it goes on for ever: nothing returns.
+    Endless,
+}
+
+/// How two neighbours in a line are joined.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Joint {
+    /// For good.
+    Bonded,
+    /// By a contact, which is taken to stay closed.
+    Contact,
+}

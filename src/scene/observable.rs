@@ -1,0 +1,70 @@
+//! What is observed, and where.
+
+use crate::expression::Fraction;
+use crate::scene::element::ElementIndex;
+
+/// A named quantity to observe: a sum of measures.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Observable {
+    /// What it is called.
+    pub name: String,
+    /// Its terms, all of one dimension.
+    pub terms: Vec<Seen>,
+}
+
+/// One term of an observable: a coefficient times what is measured at a place.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Seen {
+    /// The coefficient, a plain number.
+    pub coefficient: Fraction,
+    /// What is measured.
+    pub measure: Measure,
+    /// Where.
+    pub place: Place,
+}
+
+/// What is measured.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Measure {
+    /// Of a section or a mass.
+    Velocity,
+    /// The compressive force in a section or a spring, that of a support or a load on the line.
+    Force,
+    /// Positive where it pulls.
+    Strain,
+    /// Positive where it pulls.
+    Stress,
+    /// Since the start.
+    Displacement,
+    /// Of a spring, since the start.
+    Compression,
+    /// Of a bar, a mass, a spring, a support, or of the whole line.
+    Energy,
+    /// Of a bar, a mass, or of the whole line.
+    Momentum,
+}
+
+/// Where it is measured.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// The left end of a bar.
+    Left(ElementIndex),
+    /// The right end of a bar.
+    Right(ElementIndex),
+    /// A section of a bar.
+    At(ElementIndex, Position),
+    /// A lumped element, or a bar as a whole.
+    Element(ElementIndex),
+    /// The whole line.
+    Line,
+}
+
+/// A section of a bar.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Position {
+    /// At a share of its length, from the left: 0 … 1.
+    Share(Fraction),
+    /// At a distance from the left end; for an endless bar, from its end. In bars given by
+    /// impedance, the time in which a wave gets there.
+    Distance(Fraction),
+}
