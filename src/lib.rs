@@ -25,6 +25,7 @@ pub mod export;
 pub mod expression;
 pub mod language;
 pub mod lock;
+pub mod network;
 pub mod recurrence;
 pub mod scene;
 pub mod scenes;

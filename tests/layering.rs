@@ -8,11 +8,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 11] = [
+const LAYERS: [(&str, &[&str]); 12] = [
     ("ball", &[]),
     ("expression", &[]),
     ("scene", &["expression"]),
     ("recurrence", &["expression"]),
+    ("network", &["expression", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
     ("evaluate", &["ball", "expression", "recurrence", "solution"]),
     ("export", &["expression", "recurrence", "solution"]),

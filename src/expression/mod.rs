@@ -13,6 +13,7 @@ mod calculus;
 mod echo_sum;
 mod fraction;
 mod piecewise;
+mod root;
 mod sum;
 mod transform;
 
@@ -20,5 +21,6 @@ pub use assumptions::{Assumptions, Condition, NotInvertible, Relation};
 pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};
 pub use piecewise::Piecewise;
+pub use root::{Constant, Root};
 pub use sum::{ExponentialSum, Expression};
 pub use transform::Transform;

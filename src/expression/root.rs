@@ -1,0 +1,115 @@
+//! Square roots of exact values, and constants that are named instead of worked out.
+
+use crate::expression::fraction::{Fraction, NotAUnit};
+use num_bigint::BigInt;
+use num_traits::{Signed, Zero};
+use wavestep_polynomial::{Rational, Symbol};
+
+/// A value `factor · √radicand`, the radicand positive. Impedances `A √(Eρ)` and travel times
+/// `L √(ρ/E)` are such values.
+///
+/// ```
+/// use wavestep::expression::{Fraction, Root};
+/// use wavestep_polynomial::Rational;
+///
+/// let number = |p: i64, q: i64| Fraction::constant(&Rational::new(p.into(), q.into()));
+/// // √8/√2 = 2: a ratio of roots may be rational.
+/// let ratio = Root::of(number(8, 1)).over(&Root::of(number(2, 1))).unwrap();
+/// assert_eq!(ratio.exact(), Some(number(2, 1)));
+/// assert_eq!(Root::of(number(2, 1)).exact(), None);
+/// assert_eq!(Root::from(number(3, 2)).times(&ratio).exact(), Some(number(3, 1)));
+/// ```
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Root {
+    factor: Fraction,
+    radicand: Fraction,
+}
+
+impl Root {
+    /// `√radicand`.
+    pub fn of(radicand: Fraction) -> Root {
+        Root { factor: Fraction::one(), radicand }.normal()
+    }
+
+    /// What stands before the root.
+    pub fn factor(&self) -> &Fraction {
+        &self.factor
+    }
+
+    /// What stands under the root; 1 where the value is a fraction.
+    pub fn radicand(&self) -> &Fraction {
+        &self.radicand
+    }
+
+    /// The value without a root, where it needs none.
+    pub fn exact(&self) -> Option<Fraction> {
+        self.radicand.is_one().then(|| self.factor.clone())
+    }
+
+    /// The product.
+    pub fn times(&self, other: &Root) -> Root {
+        let factor = &self.factor * &other.factor;
+        Root { factor, radicand: &self.radicand * &other.radicand }.normal()
+    }
+
+    /// The quotient.
+    ///
+    /// # Errors
+    /// [`NotAUnit`] where the other value is no product that can be divided by.
+    pub fn over(&self, other: &Root) -> Result<Root, NotAUnit> {
+        let factor = &self.factor * &inverse(&other.factor)?;
+        let radicand = &self.radicand * &inverse(&other.radicand)?;
+        Ok(Root { factor, radicand }.normal())
+    }
+
+    fn normal(mut self) -> Root {
+        if let Some(root) = self.radicand.as_constant().as_ref().and_then(rational_square_root) {
+            self.factor = self.factor.scale(&root);
+            self.radicand = Fraction::one();
+        }
+        self
+    }
+}
+
+impl From<Fraction> for Root {
+    fn from(factor: Fraction) -> Root {
+        Root { factor, radicand: Fraction::one() }
+    }
+}
+
+/// `1/value`.
+fn inverse(value: &Fraction) -> Result<Fraction, NotAUnit> {
+    let inverse = Fraction::reciprocal(value.numerator())?;
+    Ok(&inverse * &Fraction::from(value.denominator()))
+}
+
+/// The square root of a rational number, where it is rational.
+fn rational_square_root(value: &Rational) -> Option<Rational> {
+    let root = |n: &BigInt| -> Option<BigInt> {
+        let root = n.sqrt();
+        (&root * &root == *n).then_some(root)
+    };
+    match value.is_negative() || value.is_zero() {
+        true => None,
+        false => Some(Rational::new(root(value.numer())?, root(value.denom())?)),
+    }
+}
+
+/// A positive constant that is named, because it is no rational number: formulas hold its symbol,
+/// and numbers come from its definition.
+///
+/// ```
+/// use wavestep::expression::{Constant, Fraction, Root};
+/// use wavestep_polynomial::{Rational, Symbol};
+///
+/// let two = Fraction::constant(&Rational::from_integer(2.into()));
+/// let ratio = Constant { symbol: Symbol::new("r").unwrap(), value: Root::of(two.clone()) };
+/// assert_eq!(ratio.value.radicand(), &two);
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Constant {
+    /// Its name in formulas.
+    pub symbol: Symbol,
+    /// What it is, in `pi`, constants before it, and the scene's symbols.
+    pub value: Root,
+}

@@ -1,0 +1,91 @@
+//! Delays: sums of travel times, counted on a grid or on a lattice of several.
+
+use crate::expression::{Expression, Fraction};
+use num_integer::Integer as _;
+use num_traits::{One, ToPrimitive, Zero};
+use wavestep_polynomial::{Integer, Rational};
+
+/// The times at which waves can arrive: all `Σ_c k_c D_c` with whole numbers `k_c`, where no two of
+/// the `D_c` have a rational ratio. One `D` alone is a grid.
+///
+/// Whether two times are commensurate is decided exactly: their quotient is a rational number, or
+/// it is not.
+///
+/// ```
+/// use wavestep::expression::Fraction;
+/// use wavestep::network::Lattice;
+/// use wavestep_polynomial::{Rational, Symbol};
+///
+/// let [a, b] = ["a", "b"].map(|name| Fraction::symbol(&Symbol::new(name).unwrap()));
+/// let half = a.scale(&Rational::new(3.into(), 2.into()));
+/// // a and 3a/2 are multiples of a/2; b is not.
+/// let (lattice, counts) = Lattice::spanned_by(&[a.clone(), half, b.clone()]);
+/// assert_eq!(lattice.periods(), [a.scale(&Rational::new(1.into(), 2.into())), b]);
+/// assert_eq!(counts, [vec![2, 0], vec![3, 0], vec![0, 1]]);
+/// assert_eq!(lattice.delay(&[2, 0]), a);
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Lattice {
+    periods: Vec<Fraction>,
+}
+
+impl Lattice {
+    /// The coarsest lattice that holds these times, and each of them counted on it.
+    ///
+    /// # Panics
+    /// Where a time is zero.
+    pub fn spanned_by(times: &[Fraction]) -> (Lattice, Vec<Vec<i64>>) {
+        // The class of each time, and its ratio to the first of the class.
+        let mut classes: Vec<(Fraction, Rational)> = Vec::new();
+        let mut places = Vec::new();
+        for time in times {
+            let ratio =
+                |of: &Fraction| Expression::from(time.clone()).proportion(&of.clone().into());
+            let known = classes.iter().enumerate().find_map(|(c, (of, _))| Some((c, ratio(of)?)));
+            let (class, ratio) = known.unwrap_or_else(|| {
+                classes.push((time.clone(), Rational::zero()));
+                (classes.len() - 1, Rational::one())
+            });
+            classes[class].1 = gcd(&classes[class].1, &ratio);
+            places.push((class, ratio));
+        }
+        let count = |(class, ratio): (usize, Rational)| {
+            let mut counts = vec![0; classes.len()];
+            let steps: Rational = ratio / &classes[class].1;
+            counts[class] = steps.to_integer().to_i64().expect("a small multiple");
+            counts
+        };
+        let counts = places.into_iter().map(count).collect();
+        let periods = classes.iter().map(|(of, step)| of.scale(step)).collect();
+        (Lattice { periods }, counts)
+    }
+
+    /// The lattice that is coarser by a factor in each direction.
+    pub(crate) fn coarsened(&self, factors: &[i64]) -> Lattice {
+        let scaled = |(period, factor): (&Fraction, &i64)| {
+            period.scale(&Rational::from_integer((*factor).into()))
+        };
+        Lattice { periods: self.periods.iter().zip(factors).map(scaled).collect() }
+    }
+
+    /// The periods `D_c`.
+    pub fn periods(&self) -> &[Fraction] {
+        &self.periods
+    }
+
+    /// `Σ_c k_c D_c`.
+    pub fn delay(&self, counts: &[i64]) -> Fraction {
+        let part = |(period, count): (&Fraction, &i64)| {
+            period.scale(&Rational::from_integer((*count).into()))
+        };
+        let parts = self.periods.iter().zip(counts).map(part);
+        parts.fold(Fraction::zero(), |sum, part| &sum + &part)
+    }
+}
+
+/// The greatest rational number of which both are whole multiples.
+fn gcd(a: &Rational, b: &Rational) -> Rational {
+    let common: Integer = a.denom().lcm(b.denom());
+    let whole = |value: &Rational| (value * Rational::from_integer(common.clone())).to_integer();
+    Rational::new(whole(a).gcd(&whole(b)), common)
+}

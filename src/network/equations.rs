@@ -1,0 +1,472 @@
+//! The laws at the nodes as equations between waves.
+//!
+//! Each node has a clock of its own, late by the travel time from a node where something happens at
+//! the start. So of the two waves in a bar one is seen at both ends at once, and the other a round
+//! trip later: the wave functions of successive periods, as textbooks have them.
+
+use crate::expression::{Expression, Fraction, NotAUnit};
+use crate::network::delay::Lattice;
+use crate::network::layout::{Layout, Node, Side};
+use crate::network::model::{Model, ModelLump};
+use crate::network::observe::Observed;
+use crate::recurrence::{InvalidRecurrence, LinearForm, WaveIndex};
+use crate::scene::{ElementIndex, Scene};
+use num_integer::Integer as _;
+use std::fmt;
+use wavestep_polynomial::Rational;
+
+/// Why a scene gives no recurrence.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum NetworkError {
+    /// A value that cannot be divided by.
+    Division(NotAUnit),
+    /// The travel times have no common measure, so that no period suits all of them.
+    Incommensurate,
+    /// The laws at the nodes cannot be solved for the waves.
+    Recurrence(Box<InvalidRecurrence>),
+    /// What is observed cannot be formed, and why.
+    Unobservable(String, &'static str),
+}
+
+impl fmt::Display for NetworkError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NetworkError::Division(reason) => reason.fmt(f),
+            NetworkError::Incommensurate => f.write_str("the travel times have no common measure"),
+            NetworkError::Recurrence(invalid) => invalid.fmt(f),
+            NetworkError::Unobservable(name, reason) => write!(f, "{name} {reason}"),
+        }
+    }
+}
+
+impl std::error::Error for NetworkError {}
+
+impl From<NotAUnit> for NetworkError {
+    fn from(reason: NotAUnit) -> NetworkError {
+        NetworkError::Division(reason)
+    }
+}
+
+impl From<InvalidRecurrence> for NetworkError {
+    fn from(invalid: InvalidRecurrence) -> NetworkError {
+        NetworkError::Recurrence(Box::new(invalid))
+    }
+}
+
+/// What a wave of a network is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Role {
+    /// The velocity wave to the right in a bar.
+    Right(ElementIndex),
+    /// The velocity wave to the left in a bar.
+    Left(ElementIndex),
+    /// The compression of a spring.
+    Compression(ElementIndex),
+    /// The displacement of a support.
+    Displacement(ElementIndex),
+    /// The velocity of a node beside no bar, by the node and the first of its places.
+    Velocity(usize, usize),
+    /// The integral of a wave over time.
+    Integral(WaveIndex),
+}
+
+/// A wave of a network.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct WaveRole {
+    /// What it is called.
+    pub name: String,
+    /// What it is.
+    pub role: Role,
+}
+
+/// A scene as nodes, bars and waves, with the delays between them.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Network {
+    pub(crate) scene: Scene,
+    pub(crate) model: Model,
+    pub(crate) layout: Layout,
+    pub(crate) waves: Vec<WaveRole>,
+    pub(crate) lattice: Lattice,
+    /// The round trip in each bar, counted on the lattice.
+    round_trips: Vec<Option<Vec<i64>>>,
+    /// The node whose clock is not late.
+    reference: usize,
+    /// How late the clock of each node is, counted on the lattice; `None` where nothing starts there
+    /// and the count is not needed.
+    clocks: Vec<Option<Vec<i64>>>,
+    /// The same as a time.
+    pub(crate) lateness: Vec<Fraction>,
+    /// Waves whose integrals are observed; these follow after `waves`.
+    pub(crate) integrals: Vec<WaveIndex>,
+    pub(crate) observables: Vec<Observed>,
+    /// When loads begin and end, by the clock of their node, counted on the lattice.
+    pub(crate) loads: Vec<(ElementIndex, Vec<i64>, Option<Vec<i64>>)>,
+}
+
+/// A run of places in a node that move together, or that pass the same force on: from the first
+/// place to the last. Place `i` is left of the i-th element.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Run {
+    pub first: usize,
+    pub last: usize,
+}
+
+impl Network {
+    /// The network of a scene.
+    ///
+    /// # Errors
+    /// [`NetworkError`].
+    pub fn new(scene: &Scene) -> Result<Network, NetworkError> {
+        let model = Model::of(scene)?;
+        let layout = Layout::of(scene);
+        let mut network = Network {
+            scene: scene.clone(),
+            model,
+            waves: Vec::new(),
+            lattice: Lattice::spanned_by(&[]).0,
+            round_trips: vec![None; layout.bars.len()],
+            reference: 0,
+            integrals: Vec::new(),
+            observables: Vec::new(),
+            clocks: vec![None; layout.nodes.len()],
+            lateness: Vec::new(),
+            loads: Vec::new(),
+            layout,
+        };
+        network.set_clocks()?;
+        network.name_waves();
+        network.set_observables()?;
+        Ok(network)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scene in its own scales.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The times at which waves arrive.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The waves, in the order of the recurrence.
+    pub fn waves(&self) -> &[WaveRole] {
+        &self.waves
+    }
+
+    /// The observables of the scene.
+    pub fn observables(&self) -> &[Observed] {
+        &self.observables
+    }
+
+    /// Whether constants act at a node from the start.
+    pub(crate) fn has_clock(&self, node: usize) -> bool {
+        self.clocks[node].is_some()
+    }
+
+    /// Whether something happens at a node at the start, or later by a load.
+    fn starts(&self, node: &Node) -> bool {
+        let velocities: Vec<Option<Fraction>> = self
+            .velocity_runs(node)
+            .iter()
+            .map(|run| {
+                let mut all = self.initial_velocities(node, *run);
+                all.dedup();
+                (all.len() <= 1).then(|| all.into_iter().next().unwrap_or_else(Fraction::zero))
+            })
+            .collect();
+        let uneven = velocities.iter().any(Option::is_none);
+        let apart = velocities.windows(2).any(|pair| pair[0] != pair[1]);
+        let forced = |side: Side| match side {
+            Side::Bar(bar) => !self.model.bars[&self.layout.bars[bar]].force.is_zero(),
+            _ => false,
+        };
+        let pressed = forced(node.left) || forced(node.right);
+        let moved = velocities.iter().flatten().any(|velocity| !velocity.is_zero());
+        let held = node.elements.iter().any(|element| match &self.model.lumps[element] {
+            ModelLump::Load(..) => true,
+            ModelLump::Support(..) => moved,
+            _ => false,
+        });
+        uneven || apart || pressed || held
+    }
+
+    /// The velocities at the start of all that moves together.
+    pub(crate) fn initial_velocities(&self, node: &Node, run: Run) -> Vec<Fraction> {
+        let mut all = Vec::new();
+        let mut side = |side: Side| match side {
+            Side::Bar(bar) => all.push(self.model.bars[&self.layout.bars[bar]].velocity.clone()),
+            Side::Fixed => all.push(Fraction::zero()),
+            Side::Free => {}
+        };
+        if run.first == 0 {
+            side(node.left);
+        }
+        if run.last == node.elements.len() {
+            side(node.right);
+        }
+        for element in &node.elements[run.first..run.last] {
+            if let ModelLump::Mass(_, velocity) = &self.model.lumps[element] {
+                all.push(velocity.clone());
+            }
+        }
+        all
+    }
+
+    /// The runs of places that move together: elements that act on the line from outside, or by
+    /// their mass, do not part them; springs do.
+    pub(crate) fn velocity_runs(&self, node: &Node) -> Vec<Run> {
+        self.runs(node, |lump| !matches!(lump, ModelLump::Spring(..)))
+    }
+
+    /// The runs of places with the same force: springs pass it on.
+    pub(crate) fn force_runs(&self, node: &Node) -> Vec<Run> {
+        self.runs(node, |lump| matches!(lump, ModelLump::Spring(..)))
+    }
+
+    fn runs(&self, node: &Node, joins: impl Fn(&ModelLump) -> bool) -> Vec<Run> {
+        let mut runs = vec![Run { first: 0, last: 0 }];
+        for (i, element) in node.elements.iter().enumerate() {
+            match joins(&self.model.lumps[element]) {
+                true => runs.last_mut().expect("one at least").last = i + 1,
+                false => runs.push(Run { first: i + 1, last: i + 1 }),
+            }
+        }
+        runs
+    }
+
+    /// Finds the clocks of the nodes, and the lattice on which all delays can be counted.
+    fn set_clocks(&mut self) -> Result<(), NetworkError> {
+        let travel: Vec<Option<Fraction>> =
+            self.layout.bars.iter().map(|bar| self.model.bars[bar].travel.clone()).collect();
+        let starting: Vec<bool> = self.layout.nodes.iter().map(|node| self.starts(node)).collect();
+        let reference = starting.iter().position(|starts| *starts).unwrap_or(0);
+        // How often each bar is passed on the way from the reference.
+        let count = self.layout.nodes.len();
+        let bars_between = |node: usize| -> Vec<usize> {
+            let (low, high) = (node.min(reference), node.max(reference));
+            (0..travel.len())
+                .filter(|bar| {
+                    let [left, right] = self.layout.ends[*bar];
+                    left.is_some_and(|left| left >= low && left < high)
+                        && right.is_some_and(|right| right > low && right <= high)
+                })
+                .collect()
+        };
+        let ways: Vec<Vec<usize>> = (0..count).map(bars_between).collect();
+        let finite: Vec<usize> = (0..travel.len())
+            .filter(|bar| {
+                travel[*bar].is_some() && self.layout.ends[*bar].iter().all(Option::is_some)
+            })
+            .collect();
+        let mut times: Vec<Fraction> =
+            finite.iter().map(|bar| travel[*bar].clone().expect("a finite bar")).collect();
+        let mut moments = Vec::new();
+        for (place, node) in self.layout.nodes.iter().enumerate() {
+            for element in &node.elements {
+                if let ModelLump::Load(_, _, from, until) = &self.model.lumps[element] {
+                    moments.push((*element, place, from.clone(), until.clone()));
+                    times.push(from.clone());
+                    times.extend(until.clone());
+                }
+            }
+        }
+        times.retain(|time| !time.is_zero());
+        if times.is_empty() {
+            // Nothing returns: one period holds everything.
+            times.push(Fraction::one());
+        }
+        let (lattice, counts) = Lattice::spanned_by(&times);
+        let count_of = |time: &Fraction| -> Vec<i64> {
+            match times.iter().position(|other| other == time) {
+                Some(place) => counts[place].clone(),
+                None => vec![0; lattice.periods().len()],
+            }
+        };
+        let add =
+            |a: Vec<i64>, b: &[i64]| -> Vec<i64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
+        let passage = |bar: &usize| count_of(travel[*bar].as_ref().expect("a finite bar"));
+        let zero = vec![0; lattice.periods().len()];
+        let late: Vec<Vec<i64>> = ways
+            .iter()
+            .map(|way| way.iter().map(passage).fold(zero.clone(), |sum, part| add(sum, &part)))
+            .collect();
+        let mut round_trips = vec![None; travel.len()];
+        for bar in &finite {
+            round_trips[*bar] =
+                Some(passage(bar).iter().map(|count| 2 * count).collect::<Vec<_>>());
+        }
+        let loads: Vec<_> = moments
+            .iter()
+            .map(|(element, node, from, until)| {
+                let at = |time: &Fraction| add(late[*node].clone(), &count_of(time));
+                (*element, at(from), until.as_ref().map(at))
+            })
+            .collect();
+        let clocks: Vec<Option<Vec<i64>>> =
+            late.iter().zip(&starting).map(|(late, starts)| starts.then(|| late.clone())).collect();
+        // As coarse as what is used allows.
+        let mut steps = vec![0_i64; lattice.periods().len()];
+        let used = round_trips.iter().flatten().chain(clocks.iter().flatten());
+        let moments = loads.iter().flat_map(|(_, from, until)| std::iter::once(from).chain(until));
+        for counts in used.chain(moments) {
+            for (step, count) in steps.iter_mut().zip(counts) {
+                *step = step.gcd(count);
+            }
+        }
+        steps.iter_mut().filter(|step| **step == 0).for_each(|step| *step = 1);
+        let coarser = |counts: Vec<i64>| -> Vec<i64> {
+            counts.iter().zip(&steps).map(|(count, step)| count / step).collect()
+        };
+        self.reference = reference;
+        self.lateness = late.iter().map(|counts| lattice.delay(counts)).collect();
+        self.lattice = lattice.coarsened(&steps);
+        self.round_trips = round_trips.into_iter().map(|trip| trip.map(&coarser)).collect();
+        self.clocks = clocks.into_iter().map(|clock| clock.map(&coarser)).collect();
+        self.loads = loads
+            .into_iter()
+            .map(|(element, from, until)| (element, coarser(from), until.map(&coarser)))
+            .collect();
+        Ok(())
+    }
+
+    /// Whether nothing beside a run of places gives its velocity.
+    fn is_unknown(&self, node: &Node, run: Run) -> bool {
+        let known = |side: Side| !matches!(side, Side::Free);
+        let left = run.first == 0 && known(node.left);
+        let right = run.last == node.elements.len() && known(node.right);
+        !(left || right)
+    }
+
+    fn name_waves(&mut self) {
+        let elements = &self.scene.elements;
+        let name = |element: ElementIndex| &elements[element].name;
+        let mut waves = Vec::new();
+        let lone = self.layout.bars.len() == 1;
+        for (bar, element) in self.layout.bars.iter().enumerate() {
+            let [left, right] = self.layout.ends[bar];
+            let called = |letter: &str| match lone {
+                true => letter.to_owned(),
+                false => format!("{letter}_{}", name(*element)),
+            };
+            if left.is_some() {
+                waves.push((called("f"), Role::Right(*element)));
+            }
+            if right.is_some() {
+                waves.push((called("g"), Role::Left(*element)));
+            }
+        }
+        for (place, node) in self.layout.nodes.iter().enumerate() {
+            for element in &node.elements {
+                match &self.model.lumps[element] {
+                    ModelLump::Spring(k, _) if !k.is_zero() => {
+                        waves.push((name(*element).clone(), Role::Compression(*element)));
+                    }
+                    ModelLump::Support(k, _) if !k.is_zero() => {
+                        let name = format!("u_{}", name(*element));
+                        waves.push((name, Role::Displacement(*element)));
+                    }
+                    _ => {}
+                }
+            }
+            for run in self.velocity_runs(node) {
+                if self.is_unknown(node, run) {
+                    let masses = node.elements[run.first..run.last].iter();
+                    let mass = masses
+                        .clone()
+                        .find(|element| matches!(self.model.lumps[element], ModelLump::Mass(..)));
+                    let named = mass.or(node.elements[run.first..run.last].first());
+                    let name = match named {
+                        Some(element) => format!("v_{}", name(*element)),
+                        None => format!("v_joint_{}", run.first),
+                    };
+                    waves.push((name, Role::Velocity(place, run.first)));
+                }
+            }
+        }
+        for (mut name, role) in waves {
+            let taken = |name: &str| {
+                let symbols = self.model.assumptions.symbols();
+                symbols.map(|(symbol, _)| symbol.name()).any(|other| other == name)
+                    || self.waves.iter().any(|wave| wave.name == name)
+                    || name == self.scene.time.name()
+            };
+            while taken(&name) {
+                name.push('_');
+            }
+            self.waves.push(WaveRole { name, role });
+        }
+    }
+
+    /// The wave with this role.
+    pub(crate) fn wave(&self, role: Role) -> Option<WaveIndex> {
+        self.waves.iter().position(|wave| wave.role == role)
+    }
+
+    /// A constant that acts from the start, by the clock of a node. Where nothing starts, all that
+    /// moves has the same velocity, and only differences from it are followed.
+    pub(crate) fn constant(&self, node: usize, value: &Fraction, strides: &[usize]) -> LinearForm {
+        let Some(clock) = self.clocks[node].as_ref().filter(|_| !value.is_zero()) else {
+            return LinearForm::zero();
+        };
+        let mut form = LinearForm::zero();
+        let constant = LinearForm::forcing(value.clone().into());
+        form.add_scaled(&constant, &Expression::one(), lag(clock, strides));
+        form
+    }
+
+    /// Velocity and force of a bar at a node, by the node's clock.
+    pub(crate) fn bar_forms(&self, node: usize, bar: usize, strides: &[usize]) -> [LinearForm; 2] {
+        let element = self.layout.bars[bar];
+        let data = &self.model.bars[&element];
+        let [left, right] = self.layout.ends[bar];
+        let trip = self.round_trips[bar].as_ref().map_or(0, |trip| lag(trip, strides));
+        // The wave that leaves the node farther from the reference is seen there and here at once.
+        let outward = |at: Option<usize>, other: Option<usize>| match (at, other) {
+            (Some(at), Some(other)) => self.is_nearer(at, other),
+            _ => true,
+        };
+        let at_left = left == Some(node);
+        let (f_lag, g_lag) = match at_left {
+            // At the left end f leaves and g arrives.
+            true => (0, if outward(left, right) { 0 } else { trip }),
+            false => (if outward(right, left) { 0 } else { trip }, 0),
+        };
+        let mut waves = [LinearForm::zero(), LinearForm::zero()];
+        for (role, lag, sign) in
+            [(Role::Right(element), f_lag, 1), (Role::Left(element), g_lag, -1)]
+        {
+            if let Some(wave) = self.wave(role) {
+                let form = LinearForm::wave(wave, lag);
+                waves[0].add_scaled(&form, &Expression::one(), 0);
+                let impedance = Expression::from(data.impedance.clone());
+                waves[1].add_scaled(
+                    &form,
+                    &impedance.scale(&Rational::from_integer(sign.into())),
+                    0,
+                );
+            }
+        }
+        for (form, constant) in waves.iter_mut().zip([&data.velocity, &data.force]) {
+            form.add_scaled(&self.constant(node, constant, strides), &Expression::one(), 0);
+        }
+        waves
+    }
+
+    /// Whether the clock of one node is less late than that of its neighbour.
+    pub(crate) fn is_nearer(&self, node: usize, other: usize) -> bool {
+        node.abs_diff(self.reference) < other.abs_diff(self.reference)
+    }
+}
+
+/// The lag of a count on the lattice.
+pub(crate) fn lag(counts: &[i64], strides: &[usize]) -> usize {
+    let parts = counts.iter().zip(strides);
+    parts.map(|(count, stride)| usize::try_from(*count).expect("not early") * stride).sum()
+}

@@ -1,0 +1,292 @@
+//! The equations of a network.
+
+use crate::expression::{Expression, Fraction};
+use crate::network::equations::{Network, NetworkError, Role, Run, lag};
+use crate::network::layout::{Node, Side};
+use crate::network::model::ModelLump;
+use crate::network::observe::{Observed, ObservedValue};
+use crate::recurrence::{
+    Continuity, LinearForm, Observable, Recurrence, SourceNotation, Statement,
+};
+use crate::scene::{Drive, ElementIndex};
+use wavestep_polynomial::Symbol;
+
+/// Equations and continuity rules as they are found.
+#[derive(Default)]
+struct Laws {
+    equations: Vec<LinearForm>,
+    continuity: Vec<Continuity>,
+}
+
+fn one() -> Expression {
+    Expression::one()
+}
+
+/// `left − right`.
+fn difference(left: &LinearForm, right: &LinearForm) -> LinearForm {
+    let mut form = left.clone();
+    form.add_scaled(right, &-&one(), 0);
+    form
+}
+
+fn scaled(form: &LinearForm, factor: &Fraction) -> LinearForm {
+    form.scaled(&factor.clone().into())
+}
+
+impl Network {
+    /// The recurrence of the scene, where all delays lie on one grid.
+    ///
+    /// # Errors
+    /// [`NetworkError::Incommensurate`] where they do not, or what the recurrence refuses.
+    pub fn recurrence(&self) -> Result<Recurrence, NetworkError> {
+        match self.lattice.periods().len() {
+            1 => Ok(Recurrence::new(self.statement(&[1]))?),
+            _ => Err(NetworkError::Incommensurate),
+        }
+    }
+
+    /// The recurrence of the scene as a statement; `strides` turn counts on the lattice into lags.
+    pub(crate) fn statement(&self, strides: &[usize]) -> Statement {
+        let mut laws = Laws::default();
+        for (place, node) in self.layout.nodes.iter().enumerate() {
+            self.laws_of(place, node, strides, &mut laws);
+        }
+        let mut waves: Vec<String> = self.waves.iter().map(|wave| wave.name.clone()).collect();
+        for wave in &self.integrals {
+            let integral = waves.len();
+            let mut equation = LinearForm::slope(integral, 0);
+            equation.add_scaled(&LinearForm::wave(*wave, 0), &-&one(), 0);
+            laws.equations.push(equation);
+            let form = LinearForm::wave(integral, 0);
+            laws.continuity.push(Continuity { form, start: Expression::zero() });
+            waves.push(format!("integral_{}", waves[*wave]));
+        }
+        let mut local = "s".to_owned();
+        let taken = |name: &str| {
+            self.model.assumptions.symbols().any(|(symbol, _)| symbol.name() == name)
+                || waves.iter().any(|wave| wave == name)
+        };
+        while taken(&local) {
+            local.push('_');
+        }
+        let linear = |observed: &Observed| match &observed.value {
+            ObservedValue::Linear(observation) => {
+                Some(Observable { name: observed.name.clone(), observation: observation.clone() })
+            }
+            ObservedValue::Energy(_) => None,
+        };
+        let observables = self.observables.iter().filter_map(linear).collect();
+        Statement {
+            title: self.scene.title.clone(),
+            assumptions: self.model.assumptions.clone(),
+            period: self.lattice.periods()[0].clone(),
+            local: Symbol::new(&local).expect("a name"),
+            time: self.scene.time.clone(),
+            waves,
+            equations: laws.equations,
+            continuity: laws.continuity,
+            observables,
+            notation: SourceNotation::default(),
+        }
+    }
+
+    /// All that is known of the velocity of a run of places, by the node's clock.
+    pub(crate) fn velocity_forms(
+        &self,
+        place: usize,
+        node: &Node,
+        run: Run,
+        strides: &[usize],
+    ) -> Vec<LinearForm> {
+        let mut forms = Vec::new();
+        for element in &node.elements[run.first..run.last] {
+            if let ModelLump::Load(Drive::Velocity, ..) = &self.model.lumps[element] {
+                forms.push(self.load(*element, strides));
+            }
+        }
+        let mut side = |side: Side| match side {
+            Side::Bar(bar) => forms.push(self.bar_forms(place, bar, strides)[0].clone()),
+            Side::Fixed => forms.push(LinearForm::zero()),
+            Side::Free => {}
+        };
+        if run.first == 0 {
+            side(node.left);
+        }
+        if run.last == node.elements.len() {
+            side(node.right);
+        }
+        if let Some(wave) = self.wave(Role::Velocity(place, run.first)) {
+            forms.push(LinearForm::wave(wave, 0));
+        }
+        forms
+    }
+
+    /// The velocity of a run of places, by the node's clock.
+    pub(crate) fn velocity_form(
+        &self,
+        place: usize,
+        node: &Node,
+        run: Run,
+        strides: &[usize],
+    ) -> LinearForm {
+        self.velocity_forms(place, node, run, strides).swap_remove(0)
+    }
+
+    /// The force in a spring: `k α + d (v_left − v_right)`.
+    pub(crate) fn spring_force(
+        &self,
+        place: usize,
+        node: &Node,
+        i: usize,
+        strides: &[usize],
+    ) -> LinearForm {
+        let element = node.elements[i];
+        let ModelLump::Spring(stiffness, damping) = &self.model.lumps[&element] else {
+            unreachable!("asked for springs only");
+        };
+        let mut force = LinearForm::zero();
+        if let Some(wave) = self.wave(Role::Compression(element)) {
+            force = scaled(&LinearForm::wave(wave, 0), stiffness);
+        }
+        if !damping.is_zero() {
+            let closing = self.closing(place, node, i, strides);
+            force.add_scaled(&closing, &damping.clone().into(), 0);
+        }
+        force
+    }
+
+    /// `v_left − v_right` of the i-th element of a node.
+    fn closing(&self, place: usize, node: &Node, i: usize, strides: &[usize]) -> LinearForm {
+        let runs = self.velocity_runs(node);
+        let velocity = |at: usize| {
+            let run = runs.iter().find(|run| run.first <= at && at <= run.last);
+            self.velocity_form(place, node, *run.expect("every place is in a run"), strides)
+        };
+        difference(&velocity(i), &velocity(i + 1))
+    }
+
+    /// All that is known of the force in a run of places.
+    pub(crate) fn force_forms(
+        &self,
+        place: usize,
+        node: &Node,
+        run: Run,
+        strides: &[usize],
+    ) -> Vec<LinearForm> {
+        let mut forms = Vec::new();
+        let mut side = |side: Side| match side {
+            Side::Bar(bar) => forms.push(self.bar_forms(place, bar, strides)[1].clone()),
+            Side::Free => forms.push(LinearForm::zero()),
+            Side::Fixed => {}
+        };
+        if run.first == 0 {
+            side(node.left);
+        }
+        if run.last == node.elements.len() {
+            side(node.right);
+        }
+        forms.extend((run.first..run.last).map(|i| self.spring_force(place, node, i, strides)));
+        forms
+    }
+
+    /// A load by the clock of its node: its course from its beginning, taken away again at its end.
+    pub(crate) fn load(&self, element: ElementIndex, strides: &[usize]) -> LinearForm {
+        let ModelLump::Load(_, course, from, until) = &self.model.lumps[&element] else {
+            unreachable!("asked for loads only");
+        };
+        let moments = self.loads.iter().find(|(load, ..)| *load == element);
+        let (_, begins, ends) = moments.expect("every load has its moments");
+        let time = &self.scene.time;
+        let later = |by: &Fraction| {
+            LinearForm::forcing(course.shift(time, by).expect("loads have no time in denominators"))
+        };
+        let mut form = LinearForm::zero();
+        form.add_scaled(&later(from), &one(), lag(begins, strides));
+        if let (Some(until), Some(ends)) = (until, ends) {
+            form.add_scaled(&later(until), &-&one(), lag(ends, strides));
+        }
+        form
+    }
+
+    fn laws_of(&self, place: usize, node: &Node, strides: &[usize], laws: &mut Laws) {
+        let time = &self.scene.time;
+        let forces = self.force_runs(node);
+        let force_at = |at: usize| {
+            let run = forces.iter().find(|run| run.first <= at && at <= run.last);
+            let forms =
+                self.force_forms(place, node, *run.expect("every place is in a run"), strides);
+            forms.into_iter().next()
+        };
+        for run in self.velocity_runs(node) {
+            let forms = self.velocity_forms(place, node, run, strides);
+            laws.equations.extend(forms[1..].iter().map(|other| difference(&forms[0], other)));
+            let driven = node.elements[run.first..run.last].iter().any(|element| {
+                matches!(self.model.lumps[element], ModelLump::Load(Drive::Velocity, ..))
+            });
+            let held = (run.first == 0 && node.left == Side::Fixed)
+                || (run.last == node.elements.len() && node.right == Side::Fixed);
+            if run.first == run.last || driven || held {
+                continue;
+            }
+            // X_left − X_right = Σ (M v' + d v + k u) − F
+            let [left, right] = [run.first, run.last].map(|at| force_at(at).expect("a force"));
+            let mut law = difference(&left, &right);
+            let velocity = &forms[0];
+            let (mut mass, mut momentum) = (Fraction::zero(), Fraction::zero());
+            for element in &node.elements[run.first..run.last] {
+                match &self.model.lumps[element] {
+                    ModelLump::Mass(m, v) => {
+                        mass = &mass + m;
+                        momentum = &momentum + &(m * v);
+                    }
+                    ModelLump::Support(_, damping) => {
+                        law.add_scaled(velocity, &-&Expression::from(damping.clone()), 0);
+                    }
+                    ModelLump::Load(..) => law.add_scaled(&self.load(*element, strides), &one(), 0),
+                    ModelLump::Spring(..) => unreachable!("springs part what moves together"),
+                }
+                if let ModelLump::Support(stiffness, _) = &self.model.lumps[element]
+                    && let Some(wave) = self.wave(Role::Displacement(*element))
+                {
+                    let force = scaled(&LinearForm::wave(wave, 0), stiffness);
+                    law.add_scaled(&force, &-&one(), 0);
+                    laws.equations.push(difference(&LinearForm::slope(wave, 0), velocity));
+                    laws.start(LinearForm::wave(wave, 0));
+                }
+            }
+            if !mass.is_zero() {
+                law.add_scaled(&velocity.derivative(time), &-&Expression::from(mass.clone()), 0);
+                let inverse = Fraction::reciprocal(mass.numerator())
+                    .map(|inverse| &inverse * &Fraction::from(mass.denominator()));
+                let start = &momentum * &inverse.expect("a mass that can be divided by");
+                laws.start(difference(velocity, &self.constant(place, &start, strides)));
+            }
+            laws.equations.push(law);
+        }
+        for run in forces {
+            let forms = self.force_forms(place, node, run, strides);
+            if let Some((first, others)) = forms.split_first() {
+                laws.equations.extend(others.iter().map(|other| difference(first, other)));
+            }
+        }
+        for (i, element) in node.elements.iter().enumerate() {
+            if let Some(wave) = self.wave(Role::Compression(*element)) {
+                let closing = self.closing(place, node, i, strides);
+                laws.equations.push(difference(&LinearForm::slope(wave, 0), &closing));
+                laws.start(LinearForm::wave(wave, 0));
+            }
+        }
+    }
+}
+
+impl Laws {
+    /// A form that is continuous and starts at 0; a constant in it from time 0 on is its start.
+    fn start(&mut self, mut form: LinearForm) {
+        let mut start = Expression::zero();
+        if let Some(constant) = form.forcing_terms().first().cloned() {
+            form.add_scaled(&LinearForm::forcing(constant.clone()), &-&one(), 0);
+            start -= &constant;
+        }
+        self.continuity.push(Continuity { form, start });
+    }
+}

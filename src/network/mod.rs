@@ -1,0 +1,25 @@
+//! From a scene to its recurrence.
+//!
+//! A line of bars and lumped elements is cut into *nodes*, the places between two bars or between a
+//! bar and an end. At each node the laws of its elements relate what leaves it to what arrives: with
+//! the waves `f` (to the right) and `g` (to the left) in a bar of impedance `Z`, moving with `V` and
+//! compressed by `X_0` at the start,
+//!
+//! ```text
+//! v = V + f + g,      X = X_0 + Z (f − g)
+//! ```
+//!
+//! Waves travel from node to node in the travel times of the bars. [`Network::recurrence`] writes the
+//! laws as equations between the wave functions of successive periods.
+
+mod delay;
+mod equations;
+mod laws;
+mod layout;
+mod model;
+mod observe;
+
+pub use delay::Lattice;
+pub use equations::{Network, NetworkError, Role, WaveRole};
+pub use model::{Model, ModelBar, ModelLump, Scale};
+pub use observe::{EnergyTerm, Observed, ObservedValue, Window};

@@ -1,0 +1,287 @@
+//! A scene without units: everything in scales that the scene itself gives.
+//!
+//! With units, impedances are measured in that of the first finite bar, times in its travel time,
+//! velocities in the first one that is not zero. What is then rational is put in as a number; what
+//! is not gets a name, such as `kappa_specimen = k τ/Z`, and keeps its definition.
+
+use crate::expression::{Assumptions, Condition, Constant, Expression, Fraction, Relation, Root};
+use crate::network::equations::NetworkError;
+use crate::scene::{Body, Drive, ElementIndex, Kind, Scene};
+use num_traits::{Signed, Zero};
+use std::collections::BTreeMap;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// What the units of a model are, in metres, kilograms and seconds.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Scale {
+    /// The unit `Z` of impedance.
+    pub impedance: Root,
+    /// The unit `T` of time.
+    pub time: Root,
+    /// The unit `V` of velocity.
+    pub velocity: Root,
+    /// The element that gives the units of impedance and time.
+    pub reference: Option<ElementIndex>,
+    /// The element that gives the unit of velocity.
+    pub moving: Option<ElementIndex>,
+}
+
+/// A bar without units.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ModelBar {
+    /// Its impedance.
+    pub impedance: Fraction,
+    /// Its travel time; `None` where it is endless.
+    pub travel: Option<Fraction>,
+    /// Its velocity at the start.
+    pub velocity: Fraction,
+    /// The force that compresses it at the start.
+    pub force: Fraction,
+}
+
+/// A lumped element without units.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum ModelLump {
+    /// A mass with its velocity at the start.
+    Mass(Fraction, Fraction),
+    /// Stiffness and damping of a spring.
+    Spring(Fraction, Fraction),
+    /// Stiffness and damping of a support.
+    Support(Fraction, Fraction),
+    /// A load: what is given, its course, when it begins, and when it ends.
+    Load(Drive, Expression, Fraction, Option<Fraction>),
+}
+
+/// A scene in scales of its own.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Model {
+    /// What is known of the symbols, and of the constants that were named.
+    pub assumptions: Assumptions,
+    /// The constants that were named, with their definitions.
+    pub constants: Vec<Constant>,
+    /// The units.
+    pub scale: Scale,
+    /// The bars by element.
+    pub bars: BTreeMap<ElementIndex, ModelBar>,
+    /// The lumped elements.
+    pub lumps: BTreeMap<ElementIndex, ModelLump>,
+}
+
+type Outcome<T> = Result<T, NetworkError>;
+
+fn one() -> Root {
+    Root::from(Fraction::one())
+}
+
+/// `Z`, `T` and the force that a strain of 1 goes with, of a bar.
+pub(crate) fn bar_roots(body: &Body) -> Outcome<(Root, Option<Root>, Root)> {
+    Ok(match body {
+        Body::Impedance { impedance, travel } => {
+            let impedance = Root::from(impedance.clone());
+            (impedance.clone(), travel.clone().map(Root::from), impedance)
+        }
+        Body::Solid { area, modulus, density, length } => {
+            let area = Root::from(area.clone());
+            let impedance = area.times(&Root::of(modulus * density));
+            let slowness = Root::of(density.clone()).over(&Root::of(modulus.clone()))?;
+            let travel = length.clone().map(|length| Root::from(length).times(&slowness));
+            (impedance, travel, area.times(&Root::from(modulus.clone())))
+        }
+    })
+}
+
+impl Model {
+    /// The scene in its own scales.
+    ///
+    /// # Errors
+    /// [`NetworkError`] where a value would have to be divided by that cannot be.
+    pub fn of(scene: &Scene) -> Outcome<Model> {
+        let scale = Scale::of(scene)?;
+        let mut model = Model {
+            assumptions: scene.assumptions.clone(),
+            constants: Vec::new(),
+            scale,
+            bars: BTreeMap::new(),
+            lumps: BTreeMap::new(),
+        };
+        for index in &scene.line.elements {
+            let element = &scene.elements[*index];
+            let named = |symbol: &str| format!("{symbol}_{}", element.name);
+            match &element.kind {
+                Kind::Bar(bar) => {
+                    let (impedance, travel, stiffness) = bar_roots(&bar.body)?;
+                    let scale = &model.scale;
+                    let impedance = impedance.over(&scale.impedance)?;
+                    let travel = travel.map(|travel| travel.over(&scale.time)).transpose()?;
+                    let velocity = Root::from(bar.velocity.clone()).over(&scale.velocity)?;
+                    let force = stiffness.times(&Root::from(-&bar.strain)).over(&scale.force())?;
+                    let bar = ModelBar {
+                        impedance: model.number(&named("r"), impedance),
+                        travel: travel.map(|travel| model.number(&named("tau"), travel)),
+                        velocity: model.number(&named("V"), velocity),
+                        force: model.number(&named("X"), force),
+                    };
+                    model.bars.insert(*index, bar);
+                }
+                Kind::Mass(mass) => {
+                    let scale = &model.scale;
+                    let unit = scale.impedance.times(&scale.time);
+                    let velocity = Root::from(mass.velocity.clone()).over(&scale.velocity)?;
+                    let mass = Root::from(mass.mass.clone()).over(&unit)?;
+                    let mass = model.number(&named("m"), mass);
+                    let velocity = model.number(&named("V"), velocity);
+                    model.lumps.insert(*index, ModelLump::Mass(mass, velocity));
+                }
+                Kind::Spring(spring) => {
+                    let (k, d) =
+                        model.yielding(&element.name, &spring.stiffness, &spring.damping)?;
+                    model.lumps.insert(*index, ModelLump::Spring(k, d));
+                }
+                Kind::Support(support) => {
+                    let (k, d) =
+                        model.yielding(&element.name, &support.stiffness, &support.damping)?;
+                    model.lumps.insert(*index, ModelLump::Support(k, d));
+                }
+                Kind::Load(load) => {
+                    let scale = &model.scale;
+                    let unit = match load.drive {
+                        Drive::Force => scale.force(),
+                        Drive::Velocity => scale.velocity.clone(),
+                    };
+                    let unit = one().over(&unit)?;
+                    let time = scale.time.clone();
+                    let from = Root::from(load.from.clone()).over(&time)?;
+                    let until = load.until.clone().map(|until| Root::from(until).over(&time));
+                    let until = until.transpose()?;
+                    let unit = model.number(&named("A"), unit);
+                    let second = model.number("theta", time);
+                    let clock = &second * &Fraction::symbol(&scene.time);
+                    let course = load.course.substitute(&scene.time, &clock)?.times(&unit);
+                    let from = model.number(&named("from"), from);
+                    let until = until.map(|until| model.number(&named("until"), until));
+                    model.lumps.insert(*index, ModelLump::Load(load.drive, course, from, until));
+                }
+            }
+        }
+        Ok(model)
+    }
+
+    /// Stiffness and damping without units.
+    fn yielding(
+        &mut self,
+        name: &str,
+        stiffness: &Fraction,
+        damping: &Fraction,
+    ) -> Outcome<(Fraction, Fraction)> {
+        let unit = self.scale.impedance.over(&self.scale.time)?;
+        let stiffness = Root::from(stiffness.clone()).over(&unit)?;
+        let damping = Root::from(damping.clone()).over(&self.scale.impedance)?;
+        let stiffness = self.number(&format!("kappa_{name}"), stiffness);
+        Ok((stiffness, self.number(&format!("delta_{name}"), damping)))
+    }
+
+    /// The value as a number where it is one, or a fraction of symbols; else as a constant, which is
+    /// named.
+    pub(crate) fn number(&mut self, name: &str, value: Root) -> Fraction {
+        let pi = Symbol::new("pi").expect("a name");
+        if let Some(exact) = value.exact().filter(|exact| !exact.contains(&pi)) {
+            return exact;
+        }
+        let negative = value.factor().numerator().leading_coefficient().is_negative();
+        let minus = Root::from(-&Fraction::one());
+        let value = if negative { value.times(&minus) } else { value };
+        let known = self.constants.iter().find(|constant| constant.value == value);
+        let symbol = match known {
+            Some(constant) => constant.symbol.clone(),
+            None => self.name(name, value),
+        };
+        let symbol = Fraction::symbol(&symbol);
+        if negative { -&symbol } else { symbol }
+    }
+
+    /// Names a positive constant.
+    fn name(&mut self, name: &str, value: Root) -> Symbol {
+        let mut name = name.to_owned();
+        while self.assumptions.symbols().any(|(symbol, _)| symbol.name() == name) {
+            name.push('_');
+        }
+        let symbol = Symbol::new(&name).expect("a name with letters in front");
+        let positive = Condition { relation: Relation::Greater, bound: Rational::zero() };
+        self.assumptions.declare_symbol(symbol.clone(), Some(positive));
+        self.constants.push(Constant { symbol: symbol.clone(), value });
+        symbol
+    }
+}
+
+impl Scale {
+    /// Plain numbers stay what they are; with units, the scene's own scales.
+    fn of(scene: &Scene) -> Outcome<Scale> {
+        let mut scale =
+            Scale { impedance: one(), time: one(), velocity: one(), reference: None, moving: None };
+        if !scene.dimensional {
+            return Ok(scale);
+        }
+        let mut bars = Vec::new();
+        for index in &scene.line.elements {
+            if let Kind::Bar(bar) = &scene.elements[*index].kind {
+                bars.push((*index, bar_roots(&bar.body)?));
+            }
+        }
+        let finite = bars.iter().find(|(_, (_, travel, _))| travel.is_some());
+        if let Some((index, (impedance, travel, _))) = finite.or(bars.first()) {
+            scale.impedance = impedance.clone();
+            scale.reference = Some(*index);
+            if let Some(travel) = travel {
+                scale.time = travel.clone();
+            }
+        }
+        scale.set_velocity(scene)?;
+        Ok(scale)
+    }
+
+    /// The first velocity in the line that is not zero, else that of a force or a strain.
+    fn set_velocity(&mut self, scene: &Scene) -> Outcome<()> {
+        let given = |value: &Fraction| value.as_constant().filter(|value| !value.is_zero());
+        let root = |value: Rational| Root::from(Fraction::constant(&value.abs()));
+        for index in &scene.line.elements {
+            let velocity = match &scene.elements[*index].kind {
+                Kind::Bar(bar) => given(&bar.velocity).map(root),
+                Kind::Mass(mass) => given(&mass.velocity).map(root),
+                _ => None,
+            };
+            if let Some(velocity) = velocity {
+                (self.velocity, self.moving) = (velocity, Some(*index));
+                return Ok(());
+            }
+        }
+        for index in &scene.line.elements {
+            let velocity = match &scene.elements[*index].kind {
+                Kind::Bar(bar) => match given(&bar.strain).map(root) {
+                    Some(strain) => {
+                        let (impedance, _, stiffness) = bar_roots(&bar.body)?;
+                        Some(strain.times(&stiffness.over(&impedance)?))
+                    }
+                    None => None,
+                },
+                Kind::Load(load) => {
+                    let value = load.course.as_constant().filter(|value| !value.is_zero());
+                    match (value.map(root), load.drive) {
+                        (Some(force), Drive::Force) => Some(force.over(&self.impedance)?),
+                        (velocity, _) => velocity,
+                    }
+                }
+                _ => None,
+            };
+            if let Some(velocity) = velocity {
+                (self.velocity, self.moving) = (velocity, Some(*index));
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// The unit `Z V` of force.
+    pub fn force(&self) -> Root {
+        self.impedance.times(&self.velocity)
+    }
+}
