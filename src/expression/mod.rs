@@ -10,17 +10,17 @@
 
 mod assumptions;
 mod calculus;
+mod constant;
 mod echo_sum;
 mod fraction;
 mod piecewise;
-mod root;
 mod sum;
 mod transform;
 
 pub use assumptions::{Assumptions, Condition, NotInvertible, Relation};
+pub use constant::{Constant, Root};
 pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};
 pub use piecewise::Piecewise;
-pub use root::{Constant, Root};
 pub use sum::{ExponentialSum, Expression};
 pub use transform::Transform;

@@ -1,0 +1,196 @@
+//! Exact roots of polynomials: rational ones, and those of quadratics.
+//!
+//! Floating-point numbers only suggest what to try; a root is taken when the division leaves no rest.
+
+use crate::expression::{Assumptions, Fraction};
+use num_traits::{FromPrimitive, One, ToPrimitive, Zero};
+use wavestep_polynomial::{Integer, Rational};
+
+/// All roots of a monic polynomial, given by its coefficients, highest power first; `None` where
+/// they are not found.
+pub(crate) fn of(polynomial: &[Fraction], assumptions: &Assumptions) -> Option<Vec<Fraction>> {
+    let mut rest = polynomial.to_vec();
+    let mut roots = Vec::new();
+    loop {
+        match rest.len() {
+            0 | 1 => return Some(roots),
+            2 => {
+                roots.push(-&rest[1]);
+                return Some(roots);
+            }
+            3 => {
+                roots.extend(of_quadratic(&rest[1], &rest[2], assumptions)?);
+                return Some(roots);
+            }
+            _ => {
+                let (factor, quotient) = rational_factor(&rest)?;
+                roots.extend(of(&factor, assumptions)?);
+                rest = quotient;
+            }
+        }
+    }
+}
+
+/// The roots of `λ² + b λ + c`: `−b/2 ± √(b²/4 − c)`.
+fn of_quadratic(b: &Fraction, c: &Fraction, _: &Assumptions) -> Option<[Fraction; 2]> {
+    let half = b.scale(&Rational::new((-1).into(), 2.into()));
+    let root = (&half.pow(2) - c).square_root()?;
+    Some([&half + &root, &half - &root])
+}
+
+/// A linear or quadratic factor with rational coefficients, and the quotient by it.
+fn rational_factor(polynomial: &[Fraction]) -> Option<(Vec<Fraction>, Vec<Fraction>)> {
+    if polynomial.last()?.is_zero() {
+        let factor = vec![Fraction::one(), Fraction::zero()];
+        return Some((factor, polynomial[..polynomial.len() - 1].to_vec()));
+    }
+    let exact: Vec<Rational> = polynomial.iter().map(Fraction::as_constant).collect::<Option<_>>()?;
+    let guesses = approximate_roots(&exact)?;
+    let candidates = |value: f64| convergents(value);
+    let attempt = |factor: Vec<Rational>| {
+        let quotient = divide(&exact, &factor)?;
+        let lift = |row: Vec<Rational>| row.iter().map(Fraction::constant).collect::<Vec<_>>();
+        Some((lift(factor), lift(quotient)))
+    };
+    let linear = guesses.iter().filter(|root| root.1.abs() < 1e-6 * (1.0 + root.0.abs()));
+    for root in linear {
+        for value in candidates(root.0) {
+            if let Some(found) = attempt(vec![Rational::one(), -value]) {
+                return Some(found);
+            }
+        }
+    }
+    for (i, x) in guesses.iter().enumerate() {
+        for y in &guesses[i + 1..] {
+            let (sum, product) = (x.0 + y.0, x.0 * y.0 - x.1 * y.1);
+            for b in candidates(-sum) {
+                for c in candidates(product) {
+                    if let Some(found) = attempt(vec![Rational::one(), b.clone(), c]) {
+                        return Some(found);
+                    }
+                }
+            }
+        }
+    }
+    None
+}
+
+/// The quotient, where the division leaves no rest.
+fn divide(polynomial: &[Rational], factor: &[Rational]) -> Option<Vec<Rational>> {
+    let mut rest = polynomial.to_vec();
+    let count = rest.len() + 1 - factor.len();
+    for i in 0..count {
+        let leading = rest[i].clone();
+        for (j, coefficient) in factor.iter().enumerate() {
+            rest[i + j] -= &leading * coefficient;
+        }
+        rest[i] = leading;
+    }
+    let remainder = rest.split_off(count);
+    remainder.iter().all(Zero::is_zero).then_some(rest)
+}
+
+/// Roots to about ten digits, by the simultaneous iteration of Weierstrass.
+fn approximate_roots(polynomial: &[Rational]) -> Option<Vec<(f64, f64)>> {
+    let coefficients: Vec<f64> = polynomial.iter().map(Rational::to_f64).collect::<Option<_>>()?;
+    let degree = coefficients.len() - 1;
+    let times = |a: (f64, f64), b: (f64, f64)| (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0);
+    let over = |a: (f64, f64), b: (f64, f64)| {
+        let norm = b.0 * b.0 + b.1 * b.1;
+        let (re, im) = times(a, (b.0, -b.1));
+        (re / norm, im / norm)
+    };
+    let radius = 1.0 + coefficients.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+    let start = |k: usize| {
+        let angle = 0.4 + 6.283_185_307_179_586 * k as f64 / degree as f64;
+        let radius = radius.powf(0.5);
+        (radius * angle.cos(), radius * angle.sin())
+    };
+    let mut roots: Vec<(f64, f64)> = (0..degree).map(start).collect();
+    for _ in 0..500 {
+        for i in 0..degree {
+            let x = roots[i];
+            let value = coefficients.iter().fold((0.0, 0.0), |sum, c| {
+                let (re, im) = times(sum, x);
+                (re + c, im)
+            });
+            let others = roots.iter().enumerate().filter(|(j, _)| *j != i);
+            let spread = others.fold((1.0, 0.0), |product, (_, y)| {
+                times(product, (x.0 - y.0, x.1 - y.1))
+            });
+            let step = over(value, spread);
+            if step.0.is_finite() && step.1.is_finite() {
+                roots[i] = (x.0 - step.0, x.1 - step.1);
+            }
+        }
+    }
+    Some(roots)
+}
+
+/// The first convergents of the continued fraction of a number.
+fn convergents(value: f64) -> Vec<Rational> {
+    let mut found = Vec::new();
+    let (mut x, mut before, mut last) =
+        (value, (Integer::zero(), Integer::one()), (Integer::one(), Integer::zero()));
+    for _ in 0..12 {
+        let Some(whole) = Integer::from_f64(x.floor()) else { break };
+        let next = (&whole * &last.0 + &before.0, &whole * &last.1 + &before.1);
+        found.push(Rational::new(next.0.clone(), next.1.clone()));
+        (before, last) = (last, next);
+        let rest = x - x.floor();
+        if rest < 1e-7 {
+            break;
+        }
+        x = 1.0 / rest;
+    }
+    found.dedup();
+    // An integer from below, as in 2.999…
+    if let Some(nearest) = Integer::from_f64(value.round()) {
+        found.push(Rational::from_integer(nearest));
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn polynomial(coefficients: &[(i64, i64)]) -> Vec<Fraction> {
+        let number = |(p, q): &(i64, i64)| Rational::new((*p).into(), (*q).into());
+        coefficients.iter().map(|c| Fraction::constant(&number(c))).collect()
+    }
+
+    /// The value of a polynomial at a root, which must be zero.
+    fn value(polynomial: &[Fraction], root: &Fraction) -> Fraction {
+        polynomial.iter().fold(Fraction::zero(), |sum, c| &(&sum * root) + c)
+    }
+
+    #[test]
+    fn roots_are_roots() {
+        for coefficients in [
+            &[(1, 1), (3, 1), (2, 1)][..],
+            &[(1, 1), (1, 1), (1, 1)],
+            &[(1, 1), (4, 1), (1, 1)],
+            &[(1, 1), (0, 1), (0, 1), (-8, 1)],
+            &[(1, 1), (7, 6), (1, 6), (0, 1), (0, 1)],
+            &[(1, 1), (2, 1), (3, 1), (2, 1), (1, 1)],
+        ] {
+            let p = polynomial(coefficients);
+            let roots = of(&p, &Assumptions::default()).unwrap();
+            assert_eq!(roots.len(), p.len() - 1);
+            assert!(roots.iter().all(|root| value(&p, root).is_zero()), "{coefficients:?}");
+            // All of them, with their multiplicities: the product of the factors is p.
+            let product = roots.iter().fold(vec![Fraction::one()], |product, root| {
+                let mut next = product.clone();
+                next.push(Fraction::zero());
+                for (i, c) in product.iter().enumerate() {
+                    next[i + 1] = &next[i + 1] - &(c * root);
+                }
+                next
+            });
+            assert_eq!(product, p);
+        }
+        // λ³ − 2 has no rational factor.
+        assert!(of(&polynomial(&[(1, 1), (0, 1), (0, 1), (-2, 1)]), &Assumptions::default()).is_none());
+    }
+}
