@@ -18,6 +18,10 @@ impl Polynomial {
     /// quotient × terms of the divisor × log), and no fraction: a primitive integer polynomial
     /// divides an integer polynomial only with an integer quotient (Gauss's lemma).
     ///
+    /// A divisor with square roots is first multiplied, together with the dividend, by its
+    /// conjugates until it has none: `p/d = p m/(d m)`. The polynomials with square roots have no
+    /// divisors of zero, so one quotient exists where the other does.
+    ///
     /// ```
     /// use wavestep_polynomial::Polynomial;
     /// let p: Polynomial = "x^2 - y^2".parse().unwrap();
@@ -35,6 +39,10 @@ impl Polynomial {
         }
         if self.is_zero() {
             return Some(Polynomial::zero());
+        }
+        if divisor.roots().next().is_some() {
+            let (multiplier, norm) = divisor.norm();
+            return (self * &multiplier).divide(&norm);
         }
         let symbols = common_symbols(&self.symbols, &divisor.symbols);
         // Degrees of a product are sums of degrees: these are the quotient's.

@@ -11,6 +11,7 @@ mod polynomial;
 mod product;
 mod query;
 mod ratio;
+mod root;
 mod row;
 mod substitution;
 mod sum;

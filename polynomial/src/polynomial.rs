@@ -3,6 +3,7 @@
 use crate::alignment::Places;
 use crate::binomial::multiply_by_factorial;
 use crate::integer::gcd;
+use crate::root::reduce_roots;
 use crate::symbol::Symbol;
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -49,7 +50,7 @@ impl Clone for Term {
 ///
 /// # Invariants
 /// - symbols strictly ascending, each with a positive exponent somewhere;
-/// - exponents at most [`Polynomial::MAX_EXPONENT`];
+/// - exponents at most [`Polynomial::MAX_EXPONENT`], and at most 1 for square roots;
 /// - terms strictly descending, numerators non-zero;
 /// - `d > 0` and `gcd(d, all numerators) = 1`; the zero polynomial has `d = 1`.
 ///
@@ -171,13 +172,17 @@ impl Polynomial {
     }
 
     /// Brings a value into normal form. `terms` must be strictly descending; zero numerators,
-    /// common divisors and unused symbols are allowed. O(terms), and gcds while they are not 1.
+    /// common divisors, unused symbols and powers of square roots are allowed. O(terms), and gcds
+    /// while they are not 1.
     pub(crate) fn from_parts(
         symbols: Arc<[Symbol]>,
         mut terms: Vec<Term>,
         mut denominator: BigInt,
     ) -> Polynomial {
         debug_assert!(terms.windows(2).all(|pair| pair[0].exponents > pair[1].exponents));
+        if symbols.iter().any(Symbol::is_root) {
+            (terms, denominator) = reduce_roots(&symbols, terms, denominator);
+        }
         terms.retain(|term| !term.numerator.is_zero());
         if terms.is_empty() {
             return Polynomial::zero();

@@ -120,7 +120,7 @@ impl Polynomial {
     /// ```
     ///
     /// # Errors
-    /// The symbol for which `values` answers `None`.
+    /// The symbol for which `values` answers `None`, or a square root: it has no rational value.
     pub fn evaluate(
         &self,
         values: impl Fn(&Symbol) -> Option<BigRational>,
@@ -128,7 +128,8 @@ impl Polynomial {
         let mut denominator = self.denominator.clone();
         let mut tables = Vec::new();
         for (column, symbol) in self.symbols.iter().enumerate() {
-            let value = values(symbol).ok_or_else(|| symbol.clone())?;
+            let value = Some(symbol).filter(|symbol| !symbol.is_root()).and_then(&values);
+            let value = value.ok_or_else(|| symbol.clone())?;
             let (powers, scale) = divided_powers_of_number(&value, &self.exponents_in(column));
             denominator *= scale;
             tables.push(powers);

@@ -3,10 +3,13 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// The name of an indeterminate: a letter, then letters, digits and `_`.
+/// The name of an indeterminate: a letter, then letters, digits and `_`; or a square root.
 ///
 /// Symbols with equal names are equal; they are ordered by name, byte by byte.
 /// Cloning is O(1).
+///
+/// A square root ([`Symbol::square_root`]) stands for one number and obeys `x² = n`. Its name,
+/// `sqrt(n)`, is none that [`Symbol::new`] accepts.
 ///
 /// ```
 /// use wavestep_polynomial::Symbol;
@@ -24,6 +27,46 @@ impl Symbol {
         let starts = characters.next().is_some_and(char::is_alphabetic);
         let goes_on = characters.all(|c| c.is_alphanumeric() || c == '_');
         (starts && goes_on).then(|| Symbol(name.into()))
+    }
+
+    /// The square root of `n`, where `n` is −1 or a prime below 10¹²; else `None`. The root of a
+    /// prime is the positive one, the root of −1 the imaginary unit. O(√n).
+    ///
+    /// Products of different such roots are linearly independent over the rationals, so that a
+    /// polynomial with exponents at most 1 in them is zero only where its coefficients are.
+    ///
+    /// ```
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    /// let [i, root] = [-1, 3].map(|n| Polynomial::symbol(&Symbol::square_root(n).unwrap()));
+    /// assert_eq!(&i * &i, Polynomial::integer(-1));
+    /// // (1 + i√3)³ = −8.
+    /// let value = &Polynomial::one() + &(&i * &root);
+    /// assert_eq!(value.pow(3), Polynomial::integer(-8));
+    /// // √6 is √2·√3, and √1 is no root.
+    /// assert!(Symbol::square_root(6).is_none() && Symbol::square_root(1).is_none());
+    /// ```
+    pub fn square_root(n: i64) -> Option<Symbol> {
+        let is_prime = |n: u64| (2..=n.isqrt()).all(|d| n % d != 0);
+        let known = n == -1 || (2..1_000_000_000_000).contains(&n) && is_prime(n.unsigned_abs());
+        known.then(|| Symbol(format!("sqrt({n})").into()))
+    }
+
+    /// The integer whose square root this is; `None` for a symbol that may have any value. O(1).
+    ///
+    /// ```
+    /// use wavestep_polynomial::Symbol;
+    /// assert_eq!(Symbol::square_root(7).unwrap().square(), Some(7));
+    /// assert_eq!(Symbol::square_root(-1).unwrap().name(), "sqrt(-1)");
+    /// assert_eq!(Symbol::new("i").unwrap().square(), None);
+    /// ```
+    pub fn square(&self) -> Option<i64> {
+        // No other name ends so: for most symbols one byte settles it.
+        self.0.strip_suffix(')')?.strip_prefix("sqrt(")?.parse().ok()
+    }
+
+    /// Whether this is a square root. O(1).
+    pub(crate) fn is_root(&self) -> bool {
+        self.0.ends_with(')')
     }
 
     /// The name. O(1).

@@ -74,6 +74,7 @@ pub struct ReadError {
 /// assert_eq!(missed("x y"), Expected::Operator);
 /// assert_eq!(missed("x^y"), Expected::Exponent);
 /// assert_eq!(missed("1/x"), Expected::Denominator);
+/// assert_eq!(missed("sqrt(6)"), Expected::Radicand);
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Expected {
@@ -85,6 +86,8 @@ pub enum Expected {
     Exponent,
     /// A denominator other than zero.
     Denominator,
+    /// −1 or a prime, in parentheses after `sqrt`.
+    Radicand,
 }
 
 impl fmt::Display for ReadError {
@@ -97,6 +100,7 @@ impl fmt::Display for ReadError {
                 write!(f, "an exponent, at most {} in a term", Polynomial::MAX_EXPONENT)
             }
             Expected::Denominator => f.write_str("a denominator other than zero"),
+            Expected::Radicand => f.write_str("-1 or a prime in parentheses"),
         }
     }
 }
@@ -106,8 +110,8 @@ impl std::error::Error for ReadError {}
 impl FromStr for Polynomial {
     type Err = ReadError;
 
-    /// Reads a sum of products of integers, fractions, names and powers of names, such as
-    /// `-3/2*mu^2*s + 1`: all that printing writes, in any order, with white space anywhere
+    /// Reads a sum of products of integers, fractions, names, square roots such as `sqrt(2)` and
+    /// powers of these, such as `-3/2*mu^2*s + 1`: all that printing writes, in any order, with white space anywhere
     /// between the parts.
     ///
     /// O(n log n) for `n` terms with short numbers, and at worst the square of the length. The
@@ -183,7 +187,10 @@ impl<'a> Reader<'a> {
                 }
                 Some(c) if c.is_alphabetic() => {
                     let name = self.take_while(|c| c.is_alphanumeric() || c == '_');
-                    let symbol = Symbol::new(name).expect("a letter starts a name");
+                    let symbol = match name {
+                        "sqrt" if self.take_if('(') => self.square_root()?,
+                        _ => Symbol::new(name).expect("a letter starts a name"),
+                    };
                     let exponent = powers.entry(symbol).or_insert(0);
                     *exponent += self.exponent(Polynomial::MAX_EXPONENT - *exponent)?;
                 }
@@ -196,6 +203,17 @@ impl<'a> Reader<'a> {
         let coefficient = fraction(product(numerators), product(denominators));
         let powers: Vec<_> = powers.iter().map(|(symbol, e)| (symbol, *e)).collect();
         Ok(Polynomial::monomial(&coefficient, &powers))
+    }
+
+    /// The root whose radicand comes next, after `sqrt(`.
+    fn square_root(&mut self) -> Result<Symbol, ReadError> {
+        self.peek();
+        let error = self.error(Expected::Radicand);
+        let negative = self.take_if('-');
+        let size = self.take_while(|c| c.is_ascii_digit()).parse::<i64>().ok();
+        let radicand = size.map(|size| if negative { -size } else { size });
+        let closed = self.take_if(')');
+        radicand.and_then(Symbol::square_root).filter(|_| closed).ok_or(error)
     }
 
     fn integer(&mut self) -> Option<BigInt> {

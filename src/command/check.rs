@@ -43,7 +43,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
     }
     for step in recurrence.steps() {
         let kind = if step.start.is_some() { "first-order differential" } else { "algebraic" };
-        report.push_str(&format!("  wave {}: {kind}\n", statement.waves[step.wave]));
+        report.push_str(&format!("  wave {}: {kind}\n", recurrence.wave_name(step.wave)));
     }
     let observables: Vec<&str> =
         statement.observables.iter().map(|observable| observable.name.as_str()).collect();

@@ -191,6 +191,20 @@ impl Assumptions {
     /// The inverse of `c · e^λ`, where `c` is a product of declared factors, a number, and at most
     /// one irreducible factor that is certainly positive or certainly negative.
     ///
+    /// An algebraic number that is not zero can always be inverted. Where `c` holds square roots and
+    /// symbols, it is its norm that must be such a product, or a power of one.
+    ///
+    /// ```
+    /// use wavestep::expression::{Assumptions, Expression};
+    /// use wavestep_polynomial::Polynomial;
+    ///
+    /// // 1/(1 + i√3) = (1 − i√3)/4: nothing need be declared.
+    /// let read = |text: &str| Expression::from(text.parse::<Polynomial>().unwrap());
+    /// let inverse = Assumptions::default().invert(&read("1 + sqrt(-1)*sqrt(3)"));
+    /// assert_eq!(inverse, Ok(read("1/4 - 1/4*sqrt(-1)*sqrt(3)")));
+    /// assert!(Assumptions::default().invert(&read("x + sqrt(3)")).is_err());
+    /// ```
+    ///
     /// # Errors
     /// [`NotInvertible`] with the part that stands in the way.
     pub fn invert(&self, value: &Expression) -> Result<Expression, NotInvertible> {
@@ -199,8 +213,14 @@ impl Assumptions {
         if terms.next().is_some() {
             return Err(NotInvertible::SumOfExponentials);
         }
-        let mut inverse = Fraction::from(coefficient.denominator());
-        let mut rest = coefficient.numerator().clone();
+        let inverse = self.invert_polynomial(coefficient.numerator())?;
+        let inverse = &Fraction::from(coefficient.denominator()) * &inverse;
+        Ok(Expression::from(inverse).times_exponential(&-exponent))
+    }
+
+    fn invert_polynomial(&self, p: &Polynomial) -> Result<Fraction, NotInvertible> {
+        let mut inverse = Fraction::one();
+        let mut rest = p.clone();
         for factor in &self.factors {
             while let Some(quotient) = rest.divide(factor) {
                 rest = quotient;
@@ -210,6 +230,9 @@ impl Assumptions {
         }
         if let Some(number) = rest.as_constant() {
             inverse = inverse.scale(&number.recip());
+        } else if rest.roots().next().is_some() {
+            let (multiplier, norm) = rest.norm();
+            inverse = &inverse * &(&Fraction::from(multiplier) * &self.invert_norm(&norm)?);
         } else {
             let rest = Fraction::from(rest);
             let known = self.is_positive(&rest) || self.is_positive(&-&rest);
@@ -217,7 +240,18 @@ impl Assumptions {
             let undeclared = || NotInvertible::Undeclared(rest.numerator().primitive_part().1);
             inverse = &inverse * &reciprocal.ok_or_else(undeclared)?;
         }
-        Ok(Expression::from(inverse).times_exponential(&-exponent))
+        Ok(inverse)
+    }
+
+    /// The inverse of a polynomial without roots that may be a power, as norms of products with
+    /// numbers are.
+    fn invert_norm(&self, norm: &Polynomial) -> Result<Fraction, NotInvertible> {
+        match norm.square_root() {
+            Some((c, root)) if !root.is_one() => {
+                Ok(self.invert_norm(&root)?.pow(2).scale(&c.recip()))
+            }
+            _ => self.invert_polynomial(norm),
+        }
     }
 
     /// Whether the value is certainly positive under the conditions: a quotient of polynomials

@@ -16,8 +16,12 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// in some symbol with a coefficient that shares no factor with the rest, hence irreducible.
 /// Exact division then cancels all that can be cancelled, and no general gcd is needed.
 ///
+/// Square roots stand in numerators only: a fraction with roots is a combination of their products,
+/// with fractions without roots as coefficients, over the least common denominator of these.
+///
 /// # Invariants
 /// - `k_i > 0`, and no `d_i` divides `p`;
+/// - no `d_i` holds a square root;
 /// - zero has no factors.
 ///
 /// Equal values have one representation. The order (`Ord`) is total and without algebraic meaning.
@@ -109,11 +113,31 @@ impl Fraction {
     /// `1/p`, where `p` is a constant times symbols times at most one factor that is linear in
     /// some symbol with a constant or a single term as its coefficient.
     ///
+    /// Where `p` holds square roots, the denominator is rationalised, `1/p = m/(p m)` with
+    /// [`Polynomial::norm`], and it is `p m` that must be such a product, or a power of one whose
+    /// exponent is a power of 2. Every algebraic number but 0 has a reciprocal.
+    ///
+    /// ```
+    /// use wavestep::expression::Fraction;
+    ///
+    /// let p = "mu + mu*sqrt(3)".parse().unwrap();
+    /// // 1/(1 + √3) = (√3 − 1)/2.
+    /// let inverse = Fraction::reciprocal(&p).unwrap();
+    /// assert_eq!(inverse.numerator().to_string(), "1/2*sqrt(3) - 1/2");
+    /// assert_eq!(inverse.denominator().to_string(), "mu");
+    /// assert!((&inverse * &p.into()).is_one());
+    /// ```
+    ///
     /// # Errors
     /// [`NotAUnit`] for zero and for every other polynomial.
     pub fn reciprocal(p: &Polynomial) -> Result<Fraction, NotAUnit> {
         if p.is_zero() {
             return Err(NotAUnit(p.clone()));
+        }
+        if p.roots().next().is_some() {
+            let (multiplier, norm) = p.norm();
+            let inverse = reciprocal_of_power(&norm).ok_or_else(|| NotAUnit(p.clone()))?;
+            return Ok(&Fraction::from(multiplier) * &inverse);
         }
         let (content, mut rest) = p.primitive_part();
         let mut factors = BTreeMap::new();
@@ -273,7 +297,7 @@ impl Fraction {
     /// The value where every symbol has one.
     ///
     /// # Errors
-    /// The first symbol for which `values` answers `None`.
+    /// The first symbol for which `values` answers `None`, or a square root.
     ///
     /// # Panics
     /// Where a factor of the denominator is zero there.
@@ -300,6 +324,14 @@ impl Fraction {
         }
         Ok(value)
     }
+}
+
+/// `1/p` for a polynomial without roots that is a unit, or a rational times a square of such a power.
+fn reciprocal_of_power(p: &Polynomial) -> Option<Fraction> {
+    Fraction::reciprocal(p).ok().or_else(|| {
+        let (c, root) = p.square_root()?;
+        Some(reciprocal_of_power(&root)?.pow(2).scale(&c.recip()))
+    })
 }
 
 /// Whether a primitive polynomial is linear in some symbol, with a single term as that symbol's

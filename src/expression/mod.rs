@@ -3,7 +3,7 @@
 //! [`Expression`] is a sum `Σ_j p_j e^{λ_j}` whose coefficients and exponents are [`Fraction`]s:
 //! polynomials in named symbols, localised at factors known to be non-zero. A wave function on one
 //! period is an `Expression` in the local time; its coefficients, such as `1 + e^{−2μ}`, are
-//! expressions too. [`Assumptions`] says what may be divided by. [`Transform`] is the same kind of
+//! expressions too. Poles of second order bring square roots into both. [`Assumptions`] says what may be divided by. [`Transform`] is the same kind of
 //! function in the Laplace domain. [`Piecewise`] and [`EchoSum`] are functions of all time.
 //!
 //! Nothing here knows of bars or of text.
@@ -14,6 +14,7 @@ mod constant;
 mod echo_sum;
 mod fraction;
 mod piecewise;
+mod root;
 mod sum;
 mod transform;
 

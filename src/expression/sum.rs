@@ -21,12 +21,15 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// Weierstrass says that the sum is not. So the form is canonical: two expressions are equal as
 /// functions exactly when `==` says so.
 ///
+/// # Square roots
+/// Coefficients and exponents may hold square roots of −1 and of primes
+/// ([`Symbol::square_root`]): poles `σ ± iω` and `a ± √d` are fractions like others. Nothing above
+/// changes. A polynomial with roots is zero only where its norm, which has none, is; at a rational
+/// point exponents and coefficients are algebraic numbers, and it is for these that the theorem of
+/// Lindemann and Weierstrass holds.
+///
 /// # Invariants
 /// - exponents pairwise different, no coefficient zero.
-///
-/// # Room for more
-/// Complex poles and `√d` enter as further symbols that carry a relation (`i² = −1`, `x² = d`)
-/// to be reduced by; the exponents then contain them and nothing else here changes.
 ///
 /// ```
 /// use wavestep::expression::{Expression, Fraction};
@@ -315,7 +318,7 @@ impl Expression {
     /// The exact number `Σ r_j e^{λ_j}` where every symbol has a rational value.
     ///
     /// # Errors
-    /// The first symbol for which `values` answers `None`.
+    /// The first symbol for which `values` answers `None`, or a square root.
     ///
     /// # Panics
     /// Where a denominator is zero there.

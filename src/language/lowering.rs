@@ -375,8 +375,12 @@ impl<'a> Lowering<'a> {
             ),
             Fault::Coupled(_) => (
                 "cannot be solved one by one",
-                "solve the equations for one wave each; several coupled by derivatives are not \
-                 supported"
+                "solve the equations for one wave each".to_owned(),
+            ),
+            Fault::Rates { .. } => (
+                "coupled by derivatives",
+                "give values such that the characteristic polynomial has rational factors of \
+                 degree two at most, or symbols such that its discriminant is a square"
                     .to_owned(),
             ),
             Fault::NotInvertible(reason) => (

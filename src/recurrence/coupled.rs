@@ -95,9 +95,8 @@ fn solve_for_slopes(
 ) -> Result<(), Stuck> {
     for (i, wave) in waves.iter().enumerate() {
         let slope = |form: &LinearForm| form.operator(*wave).slope_now();
-        let pivot = (i..forms.len()).find_map(|row| {
-            Some((row, assumptions.invert(&slope(&forms[row])).ok()?))
-        });
+        let pivot = (i..forms.len())
+            .find_map(|row| Some((row, assumptions.invert(&slope(&forms[row])).ok()?)));
         let (row, inverse) = pivot.ok_or(Stuck::Degenerate)?;
         forms.swap(i, row);
         let own = forms[i].scaled(&inverse);

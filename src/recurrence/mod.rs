@@ -5,11 +5,13 @@
 //! determines one wave on the n-th period from what is known by then, algebraically or by one
 //! first-order differential equation.
 
+mod coupled;
 mod form;
 mod notation;
 mod ordering;
 #[expect(clippy::module_inception, reason = "the file is named for the type it holds")]
 mod recurrence;
+mod roots;
 mod statement;
 
 pub use form::{LinearForm, Operator};

@@ -6,6 +6,7 @@
 
 use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::WaveIndex;
+use crate::recurrence::coupled::{Stuck, Uncoupled, uncouple};
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::statement::{Fault, InvalidRecurrence, Part, Statement};
 use std::collections::BTreeSet;
@@ -84,8 +85,8 @@ struct Row {
     part: Part,
 }
 
-/// The steps of a statement, in solving order.
-pub(crate) fn order(statement: &Statement) -> Outcome<Vec<Step>> {
+/// The steps of a statement, in solving order, and how many waves were added to those stated.
+pub(crate) fn order(statement: &Statement) -> Outcome<(Vec<Step>, usize)> {
     let count = Fault::Count { equations: statement.equations.len(), waves: statement.waves.len() };
     match statement.equations.len().cmp(&statement.waves.len()) {
         std::cmp::Ordering::Less => {
@@ -110,16 +111,17 @@ pub(crate) fn order(statement: &Statement) -> Outcome<Vec<Step>> {
             }
         })
         .collect::<Outcome<_>>()?;
-    let steps = order_equations(statement, &mut rows)?;
-    assign_starts(statement, steps, &mut rules)
+    let (steps, hidden) = order_equations(statement, &mut rows)?;
+    Ok((assign_starts(statement, steps, &mut rules)?, hidden))
 }
 
 /// Takes a row that has one unknown on the current period, while there is one; else eliminates an
-/// unknown with an algebraic row.
-fn order_equations(statement: &Statement, rows: &mut Vec<Row>) -> Outcome<Vec<Step>> {
+/// unknown with an algebraic row; else uncouples rows with derivatives.
+fn order_equations(statement: &Statement, rows: &mut Vec<Row>) -> Outcome<(Vec<Step>, usize)> {
     let mut unknown: BTreeSet<WaveIndex> = (0..statement.waves.len()).collect();
     let mut eliminated = BTreeSet::new();
     let mut steps = Vec::new();
+    let mut hidden = 0;
     while !rows.is_empty() {
         let unknowns = |row: &Row| -> Vec<_> {
             row.form.waves_now().filter(|wave| unknown.contains(wave)).collect()
@@ -148,10 +150,14 @@ fn order_equations(statement: &Statement, rows: &mut Vec<Row>) -> Outcome<Vec<St
                 waves.iter().find(invertible).map(|wave| (i, *wave))
             });
         let Some((pivot, wave)) = pivot else {
-            let names = |waves: &[WaveIndex]| {
-                waves.iter().map(|wave| statement.waves[*wave].clone()).collect()
-            };
-            return refuse(rows[0].part, Fault::Coupled(names(&open[0])));
+            let next_hidden = statement.waves.len() + hidden;
+            let found = uncouple_some(statement, rows, &open, next_hidden)?;
+            hidden += found.hidden;
+            for (wave, equation) in found.steps {
+                unknown.remove(&wave);
+                steps.push((Step { wave, equation, start: None }, found.part));
+            }
+            continue;
         };
         eliminated.insert(part_key(&rows[pivot]));
         let leading = rows[pivot].form.operator(wave).value_now();
@@ -166,7 +172,71 @@ fn order_equations(statement: &Statement, rows: &mut Vec<Row>) -> Outcome<Vec<St
             }
         }
     }
-    steps.into_iter().map(|(step, part)| with_rate(step, part)).collect()
+    let steps = steps.into_iter().map(|(step, part)| with_rate(step, part));
+    Ok((steps.collect::<Outcome<_>>()?, hidden))
+}
+
+/// Steps for rows that were coupled by their derivatives.
+struct Found {
+    steps: Vec<(WaveIndex, LinearForm)>,
+    hidden: usize,
+    part: Part,
+}
+
+/// Takes the fewest rows with derivatives that have as many unknowns as they are, and uncouples them.
+fn uncouple_some(
+    statement: &Statement,
+    rows: &mut Vec<Row>,
+    open: &[Vec<WaveIndex>],
+    hidden: WaveIndex,
+) -> Outcome<Found> {
+    let coupled = |waves: &BTreeSet<WaveIndex>| {
+        Fault::Coupled(waves.iter().map(|wave| statement.waves[*wave].clone()).collect())
+    };
+    let candidates: Vec<usize> = (0..rows.len()).filter(|i| rows[*i].form.has_slopes()).collect();
+    let Some((chosen, waves)) = closed_set(&candidates, open) else {
+        return refuse(rows[0].part, coupled(&open[0].iter().copied().collect()));
+    };
+    let part = rows[chosen[0]].part;
+    let forms = chosen.iter().map(|i| rows[*i].form.clone()).collect();
+    let unknowns = waves.iter().copied().collect();
+    let uncoupled = uncouple(forms, unknowns, hidden, &statement.assumptions);
+    let Uncoupled { steps, hidden } = uncoupled.map_err(|stuck| {
+        let names = || waves.iter().map(|wave| statement.waves[*wave].clone()).collect();
+        let fault = match stuck {
+            Stuck::Degenerate => coupled(&waves),
+            Stuck::Roots(polynomial) => Fault::Rates { waves: names(), polynomial },
+        };
+        InvalidRecurrence { part, fault }
+    })?;
+    for i in chosen.into_iter().rev() {
+        rows.remove(i);
+    }
+    Ok(Found { steps, hidden, part })
+}
+
+/// The smallest set of rows with as many unknowns as rows, ascending, and these unknowns. Starting
+/// from each row, rows are added that bring no new unknown, else the one that brings the fewest.
+fn closed_set(
+    candidates: &[usize],
+    open: &[Vec<WaveIndex>],
+) -> Option<(Vec<usize>, BTreeSet<WaveIndex>)> {
+    let grown = |start: usize| {
+        let mut rows = BTreeSet::from([start]);
+        let mut waves: BTreeSet<WaveIndex> = open[start].iter().copied().collect();
+        while rows.len() < waves.len() {
+            let new = |row: &usize| open[*row].iter().filter(|wave| !waves.contains(wave)).count();
+            let next =
+                candidates.iter().filter(|row| !rows.contains(row)).min_by_key(|row| new(row));
+            let next = *next?;
+            rows.insert(next);
+            waves.extend(&open[next]);
+        }
+        (rows.len() == waves.len()).then_some((rows, waves))
+    };
+    let found = candidates.iter().filter_map(|row| grown(*row));
+    let (rows, waves) = found.min_by_key(|(rows, _)| rows.len())?;
+    Some((rows.into_iter().collect(), waves))
 }
 
 fn part_key(row: &Row) -> usize {

@@ -14,7 +14,8 @@ use wavestep_polynomial::{Polynomial, Symbol};
 /// # Invariants
 /// - the period is certainly positive;
 /// - `steps` holds one step a wave, and each uses on the current period only waves of steps
-///   before it.
+///   before it. Where equations are coupled by derivatives, waves are added that uncouple them;
+///   these are numbered after those stated.
 ///
 /// ```
 /// use wavestep::language::{Source, read_recurrence};
@@ -36,6 +37,7 @@ use wavestep_polynomial::{Polynomial, Symbol};
 pub struct Recurrence {
     statement: Statement,
     steps: Vec<Step>,
+    hidden: usize,
 }
 
 impl Recurrence {
@@ -58,8 +60,8 @@ impl Recurrence {
             let fault = Fault::DegreeTooHigh;
             return Err(InvalidRecurrence { part: Part::Equation(0), fault });
         }
-        let steps = ordering::order(&statement)?;
-        Ok(Recurrence { statement, steps })
+        let (steps, hidden) = ordering::order(&statement)?;
+        Ok(Recurrence { statement, steps, hidden })
     }
 
     /// What was stated.
@@ -70,6 +72,21 @@ impl Recurrence {
     /// The steps, in solving order.
     pub fn steps(&self) -> &[Step] {
         &self.steps
+    }
+
+    /// The number of waves, those that were added to uncouple equations included.
+    pub fn wave_count(&self) -> usize {
+        self.statement.waves.len() + self.hidden
+    }
+
+    /// What a wave is called.
+    ///
+    /// # Panics
+    /// Where there are not so many waves.
+    pub fn wave_name(&self, wave: WaveIndex) -> String {
+        assert!(wave < self.wave_count(), "a wave of this recurrence");
+        let added = |wave| format!("mode_{}", wave - self.statement.waves.len());
+        self.statement.waves.get(wave).cloned().unwrap_or_else(|| added(wave))
     }
 
     /// The place of the wave called `name`.

@@ -44,7 +44,8 @@ fn rational_factor(polynomial: &[Fraction]) -> Option<(Vec<Fraction>, Vec<Fracti
         let factor = vec![Fraction::one(), Fraction::zero()];
         return Some((factor, polynomial[..polynomial.len() - 1].to_vec()));
     }
-    let exact: Vec<Rational> = polynomial.iter().map(Fraction::as_constant).collect::<Option<_>>()?;
+    let exact: Vec<Rational> =
+        polynomial.iter().map(Fraction::as_constant).collect::<Option<_>>()?;
     let guesses = approximate_roots(&exact)?;
     let candidates = |value: f64| convergents(value);
     let attempt = |factor: Vec<Rational>| {
@@ -115,9 +116,8 @@ fn approximate_roots(polynomial: &[Rational]) -> Option<Vec<(f64, f64)>> {
                 (re + c, im)
             });
             let others = roots.iter().enumerate().filter(|(j, _)| *j != i);
-            let spread = others.fold((1.0, 0.0), |product, (_, y)| {
-                times(product, (x.0 - y.0, x.1 - y.1))
-            });
+            let spread =
+                others.fold((1.0, 0.0), |product, (_, y)| times(product, (x.0 - y.0, x.1 - y.1)));
             let step = over(value, spread);
             if step.0.is_finite() && step.1.is_finite() {
                 roots[i] = (x.0 - step.0, x.1 - step.1);
@@ -191,6 +191,8 @@ mod tests {
             assert_eq!(product, p);
         }
         // λ³ − 2 has no rational factor.
-        assert!(of(&polynomial(&[(1, 1), (0, 1), (0, 1), (-2, 1)]), &Assumptions::default()).is_none());
+        assert!(
+            of(&polynomial(&[(1, 1), (0, 1), (0, 1), (-2, 1)]), &Assumptions::default()).is_none()
+        );
     }
 }

@@ -212,6 +212,14 @@ pub enum Fault {
     DeterminesNothing,
     /// The waves named depend on each other on the same period.
     Coupled(Vec<String>),
+    /// The waves named are coupled by their derivatives, and their rates, the roots of a
+    /// polynomial, are not known exactly.
+    Rates {
+        /// The waves.
+        waves: Vec<String>,
+        /// The characteristic polynomial, highest power first.
+        polynomial: Vec<Fraction>,
+    },
     /// A coefficient that has to be divided by.
     NotInvertible(NotInvertible),
     /// The rate of a differential equation has an exponential in it.
@@ -267,6 +275,11 @@ impl fmt::Display for InvalidRecurrence {
             Fault::Coupled(waves) => {
                 write!(f, "{} depend on each other on the same period", waves.join(" and "))
             }
+            Fault::Rates { waves, .. } => write!(
+                f,
+                "the rates at which {} decay together are not known exactly",
+                waves.join(" and ")
+            ),
             Fault::NotInvertible(reason) => write!(f, "solving this needs a {reason}"),
             Fault::RateHoldsExponential => {
                 f.write_str("the rate of this differential equation holds an exponential")

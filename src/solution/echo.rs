@@ -36,7 +36,7 @@ pub struct EchoByEcho<'a> {
 impl<'a> EchoByEcho<'a> {
     /// No echo solved yet.
     pub fn new(recurrence: &'a Recurrence) -> EchoByEcho<'a> {
-        EchoByEcho { recurrence, echoes: vec![Vec::new(); recurrence.statement().waves.len()] }
+        EchoByEcho { recurrence, echoes: vec![Vec::new(); recurrence.wave_count()] }
     }
 
     /// The transforms of the echoes of a wave, as far as they are solved.

@@ -88,7 +88,7 @@ impl SolveError {
         order: usize,
         reason: Unsolvable,
     ) -> SolveError {
-        SolveError { wave: recurrence.statement().waves[wave].clone(), order, reason }
+        SolveError { wave: recurrence.wave_name(wave), order, reason }
     }
 }
 

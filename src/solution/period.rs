@@ -92,7 +92,7 @@ impl<'a> PeriodByPeriod<'a> {
     pub fn new(recurrence: &'a Recurrence) -> PeriodByPeriod<'a> {
         let statement = recurrence.statement();
         let empty = Piecewise::new(statement.period.clone(), statement.local.clone());
-        let count = statement.waves.len();
+        let count = recurrence.wave_count();
         let (waves, ends) = (vec![empty; count], vec![Vec::new(); count]);
         PeriodByPeriod { recurrence, waves, ends, kept: None }
     }

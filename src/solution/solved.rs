@@ -43,7 +43,7 @@ pub struct Solution {
 impl Solution {
     /// Derives nothing yet: general forms, pieces and echoes are found when asked for.
     pub fn new(recurrence: Recurrence) -> Solution {
-        let general = vec![OnceCell::new(); recurrence.statement().waves.len()];
+        let general = vec![OnceCell::new(); recurrence.wave_count()];
         Solution { recurrence, general }
     }
 

@@ -1,0 +1,165 @@
+//! Square roots of fractions, and conjugates.
+
+use crate::expression::fraction::Fraction;
+use crate::expression::sum::Expression;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
+
+/// Numbers are divided by all integers up to this one in search of factors.
+const TRIAL_LIMIT: u64 = 1_000_000;
+
+impl Fraction {
+    /// The square roots that occur, ascending by name.
+    ///
+    /// ```
+    /// use wavestep::expression::Fraction;
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    ///
+    /// let pole = Fraction::from("-1/2 + 1/2*sqrt(-1)*sqrt(3)".parse::<Polynomial>().unwrap());
+    /// assert!(pole.roots().eq([-1, 3].map(|n| Symbol::square_root(n).unwrap()).iter()));
+    /// ```
+    pub fn roots(&self) -> impl Iterator<Item = &Symbol> + '_ {
+        self.numerator().roots()
+    }
+
+    /// The value with `−root` in place of the square root `root`.
+    ///
+    /// ```
+    /// use wavestep::expression::Fraction;
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    ///
+    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
+    /// let conjugate = read("mu + sqrt(2)").conjugate(&Symbol::square_root(2).unwrap());
+    /// assert_eq!(conjugate, read("mu - sqrt(2)"));
+    /// ```
+    pub fn conjugate(&self, root: &Symbol) -> Fraction {
+        match self.roots().any(|own| own == root) {
+            true => self.with_numerator(self.numerator().conjugate(root)),
+            false => self.clone(),
+        }
+    }
+
+    /// A fraction whose square this is: `√c · q/d` for `c q²/d²`, `c` rational, with `√c` as a
+    /// rational times square roots of −1 and of primes. Of the two, the one whose numerator has a
+    /// positive leading coefficient beside the roots.
+    ///
+    /// `None` where there is none of this kind: for what is no rational times a square, for what
+    /// holds square roots itself, and for a `c` whose factors are not found. All primes up to
+    /// `10⁶` are tried; what is left may be a square, or a prime below `10¹²`.
+    ///
+    /// ```
+    /// use wavestep::expression::Fraction;
+    /// use wavestep_polynomial::Polynomial;
+    ///
+    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
+    /// assert_eq!(read("-3/4").square_root(), Some(read("1/2*sqrt(-1)*sqrt(3)")));
+    /// assert_eq!(read("24*x^2").square_root(), Some(read("2*sqrt(2)*sqrt(3)*x")));
+    /// assert_eq!(read("x^2 + 1").square_root(), None);
+    /// ```
+    pub fn square_root(&self) -> Option<Fraction> {
+        if self.is_zero() {
+            return Some(Fraction::zero());
+        }
+        let (c, root) = self.numerator().square_root()?;
+        let mut root = Fraction::from(&root * &root_of_rational(&c)?);
+        for (factor, power) in self.factors() {
+            if power % 2 == 1 {
+                return None;
+            }
+            let inverse = Fraction::reciprocal(factor).expect("factors of fractions are units");
+            root = &root * &inverse.pow(power / 2);
+        }
+        Some(root)
+    }
+}
+
+impl Expression {
+    /// The square roots that occur, ascending by name.
+    ///
+    /// ```
+    /// use wavestep::expression::{Expression, Fraction};
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    ///
+    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
+    /// let wave = Expression::exponential(read("sqrt(2)*s")).times(&read("s + 1"));
+    /// assert_eq!(wave.roots(), [Symbol::square_root(2).unwrap()]);
+    /// ```
+    pub fn roots(&self) -> Vec<Symbol> {
+        let both = self.terms().flat_map(|(exponent, p)| exponent.roots().chain(p.roots()));
+        let mut roots: Vec<Symbol> = both.cloned().collect();
+        roots.sort();
+        roots.dedup();
+        roots
+    }
+
+    /// The value with `−root` in place of the square root `root`: for the root of −1 the complex
+    /// conjugate, where the symbols are real.
+    ///
+    /// ```
+    /// use wavestep::expression::{Expression, Fraction};
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    ///
+    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
+    /// let wave = |rate| Expression::exponential(read(rate));
+    /// let (i, up, down) = (Symbol::square_root(-1).unwrap(), "sqrt(-1)*s", "-sqrt(-1)*s");
+    /// assert_eq!(wave(up).conjugate(&i), wave(down));
+    /// // 2 cos s is real.
+    /// let sum = &wave(up) + &wave(down);
+    /// assert_eq!(sum.conjugate(&i), sum);
+    /// ```
+    pub fn conjugate(&self, root: &Symbol) -> Expression {
+        let mut conjugate = Expression::zero();
+        for (exponent, p) in self.terms() {
+            conjugate.add_term(exponent.conjugate(root), p.conjugate(root));
+        }
+        conjugate
+    }
+}
+
+/// `√c`: with `a = s² Π p` and `b = t² Π q`, it is `√(a/b) = s/(t Π q) · Π √p Π √q`.
+fn root_of_rational(c: &Rational) -> Option<Polynomial> {
+    let (above, mut primes) = square_part(c.numer())?;
+    let (below, others) = square_part(c.denom())?;
+    let below = others.iter().fold(below, |product, prime| product * prime);
+    primes.extend(others);
+    let roots: Option<Vec<Symbol>> = primes.into_iter().map(Symbol::square_root).collect();
+    let roots = roots?;
+    let powers: Vec<(&Symbol, u32)> = roots.iter().map(|root| (root, 1)).collect();
+    Some(Polynomial::monomial(&Rational::new(above, below), &powers))
+}
+
+/// `(s, [p, …])` with `value = s² Π p`, the `p` different primes, −1 among them for a negative
+/// value; `None` where the factors are not found.
+fn square_part(value: &Integer) -> Option<(Integer, Vec<i64>)> {
+    let mut primes = if value.is_negative() { vec![-1] } else { Vec::new() };
+    let (mut rest, mut side) = (value.abs(), Integer::one());
+    let candidates = std::iter::once(2).chain((3..=TRIAL_LIMIT).step_by(2));
+    for d in candidates {
+        let word = rest.to_u64();
+        if word.is_some_and(|word| d * d > word) {
+            break;
+        }
+        let divides = |rest: &Integer| match rest.to_u64() {
+            Some(word) => word % d == 0,
+            None => (rest % d).is_zero(),
+        };
+        while divides(&rest) {
+            rest /= d;
+            match divides(&rest) {
+                true => {
+                    rest /= d;
+                    side *= d;
+                }
+                false => primes.push(i64::try_from(d).expect("the limit of trials is small")),
+            }
+        }
+    }
+    let root = rest.sqrt();
+    if &root * &root == rest {
+        return Some((side * root, primes));
+    }
+    // No factor of the rest is below the limit of trials, or below its own square root.
+    let is_prime = rest < Integer::from(TRIAL_LIMIT * TRIAL_LIMIT);
+    primes.push(rest.to_i64().filter(|_| is_prime)?);
+    Some((side, primes))
+}
