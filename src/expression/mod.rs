@@ -24,4 +24,4 @@ pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};
 pub use piecewise::Piecewise;
 pub use sum::{ExponentialSum, Expression};
-pub use transform::Transform;
+pub use transform::{Exact, Field, InexactDivision, Transform};

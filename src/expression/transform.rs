@@ -2,9 +2,10 @@
 
 use crate::expression::assumptions::{Assumptions, NotInvertible};
 use crate::expression::calculus::rate_of;
-use crate::expression::fraction::Fraction;
+use crate::expression::fraction::{Fraction, NotAUnit};
 use crate::expression::sum::Expression;
 use std::collections::BTreeMap;
+use std::fmt;
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, factorial};
 
 /// A proper rational function of `p` in partial fractions,
@@ -37,25 +38,165 @@ use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, factorial};
 /// later.add_scaled(&echo, &read("2"));
 /// assert_eq!(later.function(&s), read("(s^2/2 + 2*s)*exp(-s)"));
 /// ```
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Transform {
-    poles: BTreeMap<Fraction, Vec<Expression>>,
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Transform<V = Expression> {
+    poles: BTreeMap<Fraction, Vec<V>>,
 }
 
-impl Transform {
+/// What the coefficients of a [`Transform`] are computed in: exact expressions, or enclosures of a
+/// given precision. Poles are exact in either case, so that equal ones are recognised.
+///
+/// ```
+/// use wavestep::expression::{Assumptions, Exact, Expression, Field, Fraction};
+///
+/// let nothing = Assumptions::default();
+/// let field = Exact::new(&nothing);
+/// let two = Expression::integer(2);
+/// let half = field.inverse(&two.as_fraction().unwrap()).unwrap();
+/// assert!(field.product(&two, &half).is_one());
+/// let mut sum = field.zero();
+/// field.add_product(&mut sum, &two, &half);
+/// field.add(&mut sum, &half);
+/// assert!(!field.is_zero(&sum) && field.embed(&sum).as_ref() == Ok(&sum));
+/// ```
+pub trait Field {
+    /// A coefficient.
+    type Value: Clone;
+    /// Why there is no coefficient.
+    type Error: From<NotAUnit>;
+
+    /// The coefficient 0.
+    fn zero(&self) -> Self::Value;
+    /// Whether a coefficient is certainly 0.
+    fn is_zero(&self, value: &Self::Value) -> bool;
+    /// The coefficient that an exact value is.
+    ///
+    /// # Errors
+    /// Where a symbol has no value, or the value cannot be enclosed.
+    fn embed(&self, value: &Expression) -> Result<Self::Value, Self::Error>;
+    /// The inverse of an exact value that is not 0.
+    ///
+    /// # Errors
+    /// Where the value is not known to be non-zero.
+    fn inverse(&self, value: &Fraction) -> Result<Self::Value, Self::Error>;
+    /// Adds `other`.
+    fn add(&self, sum: &mut Self::Value, other: &Self::Value);
+    /// The product.
+    fn product(&self, left: &Self::Value, right: &Self::Value) -> Self::Value;
+    /// Adds `left · right`.
+    fn add_product(&self, sum: &mut Self::Value, left: &Self::Value, right: &Self::Value) {
+        self.add(sum, &self.product(left, right));
+    }
+}
+
+/// Exact coefficients.
+///
+/// ```
+/// use wavestep::expression::{Assumptions, Exact, Expression, Field};
+///
+/// let nothing = Assumptions::default();
+/// assert_eq!(Exact::new(&nothing).zero(), Expression::zero());
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Exact<'a> {
+    assumptions: &'a Assumptions,
+}
+
+impl<'a> Exact<'a> {
+    /// Divides by what these assumptions allow to divide by.
+    pub fn new(assumptions: &'a Assumptions) -> Exact<'a> {
+        Exact { assumptions }
+    }
+}
+
+impl Field for Exact<'_> {
+    type Value = Expression;
+    type Error = InexactDivision;
+
+    fn zero(&self) -> Expression {
+        Expression::zero()
+    }
+
+    fn is_zero(&self, value: &Expression) -> bool {
+        value.is_zero()
+    }
+
+    fn embed(&self, value: &Expression) -> Result<Expression, InexactDivision> {
+        Ok(value.clone())
+    }
+
+    fn inverse(&self, value: &Fraction) -> Result<Expression, InexactDivision> {
+        Ok(self.assumptions.invert(&value.clone().into())?)
+    }
+
+    fn add(&self, sum: &mut Expression, other: &Expression) {
+        *sum += other;
+    }
+
+    fn product(&self, left: &Expression, right: &Expression) -> Expression {
+        left * right
+    }
+
+    fn add_product(&self, sum: &mut Expression, left: &Expression, right: &Expression) {
+        sum.add_scaled(left, right);
+    }
+}
+
+/// A division that cannot be done exactly.
+///
+/// ```
+/// use wavestep::expression::{InexactDivision, NotInvertible};
+///
+/// assert_eq!(InexactDivision::from(NotInvertible::Zero).to_string(), "division by zero");
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum InexactDivision {
+    /// By what is not known to be non-zero.
+    NotInvertible(NotInvertible),
+    /// By what a fraction cannot have in its denominator.
+    NotAUnit(NotAUnit),
+}
+
+impl fmt::Display for InexactDivision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InexactDivision::NotInvertible(reason) => reason.fmt(f),
+            InexactDivision::NotAUnit(reason) => reason.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for InexactDivision {}
+
+impl From<NotInvertible> for InexactDivision {
+    fn from(reason: NotInvertible) -> InexactDivision {
+        InexactDivision::NotInvertible(reason)
+    }
+}
+
+impl From<NotAUnit> for InexactDivision {
+    fn from(reason: NotAUnit) -> InexactDivision {
+        InexactDivision::NotAUnit(reason)
+    }
+}
+
+impl<V: Clone> Transform<V> {
     /// The transform 0.
-    pub(crate) fn zero() -> Transform {
-        Transform::default()
+    pub(crate) fn zero() -> Transform<V> {
+        Transform { poles: BTreeMap::new() }
     }
 
     /// `value / (p − pole)`.
-    pub(crate) fn simple(pole: Fraction, value: Expression) -> Transform {
-        Transform::normal(BTreeMap::from([(pole, vec![value])]))
+    pub(crate) fn simple<F: Field<Value = V>>(field: &F, pole: Fraction, value: V) -> Transform<V> {
+        Transform::normal(field, BTreeMap::from([(pole, vec![value])]))
     }
 
-    fn normal(mut poles: BTreeMap<Fraction, Vec<Expression>>) -> Transform {
+    fn normal<F: Field<Value = V>>(
+        field: &F,
+        mut poles: BTreeMap<Fraction, Vec<V>>,
+    ) -> Transform<V> {
         for coefficients in poles.values_mut() {
-            while coefficients.last().is_some_and(Expression::is_zero) {
+            while coefficients.last().is_some_and(|last| field.is_zero(last)) {
                 coefficients.pop();
             }
         }
@@ -63,6 +204,131 @@ impl Transform {
         Transform { poles }
     }
 
+    /// Whether this is 0.
+    pub fn is_zero(&self) -> bool {
+        self.poles.is_empty()
+    }
+
+    /// The poles with their coefficients `c_{λ,0}, c_{λ,1}, …`.
+    pub fn poles(&self) -> impl Iterator<Item = (&Fraction, &[V])> + '_ {
+        self.poles.iter().map(|(pole, coefficients)| (pole, &coefficients[..]))
+    }
+
+    /// Adds `factor · other`.
+    pub(crate) fn add_product<F: Field<Value = V>>(
+        &mut self,
+        field: &F,
+        other: &Transform<V>,
+        factor: &V,
+    ) {
+        for (pole, coefficients) in &other.poles {
+            let row = self.poles.entry(pole.clone()).or_default();
+            if row.len() < coefficients.len() {
+                row.resize(coefficients.len(), field.zero());
+            }
+            for (sum, coefficient) in row.iter_mut().zip(coefficients) {
+                field.add_product(sum, coefficient, factor);
+            }
+        }
+        *self = Transform::normal(field, std::mem::take(&mut self.poles));
+    }
+
+    /// Adds `other`.
+    pub(crate) fn add<F: Field<Value = V>>(&mut self, field: &F, other: &Transform<V>) {
+        for (pole, coefficients) in &other.poles {
+            let row = self.poles.entry(pole.clone()).or_default();
+            if row.len() < coefficients.len() {
+                row.resize(coefficients.len(), field.zero());
+            }
+            for (sum, coefficient) in row.iter_mut().zip(coefficients) {
+                field.add(sum, coefficient);
+            }
+        }
+        *self = Transform::normal(field, std::mem::take(&mut self.poles));
+    }
+
+    /// The value of the function at `x = 0+`: `lim p F(p) = Σ_λ c_{λ,0}`.
+    pub(crate) fn initial<F: Field<Value = V>>(&self, field: &F) -> V {
+        let mut sum = field.zero();
+        self.poles.values().for_each(|coefficients| field.add(&mut sum, &coefficients[0]));
+        sum
+    }
+
+    /// The transform of the derivative on `x > 0`: `p F(p) − f(0+)`. Since
+    /// `p/(p−λ)^{j+1} = 1/(p−λ)^j + λ/(p−λ)^{j+1}`, that is `c_j ← λ c_j + c_{j+1}`.
+    pub(crate) fn differentiated<F: Field<Value = V>>(
+        &self,
+        field: &F,
+    ) -> Result<Transform<V>, F::Error> {
+        let mut poles = BTreeMap::new();
+        for (pole, coefficients) in &self.poles {
+            let factor = field.embed(&pole.clone().into())?;
+            let mut row = Vec::with_capacity(coefficients.len());
+            for (j, coefficient) in coefficients.iter().enumerate() {
+                let mut value = field.product(coefficient, &factor);
+                if let Some(next) = coefficients.get(j + 1) {
+                    field.add(&mut value, next);
+                }
+                row.push(value);
+            }
+            poles.insert(pole.clone(), row);
+        }
+        Ok(Transform::normal(field, poles))
+    }
+
+    /// `F(p) / (p − pole)`, by
+    ///
+    /// ```text
+    /// 1/((p−λ)^m (p−π)) = δ^{−m}/(p−π) − Σ_{i=1}^m δ^{i−m−1}/(p−λ)^i,     δ = π − λ ≠ 0.
+    /// ```
+    pub(crate) fn over_pole<F: Field<Value = V>>(
+        &self,
+        field: &F,
+        pole: &Fraction,
+    ) -> Result<Transform<V>, F::Error> {
+        let mut poles = BTreeMap::new();
+        let mut residue = field.zero();
+        for (other, coefficients) in &self.poles {
+            // −δ, so that nothing needs to be subtracted.
+            let difference = other - pole;
+            if difference.is_zero() {
+                continue;
+            }
+            let inverse = field.inverse(&difference)?;
+            let mut row = vec![field.zero(); coefficients.len()];
+            let mut carried = field.zero();
+            let minus = field.embed(&Expression::integer(-1))?;
+            for (place, coefficient) in row.iter_mut().zip(coefficients).rev() {
+                // c ← (c − coefficient)/δ = (coefficient − c)/(−δ)
+                let mut rest = coefficient.clone();
+                field.add_product(&mut rest, &carried, &minus);
+                carried = field.product(&rest, &inverse);
+                *place = carried.clone();
+            }
+            field.add_product(&mut residue, &carried, &minus);
+            poles.insert(other.clone(), row);
+        }
+        let mut own = vec![residue];
+        own.extend(self.poles.get(pole).into_iter().flatten().cloned());
+        poles.insert(pole.clone(), own);
+        Ok(Transform::normal(field, poles))
+    }
+
+    /// The same transform with other coefficients.
+    pub(crate) fn embedded<F: Field>(
+        exact: &Transform,
+        field: &F,
+    ) -> Result<Transform<F::Value>, F::Error> {
+        let mut poles = BTreeMap::new();
+        for (pole, coefficients) in exact.poles() {
+            let row: Result<Vec<_>, _> = coefficients.iter().map(|c| field.embed(c)).collect();
+            poles.insert(pole.clone(), row?);
+        }
+        Ok(Transform { poles })
+    }
+}
+
+impl Transform {
     /// The transform of a function of `x`, from its terms `x^j e^{λx} ↔ j!/(p − λ)^{j+1}`.
     ///
     /// # Panics
@@ -83,7 +349,7 @@ impl Transform {
                 row[j].add_term(base.clone(), coefficient.with_numerator(part));
             }
         }
-        Transform::normal(poles)
+        Transform::normal(&Exact::new(&Assumptions::default()), poles)
     }
 
     /// The function of `x` with this transform.
@@ -102,82 +368,34 @@ impl Transform {
         function
     }
 
-    /// Whether this is 0.
-    pub fn is_zero(&self) -> bool {
-        self.poles.is_empty()
-    }
-
-    /// The poles with their coefficients `c_{λ,0}, c_{λ,1}, …`.
-    pub fn poles(&self) -> impl Iterator<Item = (&Fraction, &[Expression])> + '_ {
-        self.poles.iter().map(|(pole, coefficients)| (pole, &coefficients[..]))
-    }
-
     /// Adds `factor · other`.
     pub fn add_scaled(&mut self, other: &Transform, factor: &Expression) {
-        for (pole, coefficients) in &other.poles {
-            let row = self.poles.entry(pole.clone()).or_default();
-            if row.len() < coefficients.len() {
-                row.resize(coefficients.len(), Expression::zero());
-            }
-            for (sum, coefficient) in row.iter_mut().zip(coefficients) {
-                *sum += &(coefficient * factor);
-            }
-        }
-        *self = Transform::normal(std::mem::take(&mut self.poles));
+        self.add_product(&Exact::new(&Assumptions::default()), other, factor);
     }
 
     /// The value of the function at `x = 0+`: `lim p F(p) = Σ_λ c_{λ,0}`.
     pub fn initial_value(&self) -> Expression {
-        let mut sum = Expression::zero();
-        self.poles.values().for_each(|coefficients| sum += &coefficients[0]);
-        sum
+        self.initial(&Exact::new(&Assumptions::default()))
     }
 
-    /// The transform of the derivative on `x > 0`: `p F(p) − f(0+)`. Since
-    /// `p/(p−λ)^{j+1} = 1/(p−λ)^j + λ/(p−λ)^{j+1}`, that is `c_j ← λ c_j + c_{j+1}`.
+    /// The transform of the derivative on `x > 0`, `p F(p) − f(0+)`.
     pub fn derivative(&self) -> Transform {
-        let zero = Expression::zero();
-        let rows = self.poles.iter().map(|(pole, coefficients)| {
-            let next = coefficients.iter().skip(1).chain(std::iter::once(&zero));
-            let derived = coefficients.iter().zip(next).map(|(c, next)| &c.times(pole) + next);
-            (pole.clone(), derived.collect())
-        });
-        Transform::normal(rows.collect())
+        let nothing = Assumptions::default();
+        self.differentiated(&Exact::new(&nothing)).expect("exact values are embedded as they are")
     }
 
-    /// `F(p) / (p − pole)`, by
-    ///
-    /// ```text
-    /// 1/((p−λ)^m (p−π)) = δ^{−m}/(p−π) − Σ_{i=1}^m δ^{i−m−1}/(p−λ)^i,     δ = π − λ ≠ 0.
-    /// ```
+    /// `F(p) / (p − pole)`.
     ///
     /// # Errors
-    /// [`NotInvertible`] where `δ` is neither zero nor known to be non-zero.
+    /// [`NotInvertible`] where the distance of two poles is neither zero nor known to be non-zero.
     pub fn divide_by_pole(
         &self,
         pole: &Fraction,
         assumptions: &Assumptions,
     ) -> Result<Transform, NotInvertible> {
-        let mut poles = BTreeMap::new();
-        let mut residue = Expression::zero();
-        for (other, coefficients) in &self.poles {
-            let difference = pole - other;
-            if difference.is_zero() {
-                continue;
-            }
-            let inverse = assumptions.invert(&difference.into())?;
-            let mut row = vec![Expression::zero(); coefficients.len()];
-            let mut carried = Expression::zero();
-            for (place, coefficient) in row.iter_mut().zip(coefficients).rev() {
-                carried = &(&carried - coefficient) * &inverse;
-                *place = carried.clone();
-            }
-            residue -= &carried;
-            poles.insert(other.clone(), row);
-        }
-        let mut own = vec![residue];
-        own.extend(self.poles.get(pole).into_iter().flatten().cloned());
-        poles.insert(pole.clone(), own);
-        Ok(Transform::normal(poles))
+        self.over_pole(&Exact::new(assumptions), pole).map_err(|error| match error {
+            InexactDivision::NotInvertible(reason) => reason,
+            InexactDivision::NotAUnit(_) => unreachable!("nothing is substituted here"),
+        })
     }
 }

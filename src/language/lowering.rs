@@ -373,10 +373,9 @@ impl<'a> Lowering<'a> {
                 "nothing left to determine once the others are solved",
                 "let each equation hold a wave `[n]` that no other equation gives".to_owned(),
             ),
-            Fault::Coupled(_) => (
-                "cannot be solved one by one",
-                "solve the equations for one wave each".to_owned(),
-            ),
+            Fault::Coupled(_) => {
+                ("cannot be solved one by one", "solve the equations for one wave each".to_owned())
+            }
             Fault::Rates { .. } => (
                 "coupled by derivatives",
                 "give values such that the characteristic polynomial has rational factors of \

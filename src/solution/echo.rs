@@ -4,10 +4,14 @@
 //! `w'[n−j]` becomes `q^j (pW − J)`, where `J = Σ_k q^k Φ_k(x=0)` collects the jumps at arrivals.
 //! The coefficient of `q^k` is one equation for `Φ_k`, a proper rational function of `p`; its jump
 //! follows from the continuous form, in which all jumps but the one at the start cancel.
+//!
+//! The coefficients are exact, or enclosures in any other [`Field`]. Of all echoes only those are
+//! worked out that a [`Demand`] names.
 
-use crate::expression::{EchoSum, Expression, Fraction, Transform};
-use crate::recurrence::{LinearForm, Recurrence, Start, WaveIndex};
-use crate::solution::error::{SolveError, Unsolvable, check_degree};
+use crate::expression::{EchoSum, Exact, Expression, Field, Fraction, Transform};
+use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
+use crate::solution::demand::Demand;
+use crate::solution::error::{SolveError, check_degree};
 
 /// The solution of a recurrence, echo by echo.
 ///
@@ -27,21 +31,49 @@ use crate::solution::error::{SolveError, Unsolvable, check_degree};
 /// assert_eq!(coefficients, [read("1")?, read("-2")?]);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub struct EchoByEcho<'a> {
+pub struct EchoByEcho<'a, F: Field = Exact<'a>> {
     recurrence: &'a Recurrence,
-    /// `echoes[wave][k]`: the transform of the k-th echo, and of its slope where it was asked for.
-    echoes: Vec<Vec<Transform>>,
+    field: F,
+    steps: Vec<FieldStep<F::Value>>,
+    /// Which echoes are wanted; all of them where nothing is said.
+    demand: Option<Demand>,
+    /// `echoes[wave][k]`: the transform of the k-th echo, zero where it is not wanted.
+    echoes: Vec<Vec<Transform<F::Value>>>,
+    expanded: usize,
+}
+
+/// A step with its coefficients in a field.
+struct FieldStep<V> {
+    wave: WaveIndex,
+    equation: FieldForm<V>,
+    /// The pole `−a`, the continuous form and its start.
+    start: Option<(Fraction, FieldForm<V>, V)>,
+}
+
+/// Minus a form, without its own wave at lag 0.
+struct FieldForm<V> {
+    /// Wave, lag, and the coefficients of value and slope.
+    terms: Vec<(WaveIndex, usize, Option<V>, Option<V>)>,
+    /// Forcing by lag.
+    forcing: Vec<Transform<V>>,
+}
+
+/// An echo that could not be worked out, and why.
+#[derive(Debug)]
+pub(crate) struct Failed<E> {
+    /// The wave.
+    pub wave: WaveIndex,
+    /// The number of the echo.
+    pub order: usize,
+    /// What stands in the way.
+    pub reason: E,
 }
 
 impl<'a> EchoByEcho<'a> {
     /// No echo solved yet.
     pub fn new(recurrence: &'a Recurrence) -> EchoByEcho<'a> {
-        EchoByEcho { recurrence, echoes: vec![Vec::new(); recurrence.wave_count()] }
-    }
-
-    /// The transforms of the echoes of a wave, as far as they are solved.
-    pub fn transforms(&self, wave: WaveIndex) -> &[Transform] {
-        &self.echoes[wave]
+        let field = Exact::new(&recurrence.statement().assumptions);
+        EchoByEcho::in_field(recurrence, field).expect("exact values are embedded as they are")
     }
 
     /// The wave as a sum of the echoes solved so far.
@@ -58,80 +90,150 @@ impl<'a> EchoByEcho<'a> {
     /// [`SolveError`] where a difference of poles would have to be divided by that is not known
     /// to be non-zero.
     pub fn advance(&mut self) -> Result<(), SolveError> {
+        let next = self.echoes.first().map_or(0, Vec::len);
         for step in self.recurrence.steps() {
-            let k = self.echoes[step.wave].len();
-            check_degree(self.recurrence, step.wave, k)?;
-            let explain = |reason| SolveError::new(self.recurrence, step.wave, k, reason);
-            let right = self.right_side(&step.equation, step.wave, k).map_err(explain)?;
-            let echo = match &step.start {
-                None => right,
-                Some(start) => self.solve(start, step.wave, k, right).map_err(explain)?,
+            check_degree(self.recurrence, step.wave, next)?;
+        }
+        self.expand().map_err(|Failed { wave, order, reason }| {
+            SolveError::new(self.recurrence, wave, order, reason.into())
+        })
+    }
+}
+
+impl<'a, F: Field> EchoByEcho<'a, F> {
+    /// No echo solved yet; coefficients will be in `field`.
+    pub(crate) fn in_field(recurrence: &'a Recurrence, field: F) -> Result<Self, F::Error> {
+        let steps = recurrence.steps().iter().map(|step| FieldStep::of(step, recurrence, &field));
+        let steps = steps.collect::<Result<_, _>>()?;
+        let echoes = (0..recurrence.wave_count()).map(|_| Vec::new()).collect();
+        Ok(EchoByEcho { recurrence, field, steps, demand: None, echoes, expanded: 0 })
+    }
+
+    /// Only echoes that are wanted will be worked out.
+    pub(crate) fn wanting(mut self, demand: Demand) -> Self {
+        self.demand = Some(demand);
+        self
+    }
+
+    /// The transforms of the echoes of a wave, as far as they are solved.
+    pub fn transforms(&self, wave: WaveIndex) -> &[Transform<F::Value>] {
+        &self.echoes[wave]
+    }
+
+    /// How many echoes other than zero have been worked out.
+    pub fn expanded(&self) -> usize {
+        self.expanded
+    }
+
+    /// Solves for the next echo of each wave.
+    pub(crate) fn expand(&mut self) -> Result<(), Failed<F::Error>> {
+        for i in 0..self.steps.len() {
+            let (wave, order) = (self.steps[i].wave, self.echoes[self.steps[i].wave].len());
+            let wanted = self.demand.as_ref().is_none_or(|demand| demand.wants(wave, order));
+            let echo = match wanted {
+                true => self.solve(&self.steps[i], order),
+                false => Ok(Transform::zero()),
             };
-            self.echoes[step.wave].push(echo);
+            let echo = echo.map_err(|reason| Failed { wave, order, reason })?;
+            self.expanded += usize::from(!echo.is_zero());
+            self.echoes[wave].push(echo);
         }
         Ok(())
     }
 
-    /// `(right + jump) / (p + a)`.
-    fn solve(
-        &self,
-        start: &Start,
-        wave: WaveIndex,
-        k: usize,
-        right: Transform,
-    ) -> Result<Transform, Unsolvable> {
-        let pole = -&start.rate;
-        let jump = self.jump(start, wave, k)?;
-        let mut echo = right.divide_by_pole(&pole, &self.recurrence.statement().assumptions)?;
-        echo.add_scaled(&Transform::simple(pole, jump), &Expression::one());
+    /// What the equation gives; for a differential one, `(right + jump) / (p + a)`.
+    fn solve(&self, step: &FieldStep<F::Value>, k: usize) -> Result<Transform<F::Value>, F::Error> {
+        let field = &self.field;
+        let mut right = Transform::zero();
+        for (echo, value, slope) in self.terms(&step.equation, k) {
+            if let Some(value) = value {
+                right.add_product(field, echo, value);
+            }
+            if let Some(slope) = slope {
+                right.add_product(field, &echo.differentiated(field)?, slope);
+            }
+        }
+        if let Some(forcing) = step.equation.forcing.get(k) {
+            right.add(field, forcing);
+        }
+        let Some((pole, continuous, initial)) = &step.start else { return Ok(right) };
+        // The continuous form has no jump but its value at the start.
+        let mut jump = if k == 0 { initial.clone() } else { field.zero() };
+        for (echo, value, _) in self.terms(continuous, k) {
+            if let Some(value) = value {
+                field.add_product(&mut jump, &echo.initial(field), value);
+            }
+        }
+        if let Some(forcing) = continuous.forcing.get(k) {
+            field.add(&mut jump, &forcing.initial(field));
+        }
+        let mut echo = right.over_pole(field, pole)?;
+        echo.add(field, &Transform::simple(field, pole.clone(), jump));
         Ok(echo)
     }
 
-    /// Minus the coefficient of `q^k` in the form, without `wave` at lag 0.
-    fn right_side(
-        &self,
-        form: &LinearForm,
-        wave: WaveIndex,
+    /// The echoes that a form names for the coefficient of `q^k`, with their coefficients.
+    #[expect(clippy::type_complexity, reason = "a private row of references")]
+    fn terms<'s>(
+        &'s self,
+        form: &'s FieldForm<F::Value>,
         k: usize,
-    ) -> Result<Transform, Unsolvable> {
-        let mut right = Transform::zero();
-        for (other, operator) in form.operators() {
-            let first = usize::from(other == wave);
-            for lag in first..operator.reach().min(k + 1) {
-                // A wave of a later step has coefficient zero at lag 0.
-                let Some(echo) = self.echoes[other].get(k - lag) else { continue };
-                if let Some(value) = operator.value().get(lag).filter(|value| !value.is_zero()) {
-                    right.add_scaled(echo, &-value);
-                }
-                if let Some(slope) = operator.slope().get(lag).filter(|slope| !slope.is_zero()) {
-                    right.add_scaled(&echo.derivative(), &-slope);
-                }
-            }
-        }
-        if let Some(function) = form.forcing_terms().get(k).filter(|f| !f.is_zero()) {
-            let statement = self.recurrence.statement();
-            let local = Fraction::symbol(&statement.local);
-            let function = function.substitute(&statement.time, &local)?;
-            let transform = Transform::of(&function, &statement.local);
-            right.add_scaled(&transform, &-&Expression::one());
-        }
-        Ok(right)
+    ) -> impl Iterator<Item = (&'s Transform<F::Value>, Option<&'s F::Value>, Option<&'s F::Value>)> + 's
+    {
+        form.terms.iter().filter_map(move |(wave, lag, value, slope)| {
+            let echo = self.echoes[*wave].get(k.checked_sub(*lag)?)?;
+            (!echo.is_zero()).then_some((echo, value.as_ref(), slope.as_ref()))
+        })
     }
+}
 
-    /// The jump of `wave` at the k-th arrival, from the continuous form, whose own jump is its
-    /// value at the start and nothing later.
-    fn jump(&self, start: &Start, wave: WaveIndex, k: usize) -> Result<Expression, Unsolvable> {
-        let mut jump = if k == 0 { start.initial.clone() } else { Expression::zero() };
-        for (other, operator) in start.continuous.operators() {
-            let first = usize::from(other == wave);
-            let values = operator.value().iter().enumerate().take(k + 1).skip(first);
-            for (lag, value) in values.filter(|(_, value)| !value.is_zero()) {
-                jump -= &(&self.echoes[other][k - lag].initial_value() * value);
+impl<V: Clone> FieldStep<V> {
+    fn of<F: Field<Value = V>>(
+        step: &Step,
+        recurrence: &Recurrence,
+        field: &F,
+    ) -> Result<FieldStep<V>, F::Error> {
+        let form = |form: &LinearForm| FieldForm::of(form, step.wave, recurrence, field);
+        let start = match &step.start {
+            None => None,
+            Some(start) => {
+                let initial = field.embed(&start.initial)?;
+                Some((-&start.rate, form(&start.continuous)?, initial))
+            }
+        };
+        Ok(FieldStep { wave: step.wave, equation: form(&step.equation)?, start })
+    }
+}
+
+impl<V: Clone> FieldForm<V> {
+    fn of<F: Field<Value = V>>(
+        form: &LinearForm,
+        own: WaveIndex,
+        recurrence: &Recurrence,
+        field: &F,
+    ) -> Result<FieldForm<V>, F::Error> {
+        let statement = recurrence.statement();
+        let coefficient = |row: &[Expression], lag: usize| {
+            let value = row.get(lag).filter(|value| !value.is_zero());
+            value.map(|value| field.embed(&-value)).transpose()
+        };
+        let mut terms = Vec::new();
+        for (wave, operator) in form.operators() {
+            for lag in usize::from(wave == own)..operator.reach() {
+                let value = coefficient(operator.value(), lag)?;
+                let slope = coefficient(operator.slope(), lag)?;
+                if value.is_some() || slope.is_some() {
+                    terms.push((wave, lag, value, slope));
+                }
             }
         }
-        if let Some(function) = start.continuous.forcing_terms().get(k) {
-            jump -= &function.at_zero(&self.recurrence.statement().time);
+        let mut forcing = Vec::new();
+        for function in form.forcing_terms() {
+            let local = Fraction::symbol(&statement.local);
+            let function = (-function).substitute(&statement.time, &local)?;
+            let exact = Transform::of(&function, &statement.local);
+            forcing.push(Transform::<V>::embedded(&exact, field)?);
         }
-        Ok(jump)
+        Ok(FieldForm { terms, forcing })
     }
 }

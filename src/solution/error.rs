@@ -1,6 +1,6 @@
 //! Why a wave cannot be given exactly.
 
-use crate::expression::{NotAUnit, NotInvertible};
+use crate::expression::{InexactDivision, NotAUnit, NotInvertible};
 use crate::recurrence::{Recurrence, WaveIndex};
 use std::fmt;
 use wavestep_polynomial::Polynomial;
@@ -40,6 +40,15 @@ pub(crate) fn check_degree(
     match recurrence.degree_estimate(order) <= u64::from(Polynomial::MAX_EXPONENT) {
         true => Ok(()),
         false => Err(SolveError::new(recurrence, wave, order, Unsolvable::DegreeTooHigh)),
+    }
+}
+
+impl From<InexactDivision> for Unsolvable {
+    fn from(reason: InexactDivision) -> Unsolvable {
+        match reason {
+            InexactDivision::NotInvertible(reason) => reason.into(),
+            InexactDivision::NotAUnit(reason) => reason.into(),
+        }
     }
 }
 

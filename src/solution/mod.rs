@@ -6,6 +6,7 @@
 //! speaks for both. [`GeneralForm`]
 //! holds what is known for every n at once. [`Solution`] puts them together.
 
+mod demand;
 mod echo;
 mod elimination;
 mod error;
@@ -17,6 +18,7 @@ mod solved;
 mod table;
 mod template;
 
+pub use demand::Demand;
 pub use echo::EchoByEcho;
 pub use error::{SolveError, Unsolvable};
 pub use general::{GeneralForm, Proof, Unknown};

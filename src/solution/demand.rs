@@ -1,0 +1,83 @@
+//! Which echoes are needed for what is asked: those that reach an observed wave in time, and no others.
+
+use crate::recurrence::{LinearForm, Recurrence, WaveIndex};
+
+/// A set of echoes, by wave and number: with an echo, all those that its equation names.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::solution::Demand;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let [f, g] = ["f", "g"].map(|name| recurrence.wave(name).unwrap());
+/// // g[n] = −f[n−1]: for the fourth echo of g three of f are needed, and with them three of g.
+/// let mut demand = Demand::none(&recurrence);
+/// demand.add(&recurrence, g, 3);
+/// assert!(demand.wants(f, 2) && !demand.wants(f, 3) && demand.wants(g, 3));
+/// assert_eq!((demand.last(), demand.count()), (Some(3), 7));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Demand {
+    /// `wanted[wave][k]`
+    wanted: Vec<Vec<bool>>,
+}
+
+impl Demand {
+    /// Nothing yet.
+    pub fn none(recurrence: &Recurrence) -> Demand {
+        Demand { wanted: vec![Vec::new(); recurrence.wave_count()] }
+    }
+
+    /// Adds the echo `k` of a wave, and all echoes that it needs.
+    ///
+    /// # Cost
+    /// A visit to each echo that is new, times the terms of its equation.
+    pub fn add(&mut self, recurrence: &Recurrence, wave: WaveIndex, k: usize) {
+        let mut open = vec![(wave, k)];
+        while let Some((wave, k)) = open.pop() {
+            let row = &mut self.wanted[wave];
+            if row.len() <= k {
+                row.resize(k + 1, false);
+            }
+            if std::mem::replace(&mut row[k], true) {
+                continue;
+            }
+            let step = recurrence.steps().iter().find(|step| step.wave == wave);
+            let step = step.expect("every wave has a step");
+            let continuous = step.start.as_ref().map(|start| &start.continuous);
+            for form in std::iter::once(&step.equation).chain(continuous) {
+                open.extend(named(form, k));
+            }
+        }
+    }
+
+    /// Whether an echo is needed.
+    pub fn wants(&self, wave: WaveIndex, k: usize) -> bool {
+        self.wanted[wave].get(k).copied().unwrap_or(false)
+    }
+
+    /// The largest number of an echo that is needed.
+    pub fn last(&self) -> Option<usize> {
+        self.wanted.iter().map(Vec::len).max().and_then(|length| length.checked_sub(1))
+    }
+
+    /// How many echoes are needed.
+    pub fn count(&self) -> usize {
+        self.wanted.iter().flatten().filter(|wanted| **wanted).count()
+    }
+}
+
+/// The echoes that a form names for the coefficient of `q^k`.
+fn named(form: &LinearForm, k: usize) -> impl Iterator<Item = (WaveIndex, usize)> + '_ {
+    form.operators().flat_map(move |(wave, operator)| {
+        let holds = move |lag: &usize| {
+            let at = |row: &[crate::expression::Expression]| {
+                row.get(*lag).is_some_and(|value| !value.is_zero())
+            };
+            at(operator.value()) || at(operator.slope())
+        };
+        (0..operator.reach().min(k + 1)).filter(holds).map(move |lag| (wave, k - lag))
+    })
+}
