@@ -165,6 +165,20 @@ impl Network {
         &self.observables
     }
 
+    /// The largest lag in each direction of the lattice.
+    pub(crate) fn largest_lags(&self) -> Vec<usize> {
+        let mut largest = vec![0_i64; self.lattice.periods().len()];
+        let moments =
+            self.loads.iter().flat_map(|(_, from, until)| std::iter::once(from).chain(until));
+        let all = self.round_trips.iter().flatten().chain(self.clocks.iter().flatten());
+        for counts in all.chain(moments) {
+            for (largest, count) in largest.iter_mut().zip(counts) {
+                *largest = (*largest).max(*count);
+            }
+        }
+        largest.into_iter().map(|lag| usize::try_from(lag).expect("not early")).collect()
+    }
+
     /// Whether constants act at a node from the start.
     pub(crate) fn has_clock(&self, node: usize) -> bool {
         self.clocks[node].is_some()

@@ -18,8 +18,10 @@ mod laws;
 mod layout;
 mod model;
 mod observe;
+mod unfold;
 
 pub use delay::Lattice;
 pub use equations::{Network, NetworkError, Role, WaveRole};
 pub use model::{Model, ModelBar, ModelLump, Scale};
 pub use observe::{EnergyTerm, Observed, ObservedValue, Window};
+pub use unfold::Unfolded;

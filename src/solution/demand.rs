@@ -35,6 +35,17 @@ impl Demand {
     /// # Cost
     /// A visit to each echo that is new, times the terms of its equation.
     pub fn add(&mut self, recurrence: &Recurrence, wave: WaveIndex, k: usize) {
+        self.add_where(recurrence, wave, k, |_| true);
+    }
+
+    /// Adds the echo `k` of a wave, and of the echoes that it needs those that exist.
+    pub(crate) fn add_where(
+        &mut self,
+        recurrence: &Recurrence,
+        wave: WaveIndex,
+        k: usize,
+        exists: impl Fn(usize) -> bool,
+    ) {
         let mut open = vec![(wave, k)];
         while let Some((wave, k)) = open.pop() {
             let row = &mut self.wanted[wave];
@@ -48,7 +59,7 @@ impl Demand {
             let step = step.expect("every wave has a step");
             let continuous = step.start.as_ref().map(|start| &start.continuous);
             for form in std::iter::once(&step.equation).chain(continuous) {
-                open.extend(named(form, k));
+                open.extend(named(form, k).filter(|(_, k)| exists(*k)));
             }
         }
     }

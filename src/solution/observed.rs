@@ -90,8 +90,8 @@ fn whole_periods(delay: &Fraction, period: &Fraction) -> Option<i64> {
 }
 
 /// A common offset, less than a period where that can be told, and the lag of each delay in
-/// periods from it.
-fn common_offset(delays: &[&Fraction], period: &Fraction) -> Option<(Fraction, Vec<usize>)> {
+/// periods from it. A lag is negative for a wave that is seen before its own clock says.
+fn common_offset(delays: &[&Fraction], period: &Fraction) -> Option<(Fraction, Vec<i64>)> {
     let Some(first) = delays.first() else { return Some((Fraction::zero(), Vec::new())) };
     let lags = delays.iter().map(|delay| whole_periods(&(*delay - first), period));
     let lags: Vec<i64> = lags.collect::<Option<_>>()?;
@@ -100,8 +100,7 @@ fn common_offset(delays: &[&Fraction], period: &Fraction) -> Option<(Fraction, V
     let ratio = Expression::from(offset.clone()).proportion(&period.clone().into());
     let before = ratio.and_then(|ratio| ratio.floor().to_integer().to_i64()).unwrap_or(0);
     offset = &offset - &period.scale(&Rational::from_integer(before.into()));
-    let lags = lags.iter().map(|lag| usize::try_from(lag - earliest + before).ok());
-    Some((offset, lags.collect::<Option<_>>()?))
+    Some((offset, lags.iter().map(|lag| lag - earliest + before).collect()))
 }
 
 impl Solution {
@@ -111,7 +110,7 @@ impl Solution {
         Some(self.offset_and_lags(observation)?.0)
     }
 
-    fn offset_and_lags(&self, observation: &Observation) -> Option<(Fraction, Vec<usize>)> {
+    fn offset_and_lags(&self, observation: &Observation) -> Option<(Fraction, Vec<i64>)> {
         let delays: Vec<&Fraction> = observation.waves.iter().map(|term| &term.delay).collect();
         let common = common_offset(&delays, &self.recurrence().statement().period);
         common.filter(|(offset, _)| observation.forcing.is_zero() || offset.is_zero())
@@ -137,12 +136,19 @@ impl Solution {
         let forced = !observation.forcing.is_zero();
         let mut pieces = vec![Expression::zero(); (last + 1).saturating_sub(first)];
         for (seen, lag) in observation.waves.iter().zip(lags) {
-            if lag > last {
-                continue;
+            let of_wave = |n: usize| usize::try_from(n as i64 - lag).ok();
+            let Some(through) = of_wave(last) else { continue };
+            if let Some(early) = of_wave(0).and_then(|n| n.checked_sub(1)) {
+                // What the wave was before the first period begins, which must be nothing.
+                let before = self.pieces(seen.wave, 0, early)?;
+                if before.iter().any(|piece| !piece.is_zero()) {
+                    return Err(ObserveError::MixedOffsets);
+                }
             }
-            let start = first.saturating_sub(lag);
-            let waves = self.pieces(seen.wave, start, last - lag)?;
-            for (n, mut piece) in (start + lag..).zip(waves) {
+            let start = of_wave(first).unwrap_or(0);
+            let waves = self.pieces(seen.wave, start, through)?;
+            let begins = (start as i64 + lag) as usize;
+            for (n, mut piece) in (begins..).zip(waves) {
                 if seen.slope {
                     piece = piece.derivative(&statement.local);
                 }
