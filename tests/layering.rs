@@ -17,7 +17,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
     ("solution", &["expression", "recurrence"]),
     ("evaluate", &["ball", "expression", "recurrence", "solution"]),
     ("export", &["expression", "recurrence", "solution"]),
-    ("language", &["expression", "recurrence"]),
+    ("language", &["expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
     ("scenes", &[]),
     (

@@ -1,5 +1,6 @@
 //! Lines to statements. A statement is one line and the lines after it that are indented deeper
-//! than the first statement of the text; blank lines and comments belong to whatever surrounds them.
+//! than the first statement of the text; a line that begins with `}` ends what the statement before
+//! it opened. Blank lines and comments belong to whatever surrounds them.
 
 use super::syntax::Span;
 
@@ -17,7 +18,9 @@ pub(super) fn statements(text: &str) -> Vec<Span> {
         if let Some((bytes, column)) = indentation(line) {
             let margin = *margin.get_or_insert(column);
             match found.last_mut() {
-                Some(statement) if column > margin => statement.end = line_end,
+                Some(statement) if column > margin || line[bytes..].starts_with('}') => {
+                    statement.end = line_end;
+                }
                 _ => found.push(Span::new(line_start + bytes, line_end)),
             }
         }
@@ -57,6 +60,12 @@ mod tests {
     #[test]
     fn deeper_lines_continue() {
         assert_eq!(pieces("a\n  b\n\n# c\n\td # e\nf\n"), ["a\n  b\n\n# c\n\td # e", "f"]);
+    }
+
+    #[test]
+    fn a_closing_brace_continues() {
+        assert_eq!(pieces("a {\n  b\n}\nc"), ["a {\n  b\n}", "c"]);
+        assert_eq!(pieces("}\na"), ["}", "a"]);
     }
 
     #[test]

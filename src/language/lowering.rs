@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 
 use wavestep_polynomial::{Rational, Symbol};
 
-use super::constant::constant;
 use super::diagnostic::Diagnostic;
-use super::scope::{Linear, Place, Reference, Scope, with_likely};
+use super::parameters;
+use super::scope::{Linear, Place, Reference, Scope};
 use super::source::Source;
 use super::syntax::{self, Span, Spanned, StatementKind};
 use super::written;
-use crate::expression::{Assumptions, Condition, Expression, Fraction, NotInvertible, Relation};
+use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::{
     Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation, ObservedWave, Part,
     Recurrence, SourceNotation, Statement,
@@ -103,57 +103,12 @@ impl<'a> Lowering<'a> {
     fn symbols(&mut self) -> Outcome<()> {
         for (statement, _) in self.statements() {
             let StatementKind::Symbols(symbols) = statement else { continue };
-            for syntax::Symbol { name, condition } in symbols {
-                self.declare(name)?;
-                let condition = match condition {
-                    None => None,
-                    Some(condition) => Some(Condition {
-                        relation: relation(condition.relation.value),
-                        bound: constant(&condition.bound, &self.scope.source).map_err(|error| {
-                            error.or_remedy(format!("write a bound such as `{} > 1/2`", name.value))
-                        })?,
-                    }),
-                };
-                let value = self.values.get(&name.value).cloned();
-                if let (Some(value), Some(condition)) = (&value, &condition)
-                    && !condition.holds(value)
-                {
-                    return Err(self.outside(name, value, condition));
-                }
-                if value.is_none() {
-                    self.scope.assumptions.declare_symbol(symbol(&name.value), condition);
-                }
-                self.scope.symbols.insert(name.value.clone(), value);
+            for symbol in symbols {
+                self.declare(&symbol.name)?;
+                parameters::declare(&mut self.scope, symbol, self.values)?;
             }
         }
-        match self.values.keys().find(|name| !self.scope.symbols.contains_key(*name)) {
-            None => Ok(()),
-            Some(unknown) => {
-                let names: Vec<String> = self.scope.symbols.keys().cloned().collect();
-                let choice = match &names[..] {
-                    [] => "this recurrence has no symbols".to_owned(),
-                    _ => format!("its symbols are {}", names.join(", ")),
-                };
-                let error = self.scope.error(
-                    format!("a value is given for `{unknown}`, which is no symbol here"),
-                    self.tree.title.span,
-                    "of this recurrence",
-                );
-                Err(with_likely(error, unknown, names.iter().map(String::as_str)).or_remedy(choice))
-            }
-        }
-    }
-
-    fn outside(
-        &self,
-        name: &Spanned<String>,
-        value: &Rational,
-        condition: &Condition,
-    ) -> Diagnostic {
-        let message = format!("{} = {value} is outside the range of the symbol", name.value);
-        self.scope
-            .error(message, name.span, "declared here")
-            .with_remedy(format!("give a value with {} {condition}", name.value))
+        parameters::all_known(&self.scope, self.values, "recurrence", self.tree.title.span)
     }
 
     fn waves(&mut self) -> Outcome<()> {
@@ -178,32 +133,13 @@ impl<'a> Lowering<'a> {
         Ok(())
     }
 
-    /// Factors that are stated to be non-zero. Where values given make one a number, it says
-    /// nothing: the answer is derived with the values in.
+    /// Factors that are stated to be non-zero.
     fn factors(&mut self) -> Outcome<()> {
         for (statement, _) in self.statements() {
             let StatementKind::Nonzero(tree) = statement else { continue };
-            let value = self.scope.lower_constant(tree, "a non-zero factor")?;
-            let polynomial = value.as_fraction().map(|fraction| fraction.numerator().clone());
-            let reciprocal = match &polynomial {
-                Some(p) if p.as_constant().is_some() && !self.values.is_empty() => continue,
-                Some(p) => Fraction::reciprocal(p).ok(),
-                None => None,
-            };
-            let Some(unit) = reciprocal else {
-                let (label, remedy) = match value.is_zero() {
-                    true => ("this is zero", "check its signs, or remove the statement"),
-                    false => (
-                        "not linear in any symbol",
-                        "declare factors that are linear in some symbol, one a statement",
-                    ),
-                };
-                return Err(self
-                    .scope
-                    .error("this cannot be declared non-zero", tree.span, label)
-                    .with_remedy(remedy));
-            };
-            self.scope.assumptions.declare_factors(&unit);
+            if let Some(unit) = parameters::nonzero(&self.scope, tree, self.values)? {
+                self.scope.assumptions.declare_factors(&unit);
+            }
         }
         Ok(())
     }
@@ -419,16 +355,6 @@ impl<'a> Lowering<'a> {
             }
         };
         self.scope.error(invalid.to_string(), span, label).with_remedy(remedy)
-    }
-}
-
-fn relation(relation: syntax::Relation) -> Relation {
-    match relation {
-        syntax::Relation::Greater => Relation::Greater,
-        syntax::Relation::GreaterOrEqual => Relation::AtLeast,
-        syntax::Relation::Less => Relation::Less,
-        syntax::Relation::LessOrEqual => Relation::AtMost,
-        syntax::Relation::NotEqual => Relation::Unequal,
     }
 }
 

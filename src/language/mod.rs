@@ -34,8 +34,10 @@ mod layout;
 mod lowering;
 mod name;
 mod number;
+mod parameters;
 mod parser;
 mod print;
+mod scene;
 mod scope;
 mod source;
 pub mod syntax;
@@ -47,6 +49,7 @@ use num_rational::BigRational;
 
 use crate::expression;
 use crate::recurrence;
+use crate::scene as physics;
 
 pub use constant::MAX_CONSTANT_BITS;
 pub use diagnostic::{Diagnostic, Label, Style, closest};
@@ -55,7 +58,7 @@ pub use number::MAX_DIGITS;
 pub use source::{MAX_SOURCE_BYTES, Source};
 pub use syntax::Span;
 
-use syntax::{Expression, Listing, Recurrence};
+use syntax::{Expression, Listing, Recurrence, Scene};
 
 /// How deep parentheses, arguments, unary minuses and exponents may nest, all together.
 ///
@@ -200,6 +203,98 @@ pub fn read_recurrence(
     values: &BTreeMap<String, BigRational>,
 ) -> Result<recurrence::Recurrence, Diagnostic> {
     lowering::recurrence(&parse_recurrence(source)?, values)
+}
+
+/// Reads a scene: a title, then statements in any order.
+///
+/// Whether names are declared, properties are complete, or units fit is not checked here.
+///
+/// # Errors
+/// As [`parse_recurrence`].
+///
+/// ```
+/// use wavestep::language::{Source, parse_scene};
+///
+/// let text = "scene \"Rod\"\nbar rod { impedance = 2·μ, travel = 3 }\nline free − rod - fixed\n";
+/// let scene = parse_scene(&Source::new("rod.wave", text)?)?;
+/// assert_eq!(scene.to_string(), text.replace('μ', "mu").replace('·', "*").replace('−', "-"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn parse_scene(source: &Source) -> Result<Scene, Diagnostic> {
+    parser::scene(source).map_err(|errors| errors.into_iter().next().expect("at least one error"))
+}
+
+/// Reads a scene and gives its names their meaning, with `values` in place of symbols from the
+/// start.
+///
+/// # Errors
+/// All independent mistakes that one reading finds, in the order of the text; at least one.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::language::{Source, read_scene};
+///
+/// let source = Source::new("strike.wave", r#"
+///     scene "A mass strikes a rod"
+///     mass ram { mass = 2 kg, velocity = 1 m/s }
+///     bar  rod { modulus = 210 GPa, density = 7850 kg/m^3, area = 4 cm^2, length = 3/2 m }
+///     line free - ram | rod - fixed
+///     observe F = force(rod.right)
+/// "#)?;
+/// let scene = read_scene(&source, &BTreeMap::new()).unwrap();
+/// assert_eq!((scene.elements[1].name.as_str(), scene.dimensional), ("rod", true));
+/// // A pressure is no mass, and metres are no seconds.
+/// let source = Source::new("wrong.wave", source.text().replace("2 kg", "2 Pa").replace("m/s", "m"))?;
+/// let errors = read_scene(&source, &BTreeMap::new()).unwrap_err();
+/// assert_eq!(errors[0].message(), "a mass is needed, kg; this is a pressure, Pa = N/m^2");
+/// assert_eq!(errors.len(), 2);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn read_scene(
+    source: &Source,
+    values: &BTreeMap<String, BigRational>,
+) -> Result<physics::Scene, Vec<Diagnostic>> {
+    scene::scene(&parser::scene(source)?, values)
+}
+
+/// What a text states.
+///
+/// ```
+/// use wavestep::language::{Kind, Source, kind};
+///
+/// let kind = |text| kind(&Source::new("text", text).unwrap());
+/// assert_eq!(kind("recurrence \"Two bars\""), Kind::Recurrence);
+/// assert_eq!(kind("# Two bars\nscene \"Two bars\""), Kind::Scene);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// The equations between the wave functions of successive periods.
+    Recurrence,
+    /// Bars and lumped elements on a line.
+    Scene,
+}
+
+/// What a text states, by its first word, so that it is read by [`read_recurrence`] or
+/// [`read_scene`]. A word that is misspelt, and a statement that stands where the title should, count
+/// for what they most resemble; whatever else is taken for a recurrence.
+///
+/// ```
+/// use wavestep::language::{Kind, Source, kind, parse_scene};
+///
+/// let source = Source::new("text", "scen \"Two bars\"")?;
+/// assert_eq!(kind(&source), Kind::Scene);
+/// assert_eq!(parse_scene(&source).unwrap_err().remedy(), Some("did you mean `scene`?"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[must_use]
+pub fn kind(source: &Source) -> Kind {
+    let Some(word) = parser::first_word(source) else { return Kind::Recurrence };
+    let [recurrence, scene] = parser::keywords();
+    let word = word.to_ascii_lowercase();
+    match closest(&word, recurrence.iter().chain(&scene).copied()) {
+        Some(found) if !recurrence.contains(&found) => Kind::Scene,
+        _ => Kind::Recurrence,
+    }
 }
 
 /// Reads a listing of formulas as exact expressions; every name is a symbol.

@@ -88,7 +88,7 @@ fn sum(terms: &[Term], f: &mut Formatter<'_>) -> fmt::Result {
     Ok(())
 }
 
-fn product(factors: &[Factor], f: &mut Formatter<'_>) -> fmt::Result {
+pub(super) fn product(factors: &[Factor], f: &mut Formatter<'_>) -> fmt::Result {
     for (position, Factor { operator, value }) in factors.iter().enumerate() {
         match (position, operator) {
             (0, Operator::Multiply) => {}
@@ -156,7 +156,7 @@ impl Display for Rewriting {
 }
 
 /// Things with commas between them.
-struct Listed<'a, T>(&'a [T]);
+pub(super) struct Listed<'a, T>(pub(super) &'a [T]);
 
 impl<T: Display> Display for Listed<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

@@ -24,7 +24,7 @@ const MAX_LAG: i64 = 1000;
 const MAX_EXPONENT: u32 = 1000;
 
 /// Functions that people write and that the language does not have.
-const FUNCTIONS: [&str; 10] =
+pub(super) const FUNCTIONS: [&str; 10] =
     ["sin", "cos", "tan", "sinh", "cosh", "tanh", "sqrt", "ln", "log", "abs"];
 
 /// The most terms that a sum, product or power in an expression may be worked out to.

@@ -8,6 +8,11 @@ use num_rational::BigRational;
 
 use super::source::Source;
 
+pub use super::scene::tree::{
+    Declaration, Declared, Line, ObservedPlace, ObservedTerm, Property, Scene, SceneStatement,
+    SceneStatementKind, Section, Unit, UnitFactor,
+};
+
 /// A half-open range of bytes in a [`Source`].
 ///
 /// ```

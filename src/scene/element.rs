@@ -40,6 +40,31 @@ pub struct Bar {
     pub strain: Fraction,
 }
 
+impl Bar {
+    /// Whether it goes on for ever.
+    ///
+    /// ```
+    /// use wavestep::expression::Fraction;
+    /// use wavestep::scene::{Bar, Body};
+    ///
+    /// let body = Body::Impedance { impedance: Fraction::one(), travel: Some(Fraction::one()) };
+    /// let bar = Bar { body, velocity: Fraction::zero(), strain: Fraction::zero() };
+    /// assert!(!bar.is_endless());
+    /// assert_eq!(bar.extent(), Some(&Fraction::one()));
+    /// ```
+    pub fn is_endless(&self) -> bool {
+        self.extent().is_none()
+    }
+
+    /// Its length, or its travel time where it is given by impedance; `None` for an endless bar.
+    pub fn extent(&self) -> Option<&Fraction> {
+        match &self.body {
+            Body::Impedance { travel, .. } => travel.as_ref(),
+            Body::Solid { length, .. } => length.as_ref(),
+        }
+    }
+}
+
 /// What a bar is made of.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Body {

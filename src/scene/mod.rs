@@ -3,8 +3,10 @@
 //!
 //! A [`Scene`] is what the language reads and what the network is built from.
 
+mod check;
 mod dimension;
 mod element;
+mod fault;
 mod observable;
 mod quantity;
 
@@ -13,8 +15,16 @@ use wavestep_polynomial::Symbol;
 
 pub use dimension::Dimension;
 pub use element::{Bar, Body, Drive, Element, ElementIndex, Kind, Load, Mass, Spring, Support};
+pub use fault::{Fault, Mistake, Part, Property};
 pub use observable::{Measure, Observable, Place, Position, Seen};
 pub use quantity::Quantity;
+
+/// The name of the number π in the expressions of a scene.
+///
+/// ```
+/// assert_eq!(wavestep::scene::PI, "pi");
+/// ```
+pub const PI: &str = "pi";
 
 /// A line of bars and lumped elements with what is known and observed of it.
 ///

@@ -1,6 +1,7 @@
 //! What is observed, and where.
 
 use crate::expression::Fraction;
+use crate::scene::dimension::Dimension;
 use crate::scene::element::ElementIndex;
 
 /// A named quantity to observe: a sum of measures.
@@ -44,6 +45,28 @@ pub enum Measure {
     Momentum,
 }
 
+impl Measure {
+    /// The dimension of what is measured.
+    ///
+    /// ```
+    /// use wavestep::scene::{Dimension, Measure};
+    ///
+    /// assert_eq!(Measure::Stress.dimension(), Dimension::PRESSURE);
+    /// assert_eq!(Measure::Compression.dimension(), Measure::Displacement.dimension());
+    /// ```
+    pub const fn dimension(self) -> Dimension {
+        match self {
+            Measure::Velocity => Dimension::VELOCITY,
+            Measure::Force => Dimension::FORCE,
+            Measure::Strain => Dimension::NONE,
+            Measure::Stress => Dimension::PRESSURE,
+            Measure::Displacement | Measure::Compression => Dimension::LENGTH,
+            Measure::Energy => Dimension::ENERGY,
+            Measure::Momentum => Dimension::MOMENTUM,
+        }
+    }
+}
+
 /// Where it is measured.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Place {
@@ -57,6 +80,25 @@ pub enum Place {
     Element(ElementIndex),
     /// The whole line.
     Line,
+}
+
+impl Place {
+    /// The element that it belongs to; `None` for the whole line.
+    ///
+    /// ```
+    /// use wavestep::scene::Place;
+    ///
+    /// assert_eq!((Place::Left(3).element(), Place::Line.element()), (Some(3), None));
+    /// ```
+    pub const fn element(&self) -> Option<ElementIndex> {
+        match self {
+            Place::Left(element)
+            | Place::Right(element)
+            | Place::At(element, _)
+            | Place::Element(element) => Some(*element),
+            Place::Line => None,
+        }
+    }
 }
 
 /// A section of a bar.

@@ -7,18 +7,18 @@ use super::super::syntax::{Expression, Name, Node, Span};
 use super::super::{MAX_DEPTH, MAX_INDEX};
 use super::expression::FOLLOWING;
 use super::lexical::{digits, next_word, skip_blank, token};
-use super::statement::{FORMS, SYMBOL_FORM};
-use super::{Context, Input, Problem, between, here};
+use super::statement::SYMBOL_FORM;
+use super::{Context, Extent, Input, Problem, between, here};
 
 use nom::Parser;
 
 type Refusal = nom::Err<Problem>;
 
-fn refuse(diagnostic: Diagnostic) -> Refusal {
+pub(super) fn refuse(diagnostic: Diagnostic) -> Refusal {
     nom::Err::Failure(Problem::Refused(diagnostic))
 }
 
-fn at(
+pub(super) fn at(
     input: Input<'_>,
     message: impl Into<String>,
     span: Span,
@@ -56,7 +56,7 @@ fn found(input: Input<'_>) -> Found {
     if let Some(word) = next_word(start) {
         let skipped = &input.fragment()[..between(input, start).end - input.location_offset()];
         let opens_line = skipped.contains('\n');
-        let is_keyword = FORMS.iter().any(|(keyword, _)| *keyword == word.value);
+        let is_keyword = input.extra.forms.iter().any(|(keyword, _)| *keyword == word.value);
         return Found {
             description: quoted(word.value),
             span: word.span,
@@ -161,7 +161,8 @@ pub(super) fn expected_end(input: Input<'_>) -> Refusal {
     }
     let next = skip_blank(input);
     let unit = input.extra.unit;
-    let one_equals = input.extra.form.is_none_or(|form| form.contains('='));
+    let one_equals =
+        !input.extra.is_scene() && input.extra.form.is_none_or(|form| form.contains('='));
     if next.fragment().starts_with('=') && one_equals {
         let diagnostic = at(input, "one `=` too many", found(input).span, "not expected here");
         return refuse(match input.extra.form {
@@ -220,11 +221,12 @@ fn expected_diagnostic(input: Input<'_>, what: &str, remedy: Option<String>) -> 
             "this line is indented deeper than the first statement, so it continues the line \
              before; remove the indentation to start a statement",
         ),
+        FoundKind::Character(found) if is_sign_of_scenes(input, found) => None,
         FoundKind::Character(found) => replacement(found),
         FoundKind::End | FoundKind::Word | FoundKind::Number => None,
     };
     let diagnostic = match kind {
-        FoundKind::Character(found) if is_foreign(found) => {
+        FoundKind::Character(found) if is_foreign(input, found) => {
             let message = format!("unexpected character {description}");
             at(input, message, span, format!("expected {what}"))
                 .with_remedy(better.unwrap_or(ALPHABET))
@@ -243,9 +245,13 @@ fn expected_diagnostic(input: Input<'_>, what: &str, remedy: Option<String>) -> 
 const ALPHABET: &str = "outside the title and comments, write ASCII and Greek letters, digits, `_` \
                         and the signs of arithmetic";
 
+fn is_sign_of_scenes(input: Input<'_>, character: char) -> bool {
+    input.extra.is_scene() && matches!(character, '{' | '}' | '|')
+}
+
 /// Whether a character stands nowhere in the language but in titles and comments.
-fn is_foreign(character: char) -> bool {
-    !"()[]+-−*·×⋅∗/^=<>≤≥!≠,.:'′’″\"".contains(character)
+fn is_foreign(input: Input<'_>, character: char) -> bool {
+    !is_sign_of_scenes(input, character) && !"()[]+-−*·×⋅∗/^=<>≤≥!≠,.:'′’″\"".contains(character)
 }
 
 /// An operand is missing.
@@ -293,6 +299,11 @@ pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Refusal
         );
     }
     let what = format!("an operator or `{closing}`");
+    let remedy = if next.kind == FoundKind::Word && input.extra.extent == Extent::Unit {
+        "a unit stands behind the whole value, and multiplication is always written".to_owned()
+    } else {
+        remedy
+    };
     refuse(expected_diagnostic(input, &what, Some(remedy)).with_secondary(opener, "opened here"))
 }
 
@@ -300,7 +311,7 @@ pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Refusal
 pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Refusal {
     const SHOWN: usize = 20;
     let next = found(input);
-    let Context { source, unit, form } = input.extra;
+    let Context { source, unit, form, .. } = input.extra;
     if next.kind == FoundKind::Keyword {
         return expected(input, "an operator or the end of the statement");
     }
@@ -505,16 +516,17 @@ pub(super) fn expected_title(input: Input<'_>) -> Refusal {
 pub(super) fn title_missing(input: Input<'_>, span: Span) -> Refusal {
     refuse(
         at(input, "the text does not begin with its title", span, "the first statement")
-            .with_remedy("put a first line before it: `recurrence \"Title\"`"),
+            .with_remedy(format!("put a first line before it: `{}`", input.extra.forms[0].1)),
     )
 }
 
-/// A second `recurrence`.
+/// A second `recurrence` or `scene`.
 pub(super) fn second_title(input: Input<'_>, span: Span, first: Span) -> Refusal {
+    let whole = input.extra.forms[0].0;
     refuse(
-        at(input, "a second title", span, "another recurrence begins here")
+        at(input, "a second title", span, format!("another {whole} begins here"))
             .with_secondary(first, "the first title")
-            .with_remedy("a text holds one recurrence; put the other into a file of its own"),
+            .with_remedy(format!("a text holds one {whole}; put the other into a file of its own")),
     )
 }
 
@@ -522,11 +534,11 @@ pub(super) fn second_title(input: Input<'_>, span: Span, first: Span) -> Refusal
 pub(super) fn no_keyword(input: Input<'_>) -> Refusal {
     let Found { description, span, kind } = found(input);
     let remedy = match kind {
-        FoundKind::Character(found) if !is_foreign(found) => {
+        FoundKind::Character(found) if !is_foreign(input, found) => {
             "to continue the line before, indent this one deeper than the first statement"
                 .to_owned()
         }
-        _ => keywords(),
+        _ => keywords(input),
     };
     let message = format!("a statement cannot begin with {description}");
     refuse(at(input, message, span, "expected a statement").with_remedy(remedy))
@@ -538,18 +550,23 @@ pub(super) fn unknown_keyword(input: Input<'_>, word: &str, span: Span) -> Refus
         at(input, format!("no statement begins with {}", quoted(word)), span, "unknown statement");
     let after = input.fragment()[span.end - input.location_offset()..].trim_start();
     let lower = word.to_ascii_lowercase();
-    let remedy = if let Some(keyword) = closest(&lower, FORMS.map(|(keyword, _)| keyword)) {
+    let remedy = if let Some(keyword) =
+        closest(&lower, input.extra.forms.iter().map(|(keyword, _)| *keyword))
+    {
         format!("did you mean `{keyword}`?")
-    } else if after.starts_with(['[', '\'', '(', '=', '+', '-', '*', '/']) {
+    } else if !input.extra.is_scene()
+        && after.starts_with(['[', '\'', '(', '=', '+', '-', '*', '/'])
+    {
         format!("an equation begins with `equation`: write `equation {word}…`")
     } else {
-        keywords()
+        keywords(input)
     };
     refuse(diagnostic.with_remedy(remedy))
 }
 
-fn keywords() -> String {
-    let words = FORMS.map(|(keyword, _)| format!("`{keyword}`"));
+fn keywords(input: Input<'_>) -> String {
+    let words: Vec<String> =
+        input.extra.forms.iter().map(|(keyword, _)| format!("`{keyword}`")).collect();
     format!("statements begin with one of {}", words.join(", "))
 }
 
@@ -562,4 +579,162 @@ pub(super) fn no_statement(source: &Source, form: &str) -> Diagnostic {
 /// A failure that no parser explained.
 pub(super) fn incomprehensible(source: &Source, span: Span) -> Diagnostic {
     Diagnostic::new(source, "the text cannot be read from here on", span, "not understood")
+}
+
+/// What follows a property is neither another nor the end of them.
+pub(super) fn open_brace(input: Input<'_>, opener: Span, what: &str) -> Refusal {
+    let next = found(input);
+    if matches!(next.kind, FoundKind::End | FoundKind::Keyword) {
+        return refuse(
+            at(input, "`{` is never closed", opener, "opened here")
+                .with_secondary(here(input), format!("`}}` expected before {}", next.description))
+                .with_remedy("add the missing `}`; lines between braces are indented"),
+        );
+    }
+    let diagnostic = expected_diagnostic(input, what, form_remedy(input));
+    refuse(diagnostic.with_secondary(opener, "the properties open here"))
+}
+
+/// A property directly after another.
+pub(super) fn missing_comma(input: Input<'_>) -> Refusal {
+    const COMMA: &str = "separate properties by commas, also at the ends of lines";
+    refuse(expected_diagnostic(input, "`,` or a unit", Some(COMMA.to_owned())))
+}
+
+/// `2 m + 3 mm`
+pub(super) fn sum_of_units(input: Input<'_>, sign: Span, unit: Span) -> Refusal {
+    refuse(
+        at(input, "a value has one unit, at its end", sign, "not expected here")
+            .with_secondary(unit, "the unit ends the value")
+            .with_remedy("work the value out in one unit: `2 + 3/1000 m`"),
+    )
+}
+
+/// `N/2`
+pub(super) fn expected_unit(input: Input<'_>) -> Refusal {
+    const FORM: &str = "numbers stand before the unit: `3/2 m`, `7850 kg/m^3`";
+    refuse(expected_diagnostic(input, "the name of a unit", Some(FORM.to_owned())))
+}
+
+/// A power of a unit that is no small whole number.
+pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Refusal {
+    let start = skip_blank(from);
+    let end = to.location_offset().max(start.location_offset());
+    refuse(
+        at(
+            from,
+            "the power of a unit is a small whole number",
+            Span::new(start.location_offset(), end),
+            "not a whole number from -9 to 9",
+        )
+        .with_remedy("write it like `m^3`, `s^-1` or `m³`"),
+    )
+}
+
+/// A line that does not say what is at an end.
+pub(super) fn expected_end_of_line(input: Input<'_>, side: &str) -> Refusal {
+    let remedy = match next_word(input) {
+        Some(word) => closest(word.value, ["free", "fixed", "endless"])
+            .map(|end| format!("did you mean `{end}`?")),
+        None => None,
+    };
+    let form = "a line goes from end to end: `line free - rod - fixed`";
+    let what = format!("what is at the {side} end: `free`, `fixed` or `endless`");
+    refuse(expected_diagnostic(input, &what, Some(remedy.unwrap_or_else(|| form.to_owned()))))
+}
+
+/// `line free - fixed`
+pub(super) fn empty_line(input: Input<'_>, left: Span, right: Span) -> Refusal {
+    refuse(
+        at(input, "the line holds no element", right, "the right end")
+            .with_secondary(left, "the left end")
+            .with_remedy("name elements between the ends: `line free - rod - fixed`"),
+    )
+}
+
+/// `force(a)*velocity(a)`
+pub(super) fn two_measures(input: Input<'_>, span: Span, first: Span) -> Refusal {
+    refuse(
+        at(input, "a product of measures cannot be observed", span, "times this")
+            .with_secondary(first, "a measure")
+            .with_remedy("observe both, each by a statement of its own, or add them"),
+    )
+}
+
+/// `1/force(a)`
+pub(super) fn divided_by_measure(input: Input<'_>, span: Span) -> Refusal {
+    refuse(
+        at(input, "a measure cannot be divided by", span, "divided by here")
+            .with_remedy("observe a sum of measures, each with a factor: `2*force(rod.left)`"),
+    )
+}
+
+/// `observe x = 3`
+pub(super) fn nothing_measured(input: Input<'_>, span: Span) -> Refusal {
+    refuse(at(input, "this measures nothing", span, "no measure in here").with_remedy(
+        "each term holds a measure at a place, such as `velocity(ram)` or \
+             `2*force(rod.left)`",
+    ))
+}
+
+/// `observe v = velocity`
+pub(super) fn measure_alone(input: Input<'_>, word: &str, span: Span) -> Refusal {
+    refuse(
+        at(input, format!("`{word}` needs a place in parentheses"), span, "of what, and where?")
+            .with_remedy(format!("write it like `{word}(rod.left)` or `{word}(ram)`")),
+    )
+}
+
+/// `observe v = rod.left`
+pub(super) fn place_alone(input: Input<'_>, word: &str, span: Span) -> Refusal {
+    refuse(
+        at(input, "a place alone is no quantity", span, "what is measured here?")
+            .with_remedy(format!("name what is measured: `velocity({word}.left)`")),
+    )
+}
+
+/// `speed(ram)`
+pub(super) fn unknown_measure(
+    input: Input<'_>,
+    word: &str,
+    span: Span,
+    words: &[&'static str],
+) -> Refusal {
+    let known: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    refuse(
+        at(input, format!("{} cannot be measured", quoted(word)), span, "no measure")
+            .with_closest(word, words.iter().copied())
+            .or_remedy(format!("what can be measured: {}", known.join(", "))),
+    )
+}
+
+/// `(force(a) - force(b))/2`
+pub(super) fn grouped_measures(input: Input<'_>, span: Span) -> Refusal {
+    refuse(
+        at(input, "measures cannot stand in parentheses", span, "opens around a measure")
+            .with_remedy("multiply out: `force(a.left)/2 - force(b.left)/2`"),
+    )
+}
+
+/// The parenthesis of a place is not closed.
+pub(super) fn unclosed_place(input: Input<'_>, opener: Span) -> Refusal {
+    if found(input).kind == FoundKind::End {
+        return unclosed(input, opener, ")");
+    }
+    const FORM: &str = "a place is an element or a section of a bar: `ram`, `rod.left`, \
+                        `rod.at(1/2)`, `line`";
+    refuse(
+        expected_diagnostic(input, "`)`", Some(FORM.to_owned()))
+            .with_secondary(opener, "opened here"),
+    )
+}
+
+/// `rod.middle`
+pub(super) fn expected_section(input: Input<'_>, element: &str) -> Refusal {
+    let remedy = next_word(input).and_then(|word| closest(word.value, ["left", "right", "at"]));
+    let remedy = match remedy {
+        Some(word) => format!("did you mean `{word}`?"),
+        None => format!("write `{element}.left`, `{element}.right` or `{element}.at(1/2)`"),
+    };
+    refuse(expected_diagnostic(input, "`left`, `right` or `at(…)`", Some(remedy)))
 }

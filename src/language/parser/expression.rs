@@ -17,7 +17,7 @@ use super::lexical::{
     additive, demand_name, digits, literal, multiplicative, next_word, prime, skip_blank, symbol,
     token, word,
 };
-use super::{Input, Parsed, between, complaint};
+use super::{Extent, Input, Parsed, between, complaint};
 
 /// Words that follow an expression in a statement, and so end it.
 pub(super) const FOLLOWING: [&str; 3] = ["starts", "local", "time"];
@@ -213,8 +213,13 @@ fn join<'a>(rest: Input<'a>, unfinished: &mut Unfinished, value: Expression) -> 
         return Ok((rest, Joined::Operand));
     }
     unfinished.depth -= unfinished.level.prefixes.len();
+    let one_factor = rest.extra.extent == Extent::Factor && unfinished.outer.is_empty();
     let level = &mut unfinished.level;
     let value = level.apply_prefixes(value);
+    if one_factor {
+        refuse_neighbour(&value, rest)?;
+        return Ok((rest, Joined::Complete(value)));
+    }
     if let (rest, Some(operator)) = opt(token(multiplicative)).parse(rest)? {
         level.push_factor(value, Some(operator.value));
         return Ok((rest, Joined::Operand));
@@ -269,9 +274,10 @@ fn refuse_neighbour<'a>(left: &Expression, rest: Input<'a>) -> Parsed<'a, ()> {
     let starts_factor = match start.fragment().chars().next() {
         Some('(') => true,
         Some('.') => start.fragment()[1..].starts_with(|next: char| next.is_ascii_digit()),
-        Some(next) if name::is_letter(next) => {
-            !next_word(start).is_some_and(|word| FOLLOWING.contains(&word.value))
-        }
+        Some(next) if name::is_letter(next) => !next_word(start).is_some_and(|word| {
+            let applied = || rest.extra.source.text()[word.span.end..].starts_with('(');
+            FOLLOWING.contains(&word.value) || rest.extra.extent == Extent::Unit && !applied()
+        }),
         Some(next) => next.is_ascii_digit(),
         None => false,
     };

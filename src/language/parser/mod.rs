@@ -7,6 +7,7 @@
 mod complaint;
 mod expression;
 mod lexical;
+mod scene;
 mod statement;
 
 use nom::error::{ErrorKind, ParseError};
@@ -16,7 +17,7 @@ use nom_locate::LocatedSpan;
 use super::diagnostic::Diagnostic;
 use super::layout;
 use super::source::Source;
-use super::syntax::{Expression, Listing, Recurrence, Span, Spanned};
+use super::syntax::{Expression, Listing, Recurrence, Scene, Span, Spanned};
 
 /// The rest of a text, aware of its place in the whole.
 type Input<'a> = LocatedSpan<&'a str, Context<'a>>;
@@ -31,6 +32,28 @@ struct Context<'a> {
     unit: &'static str,
     /// How the whole unit is written, for a remedy.
     form: Option<&'static str>,
+    /// The words that begin statements, the title's first, and how each statement is written.
+    forms: &'static [(&'static str, &'static str)],
+    /// How far an expression goes.
+    extent: Extent,
+}
+
+impl Context<'_> {
+    /// Whether the text is a scene, in which braces and bars are signs.
+    fn is_scene(&self) -> bool {
+        self.forms[0].0 == scene::FORMS[0].0
+    }
+}
+
+/// Where an expression ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    /// Where it cannot go on; a word after it is a mistake.
+    Whole,
+    /// Also before a word, which is the unit of the whole.
+    Unit,
+    /// After one factor.
+    Factor,
 }
 
 /// Why a parser failed.
@@ -81,7 +104,9 @@ fn finish<T>(source: &Source, parsed: Parsed<'_, T>) -> Result<T, Diagnostic> {
 }
 
 fn whole<'a>(source: &'a Source, unit: &'static str) -> Input<'a> {
-    Input::new_extra(source.text(), Context { source, unit, form: None })
+    let (form, forms) = (None, &statement::FORMS[..]);
+    let context = Context { source, unit, form, forms, extent: Extent::Whole };
+    Input::new_extra(source.text(), context)
 }
 
 /// The statements of a text, one input each.
@@ -106,6 +131,47 @@ pub(super) fn recurrence(source: &Source) -> Result<Recurrence, Diagnostic> {
         .map(|input| finish(source, statement::statement(input, &title)))
         .collect::<Result<_, _>>()?;
     Ok(Recurrence { source: source.clone(), title, statements })
+}
+
+/// See [`parse_scene`](super::parse_scene); all statements that are wrong, in their order.
+pub(super) fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
+    let mut inputs = statements(source).map(|mut input| {
+        input.extra.forms = &scene::FORMS;
+        input
+    });
+    let Some(first) = inputs.next() else {
+        return Err(vec![complaint::no_statement(source, "scene \"Title\"")]);
+    };
+    let title = finish(source, statement::title(first)).map_err(|error| vec![error])?;
+    let (mut statements, mut errors) = (Vec::new(), Vec::new());
+    for input in inputs {
+        match finish(source, scene::statement(input, &title)) {
+            Ok(statement) => statements.push(statement),
+            Err(error) => errors.push(error),
+        }
+        // What follows an open brace was probably meant to stand between braces.
+        if !errors.is_empty() && scene::leaves_brace_open(input) {
+            break;
+        }
+    }
+    if errors.is_empty() {
+        Ok(Scene { source: source.clone(), title, statements })
+    } else {
+        Err(errors)
+    }
+}
+
+/// The first word of a text, if it begins with one.
+pub(super) fn first_word(source: &Source) -> Option<&str> {
+    let first = statements(source).next()?;
+    let word = lexical::next_word(first)?;
+    Some(source.slice(word.span))
+}
+
+/// The words that begin statements of recurrences and of scenes.
+pub(super) fn keywords() -> [Vec<&'static str>; 2] {
+    let words = |forms: &[(&'static str, _)]| forms.iter().map(|(word, _)| *word).collect();
+    [words(&statement::FORMS), words(&scene::FORMS)]
 }
 
 /// See [`parse_listing`](super::parse_listing).

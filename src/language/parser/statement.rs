@@ -32,11 +32,11 @@ pub(super) const FORMS: [(&str, &str); 9] = [
 ];
 
 /// The first word of a statement, and the input after it, which from now on knows its form.
-fn opening(input: Input<'_>) -> Parsed<'_, Spanned<&'static str>> {
+pub(super) fn opening(input: Input<'_>) -> Parsed<'_, Spanned<&'static str>> {
     let Ok((mut rest, found)) = token(word).parse(input) else {
         return Err(complaint::no_keyword(input));
     };
-    match FORMS.iter().find(|(keyword, _)| *keyword == found.value) {
+    match input.extra.forms.iter().find(|(keyword, _)| *keyword == found.value) {
         Some(&(keyword, form)) => {
             rest.extra.form = Some(form);
             Ok((rest, Spanned::new(keyword, found.span)))
@@ -45,10 +45,10 @@ fn opening(input: Input<'_>) -> Parsed<'_, Spanned<&'static str>> {
     }
 }
 
-/// `recurrence "…"`, with which every recurrence begins.
+/// `recurrence "…"` or `scene "…"`, with which every text of statements begins.
 pub(super) fn title(input: Input<'_>) -> Parsed<'_, Spanned<String>> {
     let (rest, opening) = opening(input)?;
-    if opening.value != "recurrence" {
+    if opening.value != input.extra.forms[0].0 {
         return Err(complaint::title_missing(input, opening.span));
     }
     let (rest, Some(title)) = opt(string).parse(rest)? else {
@@ -106,7 +106,7 @@ pub(super) fn statement<'a>(input: Input<'a>, title: &Spanned<String>) -> Parsed
 }
 
 /// `item { "," item }`
-fn listed<'a, T>(
+pub(super) fn listed<'a, T>(
     input: Input<'a>,
     item: impl Fn(Input<'a>) -> Parsed<'a, T>,
 ) -> Parsed<'a, Vec<T>> {
@@ -121,7 +121,7 @@ fn listed<'a, T>(
 }
 
 /// `mu`, `mu > 0`
-fn parameter(input: Input<'_>) -> Parsed<'_, Symbol> {
+pub(super) fn parameter(input: Input<'_>) -> Parsed<'_, Symbol> {
     let (rest, name) = demand_name("the name of a symbol", input)?;
     let (rest, condition) = match opt(token(relation)).parse(rest)? {
         (rest, None) => (rest, None),

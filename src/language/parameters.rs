@@ -1,0 +1,122 @@
+//! Parameters, which recurrences and scenes declare alike: symbols with conditions, values given for
+//! them, and factors that are not zero.
+
+use std::collections::BTreeMap;
+
+use wavestep_polynomial::{Rational, Symbol};
+
+use super::constant::constant;
+use super::diagnostic::Diagnostic;
+use super::scope::{Scope, with_likely};
+use super::syntax::{self, Expression, Name, Span};
+use crate::expression::{Condition, Fraction, Relation};
+
+type Outcome<T> = Result<T, Diagnostic>;
+
+/// Declares a symbol in the scope, with the value given for it. It is known afterwards even if it
+/// is refused, so that its uses are not refused too.
+///
+/// # Errors
+/// A bound that is no number, and a value outside the range of the symbol.
+pub(super) fn declare(
+    scope: &mut Scope,
+    symbol: &syntax::Symbol,
+    values: &BTreeMap<String, Rational>,
+) -> Outcome<()> {
+    let syntax::Symbol { name, condition } = symbol;
+    let value = values.get(&name.value).cloned();
+    scope.symbols.insert(name.value.clone(), value.clone());
+    let condition = match condition {
+        None => None,
+        Some(condition) => Some(Condition {
+            relation: relation(condition.relation.value),
+            bound: constant(&condition.bound, &scope.source).map_err(|error| {
+                error.or_remedy(format!("write a bound such as `{} > 1/2`", name.value))
+            })?,
+        }),
+    };
+    match (value, condition) {
+        (Some(value), Some(condition)) if !condition.holds(&value) => {
+            Err(outside(scope, name, &value, &condition))
+        }
+        (Some(_), _) => Ok(()),
+        (None, condition) => {
+            let symbol = Symbol::new(&name.value).expect("names of the language name symbols");
+            scope.assumptions.declare_symbol(symbol, condition);
+            Ok(())
+        }
+    }
+}
+
+fn outside(scope: &Scope, name: &Name, value: &Rational, condition: &Condition) -> Diagnostic {
+    let message = format!("{} = {value} is outside the range of the symbol", name.value);
+    scope
+        .error(message, name.span, "declared here")
+        .with_remedy(format!("give a value with {} {condition}", name.value))
+}
+
+/// Checks that all values are given for symbols of the scope; `whole` is what the text states.
+///
+/// # Errors
+/// The first value for what is no symbol.
+pub(super) fn all_known(
+    scope: &Scope,
+    values: &BTreeMap<String, Rational>,
+    whole: &str,
+    title: Span,
+) -> Outcome<()> {
+    let Some(unknown) = values.keys().find(|name| !scope.symbols.contains_key(*name)) else {
+        return Ok(());
+    };
+    let names: Vec<String> = scope.symbols.keys().cloned().collect();
+    let choice = match &names[..] {
+        [] => format!("this {whole} has no symbols"),
+        _ => format!("its symbols are {}", names.join(", ")),
+    };
+    let error = scope.error(
+        format!("a value is given for `{unknown}`, which is no symbol here"),
+        title,
+        format!("of this {whole}"),
+    );
+    Err(with_likely(error, unknown, names.iter().map(String::as_str)).or_remedy(choice))
+}
+
+/// The reciprocal of a factor that is stated to be non-zero. Where values given make it a number,
+/// it says nothing: the answer is derived with the values in.
+///
+/// # Errors
+/// A factor that is zero, or not linear in any symbol.
+pub(super) fn nonzero(
+    scope: &Scope,
+    tree: &Expression,
+    values: &BTreeMap<String, Rational>,
+) -> Outcome<Option<Fraction>> {
+    let value = scope.lower_constant(tree, "a non-zero factor")?;
+    let polynomial = value.as_fraction().map(|fraction| fraction.numerator().clone());
+    let reciprocal = match &polynomial {
+        Some(p) if p.as_constant().is_some() && !values.is_empty() => return Ok(None),
+        Some(p) => Fraction::reciprocal(p).ok(),
+        None => None,
+    };
+    if reciprocal.is_some() {
+        return Ok(reciprocal);
+    }
+    let (label, remedy) = match value.is_zero() {
+        true => ("this is zero", "check its signs, or remove the statement"),
+        false => (
+            "not linear in any symbol",
+            "declare factors that are linear in some symbol, one a statement",
+        ),
+    };
+    Err(scope.error("this cannot be declared non-zero", tree.span, label).with_remedy(remedy))
+}
+
+fn relation(relation: syntax::Relation) -> Relation {
+    match relation {
+        syntax::Relation::Greater => Relation::Greater,
+        syntax::Relation::GreaterOrEqual => Relation::AtLeast,
+        syntax::Relation::Less => Relation::Less,
+        syntax::Relation::LessOrEqual => Relation::AtMost,
+        syntax::Relation::NotEqual => Relation::Unequal,
+    }
+}

@@ -1,0 +1,425 @@
+//! Materials and elements from their properties.
+
+use std::collections::BTreeMap;
+
+use super::tree::{Declaration, Declared, Property, SceneStatementKind};
+use super::{Lowering, Meaning, Outcome};
+use crate::expression::Fraction;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::scope::with_likely;
+use crate::language::syntax::{Node, Span};
+use crate::scene::{Bar, Body, Dimension, Drive, Kind, Load, Mass, PI, Spring, Support};
+use wavestep_polynomial::Rational;
+
+/// What a bar can be made of.
+#[derive(Clone)]
+pub(super) struct Material {
+    modulus: Fraction,
+    density: Fraction,
+}
+
+/// A property that may be given, what it is in errors, and what it measures.
+type Form = (&'static str, &'static str, Dimension);
+
+const MODULUS: Form = ("modulus", "a modulus", Dimension::PRESSURE);
+const DENSITY: Form = ("density", "a density", Dimension::DENSITY);
+const WAVE_SPEED: Form = ("wave_speed", "a wave speed", Dimension::VELOCITY);
+const IMPEDANCE: Form = ("impedance", "an impedance", Dimension::IMPEDANCE);
+const TRAVEL: Form = ("travel", "a travel time", Dimension::TIME);
+const DIAMETER: Form = ("diameter", "a diameter", Dimension::LENGTH);
+const INNER_DIAMETER: Form = ("inner_diameter", "an inner diameter", Dimension::LENGTH);
+const AREA: Form = ("area", "an area", Dimension::AREA);
+const LENGTH: Form = ("length", "a length", Dimension::LENGTH);
+const VELOCITY: Form = ("velocity", "a velocity", Dimension::VELOCITY);
+const STRAIN: Form = ("strain", "a strain", Dimension::NONE);
+const MASS: Form = ("mass", "a mass", Dimension::MASS);
+const STIFFNESS: Form = ("stiffness", "a stiffness", Dimension::STIFFNESS);
+const DAMPING: Form = ("damping", "a damping", Dimension::IMPEDANCE);
+const FORCE: Form = ("force", "a force", Dimension::FORCE);
+const FROM: Form = ("from", "a time", Dimension::TIME);
+const UNTIL: Form = ("until", "a time", Dimension::TIME);
+/// A name, not a quantity.
+const MATERIAL: &str = "material";
+
+/// The properties that a declaration may give.
+fn known(kind: Declared) -> &'static [&'static str] {
+    match kind {
+        Declared::Material => &["modulus", "density", "wave_speed"],
+        Declared::Bar => &[
+            "material",
+            "diameter",
+            "length",
+            "velocity",
+            "strain",
+            "area",
+            "inner_diameter",
+            "modulus",
+            "density",
+            "wave_speed",
+            "impedance",
+            "travel",
+        ],
+        Declared::Mass => &["mass", "velocity"],
+        Declared::Spring | Declared::Support => &["stiffness", "damping"],
+        Declared::Load => &["force", "velocity", "from", "until"],
+    }
+}
+
+/// The properties of one declaration, each known and given once.
+struct Given<'a>(&'a Declaration, BTreeMap<&'a str, &'a Property>);
+
+impl<'a> Given<'a> {
+    fn get(&self, name: &str) -> Option<&'a Property> {
+        self.1.get(name).copied()
+    }
+
+    fn span(&self) -> Span {
+        self.0.name.span
+    }
+}
+
+impl<'a> Lowering<'a> {
+    /// Materials first, then elements.
+    pub(super) fn properties(&mut self) {
+        for statement in self.statements() {
+            let SceneStatementKind::Declaration(declaration) = statement else { continue };
+            if declaration.kind == Declared::Material {
+                let material = self.given(declaration).and_then(|given| self.stuff(&given));
+                self.materials.entry(declaration.name.value.clone()).or_insert(material);
+            }
+        }
+        for index in 0..self.elements.len() {
+            let declaration = self.elements[index].declaration;
+            let Some(given) = self.given(declaration) else { continue };
+            let kind = match declaration.kind {
+                Declared::Bar => self.bar(&given).map(Kind::Bar),
+                Declared::Mass => self.mass(&given).map(Kind::Mass),
+                Declared::Spring => self
+                    .link(&given)
+                    .map(|(stiffness, damping)| Kind::Spring(Spring { stiffness, damping })),
+                Declared::Support => self
+                    .link(&given)
+                    .map(|(stiffness, damping)| Kind::Support(Support { stiffness, damping })),
+                Declared::Load => self.load(&given).map(Kind::Load),
+                Declared::Material => None,
+            };
+            self.elements[index].kind = kind;
+        }
+    }
+
+    /// The properties of a declaration. Those that are unknown or given twice are refused.
+    fn given(&mut self, declaration: &'a Declaration) -> Option<Given<'a>> {
+        let kind = declaration.kind;
+        let mut found = BTreeMap::<&str, &Property>::new();
+        let mut is_whole = true;
+        for property in &declaration.properties {
+            let name = property.name.value.as_str();
+            let error = if !known(kind).contains(&name) {
+                let message = format!("a {kind} has no property `{name}`");
+                let error = self.scope.error(message, property.name.span, "unknown property");
+                let names = known(kind).iter().copied();
+                let listed = known(kind).join("`, `");
+                with_likely(error, name, names).or_remedy(format!("its properties are `{listed}`"))
+            } else if let Some(first) = found.get(name) {
+                let message = format!("`{name}` is given twice");
+                let error = self.scope.error(message, property.name.span, "again here");
+                error
+                    .with_secondary(first.name.span, "first given here")
+                    .with_remedy("remove one of the two")
+            } else {
+                found.insert(name, property);
+                continue;
+            };
+            is_whole = false;
+            self.errors.push(error);
+        }
+        is_whole.then_some(Given(declaration, found))
+    }
+
+    /// A property that may be left out: `Err` if it is wrong.
+    fn optional(&mut self, given: &Given<'_>, form: Form) -> Result<Option<Fraction>, ()> {
+        let Some(property) = given.get(form.0) else { return Ok(None) };
+        let outcome = self.value(property, form);
+        self.keep(outcome).map(Some).ok_or(())
+    }
+
+    fn value(&self, property: &Property, (_, what, needed): Form) -> Outcome<Fraction> {
+        self.quantity(&property.value, property.unit.as_ref(), needed, what)
+    }
+
+    /// A property that is zero if it is left out.
+    fn or_zero(&mut self, given: &Given<'_>, form: Form) -> Option<Fraction> {
+        self.optional(given, form).ok().map(|value| value.unwrap_or_else(Fraction::zero))
+    }
+
+    /// A property that must be given.
+    fn demanded(&mut self, given: &Given<'_>, form: Form, example: &str) -> Option<Fraction> {
+        match self.optional(given, form) {
+            Ok(Some(value)) => Some(value),
+            Ok(None) => {
+                let (name, kind) = (form.0, given.0.kind);
+                self.lack(given, format!("this {kind} has no {name}"), example);
+                None
+            }
+            Err(()) => None,
+        }
+    }
+
+    /// Something is not given.
+    fn lack(&mut self, given: &Given<'_>, message: String, example: &str) {
+        let example = match self.unit {
+            Some(_) => example.to_owned(),
+            None => without_unit(example),
+        };
+        let error = self
+            .scope
+            .error(message, given.span(), "incomplete")
+            .with_remedy(format!("give it, as in `{example}`"));
+        self.errors.push(error);
+    }
+
+    /// Two properties say the same in different ways.
+    fn refuse_both(&mut self, given: &Given<'_>, one: &str, other: &str) -> Option<()> {
+        let (Some(first), Some(second)) = (given.get(one), given.get(other)) else {
+            return Some(());
+        };
+        let (first, second) = match first.name.span.start < second.name.span.start {
+            true => (first, second),
+            false => (second, first),
+        };
+        let message =
+            format!("`{}` and `{}` cannot both be given", first.name.value, second.name.value);
+        let error = self
+            .scope
+            .error(message, second.name.span, "says it again")
+            .with_secondary(first.name.span, "given here")
+            .with_remedy("remove one of the two");
+        self.errors.push(error);
+        None
+    }
+
+    /// A value of this declaration that is only used to work out others.
+    fn refuse_not_positive(
+        &mut self,
+        property: Option<&Property>,
+        value: &Fraction,
+        what: &str,
+    ) -> Option<()> {
+        if self.scope.assumptions.is_positive(value) {
+            return Some(());
+        }
+        let span = property.map_or(self.tree.title.span, |property| property.value.span);
+        let error = self.not_positive(format!("{what} is not certainly positive"), span, value);
+        self.errors.push(error);
+        None
+    }
+
+    /// A value that must be positive and may not be.
+    pub(super) fn not_positive(&self, message: String, span: Span, value: &Fraction) -> Diagnostic {
+        let (label, remedy) = match value.as_constant() {
+            Some(_) if value.is_zero() => ("this is zero".to_owned(), "give a positive value"),
+            Some(_) => ("this is negative".to_owned(), "give a positive value"),
+            None => (
+                "may be zero or negative".to_owned(),
+                "declare its symbols with conditions, as in `symbol a > 0`",
+            ),
+        };
+        self.scope.error(message, span, label).with_remedy(remedy)
+    }
+
+    /// Modulus and density, of a material or a bar.
+    fn stuff(&mut self, given: &Given<'_>) -> Option<Material> {
+        self.refuse_both(given, "modulus", "wave_speed")?;
+        let density = self.demanded(given, DENSITY, "density = 7850 kg/m^3");
+        let modulus = match self.optional(given, WAVE_SPEED) {
+            Err(()) => None,
+            Ok(None) => self.demanded(given, MODULUS, "modulus = 210 GPa"),
+            Ok(Some(speed)) => {
+                self.refuse_not_positive(given.get("wave_speed"), &speed, "the wave speed")?;
+                density.as_ref().map(|density| density * &speed.pow(2))
+            }
+        };
+        Some(Material { modulus: modulus?, density: density? })
+    }
+
+    fn bar(&mut self, given: &Given<'_>) -> Option<Bar> {
+        let velocity = self.or_zero(given, VELOCITY);
+        let strain = self.or_zero(given, STRAIN);
+        let body = match given.get("impedance").is_some() || given.get("travel").is_some() {
+            true => self.body_by_impedance(given),
+            false => self.solid(given),
+        };
+        Some(Bar { body: body?, velocity: velocity?, strain: strain? })
+    }
+
+    fn body_by_impedance(&mut self, given: &Given<'_>) -> Option<Body> {
+        for by_impedance in ["impedance", "travel"] {
+            for solid in
+                ["material", "modulus", "wave_speed", "density", "diameter", "area", "length"]
+            {
+                self.refuse_both(given, by_impedance, solid)?;
+            }
+        }
+        let impedance = self.demanded(given, IMPEDANCE, "impedance = 12 kN*s/m");
+        let travel = self.optional(given, TRAVEL).ok();
+        Some(Body::Impedance { impedance: impedance?, travel: travel? })
+    }
+
+    fn solid(&mut self, given: &Given<'_>) -> Option<Body> {
+        if given.1.keys().all(|name| ["velocity", "strain", "length"].contains(name)) {
+            self.lack(
+                given,
+                "this bar has neither impedance nor material".to_owned(),
+                "material = steel, diameter = 20 mm",
+            );
+            return None;
+        }
+        let material = match given.get(MATERIAL) {
+            Some(property) => {
+                for own in ["modulus", "wave_speed", "density"] {
+                    self.refuse_both(given, MATERIAL, own)?;
+                }
+                let outcome = self.material(property);
+                self.keep(outcome).flatten()
+            }
+            None => self.stuff(given),
+        };
+        let area = self.area(given);
+        let length = self.optional(given, LENGTH).ok();
+        let Material { modulus, density } = material?;
+        Some(Body::Solid { area: area?, modulus, density, length: length? })
+    }
+
+    /// A material by name; `None` if it is wrong itself.
+    fn material(&self, property: &Property) -> Outcome<Option<Material>> {
+        let Node::Name(name) = &property.value.value else {
+            return Err(self
+                .scope
+                .error("a material is given by its name", property.value.span, "not a name")
+                .with_remedy(
+                    "declare it, as in `material steel { modulus = 210 GPa, density = 7850 kg/m^3 }`, \
+                     and write `material = steel`",
+                ));
+        };
+        if let Some(unit) = &property.unit {
+            return Err(self
+                .scope
+                .error("a material has no unit", unit.span, "not expected here")
+                .with_remedy("separate properties by commas"));
+        }
+        if let Some(material) = self.materials.get(name) {
+            return Ok(material.clone());
+        }
+        let error = self.scope.error(
+            format!("unknown material `{name}`"),
+            property.value.span,
+            "not declared",
+        );
+        let known = self.declared.iter().filter(|(_, (_, m))| matches!(m, Meaning::Material));
+        let names: Vec<&str> = known.map(|(name, _)| name.as_str()).collect();
+        Err(with_likely(error, name, names.into_iter()).or_remedy(format!(
+            "declare it, as in `material {name} {{ modulus = 210 GPa, density = 7850 kg/m^3 }}`"
+        )))
+    }
+
+    /// The area, or that of a circle or a ring.
+    fn area(&mut self, given: &Given<'_>) -> Option<Fraction> {
+        self.refuse_both(given, "area", "diameter")?;
+        self.refuse_both(given, "area", "inner_diameter")?;
+        if given.get("area").is_none() && given.get("diameter").is_none() {
+            let (missing, example) = match given.get("inner_diameter") {
+                None => ("no section", "diameter = 20 mm` or `area = 3 cm^2"),
+                Some(_) => ("an inner diameter and no outer one", "diameter = 20 mm"),
+            };
+            self.lack(given, format!("this bar has {missing}"), example);
+            return None;
+        }
+        if let Some(area) = self.optional(given, AREA).ok()? {
+            return Some(area);
+        }
+        let diameter = self.optional(given, DIAMETER).ok()??;
+        let inner = self.optional(given, INNER_DIAMETER).ok()?;
+        let outer_property = given.get("diameter");
+        self.refuse_not_positive(outer_property, &diameter, "the diameter")?;
+        let mut squares = diameter.pow(2);
+        if let (Some(inner), Some(property)) = (inner, given.get("inner_diameter")) {
+            if !inner.is_zero() {
+                self.refuse_not_positive(Some(property), &inner, "the inner diameter")?;
+            }
+            if !self.scope.assumptions.is_positive(&(&diameter - &inner)) {
+                let span = outer_property.map_or(given.span(), |outer| outer.value.span);
+                let error = self
+                    .scope
+                    .error(
+                        "the inner diameter is not certainly smaller than the diameter",
+                        property.value.span,
+                        "the inner diameter",
+                    )
+                    .with_secondary(span, "the diameter")
+                    .with_remedy("leave something between the two");
+                self.errors.push(error);
+                return None;
+            }
+            squares = &squares - &inner.pow(2);
+        }
+        let quarter = Rational::new(1.into(), 4.into());
+        Some((&squares * &Fraction::symbol(&super::symbol(PI))).scale(&quarter))
+    }
+
+    fn mass(&mut self, given: &Given<'_>) -> Option<Mass> {
+        let mass = self.demanded(given, MASS, "mass = 2 kg");
+        let velocity = self.or_zero(given, VELOCITY);
+        Some(Mass { mass: mass?, velocity: velocity? })
+    }
+
+    fn link(&mut self, given: &Given<'_>) -> Option<(Fraction, Fraction)> {
+        if given.1.is_empty() {
+            let message = format!("this {} has neither stiffness nor damping", given.0.kind);
+            self.lack(given, message, "stiffness = 40 kN/mm` or `damping = 0.3 kN*s/m");
+            return None;
+        }
+        let (stiffness, damping) = (self.or_zero(given, STIFFNESS), self.or_zero(given, DAMPING));
+        Some((stiffness?, damping?))
+    }
+
+    fn load(&mut self, given: &Given<'_>) -> Option<Load> {
+        self.refuse_both(given, "force", "velocity")?;
+        let drive = given.get("force").map(|force| (force, Drive::Force, FORCE));
+        let velocity = given.get("velocity").map(|velocity| (velocity, Drive::Velocity, VELOCITY));
+        let Some((property, drive, (_, what, needed))) = drive.or(velocity) else {
+            let message = "this load gives neither force nor velocity".to_owned();
+            self.lack(given, message, "force = 3 kN` or `velocity = 2 m/s");
+            return None;
+        };
+        let course = self.course(&property.value, property.unit.as_ref(), needed, what);
+        let course = self.keep(course);
+        let from = self.or_zero(given, FROM);
+        let until = self.optional(given, UNTIL).ok();
+        Some(Load { drive, course: course?, from: from?, until: until? })
+    }
+}
+
+/// An example of properties for a scene without units: `2 kg` is written `2`.
+fn without_unit(example: &str) -> String {
+    let mut plain = String::new();
+    for word in example.split(' ') {
+        let unit = word.trim_end_matches([',', '`']);
+        let first = unit.split(['*', '/', '^']).next().unwrap_or(unit);
+        let kept = if super::units::is_unit(first) { &word[unit.len()..] } else { word };
+        if kept.len() == word.len() && !plain.is_empty() {
+            plain.push(' ');
+        }
+        plain.push_str(kept);
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn examples_lose_their_units() {
+        let example = "stiffness = 40 kN/mm` or `damping = 3 kN*s/m";
+        assert_eq!(super::without_unit(example), "stiffness = 40` or `damping = 3");
+        assert_eq!(super::without_unit("a = 1 m, b = 2 m"), "a = 1, b = 2");
+    }
+}

@@ -1,0 +1,470 @@
+//! Texts that state scenes: their tree, how it is printed, and what it means.
+//!
+//! Mistakes are gathered, not thrown: what depends on a part that is wrong is left out, so that one
+//! mistake is reported once.
+
+mod element;
+mod observe;
+pub(super) mod print;
+mod refusal;
+pub(super) mod tree;
+mod units;
+
+use std::collections::BTreeMap;
+
+use wavestep_polynomial::{Rational, Symbol};
+
+use super::diagnostic::Diagnostic;
+use super::name;
+use super::parameters;
+use super::scope::{FUNCTIONS, Place, Scope, with_likely};
+use super::syntax::{self, Expression as Tree, Name, Node, Span};
+use crate::expression::{Assumptions, Condition, Expression, Fraction, Relation};
+use crate::scene::{self, Dimension, ElementIndex, Kind, PI};
+use element::Material;
+use tree::{Declaration, Declared, SceneStatementKind, Section, Unit};
+
+type Outcome<T> = Result<T, Diagnostic>;
+
+/// The name of time in loads.
+const TIME: &str = "t";
+
+/// Names with a meaning of their own in scenes, and what they mean.
+const TAKEN: [(&str, &str); 7] = [
+    (PI, "is the number π"),
+    (TIME, "is the time in loads"),
+    ("n", "counts periods"),
+    ("line", "is the whole line"),
+    ("free", "is an end of the line"),
+    ("fixed", "is an end of the line"),
+    ("endless", "is an end of the line"),
+];
+
+/// Lowers a scene, with `values` in place of symbols from the start.
+///
+/// # Errors
+/// All independent mistakes, in the order of the text.
+pub(super) fn scene(
+    tree: &tree::Scene,
+    values: &BTreeMap<String, Rational>,
+) -> Result<scene::Scene, Vec<Diagnostic>> {
+    let mut lowering = Lowering::new(tree, values);
+    lowering.parameters();
+    lowering.names();
+    lowering.properties();
+    let line = lowering.line();
+    let observables = lowering.observables();
+    if !lowering.errors.is_empty() {
+        return Err(lowering.into_errors());
+    }
+    let line = line.expect("a line, or an error");
+    let elements = lowering.elements.iter().map(|known| scene::Element {
+        name: known.declaration.name.value.clone(),
+        kind: known.kind.clone().expect("an element, or an error"),
+    });
+    let scene = scene::Scene {
+        title: tree.title.value.clone(),
+        assumptions: lowering.plain.clone(),
+        dimensional: lowering.unit.is_some(),
+        elements: elements.collect(),
+        line,
+        observables,
+        time: symbol(TIME),
+    };
+    let faults = scene.faults();
+    if faults.is_empty() {
+        return Ok(scene);
+    }
+    let refusals: Vec<Diagnostic> =
+        faults.iter().map(|fault| lowering.refusal(&scene, fault)).collect();
+    lowering.errors.extend(refusals);
+    Err(lowering.into_errors())
+}
+
+fn symbol(name: &str) -> Symbol {
+    Symbol::new(name).expect("names of the language are names of symbols")
+}
+
+/// An element of the text.
+struct Known<'a> {
+    declaration: &'a Declaration,
+    /// What it is; `None` if its properties are wrong.
+    kind: Option<Kind>,
+}
+
+/// What a name of the text stands for, besides symbols.
+#[derive(Clone, Copy)]
+enum Meaning {
+    Symbol,
+    Material,
+    Element(ElementIndex),
+    Observable,
+}
+
+struct Lowering<'a> {
+    tree: &'a tree::Scene,
+    values: &'a BTreeMap<String, Rational>,
+    /// Symbols, `pi` and the time; its assumptions know of `pi`.
+    scope: Scope,
+    /// The assumptions without `pi`.
+    plain: Assumptions,
+    /// The first unit of the text, which makes the scene dimensional.
+    unit: Option<Span>,
+    /// Where each name was declared, and as what.
+    declared: BTreeMap<String, (Span, Meaning)>,
+    /// Materials; `None` if their properties are wrong.
+    materials: BTreeMap<String, Option<Material>>,
+    elements: Vec<Known<'a>>,
+    errors: Vec<Diagnostic>,
+}
+
+impl<'a> Lowering<'a> {
+    fn new(tree: &'a tree::Scene, values: &'a BTreeMap<String, Rational>) -> Self {
+        let mut scope = Scope::new(&tree.source);
+        scope.time = Some(symbol(TIME));
+        Lowering {
+            tree,
+            values,
+            scope,
+            plain: Assumptions::default(),
+            unit: first_unit(tree),
+            declared: BTreeMap::new(),
+            materials: BTreeMap::new(),
+            elements: Vec::new(),
+            errors: Vec::new(),
+        }
+    }
+
+    fn statements(&self) -> impl Iterator<Item = &'a SceneStatementKind> + use<'a> {
+        self.tree.statements.iter().map(|statement| &statement.value)
+    }
+
+    /// Keeps what was found, or what is wrong.
+    fn keep<T>(&mut self, outcome: Outcome<T>) -> Option<T> {
+        outcome.map_err(|error| self.errors.push(error)).ok()
+    }
+
+    /// The errors in the order of the text, each once.
+    fn into_errors(mut self) -> Vec<Diagnostic> {
+        self.errors.sort_by_key(|error| (error.span().start, error.span().end));
+        self.errors
+            .dedup_by(|one, other| one.span() == other.span() && one.message() == other.message());
+        self.errors
+    }
+
+    fn declare(&mut self, name: &Name, meaning: Meaning) {
+        let taken = TAKEN.iter().find(|(taken, _)| *taken == name.value);
+        if let Some((taken, why)) = taken {
+            let error = self
+                .scope
+                .error(format!("`{taken}` {why}"), name.span, "cannot be declared")
+                .with_remedy("choose another name");
+            self.errors.push(error);
+        }
+        match self.declared.get(&name.value) {
+            None => {
+                self.declared.insert(name.value.clone(), (name.span, meaning));
+            }
+            Some((first, _)) => {
+                let error = self
+                    .scope
+                    .error(format!("`{}` is declared twice", name.value), name.span, "again here")
+                    .with_secondary(*first, "first declared here")
+                    .with_remedy("choose another name, or remove one of the two");
+                self.errors.push(error);
+            }
+        }
+    }
+
+    /// Symbols, `pi`, and factors that are not zero.
+    fn parameters(&mut self) {
+        for statement in self.statements() {
+            let SceneStatementKind::Symbols(symbols) = statement else { continue };
+            for symbol in symbols {
+                self.declare(&symbol.name, Meaning::Symbol);
+                let outcome = parameters::declare(&mut self.scope, symbol, self.values);
+                self.keep(outcome);
+            }
+        }
+        let title = self.tree.title.span;
+        let outcome = parameters::all_known(&self.scope, self.values, "scene", title);
+        self.keep(outcome);
+        self.plain = self.scope.assumptions.clone();
+        self.scope.symbols.insert(PI.to_owned(), None);
+        let bound = Rational::from_integer(3.into());
+        let condition = Condition { relation: Relation::Greater, bound };
+        self.scope.assumptions.declare_symbol(symbol(PI), Some(condition));
+        for statement in self.statements() {
+            let SceneStatementKind::Nonzero(tree) = statement else { continue };
+            let outcome = parameters::nonzero(&self.scope, tree, self.values);
+            if let Some(Some(unit)) = self.keep(outcome) {
+                self.scope.assumptions.declare_factors(&unit);
+                self.plain.declare_factors(&unit);
+            }
+        }
+    }
+
+    /// Names of materials and elements.
+    fn names(&mut self) {
+        for statement in self.statements() {
+            match statement {
+                SceneStatementKind::Declaration(declaration) => {
+                    let meaning = match declaration.kind {
+                        Declared::Material => Meaning::Material,
+                        _ => Meaning::Element(self.elements.len()),
+                    };
+                    self.declare(&declaration.name, meaning);
+                    if declaration.kind != Declared::Material {
+                        self.elements.push(Known { declaration, kind: None });
+                    }
+                }
+                SceneStatementKind::Observe { name, .. } => self.declare(name, Meaning::Observable),
+                _ => {}
+            }
+        }
+    }
+
+    /// The one line of the scene.
+    fn line(&mut self) -> Option<scene::Line> {
+        let mut found: Option<(&'a syntax::Line, Span)> = None;
+        for statement in &self.tree.statements {
+            let SceneStatementKind::Line(line) = &statement.value else { continue };
+            match found {
+                None => found = Some((line, statement.span)),
+                Some((_, first)) => {
+                    let error = self
+                        .scope
+                        .error("a scene has one line", statement.span, "a second line")
+                        .with_secondary(first, "the first line")
+                        .with_remedy("remove one of the two, or put it into a file of its own");
+                    self.errors.push(error);
+                }
+            }
+        }
+        let Some((line, _)) = found else {
+            let error = self
+                .scope
+                .error("no line is stated", self.tree.title.span, "of this scene")
+                .with_remedy("say how the elements are joined, as in `line free - rod - fixed`");
+            self.errors.push(error);
+            return None;
+        };
+        let elements: Vec<Option<ElementIndex>> = line
+            .elements
+            .iter()
+            .map(|name| {
+                let outcome = self.element(name);
+                self.keep(outcome)
+            })
+            .collect();
+        Some(scene::Line {
+            left: line.left.value,
+            elements: elements.into_iter().collect::<Option<_>>()?,
+            joints: line.joints.iter().map(|joint| joint.value).collect(),
+            right: line.right.value,
+        })
+    }
+
+    /// The element of a name.
+    fn element(&self, name: &Name) -> Outcome<ElementIndex> {
+        let found = self.declared.get(&name.value);
+        if let Some((_, Meaning::Element(element))) = found {
+            return Ok(*element);
+        }
+        let what = match found {
+            Some((_, Meaning::Material)) => "material",
+            Some((_, Meaning::Symbol)) => "symbol",
+            Some((_, Meaning::Observable)) => "observable",
+            _ => {
+                let error = self.scope.error(
+                    format!("unknown element `{}`", name.value),
+                    name.span,
+                    "not declared",
+                );
+                let names: Vec<&str> = self
+                    .elements
+                    .iter()
+                    .map(|known| known.declaration.name.value.as_str())
+                    .collect();
+                return Err(with_likely(error, &name.value, names.into_iter()).or_remedy(format!(
+                    "declare it, as in `bar {} {{ impedance = 1, travel = 1 }}`",
+                    name.value
+                )));
+            }
+        };
+        let article = if what == "observable" { "an" } else { "a" };
+        Err(self
+            .scope
+            .error(format!("`{}` is {article} {what}", name.value), name.span, "not an element")
+            .with_secondary(found.map_or(name.span, |(span, _)| *span), "declared here")
+            .with_remedy("name a bar, a mass, a spring, a support or a load"))
+    }
+
+    /// An exact value of a dimension; `what` names it in errors.
+    fn quantity(
+        &self,
+        tree: &Tree,
+        unit: Option<&Unit>,
+        needed: Dimension,
+        what: &'static str,
+    ) -> Outcome<Fraction> {
+        self.refuse_strangers(tree)?;
+        let value = self.scope.lower_constant(tree, what)?;
+        let Some(value) = value.as_fraction() else {
+            return Err(self
+                .scope
+                .error(format!("{what} holds no exponential"), tree.span, "holds an exponential")
+                .with_remedy("introduce a symbol for it"));
+        };
+        let factor = self.unit_factor(tree, unit, needed, what, value.is_zero())?;
+        Ok(value.scale(&factor))
+    }
+
+    /// The course of a load.
+    fn course(
+        &self,
+        tree: &Tree,
+        unit: Option<&Unit>,
+        needed: Dimension,
+        what: &'static str,
+    ) -> Outcome<Expression> {
+        self.refuse_strangers(tree)?;
+        let value = self.scope.lower(tree, Place::Equation)?.rest;
+        let factor = self.unit_factor(tree, unit, needed, what, value.is_zero())?;
+        Ok(value.scale(&factor))
+    }
+
+    /// What the unit of a value is worth, if it measures what is needed.
+    fn unit_factor(
+        &self,
+        tree: &Tree,
+        unit: Option<&Unit>,
+        needed: Dimension,
+        what: &str,
+        is_zero: bool,
+    ) -> Outcome<Rational> {
+        let one = Rational::from_integer(1.into());
+        let symbol = units::unit_of(needed);
+        match (unit, self.unit) {
+            (Some(unit), _) => {
+                let units::Worth { value, dimension } = units::worth(&self.scope, unit)?;
+                if dimension == needed {
+                    return Ok(value);
+                }
+                let found = units::described(dimension);
+                let (message, remedy) = match needed {
+                    Dimension::NONE => (
+                        format!("{what} is needed, a plain number; this is {found}"),
+                        "leave out the unit".to_owned(),
+                    ),
+                    _ => (
+                        format!("{what} is needed, {}; this is {found}", units::units_of(needed)),
+                        format!("give it in {symbol}"),
+                    ),
+                };
+                Err(self.scope.error(message, unit.span, format!("not {what}")).with_remedy(remedy))
+            }
+            (None, Some(first)) if needed != Dimension::NONE && !is_zero => Err(self
+                .scope
+                .error(format!("{what} needs a unit in this scene"), tree.span, "a plain number")
+                .with_secondary(first, "this scene has units")
+                .with_remedy(format!(
+                    "write `{} {symbol}`, or leave out all units",
+                    self.shown(tree)
+                ))),
+            _ => Ok(one),
+        }
+    }
+
+    /// An expression as it stands in the text, cut if it is long.
+    fn shown(&self, tree: &Tree) -> &str {
+        match self.scope.source.slice(tree.span) {
+            text if text.len() <= 20 && !text.contains('\n') => text,
+            _ => "…",
+        }
+    }
+
+    /// Refuses what belongs to recurrences only, and names that are no values.
+    fn refuse_strangers(&self, tree: &Tree) -> Outcome<()> {
+        let error = |message: String, span, label| Err(self.scope.error(message, span, label));
+        match &tree.value {
+            Node::Name(name) if !self.scope.symbols.contains_key(name) && name != TIME => {
+                let stands_for = match self.declared.get(name) {
+                    Some((_, Meaning::Symbol)) => None,
+                    Some((first, meaning)) => Some((*first, meaning)),
+                    None if units::is_unit(name) => {
+                        return error(format!("unknown name `{name}`"), tree.span, "not declared")
+                            .map_err(|error: Diagnostic| {
+                                error.with_remedy(format!(
+                                    "a unit stands behind the whole value, without a sign: \
+                                     `3/2 {name}`"
+                                ))
+                            });
+                    }
+                    None => None,
+                };
+                let Some((first, meaning)) = stands_for else { return Ok(()) };
+                let what = match meaning {
+                    Meaning::Element(element) => {
+                        let kind = self.elements[*element].declaration.kind;
+                        format!("a {kind}")
+                    }
+                    Meaning::Material => "a material".to_owned(),
+                    _ => "an observable".to_owned(),
+                };
+                Err(self
+                    .scope
+                    .error(format!("`{name}` is {what}, not a value"), tree.span, "not a value")
+                    .with_secondary(first, "declared here")
+                    .with_remedy("use numbers and declared symbols"))
+            }
+            Node::Wave(_) | Node::Summation { .. } => {
+                error("there are no waves by period in a scene".to_owned(), tree.span, "not here")
+                    .map_err(|error: Diagnostic| {
+                        error.with_remedy("use numbers and declared symbols")
+                    })
+            }
+            Node::Call { name, argument } => {
+                let word = name.value.as_str();
+                if FUNCTIONS.contains(&word) || name::RESERVED.contains(&word) {
+                    return self.refuse_strangers(argument);
+                }
+                let shown = self.shown(tree);
+                let remedy = match self.scope.symbols.contains_key(word) {
+                    true => format!("write `{word}*(…)` for a product"),
+                    false => "use numbers, declared symbols, and `exp`".to_owned(),
+                };
+                Err(self
+                    .scope
+                    .error(format!("`{word}` is no function"), name.span, format!("in `{shown}`"))
+                    .with_remedy(remedy))
+            }
+            Node::Exponential(operand) | Node::Negate(operand) => self.refuse_strangers(operand),
+            Node::Sum(terms) => {
+                terms.iter().try_for_each(|term| self.refuse_strangers(&term.value))
+            }
+            Node::Product(factors) => {
+                factors.iter().try_for_each(|factor| self.refuse_strangers(&factor.value))
+            }
+            Node::Power { base, .. } => self.refuse_strangers(base),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The first unit of a text.
+fn first_unit(tree: &tree::Scene) -> Option<Span> {
+    tree.statements.iter().find_map(|statement| match &statement.value {
+        SceneStatementKind::Declaration(declaration) => {
+            let mut units = declaration.properties.iter().filter_map(|p| p.unit.as_ref());
+            units.next().map(|unit| unit.span)
+        }
+        SceneStatementKind::Observe { terms, .. } => {
+            terms.iter().find_map(|term| match &term.value.place.value.section {
+                Some(Section::At { unit, .. }) => unit.as_ref().map(|unit| unit.span),
+                _ => None,
+            })
+        }
+        _ => None,
+    })
+}

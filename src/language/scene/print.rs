@@ -1,0 +1,174 @@
+//! The tree of a scene as text again, such that reading it gives the same tree.
+
+use std::fmt::{self, Display, Formatter, Write};
+
+use super::tree::{
+    Declaration, Declared, Line, ObservedPlace, ObservedTerm, Property, Scene, SceneStatement,
+    SceneStatementKind, Section, Unit,
+};
+use crate::language::print::{Listed, product};
+use crate::language::syntax::{Operator, Sign, Spanned};
+use crate::scene::{End, Joint, Measure};
+
+impl Display for Scene {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "scene \"{}\"", self.title)?;
+        self.statements.iter().try_for_each(|statement: &SceneStatement| writeln!(f, "{statement}"))
+    }
+}
+
+impl Display for SceneStatementKind {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Symbols(symbols) => write!(f, "symbol {}", Listed(symbols)),
+            Self::Nonzero(expression) => write!(f, "nonzero {expression}"),
+            Self::Declaration(declaration) => declaration.fmt(f),
+            Self::Line(line) => line.fmt(f),
+            Self::Observe { name, terms } => {
+                write!(f, "observe {name} =")?;
+                for (position, term) in terms.iter().enumerate() {
+                    f.write_str(match (position, term.value.sign) {
+                        (0, Sign::Plus) => " ",
+                        (0, Sign::Minus) => " -",
+                        (_, Sign::Plus) => " + ",
+                        (_, Sign::Minus) => " - ",
+                    })?;
+                    term.fmt(f)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Display for Declaration {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { kind, name, properties } = self;
+        match properties.is_empty() {
+            true => write!(f, "{kind} {name} {{}}"),
+            false => write!(f, "{kind} {name} {{ {} }}", Listed(properties)),
+        }
+    }
+}
+
+impl Display for Declared {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Material => "material",
+            Self::Bar => "bar",
+            Self::Mass => "mass",
+            Self::Spring => "spring",
+            Self::Support => "support",
+            Self::Load => "load",
+        })
+    }
+}
+
+impl Display for Property {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}{}", self.name, self.value, AfterValue(self.unit.as_ref()))
+    }
+}
+
+/// A unit behind a value.
+struct AfterValue<'a>(Option<&'a Unit>);
+
+impl Display for AfterValue<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for (position, factor) in self.0.iter().flat_map(|unit| &unit.value).enumerate() {
+            f.write_char(match (position, factor.operator) {
+                (0, _) => ' ',
+                (_, Operator::Multiply) => '*',
+                (_, Operator::Divide) => '/',
+            })?;
+            factor.name.fmt(f)?;
+            if factor.power != 1 {
+                write!(f, "^{}", factor.power)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Display for Line {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}", end_word(self.left.value))?;
+        let elements = self.elements.iter().map(|name| name.value.as_str());
+        let names = elements.chain([end_word(self.right.value)]);
+        self.joints.iter().zip(names).try_for_each(|(joint, name)| {
+            let sign = match joint.value {
+                Joint::Bonded => '-',
+                Joint::Contact => '|',
+            };
+            write!(f, " {sign} {name}")
+        })
+    }
+}
+
+/// The word for an end of a line.
+pub(in crate::language) fn end_word(end: End) -> &'static str {
+    match end {
+        End::Free => "free",
+        End::Fixed => "fixed",
+        End::Endless => "endless",
+    }
+}
+
+/// The word for what is measured.
+pub(in crate::language) fn measure_word(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Velocity => "velocity",
+        Measure::Force => "force",
+        Measure::Strain => "strain",
+        Measure::Stress => "stress",
+        Measure::Displacement => "displacement",
+        Measure::Compression => "compression",
+        Measure::Energy => "energy",
+        Measure::Momentum => "momentum",
+    }
+}
+
+/// Without the sign, which depends on the place in the sum.
+impl Display for ObservedTerm {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Spanned { value: measure, .. } = self.measure;
+        let reading = format!("{}({})", measure_word(measure), self.place);
+        match self.factors.first().map(|factor| factor.operator) {
+            None => f.write_str(&reading),
+            Some(Operator::Multiply) => {
+                product(&self.factors, f)?;
+                write!(f, "*{reading}")
+            }
+            Some(Operator::Divide) => {
+                // A product that begins with a divisor is written behind what it divides.
+                let mut divisors = String::new();
+                write!(divisors, "{}", Factors(self))?;
+                let divisors = divisors.strip_prefix('1').unwrap_or(&divisors);
+                write!(f, "{reading}{divisors}")
+            }
+        }
+    }
+}
+
+/// The factors of a term as a product.
+struct Factors<'a>(&'a ObservedTerm);
+
+impl Display for Factors<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        product(&self.0.factors, f)
+    }
+}
+
+impl Display for ObservedPlace {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.element.fmt(f)?;
+        match &self.section {
+            None => Ok(()),
+            Some(Section::Left) => f.write_str(".left"),
+            Some(Section::Right) => f.write_str(".right"),
+            Some(Section::At { position, unit }) => {
+                write!(f, ".at({position}{})", AfterValue(unit.as_ref()))
+            }
+        }
+    }
+}

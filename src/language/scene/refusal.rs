@@ -1,0 +1,358 @@
+//! What is impossible about a scene, at its places in the text.
+
+use super::Lowering;
+use super::print::measure_word;
+use super::tree::{Declaration, Line, ObservedTerm, SceneStatementKind};
+use crate::expression::Fraction;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::syntax::{Span, Spanned};
+use crate::scene::{
+    Body, ElementIndex, Fault, Kind, Measure, Mistake, Part, Place, Property, Scene,
+};
+
+impl Lowering<'_> {
+    /// What the scene refuses, with the places of all parts and a remedy.
+    pub(super) fn refusal(&self, scene: &Scene, fault: &Fault) -> Diagnostic {
+        let spans: Vec<Span> = fault.parts.iter().map(|part| self.span(*part)).collect();
+        if let (Mistake::NotPositive | Mistake::Negative, Some(Part::Property(element, property))) =
+            (fault.mistake, fault.parts.first())
+            && let Some(value) = value(scene, *element, *property)
+        {
+            return self.not_positive(fault.to_string(), spans[0], value);
+        }
+        let (message, labels, remedy) = self.explained(scene, fault);
+        let mut labels = labels.into_iter();
+        let label = labels.next().unwrap_or_default();
+        let error = self.scope.error(message, spans[0], label).with_remedy(remedy);
+        let others = spans[1..].iter().zip(labels).filter(|(_, label)| !label.is_empty());
+        others.fold(error, |error, (span, label)| error.with_secondary(*span, label))
+    }
+
+    fn statement_of_line(&self) -> Option<(&Line, Span)> {
+        self.tree.statements.iter().find_map(|statement| match &statement.value {
+            SceneStatementKind::Line(line) => Some((line, statement.span)),
+            _ => None,
+        })
+    }
+
+    fn declaration(&self, element: ElementIndex) -> &Declaration {
+        self.elements[element].declaration
+    }
+
+    fn name_at(&self, part: Part) -> String {
+        match part {
+            Part::Element(element) | Part::Property(element, _) => {
+                self.declaration(element).name.value.clone()
+            }
+            Part::Position(position) => self
+                .statement_of_line()
+                .map_or_else(String::new, |(line, _)| line.elements[position].value.clone()),
+            _ => String::new(),
+        }
+    }
+
+    fn term(&self, observable: usize, term: usize) -> Option<&Spanned<ObservedTerm>> {
+        let mut observables =
+            self.tree.statements.iter().filter_map(|statement| match &statement.value {
+                SceneStatementKind::Observe { terms, .. } => Some(terms),
+                _ => None,
+            });
+        observables.nth(observable)?.get(term)
+    }
+
+    fn span(&self, part: Part) -> Span {
+        let title = self.tree.title.span;
+        let line = self.statement_of_line();
+        match part {
+            Part::Element(element) => self.declaration(element).name.span,
+            Part::Property(element, property) => self.property(element, property),
+            Part::Position(position) => {
+                line.map_or(title, |(line, _)| line.elements[position].span)
+            }
+            Part::Joint(joint) => line.map_or(title, |(line, _)| line.joints[joint].span),
+            Part::Left => line.map_or(title, |(line, _)| line.left.span),
+            Part::Right => line.map_or(title, |(line, _)| line.right.span),
+            Part::Line => line.map_or(title, |(_, span)| span),
+            Part::Term { observable, term } => {
+                self.term(observable, term).map_or(title, |term| term.span)
+            }
+        }
+    }
+
+    /// The value that a property was read from, perhaps in the material of a bar.
+    fn property(&self, element: ElementIndex, property: Property) -> Span {
+        let own = self.declaration(element);
+        let materials =
+            self.tree.statements.iter().filter_map(|statement| match &statement.value {
+                SceneStatementKind::Declaration(declaration) => Some(declaration),
+                _ => None,
+            });
+        let material = own.properties.iter().find(|own| own.name.value == "material");
+        let material = material.map(|material| material.value.to_string());
+        let named = |declaration: &&Declaration| Some(&declaration.name.value) == material.as_ref();
+        let declarations = std::iter::once(own).chain(materials.filter(named));
+        let mut given = declarations.flat_map(|declaration| &declaration.properties);
+        let names = words(property);
+        given
+            .find(|given| names.contains(&given.name.value.as_str()))
+            .map_or(own.name.span, |given| given.value.span)
+    }
+
+    /// Message, labels of the parts, remedy.
+    fn explained(&self, scene: &Scene, fault: &Fault) -> (String, Vec<String>, String) {
+        let name = fault.parts.first().map_or_else(String::new, |part| self.name_at(*part));
+        let second = fault.parts.get(1).map_or_else(String::new, |part| self.name_at(*part));
+        let own = |labels: &[&str]| labels.iter().map(|label| (*label).to_owned()).collect();
+        let (labels, remedy): (Vec<String>, String) = match fault.mistake {
+            Mistake::IllFormed | Mistake::NotPositive | Mistake::Negative => {
+                (own(&["not possible"]), "check the values given".to_owned())
+            }
+            Mistake::Repeated => {
+                return (
+                    format!("`{name}` stands in the line twice"),
+                    own(&["again here", "first here"]),
+                    "declare another element with the same properties, or remove one of the two"
+                        .to_owned(),
+                );
+            }
+            Mistake::Unused => {
+                return (
+                    format!("`{name}` does not stand in the line"),
+                    own(&["declared here", "not in this line"]),
+                    format!("put `{name}` into the line, or remove it"),
+                );
+            }
+            Mistake::NoStiffness => (
+                own(&["both are zero"]),
+                "give a positive `stiffness` or a positive `damping`".to_owned(),
+            ),
+            Mistake::EndsBeforeBegin => (
+                own(&["ends here", "begins here"]),
+                "let `until` be later than `from`, which is 0 if it is left out".to_owned(),
+            ),
+            Mistake::NothingMoves => (
+                own(&["at rest, and without load"]),
+                "give something in the line a `velocity` or a `strain`, or add a load".to_owned(),
+            ),
+            Mistake::EndlessWithoutBar => (
+                own(&["`endless` here", "not a bar"]),
+                format!("put a bar without length between `{second}` and `endless`"),
+            ),
+            Mistake::EndlessWithLength => {
+                let property = match fault.parts.get(2) {
+                    Some(Part::Property(_, Property::Travel)) => "travel",
+                    _ => "length",
+                };
+                (
+                    own(&["`endless` here", "this bar", "has a length"]),
+                    format!(
+                        "leave out the `{property}` of `{second}`, or end the line with `free` or `fixed`"
+                    ),
+                )
+            }
+            Mistake::NoLength => self.without_length(scene, fault, &name),
+            Mistake::EndlessBothSides => (
+                own(&["this bar", "endless here", "and here"]),
+                "end the line with `free` or `fixed` on one side, or join something to the bar"
+                    .to_owned(),
+            ),
+            Mistake::ContactAtEnd => (
+                own(&["a contact", "with this end"]),
+                "write `-` beside `free` and `endless`".to_owned(),
+            ),
+            Mistake::Held => {
+                let what = match fault.parts.first() {
+                    Some(Part::Position(position)) => {
+                        self.declaration(scene.line.elements[*position]).kind.to_string()
+                    }
+                    _ => String::new(),
+                };
+                return (
+                    format!("the {what} `{name}` can do nothing at a fixed end"),
+                    own(&["cannot move", "fixed here"]),
+                    format!(
+                        "remove `{name}`, or put a bar or a spring between it and the fixed end"
+                    ),
+                );
+            }
+            Mistake::Idle => (
+                own(&["can do nothing", "nothing to press against"]),
+                format!("put a mass, a support or a load at the free end, or remove `{name}`"),
+            ),
+            Mistake::TwoVelocities => (
+                own(&["imposes a velocity", "imposes one too"]),
+                "impose one velocity, the sum of both if that is meant".to_owned(),
+            ),
+            Mistake::NotMeasurable => return self.not_measurable(scene, fault),
+            Mistake::NoArea => (
+                own(&["given by impedance, without an area"]),
+                "observe the force, or give the bar an area, a modulus and a density".to_owned(),
+            ),
+            Mistake::NoWaveSpeed => (
+                own(&["given by impedance, without a wave speed", "this bar"]),
+                "give the bar by an area, a modulus and a density".to_owned(),
+            ),
+            Mistake::NoSuchEnd => (
+                own(&["no such end"]),
+                "observe the other end, or `at` a distance from it".to_owned(),
+            ),
+            Mistake::ShareOfEndless => {
+                (own(&["a share"]), "give a distance from the end of the bar".to_owned())
+            }
+            Mistake::OutsideBar => (
+                own(&["not certainly inside"]),
+                "give a share from 0 to 1, or a distance from 0 to the length".to_owned(),
+            ),
+            Mistake::MixedDimensions => {
+                let units = self.units_of_terms(scene, fault);
+                let mut labels = units.into_iter();
+                let (label, first) = (labels.next(), labels.next());
+                (
+                    vec![label.unwrap_or_default(), first.unwrap_or_default()],
+                    "observe them by a statement each".to_owned(),
+                )
+            }
+            Mistake::Infinite => (
+                own(&["an endless bar is in motion or strained from the start"]),
+                "observe a finite bar, or let the endless one start at rest".to_owned(),
+            ),
+        };
+        (fault.to_string(), labels, remedy)
+    }
+
+    fn without_length(&self, scene: &Scene, fault: &Fault, name: &str) -> (Vec<String>, String) {
+        let property = match &scene.line.elements.iter().find_map(|element| {
+            (self.declaration(*element).name.value == name).then(|| &scene.elements[*element].kind)
+        }) {
+            Some(Kind::Bar(bar)) if matches!(bar.body, Body::Impedance { .. }) => "travel",
+            _ => "length",
+        };
+        let end = match fault.parts.get(2) {
+            Some(Part::Left) => Some(scene.line.left),
+            Some(Part::Right) => Some(scene.line.right),
+            _ => None,
+        };
+        let mut labels = vec!["more lies beyond it".to_owned(), format!("no `{property}`")];
+        let mut remedy = format!("give `{name}` a `{property}`");
+        if let Some(end) = end {
+            labels[0] = "without length".to_owned();
+            labels.push(format!("ends at `{}`", super::print::end_word(end)));
+            remedy.push_str(", or end the line with `endless`");
+        } else if scene.line.elements.len() == 1 {
+            labels[0] = "without length".to_owned();
+            remedy.push_str(", or end the line with `endless`");
+        }
+        (labels, remedy)
+    }
+
+    fn units_of_terms(&self, scene: &Scene, fault: &Fault) -> Vec<String> {
+        let described = fault.parts.iter().filter_map(|part| match part {
+            Part::Term { observable, term } => {
+                let seen = &scene.observables[*observable].terms[*term];
+                Some(super::units::described(seen.measure.dimension()))
+            }
+            _ => None,
+        });
+        described.collect()
+    }
+
+    /// A measure at a place that does not have it.
+    fn not_measurable(&self, scene: &Scene, fault: &Fault) -> (String, Vec<String>, String) {
+        let Some(Part::Term { observable, term }) = fault.parts.first() else {
+            return (fault.to_string(), Vec::new(), String::new());
+        };
+        let seen = &scene.observables[*observable].terms[*term];
+        let word = measure_word(seen.measure);
+        let Some(element) = seen.place.element() else {
+            return (
+                format!("the line as a whole has no {word}"),
+                vec!["of the whole line".to_owned()],
+                "observe `energy(line)` or `momentum(line)`, or name an element".to_owned(),
+            );
+        };
+        let Declaration { name, kind, .. } = self.declaration(element);
+        let name = &name.value;
+        let is_section = !matches!(seen.place, Place::Element(_));
+        let what = match is_section {
+            true => "a section of a bar".to_owned(),
+            false => format!("a {kind}"),
+        };
+        let instead: Vec<String> = match (&scene.elements[element].kind, is_section) {
+            (Kind::Bar(_), true) if seen.measure == Measure::Compression => {
+                vec![format!("displacement({name}.left) - displacement({name}.right)")]
+            }
+            (Kind::Bar(_), true) => vec![format!("{word}({name})")],
+            (Kind::Bar(_), false) if seen.measure == Measure::Compression => {
+                vec![format!("displacement({name}.left) - displacement({name}.right)")]
+            }
+            (Kind::Bar(_), false) => {
+                vec![format!("{word}({name}.left)"), format!("{word}({name}.at(1/2))")]
+            }
+            (Kind::Mass(_), _) => {
+                vec![format!("velocity({name})"), format!("displacement({name})")]
+            }
+            (Kind::Spring(_), _) if seen.measure == Measure::Displacement => {
+                vec![format!("compression({name})")]
+            }
+            (Kind::Spring(_), _) => vec![format!("compression({name})"), format!("force({name})")],
+            (Kind::Support(_), _) => vec![format!("force({name})"), format!("energy({name})")],
+            (Kind::Load(_), _) => vec![format!("force({name})")],
+        };
+        let beside = match (&scene.elements[element].kind, seen.measure) {
+            (Kind::Bar(_), _) => "",
+            (_, Measure::Velocity | Measure::Displacement) => {
+                ", or observe the end of a bar or a mass beside it"
+            }
+            (Kind::Mass(_), Measure::Force) => ", or the force at the end of a bar beside it",
+            _ => "",
+        };
+        let instead: Vec<String> = instead.iter().map(|text| format!("`{text}`")).collect();
+        (
+            format!("{what} has no {word}"),
+            vec![format!("`{name}` is {}", self.kind_with_article(element))],
+            format!("observe {}{beside}", instead.join(" or ")),
+        )
+    }
+
+    fn kind_with_article(&self, element: ElementIndex) -> String {
+        format!("a {}", self.declaration(element).kind)
+    }
+}
+
+/// The words that give a property in the text.
+fn words(property: Property) -> &'static [&'static str] {
+    match property {
+        Property::Impedance => &["impedance"],
+        Property::Travel => &["travel"],
+        Property::Area => &["area", "diameter"],
+        Property::Modulus => &["modulus", "wave_speed"],
+        Property::Density => &["density"],
+        Property::Length => &["length"],
+        Property::Strain => &["strain"],
+        Property::Mass => &["mass"],
+        Property::Stiffness => &["stiffness"],
+        Property::Damping => &["damping"],
+        Property::From => &["from"],
+        Property::Until => &["until"],
+    }
+}
+
+fn value(scene: &Scene, element: ElementIndex, property: Property) -> Option<&Fraction> {
+    match (&scene.elements[element].kind, property) {
+        (Kind::Bar(bar), Property::Travel | Property::Length) => bar.extent(),
+        (Kind::Bar(bar), property) => match (&bar.body, property) {
+            (Body::Impedance { impedance, .. }, Property::Impedance) => Some(impedance),
+            (Body::Solid { area, .. }, Property::Area) => Some(area),
+            (Body::Solid { modulus, .. }, Property::Modulus) => Some(modulus),
+            (Body::Solid { density, .. }, Property::Density) => Some(density),
+            _ => None,
+        },
+        (Kind::Mass(mass), Property::Mass) => Some(&mass.mass),
+        (Kind::Spring(spring), Property::Stiffness) => Some(&spring.stiffness),
+        (Kind::Spring(spring), Property::Damping) => Some(&spring.damping),
+        (Kind::Support(support), Property::Stiffness) => Some(&support.stiffness),
+        (Kind::Support(support), Property::Damping) => Some(&support.damping),
+        (Kind::Load(load), Property::From) => Some(&load.from),
+        _ => None,
+    }
+}

@@ -1,0 +1,216 @@
+//! Units of measurement and the dimensions they measure.
+//!
+//! A small table of our own: the crates that keep units settle them while a program is compiled, or
+//! convert by floating-point numbers, and a text needs neither: it needs a few units of mechanics
+//! that are exact multiples of metres, kilograms and seconds.
+
+use num_traits::{One, Pow};
+use wavestep_polynomial::Rational;
+
+use crate::language::diagnostic::Diagnostic;
+use crate::language::scope::{Scope, with_likely};
+use crate::language::syntax::{Operator, Unit};
+use crate::scene::Dimension;
+
+/// What a unit is worth in metres, kilograms and seconds, and what it measures.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Worth {
+    pub value: Rational,
+    pub dimension: Dimension,
+}
+
+/// Units that take a prefix, with numerator and denominator of their value in SI units.
+const PREFIXED: [(&str, i64, i64, Dimension); 8] = [
+    ("m", 1, 1, Dimension::LENGTH),
+    ("g", 1, 1000, Dimension::MASS),
+    ("s", 1, 1, Dimension::TIME),
+    ("N", 1, 1, Dimension::FORCE),
+    ("Pa", 1, 1, Dimension::PRESSURE),
+    ("Hz", 1, 1, Dimension::new(0, 0, -1)),
+    ("J", 1, 1, Dimension::ENERGY),
+    ("W", 1, 1, Dimension::new(2, 1, -3)),
+];
+
+/// Units without prefix, which are read first: `min` is a minute.
+const WHOLE: [(&str, i64, i64, Dimension); 3] = [
+    ("min", 60, 1, Dimension::TIME),
+    ("in", 127, 5000, Dimension::LENGTH),
+    ("lbf", 8_896_443_230_521, 2_000_000_000_000, Dimension::FORCE),
+];
+
+/// Prefixes with their powers of ten, and whether they stand before `m` only.
+const PREFIXES: [(&str, i32, bool); 8] = [
+    ("n", -9, false),
+    ("u", -6, false),
+    ("m", -3, false),
+    ("c", -2, true),
+    ("d", -1, true),
+    ("k", 3, false),
+    ("M", 6, false),
+    ("G", 9, false),
+];
+
+/// Units that are often meant, for a remedy.
+const USUAL: [&str; 19] = [
+    "m", "mm", "cm", "km", "kg", "g", "s", "ms", "us", "N", "kN", "MN", "Pa", "kPa", "MPa", "GPa",
+    "Hz", "J", "W",
+];
+
+fn named(name: &str) -> Option<Worth> {
+    let worth = |&(_, numerator, denominator, dimension): &(&str, i64, i64, Dimension)| Worth {
+        value: Rational::new(numerator.into(), denominator.into()),
+        dimension,
+    };
+    if let Some(unit) = WHOLE.iter().chain(&PREFIXED).find(|unit| unit.0 == name) {
+        return Some(worth(unit));
+    }
+    PREFIXES.iter().find_map(|(prefix, power, of_metres)| {
+        let rest = name.strip_prefix(prefix)?;
+        let unit = PREFIXED.iter().find(|unit| unit.0 == rest && (!of_metres || rest == "m"))?;
+        let Worth { value, dimension } = worth(unit);
+        let ten = Rational::from_integer(10.into());
+        Some(Worth { value: value * ten.pow(*power), dimension })
+    })
+}
+
+/// What a unit is worth; `symbols` are names that a person may have meant to multiply by.
+///
+/// # Errors
+/// The first part that is no unit, and powers beyond all bounds.
+pub(super) fn worth(scope: &Scope, unit: &Unit) -> Result<Worth, Diagnostic> {
+    let mut value = Rational::one();
+    let mut powers = [0_i32; 3];
+    for factor in &unit.value {
+        let Some(one) = named(&factor.name.value) else {
+            return Err(unknown(scope, &factor.name.value, factor.name.span));
+        };
+        let power = match factor.operator {
+            Operator::Multiply => i32::from(factor.power),
+            Operator::Divide => -i32::from(factor.power),
+        };
+        value *= one.value.pow(power);
+        let Dimension { length, mass, time } = one.dimension;
+        for (sum, own) in powers.iter_mut().zip([length, mass, time]) {
+            *sum += i32::from(own) * power;
+        }
+        if powers.iter().any(|power| power.abs() > MAX_POWER) {
+            return Err(scope
+                .error("the powers of this unit are too large", unit.span, "too large")
+                .with_remedy("write a unit such as `kg/m^3` or `kN*s/m`"));
+        }
+    }
+    let [length, mass, time] = powers.map(|power| i8::try_from(power).expect("a small power"));
+    Ok(Worth { value, dimension: Dimension::new(length, mass, time) })
+}
+
+/// The largest power of metres, kilograms and seconds.
+const MAX_POWER: i32 = 40;
+
+fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic {
+    let error = scope.error(format!("unknown unit `{name}`"), span, "no unit");
+    let (letters, digits) =
+        name.split_at(name.trim_end_matches(|c: char| c.is_ascii_digit()).len());
+    let parted = (1..name.len())
+        .filter(|at| name.is_char_boundary(*at))
+        .map(|at| name.split_at(at))
+        .find(|(left, right)| named(left).is_some() && named(right).is_some());
+    if scope.symbols.contains_key(name) || name == "t" {
+        error.with_remedy(format!("multiplication is always written: `…*{name}`"))
+    } else if !digits.is_empty() && named(letters).is_some() {
+        error.with_remedy(format!("write powers with `^`: `{letters}^{digits}`"))
+    } else if let Some((left, right)) = parted {
+        error.with_remedy(format!("write products with `*`: `{left}*{right}`"))
+    } else if name == "bar" {
+        error.with_remedy("write pressures in Pa: 1 bar is `100 kPa`")
+    } else {
+        with_likely(error, name, USUAL.into_iter()).or_remedy(
+            "units are m, g, s, N, Pa, Hz, J, W with prefixes n, u, m, k, M, G (and cm, dm), min, \
+             in, lbf, and their products and powers",
+        )
+    }
+}
+
+/// A dimension as a person would call it, with its unit: `a stiffness, N/m`.
+pub(super) fn described(dimension: Dimension) -> String {
+    match DESCRIBED.iter().find(|(known, _)| *known == dimension) {
+        Some((_, text)) => (*text).to_owned(),
+        None => format!("a quantity in {}", formula(dimension)),
+    }
+}
+
+/// Whether a name is that of a unit.
+pub(super) fn is_unit(name: &str) -> bool {
+    named(name).is_some()
+}
+
+/// The unit of a dimension with what it is equal to: `Pa = N/m^2`.
+pub(super) fn units_of(dimension: Dimension) -> String {
+    match DESCRIBED.iter().find(|(known, _)| *known == dimension) {
+        Some((_, text)) => text.split_once(", ").map_or("", |(_, unit)| unit).to_owned(),
+        None => formula(dimension),
+    }
+}
+
+/// The unit of a dimension: `N/m`.
+pub(super) fn unit_of(dimension: Dimension) -> String {
+    let units = units_of(dimension);
+    units.split(" = ").next().unwrap_or(&units).to_owned()
+}
+
+const DESCRIBED: [(Dimension, &str); 17] = [
+    (Dimension::NONE, "a plain number"),
+    (Dimension::LENGTH, "a length, m"),
+    (Dimension::MASS, "a mass, kg"),
+    (Dimension::TIME, "a time, s"),
+    (Dimension::AREA, "an area, m^2"),
+    (Dimension::new(3, 0, 0), "a volume, m^3"),
+    (Dimension::VELOCITY, "a velocity, m/s"),
+    (Dimension::new(1, 0, -2), "an acceleration, m/s^2"),
+    (Dimension::DENSITY, "a density, kg/m^3"),
+    (Dimension::FORCE, "a force, N"),
+    (Dimension::PRESSURE, "a pressure, Pa = N/m^2"),
+    (Dimension::STIFFNESS, "a stiffness, N/m"),
+    (Dimension::IMPEDANCE, "an impedance or a damping, N*s/m = kg/s"),
+    (Dimension::ENERGY, "an energy, J = N*m"),
+    (Dimension::MOMENTUM, "a momentum, N*s"),
+    (Dimension::new(0, 0, -1), "a frequency, Hz = 1/s"),
+    (Dimension::new(2, 1, -3), "a power, W = J/s"),
+];
+
+fn formula(dimension: Dimension) -> String {
+    let Dimension { length, mass, time } = dimension;
+    let parts: Vec<String> = [("kg", mass), ("m", length), ("s", time)]
+        .into_iter()
+        .filter(|(_, power)| *power != 0)
+        .map(|(unit, power)| match power {
+            1 => unit.to_owned(),
+            _ => format!("{unit}^{power}"),
+        })
+        .collect();
+    parts.join("*")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_exact() {
+        for (name, numerator, denominator) in [
+            ("kg", 1, 1),
+            ("mm", 1, 1000),
+            ("min", 60, 1),
+            ("GPa", 1_000_000_000, 1),
+            ("us", 1, 1_000_000),
+            ("in", 254, 10_000),
+        ] {
+            let value = Rational::new(numerator.into(), denominator.into());
+            assert_eq!(named(name).map(|unit| unit.value), Some(value), "{name}");
+        }
+        let pound: Rational = "44482216152605/10000000000000".parse().unwrap();
+        assert_eq!(named("lbf").map(|unit| unit.value), Some(pound));
+        for name in ["cs", "kmin", "kk", "", "M", "pa", "dN"] {
+            assert_eq!(named(name), None, "{name}");
+        }
+    }
+}

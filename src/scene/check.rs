@@ -1,0 +1,411 @@
+//! Whether a scene can be: signs of its properties, ends and lengths that agree, elements that can
+//! do something where they stand, and measures that fit their places.
+
+use wavestep_polynomial::{Rational, Symbol};
+
+use crate::expression::{Assumptions, Condition, Fraction, Relation};
+use crate::scene::fault::{Fault, Mistake, Part, Property};
+use crate::scene::{
+    Bar, Body, Drive, ElementIndex, End, Joint, Kind, Load, Measure, PI, Place, Position, Scene,
+    Seen,
+};
+
+impl Scene {
+    /// The assumptions of the scene, and that `pi` is greater than 3.
+    ///
+    /// ```
+    /// use wavestep::language::{Source, read_scene};
+    ///
+    /// let text = "scene \"A\"\nbar rod { impedance = pi, travel = 1, velocity = 1 }\nline free - rod - free";
+    /// let scene = read_scene(&Source::new("rod.wave", text)?, &Default::default()).unwrap();
+    /// assert_eq!((scene.assumptions.symbols().count(), scene.known().symbols().count()), (0, 1));
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn known(&self) -> Assumptions {
+        let mut known = self.assumptions.clone();
+        let pi = Symbol::new(PI).expect("a plain name");
+        let bound = Rational::from_integer(3.into());
+        known.declare_symbol(pi, Some(Condition { relation: Relation::Greater, bound }));
+        known
+    }
+
+    /// Everything that makes the scene impossible: first the elements, then the line, then the
+    /// observables. A scene with faults in elements or line is not asked about its observables.
+    ///
+    /// ```
+    /// use wavestep::language::{Source, read_scene};
+    /// use wavestep::scene::{End, Mistake};
+    ///
+    /// let text = "scene \"A\"\nmass ram { mass = 1, velocity = 1 }\nline free - ram - free";
+    /// let mut scene = read_scene(&Source::new("ram.wave", text)?, &Default::default()).unwrap();
+    /// scene.line.right = End::Fixed;
+    /// assert_eq!(scene.faults()[0].mistake, Mistake::Held);
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn faults(&self) -> Vec<Fault> {
+        let mut check = Check { scene: self, known: self.known(), faults: Vec::new() };
+        if !check.is_well_formed() {
+            return vec![Fault { mistake: Mistake::IllFormed, parts: vec![Part::Line] }];
+        }
+        check.elements();
+        check.membership();
+        if check.faults.iter().all(|fault| fault.mistake != Mistake::Repeated) {
+            check.ends();
+            check.places();
+        }
+        if check.faults.is_empty() {
+            check.motion();
+        }
+        if check.faults.is_empty() {
+            check.observables();
+        }
+        check.faults
+    }
+}
+
+struct Check<'a> {
+    scene: &'a Scene,
+    known: Assumptions,
+    faults: Vec<Fault>,
+}
+
+impl Check<'_> {
+    fn fault(&mut self, mistake: Mistake, parts: impl Into<Vec<Part>>) {
+        self.faults.push(Fault { mistake, parts: parts.into() });
+    }
+
+    fn is_well_formed(&self) -> bool {
+        let Scene { elements, line, observables, .. } = self.scene;
+        let exists = |element: &ElementIndex| *element < elements.len();
+        let seen = observables.iter().flat_map(|observable| &observable.terms);
+        !line.elements.is_empty()
+            && line.joints.len() == line.elements.len() + 1
+            && line.elements.iter().all(exists)
+            && seen.filter_map(|seen| seen.place.element()).all(|element| exists(&element))
+    }
+
+    /// Whether a value is certainly zero or positive: then any positive number makes it positive.
+    fn is_not_negative(&self, value: &Fraction) -> bool {
+        let mut name = "x".to_owned();
+        let is_known = |name: &str| self.known.symbols().any(|(symbol, _)| symbol.name() == name);
+        while is_known(&name) {
+            name.push('x');
+        }
+        let small = Symbol::new(&name).expect("a plain name");
+        let bound = Rational::from_integer(0.into());
+        let mut known = self.known.clone();
+        let condition = Condition { relation: Relation::Greater, bound };
+        known.declare_symbol(small.clone(), Some(condition));
+        known.is_positive(&(value + &Fraction::symbol(&small)))
+    }
+
+    fn positive(&mut self, element: ElementIndex, property: Property, value: &Fraction) {
+        if !self.known.is_positive(value) {
+            self.fault(Mistake::NotPositive, [Part::Property(element, property)]);
+        }
+    }
+
+    fn not_negative(&mut self, element: ElementIndex, property: Property, value: &Fraction) {
+        if !self.is_not_negative(value) {
+            self.fault(Mistake::Negative, [Part::Property(element, property)]);
+        }
+    }
+
+    /// The signs of all properties.
+    fn elements(&mut self) {
+        let scene = self.scene;
+        for (index, element) in scene.elements.iter().enumerate() {
+            match &element.kind {
+                Kind::Bar(bar) => self.bar(index, bar),
+                Kind::Mass(mass) => self.positive(index, Property::Mass, &mass.mass),
+                Kind::Spring(spring) => self.link(index, &spring.stiffness, &spring.damping),
+                Kind::Support(support) => self.link(index, &support.stiffness, &support.damping),
+                Kind::Load(load) => self.load(index, load),
+            }
+        }
+    }
+
+    fn bar(&mut self, index: ElementIndex, bar: &Bar) {
+        match &bar.body {
+            Body::Impedance { impedance, travel } => {
+                self.positive(index, Property::Impedance, impedance);
+                if let Some(travel) = travel {
+                    self.positive(index, Property::Travel, travel);
+                }
+                if self.scene.dimensional && !bar.strain.is_zero() {
+                    self.fault(
+                        Mistake::NoWaveSpeed,
+                        [Part::Property(index, Property::Strain), Part::Element(index)],
+                    );
+                }
+            }
+            Body::Solid { area, modulus, density, length } => {
+                self.positive(index, Property::Area, area);
+                self.positive(index, Property::Modulus, modulus);
+                self.positive(index, Property::Density, density);
+                if let Some(length) = length {
+                    self.positive(index, Property::Length, length);
+                }
+            }
+        }
+    }
+
+    fn link(&mut self, index: ElementIndex, stiffness: &Fraction, damping: &Fraction) {
+        if stiffness.is_zero() && damping.is_zero() {
+            return self.fault(Mistake::NoStiffness, [Part::Element(index)]);
+        }
+        // What is given is positive; what is left out is zero.
+        if !stiffness.is_zero() {
+            self.positive(index, Property::Stiffness, stiffness);
+        }
+        if !damping.is_zero() {
+            self.not_negative(index, Property::Damping, damping);
+        }
+    }
+
+    fn load(&mut self, index: ElementIndex, load: &Load) {
+        self.not_negative(index, Property::From, &load.from);
+        if let Some(until) = &load.until
+            && !self.known.is_positive(&(until - &load.from))
+        {
+            let parts = [Property::Until, Property::From].map(|at| Part::Property(index, at));
+            self.fault(Mistake::EndsBeforeBegin, parts);
+        }
+    }
+
+    /// Each element stands in the line once.
+    fn membership(&mut self) {
+        let line = &self.scene.line.elements;
+        for (position, element) in line.iter().enumerate() {
+            if let Some(first) = line[..position].iter().position(|before| before == element) {
+                let parts = [Part::Position(position), Part::Position(first)];
+                self.fault(Mistake::Repeated, parts);
+            }
+        }
+        for element in 0..self.scene.elements.len() {
+            if !line.contains(&element) {
+                self.fault(Mistake::Unused, [Part::Element(element), Part::Line]);
+            }
+        }
+    }
+
+    fn kind_at(&self, position: usize) -> &Kind {
+        &self.scene.elements[self.scene.line.elements[position]].kind
+    }
+
+    /// Ends agree with what stands beside them, and inner bars have lengths.
+    fn ends(&mut self) {
+        let line = &self.scene.line;
+        let last = line.elements.len() - 1;
+        let sides = [(0, line.left, Part::Left), (last, line.right, Part::Right)];
+        if last == 0
+            && sides.iter().all(|(_, end, _)| *end == End::Endless)
+            && matches!(self.kind_at(0), Kind::Bar(_))
+        {
+            let parts = [Part::Position(0), Part::Left, Part::Right];
+            return self.fault(Mistake::EndlessBothSides, parts);
+        }
+        for (side, (position, end, part)) in sides.into_iter().enumerate() {
+            let joint = side * (line.joints.len() - 1);
+            if line.joints[joint] == Joint::Contact && end != End::Fixed {
+                self.fault(Mistake::ContactAtEnd, [Part::Joint(joint), part]);
+            }
+            if end == End::Endless {
+                match self.kind_at(position) {
+                    Kind::Bar(bar) if bar.is_endless() => {}
+                    Kind::Bar(bar) => {
+                        let property = match bar.body {
+                            Body::Impedance { .. } => Property::Travel,
+                            Body::Solid { .. } => Property::Length,
+                        };
+                        let element = line.elements[position];
+                        let length = Part::Property(element, property);
+                        let parts = [part, Part::Position(position), length];
+                        self.fault(Mistake::EndlessWithLength, parts);
+                    }
+                    _ => {
+                        let parts = [part, Part::Position(position)];
+                        self.fault(Mistake::EndlessWithoutBar, parts);
+                    }
+                }
+            }
+        }
+        for position in 0..=last {
+            let Kind::Bar(bar) = self.kind_at(position) else { continue };
+            let goes_on = position == 0 && line.left == End::Endless
+                || position == last && line.right == End::Endless;
+            if bar.is_endless() && !goes_on {
+                let mut parts =
+                    vec![Part::Position(position), Part::Element(line.elements[position])];
+                if position == last && position > 0 {
+                    parts.push(Part::Right);
+                } else if position == 0 && last > 0 {
+                    parts.push(Part::Left);
+                }
+                self.fault(Mistake::NoLength, parts);
+            }
+        }
+    }
+
+    /// Bars and springs part the line into places that move as one; what stands at each of them can
+    /// do something.
+    fn places(&mut self) {
+        let line = &self.scene.line;
+        let count = line.elements.len();
+        let parts_line =
+            |position: &usize| matches!(self.kind_at(*position), Kind::Bar(_) | Kind::Spring(_));
+        let mut borders: Vec<usize> = (0..count).filter(parts_line).collect();
+        borders.push(count);
+        let mut start = 0;
+        for border in borders {
+            let here = start..border;
+            let left = (start == 0).then_some((line.left, Part::Left));
+            let right = (border == count).then_some((line.right, Part::Right));
+            self.one_place(here.clone(), left, right);
+            let before = start.checked_sub(1);
+            let after = (border < count).then_some(border);
+            let sides = [(left, after), (right, before)];
+            for (end, spring) in sides {
+                if let (Some((End::Free, end)), Some(spring)) = (end, spring)
+                    && here.is_empty()
+                    && matches!(self.kind_at(spring), Kind::Spring(_))
+                {
+                    self.fault(Mistake::Idle, [Part::Position(spring), end]);
+                }
+            }
+            start = border + 1;
+        }
+    }
+
+    fn one_place(
+        &mut self,
+        here: std::ops::Range<usize>,
+        left: Option<(End, Part)>,
+        right: Option<(End, Part)>,
+    ) {
+        let fixed = [left, right].into_iter().flatten().find(|(end, _)| *end == End::Fixed);
+        let mut imposed = None;
+        for position in here {
+            if let Some((_, end)) = fixed {
+                self.fault(Mistake::Held, [Part::Position(position), end]);
+                continue;
+            }
+            let Kind::Load(load) = self.kind_at(position) else { continue };
+            if load.drive == Drive::Velocity {
+                match imposed {
+                    None => imposed = Some(position),
+                    Some(first) => {
+                        let parts = [Part::Position(position), Part::Position(first)];
+                        self.fault(Mistake::TwoVelocities, parts);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Something sets the line in motion.
+    fn motion(&mut self) {
+        let mut kinds = self.scene.elements.iter().map(|element| &element.kind);
+        let moves = kinds.any(|kind| match kind {
+            Kind::Bar(bar) => !bar.velocity.is_zero() || !bar.strain.is_zero(),
+            Kind::Mass(mass) => !mass.velocity.is_zero(),
+            Kind::Load(load) => !load.course.is_zero(),
+            Kind::Spring(_) | Kind::Support(_) => false,
+        });
+        if !moves {
+            self.fault(Mistake::NothingMoves, [Part::Line]);
+        }
+    }
+
+    /// Measures fit their places, and terms each other.
+    fn observables(&mut self) {
+        let scene = self.scene;
+        for (observable, seen) in scene.observables.iter().enumerate() {
+            for (term, part) in seen.terms.iter().enumerate() {
+                let here = Part::Term { observable, term };
+                if let Some(mistake) = self.observed(part) {
+                    self.fault(mistake, [here]);
+                }
+                let first = &seen.terms[0];
+                if scene.dimensional && part.measure.dimension() != first.measure.dimension() {
+                    let parts = [here, Part::Term { observable, term: 0 }];
+                    self.fault(Mistake::MixedDimensions, parts);
+                }
+            }
+        }
+    }
+
+    fn observed(&self, seen: &Seen) -> Option<Mistake> {
+        let Seen { measure, place, .. } = seen;
+        let Some(element) = place.element() else { return self.of_line(*measure) };
+        let kind = &self.scene.elements[element].kind;
+        if !is_measurable(*measure, kind, matches!(place, Place::Element(_))) {
+            return Some(Mistake::NotMeasurable);
+        }
+        let Kind::Bar(bar) = kind else { return None };
+        if matches!(place, Place::Element(_)) {
+            let infinite = bar.is_endless() && is_infinite(*measure, bar);
+            return infinite.then_some(Mistake::Infinite);
+        }
+        match (&bar.body, measure) {
+            (Body::Impedance { .. }, Measure::Stress) => Some(Mistake::NoArea),
+            (Body::Impedance { .. }, Measure::Strain) if self.scene.dimensional => {
+                Some(Mistake::NoWaveSpeed)
+            }
+            _ => self.section(element, bar, place),
+        }
+    }
+
+    fn section(&self, element: ElementIndex, bar: &Bar, place: &Place) -> Option<Mistake> {
+        let line = &self.scene.line;
+        let goes_on_left = bar.is_endless()
+            && line.left == End::Endless
+            && line.elements.first() == Some(&element);
+        let inside = |value: &Fraction, end: Option<&Fraction>| {
+            let before_end = end.is_none_or(|end| self.is_not_negative(&(end - value)));
+            match self.is_not_negative(value) && before_end {
+                true => None,
+                false => Some(Mistake::OutsideBar),
+            }
+        };
+        match place {
+            Place::Left(_) if goes_on_left => Some(Mistake::NoSuchEnd),
+            Place::Right(_) if bar.is_endless() && !goes_on_left => Some(Mistake::NoSuchEnd),
+            Place::At(_, Position::Share(_)) if bar.is_endless() => Some(Mistake::ShareOfEndless),
+            Place::At(_, Position::Share(share)) => inside(share, Some(&Fraction::one())),
+            Place::At(_, Position::Distance(distance)) => inside(distance, bar.extent()),
+            _ => None,
+        }
+    }
+
+    fn of_line(&self, measure: Measure) -> Option<Mistake> {
+        if !matches!(measure, Measure::Energy | Measure::Momentum) {
+            return Some(Mistake::NotMeasurable);
+        }
+        let infinite = self.scene.elements.iter().any(|element| match &element.kind {
+            Kind::Bar(bar) => bar.is_endless() && is_infinite(measure, bar),
+            _ => false,
+        });
+        infinite.then_some(Mistake::Infinite)
+    }
+}
+
+/// Whether an endless bar holds infinitely much of it from the start.
+fn is_infinite(measure: Measure, bar: &Bar) -> bool {
+    let is_strained = measure == Measure::Energy && !bar.strain.is_zero();
+    !bar.velocity.is_zero() || is_strained
+}
+
+/// Whether an element as a whole, or a section of it, has a measure.
+fn is_measurable(measure: Measure, kind: &Kind, whole: bool) -> bool {
+    use Measure::{Compression, Displacement, Energy, Force, Momentum, Velocity};
+    match (kind, whole) {
+        (Kind::Bar(_), false) => !matches!(measure, Compression | Energy | Momentum),
+        (_, false) => false,
+        (Kind::Bar(_), true) => matches!(measure, Energy | Momentum),
+        (Kind::Mass(_), true) => matches!(measure, Velocity | Displacement | Energy | Momentum),
+        (Kind::Spring(_), true) => matches!(measure, Force | Compression | Energy),
+        (Kind::Support(_), true) => matches!(measure, Force | Energy),
+        (Kind::Load(_), true) => measure == Force,
+    }
+}
