@@ -15,7 +15,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
     ("recurrence", &["expression"]),
     ("network", &["expression", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
-    ("evaluate", &["ball", "expression", "recurrence", "solution"]),
+    ("evaluate", &["ball", "expression", "network", "recurrence", "scene", "solution"]),
     ("export", &["expression", "recurrence", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),

@@ -11,6 +11,7 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
 use super::binary::Binary;
+use super::error::BallError;
 use super::magnitude::Magnitude;
 
 /// Where an exact endpoint would need more bits than this below its midpoint, the radius is widened
@@ -203,6 +204,46 @@ impl Ball {
         };
         Self::new(midpoint, radius.add(&error))
     }
+
+    /// `1/x`: `radius ≤ r/(|m| (|m| − r)) + ε`, by `|1/x − 1/m| = |x − m|/(|x| |m|)`.
+    ///
+    /// # Errors
+    /// [`BallError::DivisorMayBeZero`] where zero is in the ball.
+    ///
+    /// ```
+    /// use num_rational::BigRational;
+    /// use wavestep::ball::{Ball, BallError};
+    /// let third = BigRational::new(1.into(), 3.into());
+    /// let ball = Ball::from_rational(&third, 64);
+    /// assert!(ball.reciprocal(64)?.contains(&third.recip()));
+    /// let zero = ball.subtract(&ball, 64);
+    /// assert_eq!(zero.reciprocal(64), Err(BallError::DivisorMayBeZero));
+    /// # Ok::<(), BallError>(())
+    /// ```
+    pub fn reciprocal(&self, precision: u64) -> Result<Self, BallError> {
+        if self.contains_zero() {
+            return Err(BallError::DivisorMayBeZero);
+        }
+        let inverse = |value: &Binary, precision| {
+            let exponent = value.exponent().checked_neg().expect("an exponent within 64 bits");
+            Binary::quotient(&BigInt::one(), value.mantissa(), exponent, precision)
+        };
+        let (midpoint, error) = inverse(&self.midpoint, precision);
+        if self.is_exact() {
+            return Ok(Self::new(midpoint, error));
+        }
+        let (lower, upper) = self.endpoints();
+        let nearest = if lower.is_negative() { upper } else { lower };
+        if nearest.is_zero() || nearest.is_negative() != self.midpoint.is_negative() {
+            return Err(BallError::DivisorMayBeZero);
+        }
+        let bound = |value: &Binary| {
+            let (inverse, error) = inverse(value, 32);
+            inverse.magnitude().add(&error)
+        };
+        let spread = self.radius.multiply(&bound(&self.midpoint)).multiply(&bound(&nearest));
+        Ok(Self::new(midpoint, spread.add(&error)))
+    }
 }
 
 impl fmt::Display for Ball {
@@ -240,6 +281,10 @@ mod tests {
             let (lower, upper) = a.endpoints();
             prop_assert!(BigRational::from(&lower) <= x && x <= BigRational::from(&upper));
             prop_assert_eq!(a.contains_zero(), a.contains(&BigInt::ZERO.into()));
+            match a.reciprocal(precision) {
+                Ok(inverse) => prop_assert!(inverse.contains(&x.recip())),
+                Err(_) => prop_assert!(a.contains_zero()),
+            }
         }
     }
 

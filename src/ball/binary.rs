@@ -85,6 +85,15 @@ impl Binary {
         Magnitude::from_integer(&self.mantissa, self.exponent)
     }
 
+    /// `⌊self·2^shift⌋`. The cost grows with the size of the result.
+    #[must_use]
+    pub(super) fn floor_scaled(&self, shift: i64) -> BigInt {
+        match shifted(self.exponent, shift) {
+            up @ 0.. => &self.mantissa << up as u64,
+            down => &self.mantissa >> down.unsigned_abs(),
+        }
+    }
+
     /// `−self`.
     #[must_use]
     pub fn negate(self) -> Self {

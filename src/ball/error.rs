@@ -17,6 +17,8 @@ use super::exponential::ARGUMENT_BITS;
 pub enum BallError {
     /// The argument of an exponential may exceed `2^40` in absolute value: not supported.
     ArgumentTooLarge,
+    /// A divisor may be zero: its enclosure contains it.
+    DivisorMayBeZero,
 }
 
 impl fmt::Display for BallError {
@@ -26,6 +28,9 @@ impl fmt::Display for BallError {
                 formatter,
                 "the argument of an exponential exceeds 2^{ARGUMENT_BITS} in absolute value"
             ),
+            Self::DivisorMayBeZero => {
+                formatter.write_str("the enclosure of a divisor contains zero")
+            }
         }
     }
 }

@@ -91,37 +91,60 @@ pub(crate) fn exp_of_rational(x: &BigRational, precision: u64) -> Result<Ball, B
     Ok(reduction.exponential(&scaled.div_floor(denominator)))
 }
 
+impl Ball {
+    /// `e^x` for all `x` of the ball.
+    ///
+    /// For a midpoint `m` and a radius `r`, `|e^x − e^m| ≤ e^m (e^r − 1)`; that is at most
+    /// `e^m r (1 + r)` for `r ≤ 1`, since `e^r ≤ 1 + r + r²` there, and else at most
+    /// `e^m 2^{3r/2}`, since `log₂ e < 3/2`.
+    ///
+    /// # Errors
+    /// [`BallError::ArgumentTooLarge`] where an `x` of the ball may exceed `2^40` in absolute value.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let third = Ball::from_rational(&Rational::new(1.into(), 3.into()), 80);
+    /// let value = third.exp(80)?;
+    /// assert!(value.to_string().starts_with("1.3956124250860895286"));
+    /// // It is less than 7/5.
+    /// assert!(!value.contains(&Rational::new(7.into(), 5.into())));
+    /// # Ok::<(), wavestep::ball::BallError>(())
+    /// ```
+    pub fn exp(&self, precision: u64) -> Result<Ball, BallError> {
+        if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
+            return Err(BallError::ArgumentTooLarge);
+        }
+        let midpoint = self.midpoint();
+        let reduction = Reduction::new(midpoint.top().unwrap_or(i64::MIN), precision);
+        let shift = (reduction.working - reduction.halvings) as i64;
+        let power = reduction.exponential(&midpoint.floor_scaled(shift));
+        let radius = self.radius();
+        let Some(top) = radius.top() else { return Ok(power) };
+        let spread = if top <= 0 {
+            radius.multiply(&Magnitude::from_u64(1).add(radius))
+        } else {
+            Magnitude::power_of_two(3 << (top - 1))
+        };
+        let spread = power.magnitude().multiply(&spread);
+        Ok(Ball::new(power.midpoint().clone(), power.radius().add(&spread)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use astro_float::{BigFloat, Consts, RoundingMode, Sign};
-    use num_bigint::BigUint;
+    use astro_float::RoundingMode;
     use proptest::prelude::*;
 
-    use super::super::samples;
+    use super::super::samples::{self, includes};
     use super::*;
 
     /// An enclosure of `e^x` from another library's value of `bits` bits.
     fn second_opinion(x: &Binary, bits: usize) -> Ball {
-        let digits: Vec<u64> = x.mantissa().iter_u64_digits().collect();
-        let sign = if x.is_negative() { Sign::Neg } else { Sign::Pos };
-        let mut argument = BigFloat::from_words(&digits, sign, 0);
-        // The library's numbers are 0.m·2^e with the first bit of m set.
-        argument.set_exponent(x.top().unwrap_or(0) as i32);
-        let mut constants = Consts::new().unwrap();
-        let value = argument.exp(bits, RoundingMode::ToEven, &mut constants);
-        let (words, _, _, exponent, _) = value.as_raw_parts().unwrap();
-        let digits = words.iter().flat_map(|word| [*word as u32, (*word >> 32) as u32]).collect();
-        let unit = i64::from(exponent) - 64 * words.len() as i64;
-        let midpoint = Binary::new(BigInt::from(BigUint::new(digits)), unit);
-        let radius = midpoint.magnitude().scale(2 - bits as i64);
-        Ball::new(midpoint, radius)
-    }
-
-    /// Whether all of `inner` lies in `outer`.
-    fn includes(outer: &Ball, inner: &Ball) -> bool {
-        let distance = outer.midpoint().add(&inner.midpoint().clone().negate());
-        let distance = if distance.is_negative() { distance.negate() } else { distance };
-        distance.add(&inner.radius().to_binary()) <= outer.radius().to_binary()
+        samples::second_opinion(x, bits, |x, constants| {
+            x.exp(bits, RoundingMode::ToEven, constants)
+        })
     }
 
     fn assert_small(ball: &Ball, precision: u64) {
@@ -147,6 +170,16 @@ mod tests {
             let ball = exp_of_rational(&BigRational::from(&x), precision).unwrap();
             prop_assert!(includes(&ball, &opinion), "{x:?} {ball} {opinion}");
             assert_small(&ball, precision);
+            let ball = Ball::new(x.clone(), Magnitude::ZERO).exp(precision).unwrap();
+            prop_assert!(includes(&ball, &opinion), "{x:?} {ball} {opinion}");
+            assert_small(&ball, precision);
+        }
+
+        #[test]
+        fn a_ball_includes_its_points((ball, point) in samples::ball_and_point(), precision in 2_u64..200) {
+            prop_assume!(ball.magnitude() < Magnitude::power_of_two(12));
+            let exact = exp_of_rational(&point, precision + 64).unwrap();
+            prop_assert!(includes(&ball.exp(precision).unwrap(), &exact));
         }
 
         #[test]
@@ -198,5 +231,8 @@ mod tests {
         let over = integer((1 << 40) + 1);
         assert_eq!(exp_of_rational(&over, 64), Err(BallError::ArgumentTooLarge));
         assert_eq!(exp_of_rational(&-over, 64), Err(BallError::ArgumentTooLarge));
+        let wide = Ball::new(Binary::zero(), Magnitude::power_of_two(41));
+        assert_eq!(wide.exp(64), Err(BallError::ArgumentTooLarge));
+        assert!(Ball::new(Binary::zero(), Magnitude::power_of_two(39)).exp(64).is_ok());
     }
 }

@@ -2,7 +2,7 @@
 //! their own error.
 //!
 //! A [`Ball`] is a midpoint and a radius; every operation returns a ball that contains each result
-//! its operands allow. A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a
+//! its operands allow. A [`ComplexBall`] is a pair of balls. A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a
 //! ball as a person reads it, and a [`Certified`] value is a decimal with the ball that proves it.
 //!
 //! Values of waves come as [`Certified`] from [`evaluate`](crate::evaluate); balls may be
@@ -12,18 +12,22 @@
 mod ball;
 mod binary;
 mod certify;
+mod complex;
 mod decimal;
 mod divided;
 mod enclosure;
 mod error;
 mod exponential;
 mod magnitude;
+mod root;
 #[cfg(test)]
 mod samples;
+mod trigonometry;
 
 pub use ball::Ball;
 pub use certify::Certified;
 pub(crate) use certify::{CertifyError, certify};
+pub use complex::ComplexBall;
 pub use decimal::{Decimal, Exactness};
 pub(crate) use divided::evaluate_divided;
 pub use enclosure::DecimalEnclosure;

@@ -1,6 +1,8 @@
-//! Random operands for the tests of this folder: balls, and a point of each, now and then an end.
+//! Random operands for the tests of this folder: balls, and a point of each, now and then an end;
+//! and the values of another library.
 
-use num_bigint::{BigInt, Sign};
+use astro_float::{BigFloat, Consts};
+use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::One;
 use proptest::prelude::*;
@@ -46,4 +48,32 @@ pub(super) fn ball_and_point() -> impl Strategy<Value = (Ball, BigRational)> {
             (ball, point)
         },
     )
+}
+
+/// An enclosure of a function's value at `x` from another library's value of `bits` bits.
+pub(super) fn second_opinion(
+    x: &Binary,
+    bits: usize,
+    function: impl Fn(&BigFloat, &mut Consts) -> BigFloat,
+) -> Ball {
+    let digits: Vec<u64> = x.mantissa().iter_u64_digits().collect();
+    let sign = if x.is_negative() { astro_float::Sign::Neg } else { astro_float::Sign::Pos };
+    let mut argument = BigFloat::from_words(&digits, sign, 0);
+    // The library's numbers are 0.m·2^e with the first bit of m set.
+    argument.set_exponent(x.top().unwrap_or(0) as i32);
+    let value = function(&argument, &mut Consts::new().unwrap());
+    let (words, _, sign, exponent, _) = value.as_raw_parts().unwrap();
+    let digits = words.iter().flat_map(|word| [*word as u32, (*word >> 32) as u32]).collect();
+    let unit = i64::from(exponent) - 64 * words.len() as i64;
+    let sign = if sign == astro_float::Sign::Neg { Sign::Minus } else { Sign::Plus };
+    let midpoint = Binary::new(BigInt::from_biguint(sign, BigUint::new(digits)), unit);
+    let radius = midpoint.magnitude().scale(2 - bits as i64);
+    Ball::new(midpoint, radius)
+}
+
+/// Whether all of `inner` lies in `outer`.
+pub(super) fn includes(outer: &Ball, inner: &Ball) -> bool {
+    let distance = outer.midpoint().add(&inner.midpoint().clone().negate());
+    let distance = if distance.is_negative() { distance.negate() } else { distance };
+    distance.add(&inner.radius().to_binary()) <= outer.radius().to_binary()
 }

@@ -1,11 +1,14 @@
-//! A value as a sum of contributions, each a rational amount times an exponential.
+//! A value as a sum of contributions, each a rational amount times an exponential; and what holds
+//! square roots, as an expression.
 
 use crate::ball::{Ball, BallError, evaluate_divided, exp_of_rational};
+use crate::evaluate::evaluator::EvaluateError;
 use crate::evaluate::modular::{self, Residue};
+use crate::expression::{Expression, Fraction};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 use std::rc::Rc;
-use wavestep_polynomial::{Rational, Univariate};
+use wavestep_polynomial::{Rational, Symbol, Univariate};
 
 /// `factor · amount · e^{exponent}`.
 pub(crate) struct Contribution {
@@ -58,6 +61,69 @@ impl Contribution {
 
     fn residue(&self) -> Option<Residue> {
         Some(Residue::of_rational(&self.factor)?.times(self.amount.residue()?))
+    }
+}
+
+/// The parts of a value: those in rational numbers, and the sum of those that hold square roots.
+#[derive(Default)]
+pub(crate) struct Parts {
+    pub rational: Vec<Contribution>,
+    pub algebraic: Expression,
+}
+
+impl Parts {
+    /// Adds an expression, with a number in place of a symbol.
+    pub fn add(
+        &mut self,
+        expression: &Expression,
+        at: Option<(&Symbol, &Rational)>,
+    ) -> Result<(), EvaluateError> {
+        let value = |x: &Symbol| at.filter(|(own, _)| *own == x).map(|(_, value)| value.clone());
+        match expression.evaluate(&value) {
+            Ok(sum) => self.rational.extend(sum.into_iter().map(|(exponent, value)| {
+                let factor = Rational::from_integer(1.into());
+                Contribution { factor, amount: Amount::Number(value), exponent }
+            })),
+            Err(symbol) if symbol.square().is_none() => {
+                return Err(EvaluateError::MissingValue(symbol));
+            }
+            Err(_) => {
+                let at = match at {
+                    Some((x, value)) => expression
+                        .substitute(x, &Fraction::constant(value))
+                        .expect("no denominator holds a time"),
+                    None => expression.clone(),
+                };
+                if let Some(symbol) = at.symbols().into_iter().find(|x| x.square().is_none()) {
+                    return Err(EvaluateError::MissingValue(symbol));
+                }
+                self.algebraic += &at;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds `factor · e^{exponent}` times all of `other`.
+    pub fn add_scaled(&mut self, mut other: Parts, factor: &Rational, exponent: &Rational) {
+        for contribution in &mut other.rational {
+            contribution.factor *= factor;
+            contribution.exponent += exponent;
+        }
+        self.rational.append(&mut other.rational);
+        if !other.algebraic.is_zero() {
+            let scaled = other.algebraic.scale(factor);
+            self.algebraic += &scaled.times_exponential(&Fraction::constant(exponent));
+        }
+    }
+
+    /// The whole sum as one expression.
+    pub fn into_expression(self) -> Expression {
+        let mut sum = self.algebraic;
+        for contribution in &self.rational {
+            let amount = Fraction::constant(&contribution.exact());
+            sum.add_term(Fraction::constant(&contribution.exponent), amount);
+        }
+        sum
     }
 }
 

@@ -1,9 +1,11 @@
 //! The value of a wave or an observable at a time, certified.
 
 use crate::ball::{Ball, BallError, CertifyError, certify};
-use crate::evaluate::contribution::{Amount, Contribution, enclose, rational_value};
+use crate::evaluate::contribution::{Amount, Contribution, Parts, enclose, rational_value};
+use crate::evaluate::enclosure::enclose_expression;
 use crate::evaluate::value::Value;
-use crate::expression::{EchoSum, ExponentialSum, Expression};
+use crate::expression::{EchoSum, Expression, NotAUnit};
+use crate::network::NetworkError;
 use crate::recurrence::{Observation, WaveIndex};
 use crate::solution::{EchoRow, GeneralForm, Solution, SolveError};
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -172,6 +174,19 @@ pub enum EvaluateError {
     },
     /// An enclosure could not be computed.
     Ball(BallError),
+    /// More echoes arrive until a time than are worked out.
+    TooManyEchoes {
+        /// About how many.
+        echoes: u128,
+        /// How many are allowed.
+        limit: usize,
+    },
+    /// A value that cannot be divided by.
+    Division(NotAUnit),
+    /// The scene gives no recurrence.
+    Network(Box<NetworkError>),
+    /// The value is a complex number that is not real: waves with one pole of a complex pair each.
+    NotReal,
 }
 
 impl fmt::Display for EvaluateError {
@@ -195,6 +210,13 @@ impl fmt::Display for EvaluateError {
                 best.radius()
             ),
             EvaluateError::Ball(error) => error.fmt(f),
+            EvaluateError::TooManyEchoes { echoes, limit } => write!(
+                f,
+                "about {echoes} echoes arrive until this time, and at most {limit} are worked out"
+            ),
+            EvaluateError::Division(reason) => reason.fmt(f),
+            EvaluateError::Network(error) => error.fmt(f),
+            EvaluateError::NotReal => f.write_str("the value is not real"),
         }
     }
 }
@@ -293,46 +315,50 @@ impl<'a> Evaluator<'a> {
         digits: usize,
         limit_bits: u64,
     ) -> Result<Value, EvaluateError> {
-        let contributions = self.contributions(observation, at, side)?;
-        if let Some(value) = rational_value(&contributions) {
+        let parts = self.parts(observation, at, side)?;
+        if !parts.algebraic.is_zero() {
+            return algebraic_value(&parts.into_expression(), digits, limit_bits);
+        }
+        if let Some(value) = rational_value(&parts.rational) {
             return Ok(Value::Exact(value));
         }
-        match certify(digits, limit_bits, |bits| enclose(&contributions, bits)) {
-            Ok(certified) => Ok(Value::Certified(certified)),
-            Err(CertifyError::AccuracyNotReached { best, bits }) => {
-                Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits })
-            }
-            Err(CertifyError::Enclosure(error)) => Err(EvaluateError::Ball(error)),
-        }
+        let enclosure = |bits| enclose(&parts.rational, bits).map_err(EvaluateError::Ball);
+        certified(digits, limit_bits, enclosure)
     }
 
-    fn contributions(
+    fn parts(
         &self,
         observation: &Observation,
         at: &Rational,
         side: Side,
-    ) -> Result<Vec<Contribution>, EvaluateError> {
-        let mut contributions = Vec::new();
+    ) -> Result<Parts, EvaluateError> {
+        let mut parts = Parts::default();
         for seen in &observation.waves {
-            let coefficient = number(&seen.coefficient, |_| None)?;
             let delay = seen.delay.as_constant().expect("a delay without symbols is a number");
             let time = at - delay;
-            for (extra, factor) in &coefficient {
-                let first = contributions.len();
-                self.add_wave(seen.wave, seen.slope, &time, side, &mut contributions)?;
-                for contribution in &mut contributions[first..] {
-                    contribution.factor *= factor;
-                    contribution.exponent += extra;
+            let wave = || -> Result<Parts, EvaluateError> {
+                let mut wave = Parts::default();
+                self.add_wave(seen.wave, seen.slope, &time, side, &mut wave)?;
+                Ok(wave)
+            };
+            match seen.coefficient.evaluate(&|_| None) {
+                Ok(coefficient) => {
+                    for (extra, factor) in &coefficient {
+                        parts.add_scaled(wave()?, factor, extra);
+                    }
                 }
+                Err(symbol) if symbol.square().is_none() => {
+                    return Err(EvaluateError::MissingValue(symbol));
+                }
+                Err(_) => parts.algebraic += &(&wave()?.into_expression() * &seen.coefficient),
             }
         }
         let before_start = at.is_negative() || (at.is_zero() && side == Side::Left);
         if !observation.forcing.is_zero() && !before_start {
             let time = &self.solution.recurrence().statement().time;
-            let forcing = number(&observation.forcing, |x| (x == time).then(|| at.clone()))?;
-            contributions.extend(numbers(forcing));
+            parts.add(&observation.forcing, Some((time, at)))?;
         }
-        Ok(contributions)
+        Ok(parts)
     }
 
     /// Adds `w(time)`, or the derivative of the pieces: the echoes that have arrived.
@@ -342,13 +368,13 @@ impl<'a> Evaluator<'a> {
         slope: bool,
         time: &Rational,
         side: Side,
-        contributions: &mut Vec<Contribution>,
+        parts: &mut Parts,
     ) -> Result<(), EvaluateError> {
         let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
         if let Ok(GeneralForm::Geometric(sequence)) = self.solution.general(wave) {
             // Constant on each period: no echo needs to be added up, and slopes are zero.
             if !slope {
-                contributions.extend(numbers(number(&sequence.value(last), |_| None)?));
+                parts.add(&sequence.value(last), None)?;
             }
             return Ok(());
         }
@@ -357,14 +383,13 @@ impl<'a> Evaluator<'a> {
         for k in 0..=last {
             let x = time - &self.period * Rational::from_integer(k.into());
             match &*echoes {
-                Echoes::Rows(rows) => add_row(&rows[k], slope, x, contributions),
+                Echoes::Rows(rows) => add_row(&rows[k], slope, x, &mut parts.rational),
                 Echoes::Expressions(sum) => {
-                    let mut echo = sum.echoes()[k].clone();
-                    if slope {
-                        echo = echo.derivative(local);
+                    let echo = &sum.echoes()[k];
+                    match slope {
+                        true => parts.add(&echo.derivative(local), Some((local, &x)))?,
+                        false => parts.add(echo, Some((local, &x)))?,
                     }
-                    let value = number(&echo, |symbol| (symbol == local).then(|| x.clone()))?;
-                    contributions.extend(numbers(value));
                 }
             }
         }
@@ -438,19 +463,41 @@ fn add_row(row: &Row, slope: bool, x: Rational, contributions: &mut Vec<Contribu
     }
 }
 
-/// The terms of an exact number as contributions.
-fn numbers(sum: ExponentialSum) -> impl Iterator<Item = Contribution> {
-    sum.into_iter().map(|(exponent, value)| Contribution {
-        factor: Rational::from_integer(1.into()),
-        amount: Amount::Number(value),
-        exponent,
-    })
+/// The digits of a number that is not rational.
+pub(crate) fn certified(
+    digits: usize,
+    limit_bits: u64,
+    enclosure: impl FnMut(u64) -> Result<Ball, EvaluateError>,
+) -> Result<Value, EvaluateError> {
+    match certify(digits, limit_bits, enclosure) {
+        Ok(certified) => Ok(Value::Certified(certified)),
+        Err(CertifyError::AccuracyNotReached { best, bits }) => {
+            Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits })
+        }
+        Err(CertifyError::Enclosure(error)) => Err(error),
+    }
 }
 
-/// An expression as a number.
-fn number(
-    expression: &Expression,
-    values: impl Fn(&Symbol) -> Option<Rational>,
-) -> Result<ExponentialSum, EvaluateError> {
-    expression.evaluate(&values).map_err(EvaluateError::MissingValue)
+/// The value of an expression without symbols but square roots.
+///
+/// By the theorem of Lindemann and Weierstrass, in algebraic exponents and coefficients, it is a
+/// rational number exactly when it is one as an expression; and it is real exactly when it is its
+/// own conjugate, since the conjugates of different exponents are different.
+fn algebraic_value(
+    sum: &Expression,
+    digits: usize,
+    limit_bits: u64,
+) -> Result<Value, EvaluateError> {
+    if let Some(value) = sum.as_constant() {
+        return Ok(Value::Exact(value));
+    }
+    let i = Symbol::square_root(-1).expect("the imaginary unit");
+    if sum.conjugate(&i) != *sum {
+        return Err(EvaluateError::NotReal);
+    }
+    certified(digits, limit_bits, |bits| {
+        let value = enclose_expression(sum, &|_, _| None, bits)?;
+        debug_assert!(value.imaginary().contains(&Rational::default()));
+        Ok(value.real().clone())
+    })
 }

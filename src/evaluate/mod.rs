@@ -1,16 +1,22 @@
 //! Numbers from exact forms, with every digit proven.
 //!
-//! A wave at a time is a finite sum `Σ_i r_i e^{λ_i}` with rational numbers. Whether it is itself a
-//! rational number is decided exactly, first; else balls of rising precision enclose it until the
-//! digits asked for are certain.
+//! A wave at a time is a finite sum `Σ_i r_i e^{λ_i}` with rational numbers, or with square roots of
+//! such. Whether it is itself a rational number is decided exactly, first; else balls of rising
+//! precision enclose it until the digits asked for are certain.
 
 mod contribution;
+mod enclosure;
 mod evaluator;
 mod modular;
+mod numbers;
+mod scene;
 mod value;
 
+pub use enclosure::enclose_expression;
 pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
     Side,
 };
+pub use numbers::Numbers;
+pub use scene::{MAX_ECHOES, SceneEvaluator};
 pub use value::Value;

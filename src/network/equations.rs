@@ -160,6 +160,11 @@ impl Network {
         &self.waves
     }
 
+    /// How late the clock of each node is.
+    pub fn lateness(&self) -> impl Iterator<Item = &Fraction> + '_ {
+        self.lateness.iter()
+    }
+
     /// The observables of the scene.
     pub fn observables(&self) -> &[Observed] {
         &self.observables

@@ -47,7 +47,9 @@ impl Network {
 
     /// The recurrence of the scene as a statement; `strides` turn counts on the lattice into lags.
     #[doc(hidden)]
-    pub fn statement_for_debugging(&self) -> Statement { self.statement(&[1]) }
+    pub fn statement_for_debugging(&self) -> Statement {
+        self.statement(&[1])
+    }
     pub(crate) fn statement(&self, strides: &[usize]) -> Statement {
         let mut laws = Laws::default();
         for (place, node) in self.layout.nodes.iter().enumerate() {

@@ -1,0 +1,193 @@
+//! Complex numbers known to lie within a rectangle.
+
+use std::fmt;
+
+use num_rational::BigRational;
+
+use super::ball::Ball;
+use super::error::BallError;
+
+/// All complex numbers whose real and imaginary parts lie in two balls.
+///
+/// # Invariants
+/// - A complex ball made by an operation contains the exact result for every choice of points in
+///   its operands.
+///
+/// ```
+/// use wavestep::ball::{Ball, ComplexBall};
+/// use wavestep_polynomial::Rational;
+///
+/// // (1 + 2i)(3 − i) = 5 + 5i.
+/// let ball = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 64);
+/// let (a, b) = (ComplexBall::new(ball(1), ball(2)), ComplexBall::new(ball(3), ball(-1)));
+/// let product = a.multiply(&b, 64);
+/// assert_eq!((product.real(), product.imaginary()), (&ball(5), &ball(5)));
+/// // Divided by 3 − i it is 1 + 2i again.
+/// let quotient = product.multiply(&b.reciprocal(64)?, 64);
+/// assert!(quotient.imaginary().contains(&Rational::from_integer(2.into())));
+/// # Ok::<(), wavestep::ball::BallError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ComplexBall {
+    re: Ball,
+    im: Ball,
+}
+
+impl ComplexBall {
+    /// `re + i·im`.
+    #[must_use]
+    pub fn new(re: Ball, im: Ball) -> Self {
+        Self { re, im }
+    }
+
+    /// The point 0.
+    #[must_use]
+    pub(crate) fn zero() -> Self {
+        Ball::zero().into()
+    }
+
+    /// The real part.
+    #[must_use]
+    pub const fn real(&self) -> &Ball {
+        &self.re
+    }
+
+    /// The imaginary part.
+    #[must_use]
+    pub const fn imaginary(&self) -> &Ball {
+        &self.im
+    }
+
+    /// `z + w`.
+    #[must_use]
+    pub fn add(&self, other: &Self, precision: u64) -> Self {
+        Self::new(self.re.add(&other.re, precision), self.im.add(&other.im, precision))
+    }
+
+    /// `z·w`.
+    #[must_use]
+    pub fn multiply(&self, other: &Self, precision: u64) -> Self {
+        let product = |a: &Ball, b: &Ball| a.multiply(b, precision);
+        let re = product(&self.re, &other.re).subtract(&product(&self.im, &other.im), precision);
+        let im = product(&self.re, &other.im).add(&product(&self.im, &other.re), precision);
+        Self::new(re, im)
+    }
+
+    /// `z·q`.
+    #[must_use]
+    pub fn multiply_rational(&self, factor: &BigRational, precision: u64) -> Self {
+        let product = |part: &Ball| part.multiply_rational(factor, precision);
+        Self::new(product(&self.re), product(&self.im))
+    }
+
+    /// `1/z = (re − i·im)/(re² + im²)`.
+    ///
+    /// # Errors
+    /// [`BallError::DivisorMayBeZero`] where the enclosure of `re² + im²` contains zero.
+    pub fn reciprocal(&self, precision: u64) -> Result<Self, BallError> {
+        let norm = self.re.square(precision).add(&self.im.square(precision), precision);
+        let inverse = norm.reciprocal(precision)?;
+        let re = self.re.multiply(&inverse, precision);
+        Ok(Self::new(re, self.im.multiply(&inverse, precision).negate()))
+    }
+
+    /// `e^z = e^re (cos im + i sin im)`.
+    ///
+    /// # Errors
+    /// [`BallError::ArgumentTooLarge`] where a part may exceed `2^40` in absolute value.
+    ///
+    /// ```
+    /// use wavestep::ball::{Ball, ComplexBall};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// // e^{iπ} = −1.
+    /// let zero = Ball::from_rational(&Rational::default(), 64);
+    /// let value = ComplexBall::new(zero, Ball::pi(64)).exp(64)?;
+    /// assert!(value.real().contains(&Rational::from_integer((-1).into())));
+    /// assert!(value.imaginary().contains(&Rational::default()));
+    /// # Ok::<(), wavestep::ball::BallError>(())
+    /// ```
+    pub fn exp(&self, precision: u64) -> Result<Self, BallError> {
+        let size = self.re.exp(precision)?;
+        if self.im.is_exact() && self.im.contains_zero() {
+            return Ok(size.into());
+        }
+        let (cos, sin) = self.im.cos_sin(precision)?;
+        Ok(Self::new(size.multiply(&cos, precision), size.multiply(&sin, precision)))
+    }
+}
+
+impl From<Ball> for ComplexBall {
+    fn from(re: Ball) -> Self {
+        Self::new(re, Ball::zero())
+    }
+}
+
+impl fmt::Display for ComplexBall {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "({}) + ({})i", self.re, self.im)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::Zero;
+    use proptest::prelude::*;
+
+    use super::super::samples;
+    use super::*;
+
+    /// A complex ball and one of its points.
+    fn ball_and_point() -> impl Strategy<Value = (ComplexBall, (BigRational, BigRational))> {
+        (samples::ball_and_point(), samples::ball_and_point())
+            .prop_map(|((re, x), (im, y))| (ComplexBall::new(re, im), (x, y)))
+    }
+
+    fn contains(ball: &ComplexBall, (x, y): &(BigRational, BigRational)) -> bool {
+        ball.real().contains(x) && ball.imaginary().contains(y)
+    }
+
+    proptest! {
+        #[test]
+        fn operations_include_the_exact_result(
+            (a, (ax, ay)) in ball_and_point(), (b, (bx, by)) in ball_and_point(),
+            factor in samples::rational(20), precision in 2_u64..200,
+        ) {
+            prop_assert!(contains(&a.add(&b, precision), &(&ax + &bx, &ay + &by)));
+            let product = (&ax * &bx - &ay * &by, &ax * &by + &ay * &bx);
+            prop_assert!(contains(&a.multiply(&b, precision), &product));
+            let scaled = (&ax * &factor, &ay * &factor);
+            prop_assert!(contains(&a.multiply_rational(&factor, precision), &scaled));
+            let norm = &ax * &ax + &ay * &ay;
+            if let Ok(inverse) = a.reciprocal(precision) {
+                prop_assert!(contains(&inverse, &(&ax / &norm, -&ay / &norm)));
+            }
+        }
+
+        #[test]
+        fn sums_of_exponents_give_products(
+            a in prop::array::uniform2(samples::rational(2)),
+            b in prop::array::uniform2(samples::rational(2)),
+            precision in 2_u64..200,
+        ) {
+            let small = |x: &BigRational| x.numer().bits() <= x.denom().bits() + 6;
+            prop_assume!(a.iter().chain(&b).all(small));
+            let point = |[x, y]: &[BigRational; 2]| {
+                let ball = |value| Ball::from_rational(value, precision);
+                ComplexBall::new(ball(x), ball(y))
+            };
+            let (a, b) = (point(&a), point(&b));
+            let product = a.exp(precision).unwrap().multiply(&b.exp(precision).unwrap(), precision);
+            let minus = BigRational::from_integer((-1).into());
+            let sum = a.add(&b, precision).exp(precision).unwrap();
+            let difference = product.add(&sum.multiply_rational(&minus, precision), precision);
+            prop_assert!(contains(&difference, &(BigRational::zero(), BigRational::zero())));
+        }
+    }
+
+    #[test]
+    fn zero_has_no_reciprocal() {
+        let error = ComplexBall::zero().reciprocal(64).unwrap_err();
+        assert_eq!(error.to_string(), "the enclosure of a divisor contains zero");
+    }
+}

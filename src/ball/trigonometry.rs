@@ -1,0 +1,211 @@
+//! Enclosures of π, sine and cosine.
+//!
+//! The argument is brought near zero by a multiple of π/2, and one Taylor sum in integers gives
+//! both functions there.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::ball::Ball;
+use super::binary::{Binary, LEAST_PRECISION};
+use super::error::BallError;
+use super::exponential::ARGUMENT_BITS;
+use super::magnitude::Magnitude;
+
+/// `(A, ε)` with `|arctan(1/n)·2^w − A| ≤ ε`, for `n ≥ 2`.
+///
+/// The powers `t_k = ⌊t_(k−1)/n²⌋` from `t_0 = ⌊2^w/n⌋` are below `2^w/n^(2k+1)` by less than two
+/// units, the terms `⌊t_k/(2k+1)⌋` thus off by less than three. The sum stops at `t_k = 0`, where what
+/// is left out is less than the first term of it, two units.
+fn arctan_of_reciprocal(n: u64, working: u64) -> (BigInt, u64) {
+    let mut power = (BigInt::one() << working) / n;
+    let mut sum = BigInt::zero();
+    let mut count = 0_u64;
+    while !power.is_zero() {
+        let term = &power / (2 * count + 1);
+        if count % 2 == 0 {
+            sum += term
+        } else {
+            sum -= term
+        }
+        power /= n * n;
+        count += 1;
+    }
+    (sum, 3 * count + 2)
+}
+
+/// `(P, ε)` with `|π·2^w − P| ≤ ε`, by Machin's formula `π = 16 arctan(1/5) − 4 arctan(1/239)`.
+fn pi_scaled(working: u64) -> (BigInt, u64) {
+    let (fifth, fifth_error) = arctan_of_reciprocal(5, working);
+    let (other, other_error) = arctan_of_reciprocal(239, working);
+    (fifth * 16 - other * 4, 16 * fifth_error + 4 * other_error)
+}
+
+/// `(C, S, ε)` with `|cos(y)·2^w − C| ≤ ε` and `|sin(y)·2^w − S| ≤ ε`, given an integer `Y` with
+/// `|y·2^w − Y| ≤ δ` and `|Y| ≤ 2^w`.
+///
+/// The terms `t_i ≈ |Y·2^(−w)|^i/i!·2^w` follow `t_(i+1) = trunc(⌊t_i·Y/2^w⌋/(i+1))` from `t_0 = 2^w`,
+/// `t_1 = Y` without error. Their errors obey `ε_(i+1) ≤ (ε_i + 1)/(i+1) + 1`, hence `ε_i ≤ 2`. The
+/// sum stops at `t_n = 0`, `n ≥ 1`, where the exact term is at most 2 and what follows, each at most
+/// half the one before, less than 4 in all. Sine and cosine move by no more than their argument.
+/// Altogether `ε = 2n + 4 + δ`.
+fn cos_sin_of_small(argument: &BigInt, working: u64) -> (BigInt, BigInt, u64) {
+    let mut term = argument.clone();
+    let (mut cos, mut sin) = (BigInt::one() << working, argument.clone());
+    let mut count = 1_u64;
+    while !term.is_zero() {
+        count += 1;
+        term *= argument;
+        term >>= working;
+        term /= count;
+        match count % 4 {
+            0 => cos += &term,
+            1 => sin += &term,
+            2 => cos -= &term,
+            _ => sin -= &term,
+        }
+    }
+    (cos, sin, 2 * count + 4)
+}
+
+impl Ball {
+    /// π: `radius ≤ 2^(2−p)` for precision `p`.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let pi = Ball::pi(100);
+    /// assert!(pi.to_string().starts_with("3.14159265358979323846264338"));
+    /// assert!(!pi.contains(&Rational::new(355.into(), 113.into())));
+    /// ```
+    #[must_use]
+    pub fn pi(precision: u64) -> Ball {
+        let precision = precision.max(LEAST_PRECISION);
+        let working = precision + u64::from(precision.ilog2()) + 8;
+        let (value, error) = pi_scaled(working);
+        let unit = -(working as i64);
+        let radius = Magnitude::from_u64(error).scale(unit);
+        Ball::new(Binary::new(value, unit), radius).round(precision + 3)
+    }
+
+    /// `(cos x, sin x)` for all `x` of the ball: for a radius `r`, the radii are at most
+    /// `r + 2^(1−p)` for precision `p`.
+    ///
+    /// With `n` the integer next to `2m/π`, `m` the midpoint, `y = m − nπ/2` is at most `π/4` in
+    /// absolute value but for rounding; `n` modulo 4 says which of `±cos y`, `±sin y` are meant. Both
+    /// functions move by no more than their argument.
+    ///
+    /// # Errors
+    /// [`BallError::ArgumentTooLarge`] where an `x` of the ball may exceed `2^40` in absolute value.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let x = Ball::from_rational(&Rational::new(100.into(), 3.into()), 80);
+    /// let (cos, sin) = x.cos_sin(80)?;
+    /// assert!(cos.to_string().starts_with("-0.33252858"));
+    /// let one = cos.multiply(&cos, 80).add(&sin.multiply(&sin, 80), 80);
+    /// assert!(one.contains(&Rational::from_integer(1.into())));
+    /// # Ok::<(), wavestep::ball::BallError>(())
+    /// ```
+    pub fn cos_sin(&self, precision: u64) -> Result<(Ball, Ball), BallError> {
+        if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
+            return Err(BallError::ArgumentTooLarge);
+        }
+        let precision = precision.max(LEAST_PRECISION);
+        let top = self.midpoint().top().unwrap_or(0).max(0) as u64;
+        let working = precision + top + 2 * u64::from(precision.ilog2()) + 16;
+        let (pi, pi_error) = pi_scaled(working);
+        // |m·2^w − M| ≤ 1, and n differs from 2m/π by little more than 1/2.
+        let midpoint = self.midpoint().floor_scaled(working as i64);
+        let quarters: BigInt = Integer::div_floor(&(&midpoint * 4 + &pi), &(&pi * 2));
+        let argument: BigInt = &midpoint - ((&quarters * &pi) >> 1_u32);
+        debug_assert!(argument.magnitude() <= (BigInt::one() << working).magnitude());
+        let (cos, sin, error) = cos_sin_of_small(&argument, working);
+        // One unit for M, one for the half, and n/2 times the error of π.
+        let drift = Magnitude::from_integer(&quarters, 0).multiply(&Magnitude::from_u64(pi_error));
+        let unit = -(working as i64);
+        let error = Magnitude::from_u64(error + 2).add(&drift).scale(unit).add(self.radius());
+        let ball = |value: BigInt| Ball::new(Binary::new(value, unit), error).round(precision + 2);
+        let quadrant = quarters.mod_floor(&4.into()).to_u8().expect("a remainder below 4");
+        let (cos, sin) = match quadrant {
+            0 => (cos, sin),
+            1 => (-sin, cos),
+            2 => (-cos, -sin),
+            _ => (sin, -cos),
+        };
+        Ok((ball(cos), ball(sin)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use astro_float::RoundingMode;
+    use num_rational::BigRational;
+    use num_traits::FromPrimitive;
+    use proptest::prelude::*;
+
+    use super::super::samples::{self, includes};
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn agrees_with_another_library(
+            mantissa in samples::integer(12), exponent in -120_i64..8, precision in 2_u64..400,
+        ) {
+            let x = Binary::new(mantissa, exponent);
+            prop_assume!(!x.is_zero() && x.top().unwrap() < 30);
+            let bits = precision as usize + 256;
+            let rounding = RoundingMode::ToEven;
+            let cos_there = samples::second_opinion(&x, bits, |x, c| x.cos(bits, rounding, c));
+            let sin_there = samples::second_opinion(&x, bits, |x, c| x.sin(bits, rounding, c));
+            let (cos, sin) = Ball::new(x.clone(), Magnitude::ZERO).cos_sin(precision).unwrap();
+            prop_assert!(includes(&cos, &cos_there), "cos {x:?} {cos} {cos_there}");
+            prop_assert!(includes(&sin, &sin_there), "sin {x:?} {sin} {sin_there}");
+            let small = Magnitude::power_of_two(1 - precision as i64);
+            prop_assert!(cos.radius() <= &small && sin.radius() <= &small);
+        }
+
+        #[test]
+        fn a_ball_includes_its_points((ball, point) in samples::ball_and_point(), precision in 2_u64..200) {
+            prop_assume!(ball.magnitude() < Magnitude::power_of_two(40));
+            let exact = Ball::from_rational(&point, precision + 200).cos_sin(precision + 100).unwrap();
+            let (cos, sin) = ball.cos_sin(precision).unwrap();
+            prop_assert!(includes(&cos, &exact.0) && includes(&sin, &exact.1));
+        }
+
+        #[test]
+        fn twice_the_precision_of_pi_lies_within(precision in 2_u64..3000) {
+            let pi = Ball::pi(precision);
+            prop_assert!(includes(&pi, &Ball::pi(2 * precision + 64)));
+            prop_assert!(pi.radius() <= &Magnitude::power_of_two(2 - precision as i64));
+        }
+    }
+
+    #[test]
+    fn pi_agrees_with_another_library() {
+        for bits in [64, 1000, 5000] {
+            let one = Binary::new(1.into(), 0);
+            let there =
+                samples::second_opinion(&one, bits, |_, c| c.pi(bits, RoundingMode::ToEven));
+            assert!(includes(&Ball::pi(bits as u64 - 40), &there));
+        }
+        assert!(Ball::pi(20).contains(&BigRational::from_f64(std::f64::consts::PI).unwrap()));
+    }
+
+    #[test]
+    fn special_arguments() {
+        let (cos, sin) = Ball::zero().cos_sin(64).unwrap();
+        assert!(cos.contains(&BigRational::one()) && sin.contains_zero());
+        let wide = Ball::new(Binary::zero(), Magnitude::power_of_two(41));
+        assert_eq!(wide.cos_sin(64), Err(BallError::ArgumentTooLarge));
+        // The sine of π is enclosed, far out as well: sin(2^30 π).
+        let far = Ball::pi(200).multiply_rational(&BigRational::from_i64(1 << 30).unwrap(), 200);
+        let (cos, sin) = far.cos_sin(150).unwrap();
+        assert!(cos.contains(&BigRational::one()) && sin.contains_zero());
+        assert!(sin.radius() < &Magnitude::power_of_two(-140));
+    }
+}

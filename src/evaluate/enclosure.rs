@@ -1,0 +1,176 @@
+//! Enclosures of exact expressions whose symbols are known as balls.
+
+use crate::ball::{Ball, BallError, ComplexBall};
+use crate::evaluate::evaluator::EvaluateError;
+use crate::expression::{Expression, Fraction};
+use std::collections::BTreeMap;
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
+
+/// The powers `x^0, x^1, …` of the symbols of an expression.
+type Powers = BTreeMap<Symbol, Vec<ComplexBall>>;
+
+/// Encloses the value of an expression with about `bits` bits.
+///
+/// Square roots are known by themselves; for every other symbol `values` is asked, with the bits that
+/// are wanted. An expression that is real, such as a sum of conjugate terms, has an imaginary part
+/// whose enclosure contains 0.
+///
+/// # Errors
+/// - [`EvaluateError::MissingValue`] with the first symbol for which `values` answers `None`;
+/// - [`EvaluateError::Ball`] where an exponent is too large or a denominator may be zero.
+///
+/// # Cost
+/// A product of complex balls for each symbol of each term, and an exponential for each exponent.
+///
+/// ```
+/// use wavestep::ball::Ball;
+/// use wavestep::evaluate::enclose_expression;
+/// use wavestep::expression::{Expression, Fraction};
+/// use wavestep_polynomial::{Polynomial, Symbol};
+///
+/// // e^{ix} + e^{−ix} = 2 cos x, at x = π/3 that is 1.
+/// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
+/// let wave = |rate| Expression::exponential(read(rate));
+/// let sum = &wave("1/3*x*sqrt(-1)") + &wave("-1/3*x*sqrt(-1)");
+/// let x = Symbol::new("x").unwrap();
+/// let pi = |symbol: &Symbol, bits| (*symbol == x).then(|| Ball::pi(bits));
+/// let value = enclose_expression(&sum, &pi, 100).unwrap();
+/// assert!(value.real().contains(&wavestep_polynomial::Rational::from_integer(1.into())));
+/// assert!(value.imaginary().contains(&wavestep_polynomial::Rational::default()));
+/// assert!(enclose_expression(&sum, &|_, _| None, 100).is_err());
+/// ```
+pub fn enclose_expression(
+    expression: &Expression,
+    values: &dyn Fn(&Symbol, u64) -> Option<Ball>,
+    bits: u64,
+) -> Result<ComplexBall, EvaluateError> {
+    let mut powers = Powers::new();
+    for symbol in expression.symbols() {
+        let value = match symbol.square() {
+            Some(square) => root(square, bits),
+            None => match values(&symbol, bits) {
+                Some(value) => value.into(),
+                None => return Err(EvaluateError::MissingValue(symbol)),
+            },
+        };
+        let degree = expression
+            .terms()
+            .map(|(exponent, p)| degree_of(exponent, &symbol).max(degree_of(p, &symbol)));
+        let mut row = vec![one()];
+        for _ in 0..degree.max().unwrap_or(0) {
+            row.push(row[row.len() - 1].multiply(&value, bits));
+        }
+        powers.insert(symbol, row);
+    }
+    let mut sum = ComplexBall::zero();
+    for (exponent, p) in expression.terms() {
+        let mut term = fraction(p, &powers, bits).map_err(EvaluateError::Ball)?;
+        if !exponent.is_zero() {
+            let exponent = fraction(exponent, &powers, bits).map_err(EvaluateError::Ball)?;
+            let exponential = exponent.exp(bits).map_err(EvaluateError::Ball)?;
+            term = term.multiply(&exponential, bits);
+        }
+        sum = sum.add(&term, bits);
+    }
+    Ok(sum)
+}
+
+fn one() -> ComplexBall {
+    Ball::from_rational(&Rational::from_integer(1.into()), 2).into()
+}
+
+/// The root of −1 or of a prime.
+fn root(square: i64, bits: u64) -> ComplexBall {
+    let size = Rational::from_integer(square.abs().into());
+    let size = Ball::square_root(&size, bits).expect("a size is not negative");
+    if square < 0 { ComplexBall::new(Ball::zero(), size) } else { size.into() }
+}
+
+fn degree_of(fraction: &Fraction, x: &Symbol) -> u32 {
+    let parts = std::iter::once(fraction.numerator()).chain(fraction.factors().map(|f| f.0));
+    parts.map(|p| p.degree(x)).max().unwrap_or(0)
+}
+
+fn fraction(value: &Fraction, powers: &Powers, bits: u64) -> Result<ComplexBall, BallError> {
+    let mut enclosure = polynomial(value.numerator(), powers, bits);
+    for (factor, power) in value.factors() {
+        let inverse = polynomial(factor, powers, bits).reciprocal(bits)?;
+        for _ in 0..power {
+            enclosure = enclosure.multiply(&inverse, bits);
+        }
+    }
+    Ok(enclosure)
+}
+
+fn polynomial(p: &Polynomial, powers: &Powers, bits: u64) -> ComplexBall {
+    let rows: Vec<&Vec<ComplexBall>> = p.symbols().iter().map(|x| &powers[x]).collect();
+    let mut sum = ComplexBall::zero();
+    for (exponents, coefficient) in p.terms() {
+        let factors = rows.iter().zip(exponents).filter(|(_, e)| **e > 0);
+        let product =
+            factors.fold(one(), |product, (row, e)| product.multiply(&row[*e as usize], bits));
+        sum = sum.add(&product.multiply_rational(&coefficient, bits), bits);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Fraction {
+        text.parse::<Polynomial>().expect("a polynomial").into()
+    }
+
+    fn rational(numerator: i64, denominator: i64) -> Rational {
+        Rational::new(numerator.into(), denominator.into())
+    }
+
+    /// `∫_0^x` undone by differentiation, in numbers: `e^{λx}(p' + λp)` for `λ = −1/2 + i√3/2` and a
+    /// difference quotient would not prove much; the equation `y'' + y' + y = 0` does.
+    #[test]
+    fn a_solution_satisfies_its_equation_in_numbers() {
+        let s = Symbol::new("s").unwrap();
+        let rates = ["-1/2*s + 1/2*s*sqrt(-1)*sqrt(3)", "-1/2*s - 1/2*s*sqrt(-1)*sqrt(3)"];
+        let [up, down] = rates.map(|rate| Expression::exponential(read(rate)));
+        let y = &up + &down;
+        let slope = y.derivative(&s);
+        let at = |f: &Expression, x: &Rational| {
+            let x = |_: &Symbol, bits| Some(Ball::from_rational(x, bits));
+            enclose_expression(f, &x, 120).unwrap()
+        };
+        for x in [rational(0, 1), rational(7, 3), rational(-50, 9)] {
+            let parts = [&y, &slope, &slope.derivative(&s)].map(|f| at(f, &x));
+            let sum = parts[0].add(&parts[1], 120).add(&parts[2], 120);
+            assert!(
+                sum.real().contains(&rational(0, 1)) && sum.imaginary().contains(&rational(0, 1))
+            );
+            assert!(parts[0].imaginary().contains(&rational(0, 1)));
+        }
+        // y(0) = 2, y'(0) = −1.
+        let zero = rational(0, 1);
+        assert!(at(&y, &zero).real().contains(&rational(2, 1)));
+        assert!(at(&slope, &zero).real().contains(&rational(-1, 1)));
+    }
+
+    #[test]
+    fn denominators_are_divided_by() {
+        let inverse = Fraction::reciprocal(read("r - 3").numerator()).unwrap();
+        let value = Expression::from(&read("2 + 2*sqrt(2)") * &inverse.pow(2));
+        let at = |value: i64| {
+            let ball = move |_: &Symbol, bits| Some(Ball::from_rational(&rational(value, 1), bits));
+            enclose_expression(&value_of(&inverse), &ball, 64)
+        };
+        fn value_of(inverse: &Fraction) -> Expression {
+            Expression::from(inverse.pow(2))
+        }
+        assert!(at(5).unwrap().real().contains(&rational(1, 4)));
+        assert_eq!(at(3), Err(EvaluateError::Ball(BallError::DivisorMayBeZero)));
+        let five = |_: &Symbol, bits| Some(Ball::from_rational(&rational(5, 1), bits));
+        let root = enclose_expression(&value, &five, 64).unwrap();
+        // (1 + √2)/2 is a root of 4x² − 4x − 1.
+        let x = root.real();
+        let four = x.multiply(x, 64).subtract(x, 64).multiply_rational(&rational(4, 1), 64);
+        assert!(four.contains(&rational(1, 1)));
+    }
+}

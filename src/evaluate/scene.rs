@@ -1,0 +1,298 @@
+//! Observables of scenes at times: the echoes that have arrived, enclosed.
+//!
+//! Times are in the scene's own scale and may be irrational there. What has arrived is decided
+//! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
+//! place that is observed.
+
+use crate::ball::{Ball, ComplexBall};
+use crate::evaluate::evaluator::{EvaluateError, Side, certified};
+use crate::evaluate::numbers::Numbers;
+use crate::evaluate::value::Value;
+use crate::expression::{Constant, Expression, Field as _, Fraction, Root, Transform};
+use crate::network::{Network, NetworkError, Unfolded};
+use crate::recurrence::{Observation, WaveIndex};
+use crate::solution::{Demand, EchoByEcho};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::cell::{Cell, RefCell};
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// The most echoes of one wave that are worked out.
+pub const MAX_ECHOES: usize = 20_000;
+
+/// The echoes of all waves, by wave and number.
+type Echoes = Vec<Vec<Transform<ComplexBall>>>;
+
+/// Evaluates observables of a scene, up to a last time.
+pub struct SceneEvaluator<'a> {
+    network: &'a Network,
+    constants: &'a [Constant],
+    unfolded: Unfolded,
+    /// When each echo arrives, by number.
+    arrivals: Vec<(usize, Fraction)>,
+    echoes: RefCell<BTreeMap<u64, Rc<Echoes>>>,
+    demand: RefCell<Demand>,
+    expanded: Cell<usize>,
+}
+
+/// An echo that has arrived: its wave and number, the coefficient it is seen with, and for how long.
+struct Arrived {
+    wave: WaveIndex,
+    number: usize,
+    coefficient: Expression,
+    since: Fraction,
+}
+
+impl<'a> SceneEvaluator<'a> {
+    /// An evaluator for times up to `last`, in the scale of the scene.
+    ///
+    /// # Errors
+    /// [`EvaluateError::MissingValue`] where a symbol is left, [`EvaluateError::TooManyEchoes`]
+    /// where more echoes arrive until then than are worked out.
+    pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEvaluator<'a>, EvaluateError> {
+        let constants = &network.model().constants[..];
+        let numbers = Numbers::new(constants);
+        // A wave is seen at most as long before its own clock as that clock is late.
+        let latest = network.lateness().fold(last.clone(), |sum, late| &sum + late);
+        let mut bounds = Vec::new();
+        for period in network.lattice().periods() {
+            bounds.push(whole_periods(&numbers, &latest, period)?);
+        }
+        let total =
+            bounds.iter().fold(1_u128, |product, bound| product.saturating_mul(*bound as u128 + 1));
+        if total > MAX_ECHOES as u128 {
+            return Err(EvaluateError::TooManyEchoes { echoes: total, limit: MAX_ECHOES });
+        }
+        let unfolded = network.unfold(&bounds).map_err(|error| match error {
+            NetworkError::Division(reason) => EvaluateError::Division(reason),
+            other => EvaluateError::Network(Box::new(other)),
+        })?;
+        let symbols = unfolded.recurrence().symbols();
+        let mut open = symbols.filter(|symbol| numbers.value(symbol, 64).is_none());
+        if let Some(symbol) = open.next() {
+            return Err(EvaluateError::MissingValue(symbol.clone()));
+        }
+        let delay = |k| (k, unfolded.delay(k).expect("within the bounds"));
+        let arrivals = unfolded.numbers().map(delay).collect();
+        let demand = RefCell::new(Demand::none(unfolded.recurrence()));
+        drop(open);
+        Ok(SceneEvaluator {
+            network,
+            constants,
+            arrivals,
+            echoes: RefCell::default(),
+            demand,
+            expanded: Cell::new(0),
+            unfolded,
+        })
+    }
+
+    /// The numbers of the scene's constants.
+    pub fn numbers(&self) -> Numbers<'a> {
+        Numbers::new(self.constants)
+    }
+
+    /// How many echoes other than zero were worked out last.
+    pub fn expanded(&self) -> usize {
+        self.expanded.get()
+    }
+
+    /// The scene.
+    pub fn network(&self) -> &Network {
+        self.network
+    }
+
+    /// The value of an observation at a time in the scale of the scene, zero before the start,
+    /// correctly rounded to `digits` significant digits.
+    ///
+    /// # Errors
+    /// [`EvaluateError`], with the reached radius where the precision allowed does not do.
+    pub fn value(
+        &self,
+        observation: &Observation,
+        unit: &Root,
+        at: &Fraction,
+        side: Side,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Value, EvaluateError> {
+        let numbers = self.numbers();
+        let arrived = self.arrived(&numbers, observation, at, side)?;
+        let forced = self.forcing(&numbers, observation, at, side)?;
+        if arrived.is_empty() && forced.is_zero() {
+            return Ok(Value::Exact(Rational::zero()));
+        }
+        for echo in &arrived {
+            self.want(echo.wave, echo.number);
+        }
+        let mut suspicious = true;
+        certified(digits, limit_bits, |bits| {
+            let sum = self.enclose(&numbers, &arrived, &forced, bits)?;
+            if suspicious && sum.contains_zero() && bits > 200 {
+                suspicious = false;
+                if self.is_zero(&arrived, &forced)? {
+                    return Ok(Ball::zero());
+                }
+            }
+            Ok(sum.multiply(&numbers.enclose_root(unit, bits)?, bits))
+        })
+    }
+
+    /// What is seen of the waves at a time.
+    fn arrived(
+        &self,
+        numbers: &Numbers<'_>,
+        observation: &Observation,
+        at: &Fraction,
+        side: Side,
+    ) -> Result<Vec<Arrived>, EvaluateError> {
+        let mut arrived = Vec::new();
+        for seen in &observation.waves {
+            let time = at - &seen.delay;
+            for (number, delay) in &self.arrivals {
+                let since = &time - delay;
+                let order = numbers.compare(&since, &Fraction::zero())?;
+                if order == Ordering::Greater || (order == Ordering::Equal && side == Side::Right) {
+                    let (wave, coefficient) = (seen.wave, seen.coefficient.clone());
+                    arrived.push(Arrived { wave, number: *number, coefficient, since });
+                }
+            }
+        }
+        Ok(arrived)
+    }
+
+    /// What is added to the waves at a time.
+    fn forcing(
+        &self,
+        numbers: &Numbers<'_>,
+        observation: &Observation,
+        at: &Fraction,
+        side: Side,
+    ) -> Result<Expression, EvaluateError> {
+        let order = numbers.compare(at, &Fraction::zero())?;
+        let begun = order == Ordering::Greater || (order == Ordering::Equal && side == Side::Right);
+        match begun && !observation.forcing.is_zero() {
+            true => Ok(observation.forcing.substitute(&self.network.scene().time, at)?),
+            false => Ok(Expression::zero()),
+        }
+    }
+
+    /// Notes that an echo is needed; what was worked out without it is dropped.
+    fn want(&self, wave: WaveIndex, number: usize) {
+        let mut demand = self.demand.borrow_mut();
+        if !demand.wants(wave, number) {
+            let exists = |k| self.unfolded.counts(k).is_some();
+            demand.add_where(self.unfolded.recurrence(), wave, number, exists);
+            self.echoes.borrow_mut().clear();
+        }
+    }
+
+    fn enclose(
+        &self,
+        numbers: &Numbers<'_>,
+        arrived: &[Arrived],
+        forced: &Expression,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let echoes = self.solved(numbers, bits)?;
+        let field = numbers.field(bits);
+        let mut sum = field.embed(forced)?;
+        for Arrived { wave, number, coefficient, since } in arrived {
+            let echo = &echoes[*wave][*number];
+            if echo.is_zero() {
+                continue;
+            }
+            let x = field.embed(&since.clone().into())?;
+            let coefficient = field.embed(coefficient)?;
+            let value = evaluate(echo, &x, numbers, bits)?;
+            sum = sum.add(&value.multiply(&coefficient, bits), bits);
+        }
+        Ok(sum.real().clone())
+    }
+
+    /// All echoes that are wanted, with so many bits.
+    fn solved(&self, numbers: &Numbers<'_>, bits: u64) -> Result<Rc<Echoes>, EvaluateError> {
+        if let Some(known) = self.echoes.borrow().get(&bits) {
+            return Ok(known.clone());
+        }
+        let demand = self.demand.borrow().clone();
+        let recurrence = self.unfolded.recurrence();
+        let mut solver = EchoByEcho::in_field(recurrence, numbers.field(bits))?;
+        let last = demand.last();
+        solver = solver.wanting(demand);
+        for _ in 0..last.map_or(0, |last| last + 1) {
+            solver.expand().map_err(|failed| failed.reason)?;
+        }
+        self.expanded.set(solver.expanded());
+        let echoes = (0..recurrence.wave_count()).map(|wave| solver.transforms(wave).to_vec());
+        let echoes = Rc::new(echoes.collect::<Echoes>());
+        self.echoes.borrow_mut().insert(bits, echoes.clone());
+        Ok(echoes)
+    }
+
+    /// Whether the sum is zero as an expression.
+    fn is_zero(&self, arrived: &[Arrived], forced: &Expression) -> Result<bool, EvaluateError> {
+        let recurrence = self.unfolded.recurrence();
+        let demand = self.demand.borrow().clone();
+        let last = demand.last();
+        let mut solver = EchoByEcho::new(recurrence).wanting(demand);
+        for _ in 0..last.map_or(0, |last| last + 1) {
+            if solver.advance().is_err() {
+                return Ok(false);
+            }
+        }
+        let local = &recurrence.statement().local;
+        let mut sum = forced.clone();
+        for Arrived { wave, number, coefficient, since } in arrived {
+            let echo = solver.transforms(*wave)[*number].function(local);
+            sum.add_scaled(&echo.substitute(local, since)?, coefficient);
+        }
+        Ok(sum.is_zero())
+    }
+}
+
+/// `Σ_λ e^{λx} Σ_j c_{λ,j} x^j/j!`, by Horner's rule.
+fn evaluate(
+    echo: &Transform<ComplexBall>,
+    x: &ComplexBall,
+    numbers: &Numbers<'_>,
+    bits: u64,
+) -> Result<ComplexBall, EvaluateError> {
+    let mut sum = ComplexBall::zero();
+    for (pole, coefficients) in echo.poles() {
+        let mut value = ComplexBall::zero();
+        for (j, coefficient) in coefficients.iter().enumerate().rev() {
+            let share = Rational::new(1.into(), (j + 1).into());
+            value = value.multiply(x, bits).multiply_rational(&share, bits).add(coefficient, bits);
+        }
+        if !pole.is_zero() {
+            let field = numbers.field(bits);
+            let rate = field.embed(&pole.clone().into())?;
+            let exponential = rate.multiply(x, bits).exp(bits).map_err(EvaluateError::Ball)?;
+            value = value.multiply(&exponential, bits);
+        }
+        sum = sum.add(&value, bits);
+    }
+    Ok(sum)
+}
+
+/// How many whole periods fit into a time, or one more.
+fn whole_periods(
+    numbers: &Numbers<'_>,
+    time: &Fraction,
+    period: &Fraction,
+) -> Result<usize, EvaluateError> {
+    let time = numbers.enclose(time, 64)?;
+    let inverse = numbers.enclose(period, 64)?.reciprocal(64).map_err(EvaluateError::Ball)?;
+    let upper = Rational::from(&time.multiply(&inverse, 64).endpoints().1);
+    let periods = upper.floor().to_integer();
+    if periods.is_negative() {
+        return Ok(0);
+    }
+    periods.to_usize().filter(|periods| *periods <= MAX_ECHOES).ok_or_else(|| {
+        let echoes = periods.to_u128().unwrap_or(u128::MAX).saturating_add(u128::one());
+        EvaluateError::TooManyEchoes { echoes, limit: MAX_ECHOES }
+    })
+}
