@@ -180,6 +180,9 @@ pub struct Eval {
     /// Which limit is meant where an echo arrives
     #[arg(long, value_enum, default_value_t = SideOption::Right)]
     pub side: SideOption,
+    /// Say on standard error how many echoes were worked out
+    #[arg(long)]
+    pub stats: bool,
     /// The most bits of working precision
     #[arg(long, value_name = "BITS", default_value_t = 1 << 18)]
     pub max_bits: u64,

@@ -2,8 +2,9 @@
 
 use super::arguments::{Eval, EvalFormat, SideOption};
 use super::failure::Failure;
-use super::input;
+use super::input::{self, Subject};
 use super::progress;
+use super::scene_eval;
 use num_rational::BigRational;
 use num_traits::Signed as _;
 use serde_json::{Value as Json, json};
@@ -11,6 +12,7 @@ use wavestep::ball::{Decimal, Exactness};
 use wavestep::evaluate::{Evaluator, Side, Value};
 use wavestep::export::SCHEMA_VERSION;
 use wavestep::language;
+use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
 
@@ -21,15 +23,40 @@ const MAX_POINTS: usize = 1_000_000;
 const ALL_DIGITS: usize = 1 << 30;
 
 /// One value with its time.
-struct Row {
-    time: BigRational,
-    value: Value,
+pub struct Row {
+    /// The time.
+    pub time: BigRational,
+    /// The value then.
+    pub value: Value,
 }
 
 /// Evaluates what is asked for.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let recurrence = input::recurrence(&options.scene)?;
+    match input::subject(&options.scene)? {
+        Subject::Recurrence(recurrence) => of_recurrence(recurrence, options),
+        Subject::Scene(network) if is_plain(&network, options) => {
+            of_recurrence(network.recurrence()?, options)
+        }
+        Subject::Scene(network) => scene_eval::run(&network, options),
+    }
+}
+
+/// Whether all that is asked for is linear, on one grid, and free of units and named constants: then
+/// rational values are told exactly.
+fn is_plain(network: &Network, options: &Eval) -> bool {
+    let name = language::normalise_name(&options.quantity);
+    let energy = |observed: &Observed| {
+        observed.name == name && matches!(observed.value, ObservedValue::Energy(_))
+    };
+    !network.scene().dimensional
+        && network.model().constants.is_empty()
+        && network.lattice().periods().len() == 1
+        && !network.observables().iter().any(energy)
+        && !options.stats
+}
+
+fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, Failure> {
     let observation = recurrence.observation(&language::normalise_name(&options.quantity));
     let Some(observation) = observation else { return Err(unknown_quantity(&recurrence, options)) };
     let solution = Solution::new(recurrence);
@@ -58,16 +85,22 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     }
     drop(progress);
     Ok(match options.format {
-        EvalFormat::Text => text(&rows, options),
+        EvalFormat::Text => text(&rows, options, ["", ""]),
         EvalFormat::Csv => csv(&rows, options.digits),
-        EvalFormat::Json => json_document(&solution, &rows, options),
+        EvalFormat::Json => {
+            json_document(&solution.recurrence().statement().title, &rows, options, "")
+        }
     })
 }
 
 fn unknown_quantity(recurrence: &Recurrence, options: &Eval) -> Failure {
     let statement = recurrence.statement();
     let observables = statement.observables.iter().map(|observable| observable.name.as_str());
-    let names: Vec<&str> = statement.waves.iter().map(String::as_str).chain(observables).collect();
+    unknown(statement.waves.iter().map(String::as_str).chain(observables).collect(), options)
+}
+
+/// Refuses a quantity that is none of these.
+pub fn unknown(names: Vec<&str>, options: &Eval) -> Failure {
     let message = format!("`{}` is neither a wave nor an observable here", options.quantity);
     let remedy = match language::closest(&options.quantity, names.iter().copied()) {
         Some(name) => format!("did you mean `{name}`?"),
@@ -95,7 +128,7 @@ fn time_on_period(
 }
 
 /// The scene times asked for.
-fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
+pub fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
     if let (Some(from), Some(to), Some(points)) = (&options.from, &options.to, options.points) {
         let (from, to) = (input::time("--from", from)?, input::number("--to", to)?);
         if to < from {
@@ -117,16 +150,18 @@ fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
     options.at.iter().map(|time| input::time("--at", time)).collect()
 }
 
-fn text(rows: &[Row], options: &Eval) -> String {
+/// Lines of text, with the units of time and value.
+pub fn text(rows: &[Row], options: &Eval, [second, unit]: [&str; 2]) -> String {
     let limit = if options.side == SideOption::Left { "-" } else { "" };
     let line = |row: &Row| {
         let value = row.value.to_text(options.digits);
-        format!("{}({}{limit}) = {value}\n", options.quantity, row.time)
+        format!("{}({}{second}{limit}) = {value}{unit}\n", options.quantity, row.time)
     };
     rows.iter().map(line).collect()
 }
 
-fn csv(rows: &[Row], digits: usize) -> String {
+/// Columns with a heading.
+pub fn csv(rows: &[Row], digits: usize) -> String {
     let line = |row: &Row| {
         let (decimal, exactness) = row.value.decimal(digits);
         let exact = exactness == Exactness::Exact;
@@ -138,17 +173,22 @@ fn csv(rows: &[Row], digits: usize) -> String {
         .collect()
 }
 
-fn json_document(solution: &Solution, rows: &[Row], options: &Eval) -> String {
+/// Decimal strings with proven radii.
+pub fn json_document(title: &str, rows: &[Row], options: &Eval, unit: &str) -> String {
     let values: Vec<Json> = rows.iter().map(|row| json_value(row, options.digits)).collect();
-    let document = json!({
+    let mut document = json!({
         "schema_version": SCHEMA_VERSION,
-        "title": solution.recurrence().statement().title,
+        "title": title,
         "quantity": options.quantity,
         "set": options.scene.set,
         "digits": options.digits,
         "side": if options.side == SideOption::Left { "left" } else { "right" },
         "values": values,
     });
+    if !unit.is_empty() {
+        document["unit"] = json!(unit);
+        document["time_unit"] = json!("s");
+    }
     format!("{document}\n")
 }
 

@@ -3,6 +3,7 @@
 use wavestep::evaluate::EvaluateError;
 use wavestep::expression::NotInvertible;
 use wavestep::language::{Diagnostic, Style};
+use wavestep::network::NetworkError;
 use wavestep::solution::{SolveError, Unsolvable};
 
 /// Exit code: could not compute, or not as locked.
@@ -16,6 +17,8 @@ pub const ACCURACY: u8 = 3;
 pub enum Failure {
     /// The text of a scene or a number is at fault.
     Text(Diagnostic),
+    /// The text of a scene is at fault in several places.
+    Texts(Vec<Diagnostic>),
     /// What is asked for is at fault: what is wrong, and the remedy.
     Usage(String, String),
     /// It cannot be computed: what, and the remedy.
@@ -37,7 +40,7 @@ impl Failure {
     /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
-            Failure::Text(_) | Failure::Usage(..) => USAGE,
+            Failure::Text(_) | Failure::Texts(_) | Failure::Usage(..) => USAGE,
             Failure::Computation(..) | Failure::Difference { .. } => COMPUTATION,
             Failure::Accuracy(..) => ACCURACY,
         }
@@ -47,6 +50,11 @@ impl Failure {
     pub fn render(&self, style: Style) -> String {
         match self {
             Failure::Text(diagnostic) => diagnostic.render(style).trim_end().to_owned(),
+            Failure::Texts(diagnostics) => {
+                let rendered =
+                    diagnostics.iter().map(|one| one.render(style).trim_end().to_owned());
+                rendered.collect::<Vec<_>>().join("\n\n")
+            }
             Failure::Usage(message, remedy)
             | Failure::Computation(message, remedy)
             | Failure::Accuracy(message, remedy)
@@ -92,6 +100,19 @@ impl From<SolveError> for Failure {
     }
 }
 
+impl From<NetworkError> for Failure {
+    fn from(error: NetworkError) -> Failure {
+        let remedy = match &error {
+            NetworkError::Incommensurate => {
+                "ask for echoes in order of their arrival, with --form echo, or for values"
+            }
+            NetworkError::Unobservable(..) => "observe it at another place",
+            _ => "give values with --set",
+        };
+        Failure::Computation(error.to_string(), remedy.to_owned())
+    }
+}
+
 impl From<EvaluateError> for Failure {
     fn from(error: EvaluateError) -> Failure {
         let message = error.to_string();
@@ -99,7 +120,7 @@ impl From<EvaluateError> for Failure {
             EvaluateError::MissingValue(symbol) => {
                 Failure::usage(message, format!("give it one: --set {symbol}=1"))
             }
-            EvaluateError::TooManyPeriods { .. } => {
+            EvaluateError::TooManyPeriods { .. } | EvaluateError::TooManyEchoes { .. } => {
                 Failure::Computation(message, "ask for an earlier time".to_owned())
             }
             EvaluateError::Solve(error) => error.into(),

@@ -8,20 +8,50 @@ use std::collections::BTreeMap;
 use std::io::Read as _;
 use wavestep::evaluate::MAX_DIGITS;
 use wavestep::language::{self, MAX_SOURCE_BYTES, Source};
+use wavestep::network::Network;
 use wavestep::recurrence::Recurrence;
 use wavestep::scenes;
 
+/// What a text states: equations between periods, or a line of bars and what they are joined by.
+pub enum Subject {
+    /// A recurrence.
+    Recurrence(Recurrence),
+    /// A scene, as a network.
+    Scene(Box<Network>),
+}
+
 /// Reads the scene that the arguments name, with the values put in.
+pub fn subject(arguments: &Scene) -> Result<Subject, Failure> {
+    subject_with(&arguments.scene, &values(&arguments.set)?)
+}
+
+/// Reads the scene that the arguments name as a recurrence.
 pub fn recurrence(arguments: &Scene) -> Result<Recurrence, Failure> {
     recurrence_with(&arguments.scene, &values(&arguments.set)?)
 }
 
-/// Reads a scene with values put in.
+/// Reads a scene with values put in, as a recurrence.
 pub fn recurrence_with(
     scene: &str,
     values: &BTreeMap<String, BigRational>,
 ) -> Result<Recurrence, Failure> {
-    Ok(language::read_recurrence(&source(scene)?, values)?)
+    match subject_with(scene, values)? {
+        Subject::Recurrence(recurrence) => Ok(recurrence),
+        Subject::Scene(network) => Ok(network.recurrence()?),
+    }
+}
+
+fn subject_with(scene: &str, values: &BTreeMap<String, BigRational>) -> Result<Subject, Failure> {
+    let source = source(scene)?;
+    match language::kind(&source) {
+        language::Kind::Recurrence => {
+            Ok(Subject::Recurrence(language::read_recurrence(&source, values)?))
+        }
+        language::Kind::Scene => {
+            let scene = language::read_scene(&source, values).map_err(Failure::Texts)?;
+            Ok(Subject::Scene(Box::new(Network::new(&scene)?)))
+        }
+    }
 }
 
 /// The built-in scene called `name`.

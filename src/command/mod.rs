@@ -13,6 +13,7 @@ mod generate;
 mod input;
 mod lock;
 mod progress;
+mod scene_eval;
 
 use arguments::{Arguments, Scenes, Subcommand};
 use clap::Parser as _;

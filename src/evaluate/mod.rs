@@ -6,6 +6,7 @@
 
 mod contribution;
 mod enclosure;
+mod energy;
 mod evaluator;
 mod modular;
 mod numbers;

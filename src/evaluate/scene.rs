@@ -8,8 +8,8 @@ use crate::ball::{Ball, ComplexBall};
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::numbers::Numbers;
 use crate::evaluate::value::Value;
-use crate::expression::{Constant, Expression, Field as _, Fraction, Root, Transform};
-use crate::network::{Network, NetworkError, Unfolded};
+use crate::expression::{Constant, Expression, Field as _, Fraction, Transform};
+use crate::network::{Network, NetworkError, Observed, ObservedValue, Unfolded};
 use crate::recurrence::{Observation, WaveIndex};
 use crate::solution::{Demand, EchoByEcho};
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -23,7 +23,7 @@ use wavestep_polynomial::Rational;
 pub const MAX_ECHOES: usize = 20_000;
 
 /// The echoes of all waves, by wave and number.
-type Echoes = Vec<Vec<Transform<ComplexBall>>>;
+pub(crate) type Echoes = Vec<Vec<Transform<ComplexBall>>>;
 
 /// Evaluates observables of a scene, up to a last time.
 pub struct SceneEvaluator<'a> {
@@ -38,11 +38,11 @@ pub struct SceneEvaluator<'a> {
 }
 
 /// An echo that has arrived: its wave and number, the coefficient it is seen with, and for how long.
-struct Arrived {
-    wave: WaveIndex,
-    number: usize,
-    coefficient: Expression,
-    since: Fraction,
+pub(crate) struct Arrived {
+    pub wave: WaveIndex,
+    pub number: usize,
+    pub coefficient: Expression,
+    pub since: Fraction,
 }
 
 impl<'a> SceneEvaluator<'a> {
@@ -94,6 +94,11 @@ impl<'a> SceneEvaluator<'a> {
         Numbers::new(self.constants)
     }
 
+    /// How many echoes can reach what was asked for.
+    pub fn needed(&self) -> usize {
+        self.demand.borrow().count()
+    }
+
     /// How many echoes other than zero were worked out last.
     pub fn expanded(&self) -> usize {
         self.expanded.get()
@@ -104,21 +109,44 @@ impl<'a> SceneEvaluator<'a> {
         self.network
     }
 
-    /// The value of an observation at a time in the scale of the scene, zero before the start,
-    /// correctly rounded to `digits` significant digits.
+    /// The value of an observable in its unit at a time in the scale of the scene, zero before the
+    /// start, correctly rounded to `digits` significant digits.
     ///
     /// # Errors
     /// [`EvaluateError`], with the reached radius where the precision allowed does not do.
+    ///
+    /// # Panics
+    /// Where `digits` is zero.
+    ///
+    /// # Cost
+    /// That of the echoes that reach the place: for `n` of them in a bar O(n³) operations of the
+    /// working precision, once for all times.
     pub fn value(
         &self,
-        observation: &Observation,
-        unit: &Root,
+        observed: &Observed,
         at: &Fraction,
         side: Side,
         digits: usize,
         limit_bits: u64,
     ) -> Result<Value, EvaluateError> {
         let numbers = self.numbers();
+        if numbers.compare(at, &Fraction::zero())? == Ordering::Less {
+            return Ok(Value::Exact(Rational::zero()));
+        }
+        let unit = &observed.unit;
+        let observation = match &observed.value {
+            ObservedValue::Linear(observation) => observation,
+            ObservedValue::Energy(terms) => {
+                let parts = self.energy_parts(&numbers, terms, at, side)?;
+                if parts.is_empty() {
+                    return Ok(Value::Exact(Rational::zero()));
+                }
+                return certified(digits, limit_bits, |bits| {
+                    let sum = self.enclose_energy(&numbers, &parts, bits)?;
+                    Ok(sum.multiply(&numbers.enclose_root(unit, bits)?, bits))
+                });
+            }
+        };
         let arrived = self.arrived(&numbers, observation, at, side)?;
         let forced = self.forcing(&numbers, observation, at, side)?;
         if arrived.is_empty() && forced.is_zero() {
@@ -141,7 +169,7 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// What is seen of the waves at a time.
-    fn arrived(
+    pub(crate) fn arrived(
         &self,
         numbers: &Numbers<'_>,
         observation: &Observation,
@@ -164,7 +192,7 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// What is added to the waves at a time.
-    fn forcing(
+    pub(crate) fn forcing(
         &self,
         numbers: &Numbers<'_>,
         observation: &Observation,
@@ -180,7 +208,7 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// Notes that an echo is needed; what was worked out without it is dropped.
-    fn want(&self, wave: WaveIndex, number: usize) {
+    pub(crate) fn want(&self, wave: WaveIndex, number: usize) {
         let mut demand = self.demand.borrow_mut();
         if !demand.wants(wave, number) {
             let exists = |k| self.unfolded.counts(k).is_some();
@@ -189,7 +217,7 @@ impl<'a> SceneEvaluator<'a> {
         }
     }
 
-    fn enclose(
+    pub(crate) fn enclose(
         &self,
         numbers: &Numbers<'_>,
         arrived: &[Arrived],
@@ -213,7 +241,11 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// All echoes that are wanted, with so many bits.
-    fn solved(&self, numbers: &Numbers<'_>, bits: u64) -> Result<Rc<Echoes>, EvaluateError> {
+    pub(crate) fn solved(
+        &self,
+        numbers: &Numbers<'_>,
+        bits: u64,
+    ) -> Result<Rc<Echoes>, EvaluateError> {
         if let Some(known) = self.echoes.borrow().get(&bits) {
             return Ok(known.clone());
         }

@@ -63,6 +63,9 @@ impl Root {
     }
 
     fn normal(mut self) -> Root {
+        if self.factor.is_zero() {
+            return Root::from(self.factor);
+        }
         if let Some(root) = self.radicand.as_constant().as_ref().and_then(rational_square_root) {
             self.factor = self.factor.scale(&root);
             self.radicand = Fraction::one();

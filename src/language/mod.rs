@@ -55,6 +55,7 @@ pub use constant::MAX_CONSTANT_BITS;
 pub use diagnostic::{Diagnostic, Label, Style, closest};
 pub use lowering::ExactFormula;
 pub use number::MAX_DIGITS;
+pub use scene::units::unit_of;
 pub use source::{MAX_SOURCE_BYTES, Source};
 pub use syntax::Span;
 

@@ -160,6 +160,11 @@ impl Network {
         &self.waves
     }
 
+    /// A time in seconds in the scale of the scene; a plain number as it is.
+    pub fn scaled_time(&self, time: &Rational) -> Fraction {
+        self.model.slowness.scale(time)
+    }
+
     /// How late the clock of each node is.
     pub fn lateness(&self) -> impl Iterator<Item = &Fraction> + '_ {
         self.lateness.iter()

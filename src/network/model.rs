@@ -61,6 +61,8 @@ pub struct Model {
     pub constants: Vec<Constant>,
     /// The units.
     pub scale: Scale,
+    /// What one second is in the unit of time.
+    pub slowness: Fraction,
     /// The bars by element.
     pub bars: BTreeMap<ElementIndex, ModelBar>,
     /// The lumped elements.
@@ -101,9 +103,12 @@ impl Model {
             assumptions: scene.assumptions.clone(),
             constants: Vec::new(),
             scale,
+            slowness: Fraction::one(),
             bars: BTreeMap::new(),
             lumps: BTreeMap::new(),
         };
+        let second = one().over(&model.scale.time)?;
+        model.slowness = model.number("nu", second);
         for index in &scene.line.elements {
             let element = &scene.elements[*index];
             let named = |symbol: &str| format!("{symbol}_{}", element.name);
@@ -154,8 +159,10 @@ impl Model {
                     let until = load.until.clone().map(|until| Root::from(until).over(&time));
                     let until = until.transpose()?;
                     let unit = model.number(&named("A"), unit);
-                    let second = model.number("theta", time);
-                    let clock = &second * &Fraction::symbol(&scene.time);
+                    let slowness = &model.slowness;
+                    let unit_of_time = &Fraction::reciprocal(slowness.numerator())?
+                        * &Fraction::from(slowness.denominator());
+                    let clock = &unit_of_time * &Fraction::symbol(&scene.time);
                     let course = load.course.substitute(&scene.time, &clock)?.times(&unit);
                     let from = model.number(&named("from"), from);
                     let until = until.map(|until| model.number(&named("until"), until));

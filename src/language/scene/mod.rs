@@ -8,7 +8,7 @@ mod observe;
 pub(super) mod print;
 mod refusal;
 pub(super) mod tree;
-mod units;
+pub(super) mod units;
 
 use std::collections::BTreeMap;
 

@@ -151,8 +151,16 @@ pub(super) fn units_of(dimension: Dimension) -> String {
     }
 }
 
-/// The unit of a dimension: `N/m`.
-pub(super) fn unit_of(dimension: Dimension) -> String {
+/// The SI unit of a dimension: `N/m`; empty for plain numbers.
+///
+/// ```
+/// use wavestep::language::unit_of;
+/// use wavestep::scene::Dimension;
+///
+/// assert_eq!(unit_of(Dimension::STIFFNESS), "N/m");
+/// assert_eq!(unit_of(Dimension::NONE), "");
+/// ```
+pub fn unit_of(dimension: Dimension) -> String {
     let units = units_of(dimension);
     units.split(" = ").next().unwrap_or(&units).to_owned()
 }

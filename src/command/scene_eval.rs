@@ -1,0 +1,78 @@
+//! `eval` for scenes: in their units, with constants, on lattices, and energies.
+
+use super::arguments::{Eval, EvalFormat, SideOption};
+use super::eval::{Row, csv, json_document, text, times, unknown};
+use super::failure::Failure;
+use super::progress;
+use wavestep::evaluate::{SceneEvaluator, Side};
+use wavestep::expression::{Expression, Fraction, Root};
+use wavestep::language;
+use wavestep::network::{Network, Observed, ObservedValue};
+use wavestep::recurrence::{Observation, ObservedWave};
+use wavestep::scene::Dimension;
+
+/// Evaluates an observable or a wave of a scene.
+pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
+    let observed = observed(network, options)?;
+    if options.piece.is_some() {
+        let message = "the times of this scene are told from its start";
+        return Err(Failure::usage(message, "give --at T, or --from, --to and --points"));
+    }
+    let side = match options.side {
+        SideOption::Left => Side::Left,
+        SideOption::Right => Side::Right,
+    };
+    let times = times(options)?;
+    let scaled: Vec<Fraction> = times.iter().map(|time| network.scaled_time(time)).collect();
+    let last = times.iter().zip(&scaled).max().map(|(_, scaled)| scaled.clone());
+    let last = last.expect("times without any are refused");
+    let evaluator = SceneEvaluator::new(network, &last)?;
+    let progress = progress::counted(times.len());
+    let mut rows = Vec::with_capacity(times.len());
+    for (time, scaled) in times.into_iter().zip(scaled) {
+        let value = evaluator.value(&observed, &scaled, side, options.digits, options.max_bits)?;
+        rows.push(Row { time, value });
+        progress.inc(1);
+    }
+    drop(progress);
+    if options.stats {
+        let (expanded, needed) = (evaluator.expanded(), evaluator.needed());
+        eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
+    }
+    let unit = language::unit_of(observed.dimension);
+    let (second, spaced) = match network.scene().dimensional {
+        true if unit.is_empty() => (" s", String::new()),
+        true => (" s", format!(" {unit}")),
+        false => ("", String::new()),
+    };
+    Ok(match options.format {
+        EvalFormat::Text => text(&rows, options, [second, &spaced]),
+        EvalFormat::Csv => csv(&rows, options.digits),
+        EvalFormat::Json => json_document(&network.scene().title, &rows, options, &unit),
+    })
+}
+
+/// The observable asked for, or a wave in the scale of the scene.
+fn observed(network: &Network, options: &Eval) -> Result<Observed, Failure> {
+    let name = language::normalise_name(&options.quantity);
+    if let Some(observed) = network.observables().iter().find(|observed| observed.name == name) {
+        return Ok(observed.clone());
+    }
+    let waves = network.waves();
+    let Some(wave) = waves.iter().position(|wave| wave.name == name) else {
+        let observables = network.observables().iter().map(|observed| observed.name.as_str());
+        return Err(unknown(
+            observables.chain(waves.iter().map(|w| w.name.as_str())).collect(),
+            options,
+        ));
+    };
+    let (coefficient, delay) = (Expression::one(), Fraction::zero());
+    let seen = ObservedWave { coefficient, wave, slope: false, delay };
+    let observation = Observation { waves: vec![seen], forcing: Expression::zero() };
+    Ok(Observed {
+        name,
+        value: ObservedValue::Linear(observation),
+        unit: Root::from(Fraction::one()),
+        dimension: Dimension::NONE,
+    })
+}
