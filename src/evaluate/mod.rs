@@ -4,6 +4,7 @@
 //! such. Whether it is itself a rational number is decided exactly, first; else balls of rising
 //! precision enclose it until the digits asked for are certain.
 
+mod arrivals;
 mod contribution;
 mod enclosure;
 mod energy;
@@ -13,6 +14,7 @@ mod numbers;
 mod scene;
 mod value;
 
+pub use arrivals::{Arrival, ArrivalError, arrivals};
 pub use enclosure::enclose_expression;
 pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
