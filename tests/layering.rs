@@ -16,7 +16,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
     ("network", &["expression", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
     ("evaluate", &["ball", "expression", "network", "recurrence", "scene", "solution"]),
-    ("export", &["expression", "recurrence", "solution"]),
+    ("export", &["expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
     ("scenes", &[]),

@@ -215,6 +215,11 @@ impl Formula {
         format!("{} = {}", self.head.text(), self.right.text().text())
     }
 
+    /// The right-hand side in LaTeX, in one line.
+    pub(crate) fn right_latex(&self) -> String {
+        self.right.latex().text().to_owned()
+    }
+
     /// Plain text in lines of at most `width` characters where it can be broken; continuation lines
     /// and a remark are indented.
     pub fn to_text(&self, width: usize) -> String {

@@ -6,6 +6,7 @@
 //! rationals, term by term.
 
 mod arrangement;
+mod explain;
 mod formula;
 mod general;
 mod json;
@@ -14,6 +15,7 @@ mod names;
 mod notation;
 mod source;
 
+pub use explain::Derivation;
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,
 };

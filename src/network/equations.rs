@@ -155,6 +155,20 @@ impl Network {
         &self.lattice
     }
 
+    /// Where a node is, in words.
+    pub fn place_in_words(&self, node: usize) -> String {
+        let name = |bar: usize| format!("`{}`", self.scene.elements[self.layout.bars[bar]].name);
+        let Node { left, right, .. } = &self.layout.nodes[node];
+        match (left, right) {
+            (Side::Bar(left), Side::Bar(right)) => {
+                format!("Between {} and {}", name(*left), name(*right))
+            }
+            (Side::Bar(left), _) => format!("At the right end of {}", name(*left)),
+            (_, Side::Bar(right)) => format!("At the left end of {}", name(*right)),
+            _ => "Between the ends".to_owned(),
+        }
+    }
+
     /// The waves, in the order of the recurrence.
     pub fn waves(&self) -> &[WaveRole] {
         &self.waves

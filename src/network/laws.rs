@@ -6,15 +6,53 @@ use crate::network::layout::{Node, Side};
 use crate::network::model::ModelLump;
 use crate::network::observe::{Observed, ObservedValue};
 use crate::recurrence::{
-    Continuity, LinearForm, Observable, Recurrence, SourceNotation, Statement,
+    Continuity, LinearForm, Observable, Recurrence, SourceNotation, Statement, WaveIndex,
 };
 use crate::scene::{Drive, ElementIndex};
 use wavestep_polynomial::Symbol;
 
-/// Equations and continuity rules as they are found.
+/// What a law says.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Rule {
+    /// What is joined moves together.
+    Velocity,
+    /// Without anything between them the forces on both sides are equal.
+    Force,
+    /// Nothing presses on a free end.
+    FreeEnd,
+    /// A fixed end does not move.
+    FixedEnd,
+    /// The elements named act on the line: masses, supports, loads.
+    Balance(Vec<ElementIndex>),
+    /// A spring carries the force.
+    Spring(ElementIndex),
+    /// A spring is shortened by the velocities of its ends.
+    Shortening(ElementIndex),
+    /// A support is displaced by the velocity of its place.
+    Displacement(ElementIndex),
+    /// A load imposes its velocity.
+    Imposed(ElementIndex),
+    /// An integral is followed because it is observed.
+    Integral(WaveIndex),
+}
+
+/// A law at a node: `left = right`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Law {
+    /// The node, counted from the left; none for what belongs to no node.
+    pub node: Option<usize>,
+    /// What it says.
+    pub rule: Rule,
+    /// The left side.
+    pub left: LinearForm,
+    /// The right side.
+    pub right: LinearForm,
+}
+
+/// Laws and continuity rules as they are found.
 #[derive(Default)]
 struct Laws {
-    equations: Vec<LinearForm>,
+    laws: Vec<Law>,
     continuity: Vec<Continuity>,
 }
 
@@ -46,23 +84,10 @@ impl Network {
     }
 
     /// The recurrence of the scene as a statement; `strides` turn counts on the lattice into lags.
-    #[doc(hidden)]
-    pub fn statement_for_debugging(&self) -> Statement {
-        self.statement(&[1])
-    }
     pub(crate) fn statement(&self, strides: &[usize]) -> Statement {
-        let mut laws = Laws::default();
-        for (place, node) in self.layout.nodes.iter().enumerate() {
-            self.laws_of(place, node, strides, &mut laws);
-        }
+        let laws = self.all_laws(strides);
         let mut waves: Vec<String> = self.waves.iter().map(|wave| wave.name.clone()).collect();
         for wave in &self.integrals {
-            let integral = waves.len();
-            let mut equation = LinearForm::slope(integral, 0);
-            equation.add_scaled(&LinearForm::wave(*wave, 0), &-&one(), 0);
-            laws.equations.push(equation);
-            let form = LinearForm::wave(integral, 0);
-            laws.continuity.push(Continuity { form, start: Expression::zero() });
             waves.push(format!("integral_{}", waves[*wave]));
         }
         let mut local = "s".to_owned();
@@ -87,11 +112,38 @@ impl Network {
             local: Symbol::new(&local).expect("a name"),
             time: self.scene.time.clone(),
             waves,
-            equations: laws.equations,
+            equations: laws.laws.iter().map(|law| difference(&law.left, &law.right)).collect(),
             continuity: laws.continuity,
             observables,
             notation: SourceNotation::default(),
         }
+    }
+
+    fn all_laws(&self, strides: &[usize]) -> Laws {
+        let mut laws = Laws::default();
+        for (place, node) in self.layout.nodes.iter().enumerate() {
+            self.laws_of(place, node, strides, &mut laws);
+        }
+        for (i, wave) in self.integrals.iter().enumerate() {
+            let integral = self.waves.len() + i;
+            laws.laws.push(Law {
+                node: None,
+                rule: Rule::Integral(*wave),
+                left: LinearForm::slope(integral, 0),
+                right: LinearForm::wave(*wave, 0),
+            });
+            laws.start(LinearForm::wave(integral, 0));
+        }
+        laws
+    }
+
+    /// The laws at the nodes, with lags on a grid of one period.
+    ///
+    /// # Panics
+    /// Where the delays do not lie on one grid.
+    pub fn laws(&self) -> Vec<Law> {
+        assert_eq!(self.lattice.periods().len(), 1, "a scene on one grid");
+        self.all_laws(&[1]).laws
     }
 
     /// All that is known of the velocity of a run of places, by the node's clock.
@@ -221,65 +273,92 @@ impl Network {
                 self.force_forms(place, node, *run.expect("every place is in a run"), strides);
             forms.into_iter().next()
         };
+        let mut add = |rule, left: &LinearForm, right: &LinearForm| {
+            let (left, right) = (left.clone(), right.clone());
+            laws.laws.push(Law { node: Some(place), rule, left, right });
+        };
+        let mut starts = Vec::new();
+        let nothing = LinearForm::zero();
         for run in self.velocity_runs(node) {
             let forms = self.velocity_forms(place, node, run, strides);
-            laws.equations.extend(forms[1..].iter().map(|other| difference(&forms[0], other)));
-            let driven = node.elements[run.first..run.last].iter().any(|element| {
+            let elements = &node.elements[run.first..run.last];
+            let imposing = elements.iter().find(|element| {
                 matches!(self.model.lumps[element], ModelLump::Load(Drive::Velocity, ..))
             });
             let held = (run.first == 0 && node.left == Side::Fixed)
                 || (run.last == node.elements.len() && node.right == Side::Fixed);
-            if run.first == run.last || driven || held {
+            for other in &forms[1..] {
+                match (imposing, held) {
+                    (Some(load), _) => add(Rule::Imposed(*load), other, &forms[0]),
+                    (None, true) if forms[0].is_zero() => add(Rule::FixedEnd, other, &nothing),
+                    (None, true) => add(Rule::FixedEnd, &forms[0], other),
+                    (None, false) => add(Rule::Velocity, &forms[0], other),
+                }
+            }
+            if run.first == run.last || imposing.is_some() || held {
                 continue;
             }
-            // X_left − X_right = Σ (M v' + d v + k u) − F
+            // Σ (M v' + d v + k u) = X_left − X_right + F
             let [left, right] = [run.first, run.last].map(|at| force_at(at).expect("a force"));
-            let mut law = difference(&left, &right);
+            let mut acting = difference(&left, &right);
+            let mut resisting = LinearForm::zero();
             let velocity = &forms[0];
             let (mut mass, mut momentum) = (Fraction::zero(), Fraction::zero());
-            for element in &node.elements[run.first..run.last] {
+            for element in elements {
                 match &self.model.lumps[element] {
                     ModelLump::Mass(m, v) => {
                         mass = &mass + m;
                         momentum = &momentum + &(m * v);
                     }
-                    ModelLump::Support(_, damping) => {
-                        law.add_scaled(velocity, &-&Expression::from(damping.clone()), 0);
+                    ModelLump::Support(stiffness, damping) => {
+                        resisting.add_scaled(velocity, &damping.clone().into(), 0);
+                        if let Some(wave) = self.wave(Role::Displacement(*element)) {
+                            let own = LinearForm::wave(wave, 0);
+                            resisting.add_scaled(&own, &stiffness.clone().into(), 0);
+                            let slope = LinearForm::slope(wave, 0);
+                            add(Rule::Displacement(*element), &slope, velocity);
+                            starts.push(own);
+                        }
                     }
-                    ModelLump::Load(..) => law.add_scaled(&self.load(*element, strides), &one(), 0),
+                    ModelLump::Load(..) => {
+                        acting.add_scaled(&self.load(*element, strides), &one(), 0);
+                    }
                     ModelLump::Spring(..) => unreachable!("springs part what moves together"),
-                }
-                if let ModelLump::Support(stiffness, _) = &self.model.lumps[element]
-                    && let Some(wave) = self.wave(Role::Displacement(*element))
-                {
-                    let force = scaled(&LinearForm::wave(wave, 0), stiffness);
-                    law.add_scaled(&force, &-&one(), 0);
-                    laws.equations.push(difference(&LinearForm::slope(wave, 0), velocity));
-                    laws.start(LinearForm::wave(wave, 0));
                 }
             }
             if !mass.is_zero() {
-                law.add_scaled(&velocity.derivative(time), &-&Expression::from(mass.clone()), 0);
-                let inverse = Fraction::reciprocal(mass.numerator())
-                    .map(|inverse| &inverse * &Fraction::from(mass.denominator()));
-                let start = &momentum * &inverse.expect("a mass that can be divided by");
-                laws.start(difference(velocity, &self.constant(place, &start, strides)));
+                resisting.add_scaled(&velocity.derivative(time), &mass.clone().into(), 0);
+                let inverse = Fraction::reciprocal(mass.numerator());
+                let inverse = inverse.expect("a mass that can be divided by");
+                let start = &(&momentum * &inverse) * &Fraction::from(mass.denominator());
+                starts.push(difference(velocity, &self.constant(place, &start, strides)));
             }
-            laws.equations.push(law);
+            add(Rule::Balance(elements.to_vec()), &resisting, &acting);
         }
         for run in forces {
+            let springs = &node.elements[run.first..run.last];
+            let free = (run.first == 0 && node.left == Side::Free)
+                || (run.last == node.elements.len() && node.right == Side::Free);
             let forms = self.force_forms(place, node, run, strides);
-            if let Some((first, others)) = forms.split_first() {
-                laws.equations.extend(others.iter().map(|other| difference(first, other)));
+            let Some((first, others)) = forms.split_first() else { continue };
+            let before_springs = forms.len() - springs.len();
+            for (i, other) in (1_usize..).zip(others) {
+                match i.checked_sub(before_springs) {
+                    Some(spring) => add(Rule::Spring(springs[spring]), first, other),
+                    None if free && first.is_zero() => add(Rule::FreeEnd, other, &nothing),
+                    None if free => add(Rule::FreeEnd, first, other),
+                    None => add(Rule::Force, first, other),
+                }
             }
         }
         for (i, element) in node.elements.iter().enumerate() {
             if let Some(wave) = self.wave(Role::Compression(*element)) {
                 let closing = self.closing(place, node, i, strides);
-                laws.equations.push(difference(&LinearForm::slope(wave, 0), &closing));
-                laws.start(LinearForm::wave(wave, 0));
+                add(Rule::Shortening(*element), &LinearForm::slope(wave, 0), &closing);
+                starts.push(LinearForm::wave(wave, 0));
             }
         }
+        starts.into_iter().for_each(|form| laws.start(form));
     }
 }
 

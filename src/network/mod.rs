@@ -22,6 +22,7 @@ mod unfold;
 
 pub use delay::Lattice;
 pub use equations::{Network, NetworkError, Role, WaveRole};
+pub use laws::{Law, Rule};
 pub use model::{Model, ModelBar, ModelLump, Scale};
 pub use observe::{EnergyTerm, Observed, ObservedValue, Window};
 pub use unfold::Unfolded;

@@ -1,0 +1,428 @@
+//! The derivation of a scene's recurrence as a text to be read: sentences and equations.
+
+use crate::export::arrangement::{Sign, Term, arrange};
+use crate::export::formula::{Formula, Head, Right, latex, text};
+use crate::export::names::{Name, Names};
+use crate::export::notation::Latex;
+use crate::expression::{Expression, Fraction, Root};
+use crate::network::{Law, Network, Role, Rule};
+use crate::recurrence::{LinearForm, Recurrence};
+use crate::scene::ElementIndex;
+use std::sync::Arc;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// A part of a derivation.
+#[derive(Clone, PartialEq, Eq, Debug)]
+enum Part {
+    Heading(&'static str),
+    Sentence(String),
+    Equations(Vec<Formula>),
+}
+
+/// How a scene becomes a recurrence: its waves, the laws at its nodes, its scales, the recurrence.
+///
+/// ```
+/// use wavestep::export::Derivation;
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// let scene = read_scene(&Source::new("mass", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let derivation = Derivation::of(&network, &network.recurrence().unwrap(), &|_| None);
+/// // Equation 6.76: the far end does not move.
+/// assert!(derivation.to_text(100).contains("g[n] = -f[n-1]"));
+/// assert!(derivation.to_latex(84).contains("g_{n} &= - f_{n-1}"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Derivation {
+    parts: Vec<Part>,
+}
+
+/// Writes forms in waves with their index on the n-th period.
+struct Writer<'a> {
+    recurrence: &'a Recurrence,
+    names: Arc<Names>,
+}
+
+impl Derivation {
+    /// The derivation of a scene on one grid. `decimal` gives constants as numbers, where it can.
+    pub fn of(
+        network: &Network,
+        recurrence: &Recurrence,
+        decimal: &dyn Fn(&Root) -> Option<String>,
+    ) -> Derivation {
+        let writer = Writer::new(recurrence);
+        let mut derivation = Derivation { parts: Vec::new() };
+        derivation.scales(network, decimal);
+        derivation.waves(network);
+        derivation.laws(network, &writer);
+        derivation.recurrence(network, &writer);
+        derivation
+    }
+
+    /// Adds formulas under a heading.
+    pub fn add(&mut self, heading: &'static str, formulas: Vec<Formula>) {
+        self.parts.push(Part::Heading(heading));
+        self.parts.push(Part::Equations(formulas));
+    }
+
+    fn sentence(&mut self, sentence: impl Into<String>) {
+        self.parts.push(Part::Sentence(sentence.into()));
+    }
+
+    /// In which units the scene is written, and the constants that got names.
+    fn scales(&mut self, network: &Network, decimal: &dyn Fn(&Root) -> Option<String>) {
+        let (scene, model) = (network.scene(), network.model());
+        let name = |element: Option<ElementIndex>| {
+            element.map_or("the scene", |element| &scene.elements[element].name)
+        };
+        if scene.dimensional {
+            self.parts.push(Part::Heading("Scales"));
+            let (of, moving) = (name(model.scale.reference), name(model.scale.moving));
+            let mut units = vec![("Z", "kg/s", &model.scale.impedance, "impedance", of)];
+            units.push(("T", "s", &model.scale.time, "time", of));
+            units.push(("V", "m/s", &model.scale.velocity, "velocity", moving));
+            for (symbol, unit, value, what, of) in units {
+                let number = decimal(value).map_or(String::new(), |n| format!(" = {n} {unit}"));
+                self.sentence(format!("The unit of {what} is {symbol}{number}, from `{of}`."));
+            }
+            self.sentence("Forces are in Z V, displacements in V T.");
+        }
+        if !model.constants.is_empty() {
+            let constants = model.constants.iter().map(|constant| {
+                let head = Head::Written(
+                    constant.symbol.name().to_owned(),
+                    Latex::name(constant.symbol.name()),
+                );
+                let right = root(&constant.value);
+                let number = decimal(&constant.value).map(|number| format!("= {number}"));
+                let remark = number.map(|number| (number.clone(), String::new()));
+                Formula { head, right, remark }
+            });
+            let constants = constants.collect();
+            self.sentence("In these units, what is no rational number has a name:");
+            self.parts.push(Part::Equations(constants));
+        }
+    }
+
+    /// The waves in each bar, and what else is followed.
+    fn waves(&mut self, network: &Network) {
+        self.parts.push(Part::Heading("Waves"));
+        let scene = network.scene();
+        let wave = |role: Role| network.waves().iter().find(|wave| wave.role == role);
+        for element in &scene.line.elements {
+            let Some(data) = network.model().bars.get(element) else { continue };
+            let (right, left) = (wave(Role::Right(*element)), wave(Role::Left(*element)));
+            let symbol = |name: &str| Symbol::new(name).expect("names of waves are names");
+            let term = |wave: Option<&crate::network::WaveRole>| {
+                let value = wave.map(|wave| Expression::symbol(&symbol(&wave.name)));
+                value.unwrap_or_else(Expression::zero)
+            };
+            let (f, g) = (term(right), term(left));
+            let impedance = Expression::from(data.impedance.clone());
+            let velocity = sum(&[data.velocity.clone().into(), f.clone(), g.clone()]);
+            let mut force = sum(&[data.force.clone().into(), &f * &impedance]);
+            force.extend(negated(&(&g * &impedance)));
+            let name = &scene.elements[*element].name;
+            let travel = match &data.travel {
+                None => "goes on for ever, and nothing returns from there".to_owned(),
+                Some(travel) => {
+                    let travel = Formula::new(
+                        Head::Written("tau".to_owned(), String::new()),
+                        &travel.clone().into(),
+                        &scene.time,
+                    );
+                    format!("is passed in {}", travel.to_line().replace("tau = ", ""))
+                }
+            };
+            self.sentence(format!(
+                "The bar `{name}` {travel}. Its velocity v and compressive force X are",
+            ));
+            let equation = |head: (&str, &str), terms: Vec<Term>| Formula {
+                head: Head::Written(head.0.to_owned(), head.1.to_owned()),
+                right: Right::Terms(terms),
+                remark: None,
+            };
+            self.parts.push(Part::Equations(vec![
+                equation(("v", "v"), velocity),
+                equation(("X", "X"), force),
+            ]));
+        }
+        for wave in network.waves() {
+            let (name, what) = match wave.role {
+                Role::Compression(e) => (e, "the compression of the spring"),
+                Role::Displacement(e) => (e, "the displacement of the support"),
+                Role::Velocity(..) => {
+                    self.sentence(format!("{} is a velocity that no bar tells.", wave.name));
+                    continue;
+                }
+                _ => continue,
+            };
+            let name = &scene.elements[name].name;
+            self.sentence(format!("{} is {what} `{name}`.", wave.name));
+        }
+    }
+
+    /// The laws at the nodes.
+    fn laws(&mut self, network: &Network, writer: &Writer<'_>) {
+        self.parts.push(Part::Heading("Laws at ends and joints"));
+        let period = writer.period();
+        self.sentence(format!(
+            "On the n-th period, n D <= t < (n+1) D with D = {period}, each by the clock of its place; \
+             waves are zero for n < 0.",
+        ));
+        for law in network.laws() {
+            if matches!(law.rule, Rule::Integral(_)) {
+                continue;
+            }
+            self.sentence(told(network, &law));
+            self.parts.push(Part::Equations(vec![writer.equation(&law.left, &law.right)]));
+        }
+    }
+
+    /// The recurrence, solved for one wave after another.
+    fn recurrence(&mut self, network: &Network, writer: &Writer<'_>) {
+        self.parts.push(Part::Heading("The recurrence"));
+        self.sentence("Solved for one wave after another:");
+        let shown = network.waves().len();
+        let mut equations = Vec::new();
+        let mut starts = Vec::new();
+        for step in writer.recurrence.steps() {
+            let added = step.wave >= writer.recurrence.statement().waves.len();
+            if step.wave >= shown && !added {
+                continue;
+            }
+            let (mut left, mut right) = (LinearForm::zero(), -&step.equation);
+            let own = match &step.start {
+                None => vec![(LinearForm::wave(step.wave, 0), Expression::one())],
+                Some(start) => vec![
+                    (LinearForm::slope(step.wave, 0), Expression::one()),
+                    (LinearForm::wave(step.wave, 0), start.rate.clone().into()),
+                ],
+            };
+            for (form, factor) in own {
+                left.add_scaled(&form, &factor, 0);
+                right.add_scaled(&form, &factor, 0);
+            }
+            equations.push(writer.equation(&left, &right));
+            if let Some(start) = &step.start {
+                let head = writer.written(&start.continuous);
+                let right = Right::Terms(arrange(&start.initial, None));
+                starts.push(Formula { head, right, remark: None });
+            }
+        }
+        self.parts.push(Part::Equations(equations));
+        if !starts.is_empty() {
+            self.sentence("These are continuous from period to period, and start at");
+            self.parts.push(Part::Equations(starts));
+        }
+    }
+
+    /// Plain text.
+    pub fn to_text(&self, width: usize) -> String {
+        let mut out = String::new();
+        for part in &self.parts {
+            match part {
+                Part::Heading(heading) => {
+                    let gap = if out.is_empty() { "" } else { "\n" };
+                    let line = "-".repeat(heading.len());
+                    out.push_str(&format!("{gap}{heading}\n{line}\n"));
+                }
+                Part::Sentence(sentence) => out.push_str(&format!("{sentence}\n")),
+                Part::Equations(formulas) => {
+                    let lines = text(formulas, width.saturating_sub(4));
+                    lines.lines().for_each(|line| out.push_str(&format!("    {line}\n")));
+                }
+            }
+        }
+        out
+    }
+
+    /// LaTeX: sections, sentences and `align*` environments.
+    pub fn to_latex(&self, width: usize) -> String {
+        let mut out = String::new();
+        for part in &self.parts {
+            match part {
+                Part::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
+                Part::Sentence(sentence) => out.push_str(&format!("{}\n", prose(sentence))),
+                Part::Equations(formulas) => out.push_str(&latex(formulas, width)),
+            }
+        }
+        out
+    }
+}
+
+impl<'a> Writer<'a> {
+    fn new(recurrence: &'a Recurrence) -> Writer<'a> {
+        let mut names = Names::new();
+        let forms = recurrence.steps().iter().flat_map(|step| {
+            let continuous = step.start.as_ref().map(|start| &start.continuous);
+            std::iter::once(&step.equation).chain(continuous)
+        });
+        let statement = recurrence.statement();
+        let stated = statement.equations.iter();
+        let lags = forms.chain(stated).flat_map(|form| form.operators());
+        let most = lags.map(|(_, operator)| operator.value().len().max(operator.slope().len()));
+        let most = most.max().unwrap_or(0) + 1;
+        for wave in 0..recurrence.wave_count() {
+            for lag in 0..=most {
+                for slope in [false, true] {
+                    let name = recurrence.wave_name(wave);
+                    let index = if lag == 0 { "n".to_owned() } else { format!("n-{lag}") };
+                    let prime = if slope { "'" } else { "" };
+                    let written = Name {
+                        text: format!("{name}[{index}]{prime}"),
+                        latex: format!("{}{prime}", Latex::indexed(&name, &index)),
+                        compound: false,
+                        leads: false,
+                    };
+                    names.insert(stand_in(wave, lag, slope), written);
+                }
+            }
+        }
+        Writer { recurrence, names: Arc::new(names) }
+    }
+
+    fn period(&self) -> String {
+        let period = Expression::from(self.recurrence.statement().period.clone());
+        let formula = Formula::new(
+            Head::Written("D".to_owned(), "D".to_owned()),
+            &period,
+            &self.recurrence.statement().time,
+        );
+        formula.to_line().replace("D = ", "")
+    }
+
+    /// A form as terms, slopes first and newest first.
+    fn terms(&self, form: &LinearForm) -> Vec<Term> {
+        let mut terms = Vec::new();
+        for slope in [true, false] {
+            let reach = form.operators().map(|(_, o)| o.value().len().max(o.slope().len()));
+            for lag in 0..reach.max().unwrap_or(0) {
+                for (wave, operator) in form.operators() {
+                    let row = if slope { operator.slope() } else { operator.value() };
+                    let Some(factor) = row.get(lag).filter(|factor| !factor.is_zero()) else {
+                        continue;
+                    };
+                    let symbol = Expression::symbol(&stand_in(wave, lag, slope));
+                    terms.extend(arrange(&(&symbol * factor), None));
+                }
+            }
+        }
+        for (lag, function) in form.forcing_terms().iter().enumerate() {
+            if function.is_zero() {
+                continue;
+            }
+            let time = &self.recurrence.statement().time;
+            let late =
+                self.recurrence.statement().period.scale(&Rational::from_integer(lag.into()));
+            let moved = &Fraction::symbol(time) - &late;
+            let function = function.substitute(time, &moved);
+            let function = function.expect("no denominator of a load holds the time");
+            terms.extend(arrange(&function, Some(time)));
+        }
+        terms
+    }
+
+    fn equation(&self, left: &LinearForm, right: &LinearForm) -> Formula {
+        let right = Right::Named(self.terms(right), self.names.clone());
+        Formula { head: self.written(left), right, remark: None }
+    }
+
+    /// A form as the left side of an equation.
+    fn written(&self, form: &LinearForm) -> Head {
+        let terms = self.terms(form);
+        let whole = Right::Named(terms, self.names.clone());
+        let formula = Formula {
+            head: Head::Written(String::new(), String::new()),
+            right: whole,
+            remark: None,
+        };
+        let text = formula.to_line();
+        let latex = formula.right_latex();
+        Head::Written(text.trim_start_matches(" = ").to_owned(), latex)
+    }
+}
+
+/// A symbol in place of a wave at a lag, or of its slope.
+fn stand_in(wave: usize, lag: usize, slope: bool) -> Symbol {
+    let name = format!("wave_{wave}_{lag}_{}", u8::from(slope));
+    Symbol::new(&name).expect("a name with letters in front")
+}
+
+fn sum(parts: &[Expression]) -> Vec<Term> {
+    parts.iter().flat_map(|part| arrange(part, None)).collect()
+}
+
+fn negated(part: &Expression) -> Vec<Term> {
+    let flip = |(sign, node): Term| (sign.times(Sign::Minus), node);
+    arrange(part, None).into_iter().map(flip).collect()
+}
+
+/// What a law says, in a sentence.
+fn told(network: &Network, law: &Law) -> String {
+    let scene = network.scene();
+    let name = |element: &ElementIndex| format!("`{}`", scene.elements[*element].name);
+    let place = law.node.map_or(String::new(), |node| network.place_in_words(node));
+    match &law.rule {
+        Rule::Velocity => format!("{place}, what is joined moves together:"),
+        Rule::Force => format!("{place}, the forces on both sides are equal:"),
+        Rule::FreeEnd => format!("{place}, nothing presses on the free end:"),
+        Rule::FixedEnd => format!("{place}, the end does not move:"),
+        Rule::Balance(elements) => {
+            let names: Vec<String> = elements.iter().map(name).collect();
+            format!("{place}, {} balances the forces:", names.join(" and "))
+        }
+        Rule::Spring(spring) => format!("{place}, {} carries the force:", name(spring)),
+        Rule::Shortening(spring) => {
+            format!("{place}, {} is shortened as its ends approach:", name(spring))
+        }
+        Rule::Displacement(support) => format!("{place}, {} moves with the line:", name(support)),
+        Rule::Imposed(load) => format!("{place}, {} imposes its velocity:", name(load)),
+        Rule::Integral(_) => String::new(),
+    }
+}
+
+/// A factor and a root as the right side of a definition.
+fn root(value: &Root) -> Right {
+    let factor = Formula::new(
+        Head::Written(String::new(), String::new()),
+        &value.factor().clone().into(),
+        &Symbol::new("pi").expect("a name"),
+    );
+    let (text, latex) = (factor.to_line().replace(" = ", ""), factor.right_latex());
+    if value.radicand().is_one() {
+        return Right::Written(text, latex);
+    }
+    let under = Formula::new(
+        Head::Written(String::new(), String::new()),
+        &value.radicand().clone().into(),
+        &Symbol::new("pi").expect("a name"),
+    );
+    let (under_text, under_latex) = (under.to_line().replace(" = ", ""), under.right_latex());
+    let one = value.factor().is_one();
+    let text = if one { String::new() } else { format!("({text})*") };
+    let latex = if one { String::new() } else { latex };
+    Right::Written(format!("{text}sqrt({under_text})"), format!("{latex}\\sqrt{{{under_latex}}}"))
+}
+
+/// A sentence in LaTeX.
+fn prose(sentence: &str) -> String {
+    let mut out = String::new();
+    let mut quoted = false;
+    for character in sentence.chars() {
+        match character {
+            '`' => {
+                out.push_str(if quoted { "}" } else { "\\texttt{" });
+                quoted = !quoted;
+            }
+            '_' => out.push_str("\\_"),
+            '<' => out.push_str("$<$"),
+            '^' => out.push_str("\\^{}"),
+            other => out.push(other),
+        }
+    }
+    out.replace("$<$=", "$\\le$")
+}
