@@ -90,6 +90,11 @@ pub struct Derive {
     /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
     #[arg(long, conflicts_with_all = ["observable", "form"])]
     pub source_form: bool,
+    /// Say how the recurrence follows from the bars and elements of a scene: scales, waves, laws at
+    /// ends and joints, the recurrence, and its first pieces
+    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form",
+          "through", "from", "piece"])]
+    pub explain: bool,
     /// Written how
     #[arg(long, value_enum, default_value_t = DeriveFormat::Text)]
     pub format: DeriveFormat,

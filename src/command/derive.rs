@@ -2,8 +2,9 @@
 
 use super::arguments::{Derive, DeriveFormat, Form};
 use super::bounds;
+use super::derive_scene;
 use super::failure::Failure;
-use super::input;
+use super::input::{self, Subject};
 use super::progress;
 use serde_json::{Value, json};
 use wavestep::export::{self, Formula, Head, SourceForm};
@@ -14,7 +15,18 @@ use wavestep::solution::{GeneralForm, ObserveError, ObservedPieces, Solution, Un
 
 /// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
-    let recurrence = input::recurrence(&options.scene)?;
+    match input::subject(&options.scene)? {
+        Subject::Recurrence(_) if options.explain => Err(Failure::usage(
+            "a recurrence is its own explanation: nothing was derived to get it",
+            "ask for --explain with a scene of bars and elements, or leave it out",
+        )),
+        Subject::Recurrence(recurrence) => of_recurrence(recurrence, options),
+        Subject::Scene(network) => derive_scene::run(&network, options),
+    }
+}
+
+/// Derives what is asked for from a recurrence.
+pub fn of_recurrence(recurrence: Recurrence, options: &Derive) -> Result<String, Failure> {
     let waves = waves(&recurrence, options.wave.as_deref())?;
     if options.source_form {
         refuse_source_form(&recurrence, options)?;
@@ -176,7 +188,7 @@ fn source_form(
 }
 
 /// Formulas as text or LaTeX.
-fn formulas_as(formulas: &[Formula], options: &Derive) -> String {
+pub fn formulas_as(formulas: &[Formula], options: &Derive) -> String {
     match options.format {
         DeriveFormat::Latex => export::latex(formulas, options.width()),
         DeriveFormat::Text | DeriveFormat::Json => export::text(formulas, options.width()),

@@ -7,6 +7,7 @@ mod arguments;
 mod bounds;
 mod check;
 mod derive;
+mod derive_scene;
 mod eval;
 mod failure;
 mod generate;

@@ -85,8 +85,22 @@ pub enum Head {
         /// The local variable.
         local: Symbol,
     },
+    /// `phi_f[2,1](s)`: an echo of a wave on a lattice of delays.
+    Arrival {
+        /// The wave.
+        wave: String,
+        /// How often each period of the lattice has passed.
+        counts: Vec<usize>,
+        /// The local variable.
+        local: Symbol,
+    },
     /// Written as it is, in text and in LaTeX.
     Written(String, String),
+}
+
+/// Counts as an index: `2,1`.
+fn listed(counts: &[usize]) -> String {
+    counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
 }
 
 impl Head {
@@ -94,6 +108,9 @@ impl Head {
         match self {
             Head::Piece { wave, n, local } => format!("{wave}[{n}]({local})"),
             Head::Echo { wave, k, local } => format!("phi_{wave}[{k}]({local})"),
+            Head::Arrival { wave, counts, local } => {
+                format!("phi_{wave}[{}]({local})", listed(counts))
+            }
             Head::Written(text, _) => text.clone(),
         }
     }
@@ -106,6 +123,10 @@ impl Head {
             Head::Echo { wave, k, local } => {
                 let wave = Latex::name(wave);
                 format!("\\varphi^{{{wave}}}_{{{k}}}({})", Latex.symbol(local))
+            }
+            Head::Arrival { wave, counts, local } => {
+                let (wave, counts) = (Latex::name(wave), listed(counts));
+                format!("\\varphi^{{{wave}}}_{{{counts}}}({})", Latex.symbol(local))
             }
             Head::Written(_, latex) => latex.clone(),
         }
@@ -213,6 +234,32 @@ impl Formula {
     /// Plain text in one line, without the remark.
     pub fn to_line(&self) -> String {
         format!("{} = {}", self.head.text(), self.right.text().text())
+    }
+
+    /// The formula of an echo on a lattice, with its arrival as a remark.
+    pub fn of_arrival(
+        wave: &str,
+        counts: &[usize],
+        delay: &Fraction,
+        echo: &Expression,
+        local: &Symbol,
+        time: &Symbol,
+    ) -> Formula {
+        let (wave, counts) = (wave.to_owned(), counts.to_vec());
+        let head = Head::Arrival { wave, counts, local: local.clone() };
+        let told = |notation: &dyn Notation, from: &str| {
+            let delay = write_flat(&arrange(&delay.clone().into(), None), notation);
+            let (t, s) = (notation.symbol(time), notation.symbol(local));
+            let shift = match &delay[..] {
+                "0" => t.clone(),
+                sum if sum.contains(['+', '-']) => format!("{t} - ({sum})"),
+                delay => format!("{t} - {delay}"),
+            };
+            (format!("{t} {from} {delay}"), format!("{s} = {shift}"))
+        };
+        let ((text, shift), (latex, latex_shift)) = (told(&Text, ">="), told(&Latex, "\\ge"));
+        let remark = Some((format!("{text}, {shift}"), format!("{latex},\\ {latex_shift}")));
+        Formula { remark, ..Formula::new(head, echo, local) }
     }
 
     /// The right-hand side in LaTeX, in one line.

@@ -90,14 +90,6 @@ impl Network {
         for wave in &self.integrals {
             waves.push(format!("integral_{}", waves[*wave]));
         }
-        let mut local = "s".to_owned();
-        let taken = |name: &str| {
-            self.model.assumptions.symbols().any(|(symbol, _)| symbol.name() == name)
-                || waves.iter().any(|wave| wave == name)
-        };
-        while taken(&local) {
-            local.push('_');
-        }
         let linear = |observed: &Observed| match &observed.value {
             ObservedValue::Linear(observation) => {
                 Some(Observable { name: observed.name.clone(), observation: observation.clone() })
@@ -109,7 +101,7 @@ impl Network {
             title: self.scene.title.clone(),
             assumptions: self.model.assumptions.clone(),
             period: self.lattice.periods()[0].clone(),
-            local: Symbol::new(&local).expect("a name"),
+            local: self.local(),
             time: self.scene.time.clone(),
             waves,
             equations: laws.laws.iter().map(|law| difference(&law.left, &law.right)).collect(),
@@ -117,6 +109,19 @@ impl Network {
             observables,
             notation: SourceNotation::default(),
         }
+    }
+
+    /// The local time, since a period began or an echo arrived: `s` where that is free.
+    pub fn local(&self) -> Symbol {
+        let mut local = "s".to_owned();
+        let taken = |name: &str| {
+            self.model.assumptions.symbols().any(|(symbol, _)| symbol.name() == name)
+                || self.waves.iter().any(|wave| wave.name == name)
+        };
+        while taken(&local) {
+            local.push('_');
+        }
+        Symbol::new(&local).expect("a name")
     }
 
     fn all_laws(&self, strides: &[usize]) -> Laws {

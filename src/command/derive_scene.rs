@@ -1,0 +1,191 @@
+//! `derive` for scenes: explained, on lattices, with the constants that were named.
+
+use super::arguments::{Derive, DeriveFormat, Form};
+use super::derive::{formulas_as, of_recurrence};
+use super::failure::Failure;
+use super::progress;
+use serde_json::{Value as Json, json};
+use wavestep::evaluate::{Arrival, ArrivalError, EvaluateError, Numbers, arrivals};
+use wavestep::export::{self, Derivation, Formula, Head};
+use wavestep::expression::Root;
+use wavestep::language;
+use wavestep::network::{Network, ObservedValue};
+use wavestep::recurrence::WaveIndex;
+use wavestep::solution::Solution;
+
+/// The last echo of a lattice that is derived where nothing else is asked for.
+const THROUGH: usize = 3;
+
+/// The most echoes of a lattice.
+const MAX_ECHOES: u128 = 5_000;
+
+/// The periods that a derivation ends with.
+const FIRST_PIECES: usize = 2;
+
+/// Significant digits of constants in remarks.
+const DIGITS: usize = 6;
+
+/// Derives what is asked for from a scene.
+pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
+    if let Some(name) = &options.observable {
+        refuse_energy(network, name)?;
+    }
+    if options.explain {
+        return explain(network, options);
+    }
+    if network.lattice().periods().len() > 1 {
+        return on_lattice(network, options);
+    }
+    let derived = of_recurrence(network.recurrence()?, options)?;
+    Ok(match options.format {
+        DeriveFormat::Json => derived,
+        DeriveFormat::Text => format!("{}{derived}", constants(network, "#")),
+        DeriveFormat::Latex => format!("{}{derived}", constants(network, "%")),
+    })
+}
+
+fn refuse_energy(network: &Network, name: &str) -> Result<(), Failure> {
+    let name = language::normalise_name(name);
+    let energy = network.observables().iter().find(|observed| {
+        observed.name == name && matches!(observed.value, ObservedValue::Energy(_))
+    });
+    match energy {
+        None => Ok(()),
+        Some(_) => Err(Failure::Computation(
+            format!("{name} is an energy, an integral of squares, and has no pieces of its own"),
+            format!("evaluate it: wavestep eval SCENE --quantity {name} --at T"),
+        )),
+    }
+}
+
+/// A root as a decimal number, where all in it is known.
+fn decimal(network: &Network, value: &Root) -> Option<String> {
+    let numbers = Numbers::new(&network.model().constants);
+    let ball = numbers.enclose_root(value, 64).ok()?;
+    Some(ball.to_decimal(DIGITS).midpoint().to_string())
+}
+
+/// Lines that say what the constants in formulas are, and in which units.
+fn constants(network: &Network, mark: &str) -> String {
+    let (model, scene) = (network.model(), network.scene());
+    let mut lines = String::new();
+    if scene.dimensional {
+        let unit = |value: &Root, unit: &str| {
+            decimal(network, value).map_or(unit.to_owned(), |number| format!("{number} {unit}"))
+        };
+        let (time, velocity) = (unit(&model.scale.time, "s"), unit(&model.scale.velocity, "m/s"));
+        let force = unit(&model.scale.force(), "N");
+        lines.push_str(&format!(
+            "{mark} times in {time}, velocities in {velocity}, forces in {force}\n"
+        ));
+    }
+    for constant in &model.constants {
+        if let Some(number) = decimal(network, &constant.value) {
+            lines.push_str(&format!("{mark} {} = {number}\n", constant.symbol));
+        }
+    }
+    lines
+}
+
+fn explain(network: &Network, options: &Derive) -> Result<String, Failure> {
+    if options.format == DeriveFormat::Json {
+        let remedy = "ask for --format text or latex, or leave out --explain";
+        return Err(Failure::usage("a derivation is for reading, not for programs", remedy));
+    }
+    let recurrence = network.recurrence()?;
+    let mut derivation = Derivation::of(network, &recurrence, &|value| decimal(network, value));
+    let solution = Solution::new(recurrence);
+    let local = solution.recurrence().statement().local.clone();
+    let mut formulas = Vec::new();
+    for (wave, named) in network.waves().iter().enumerate() {
+        for (n, piece) in solution.pieces(wave, 0, FIRST_PIECES)?.iter().enumerate() {
+            let head = Head::Piece { wave: named.name.clone(), n, local: local.clone() };
+            formulas.push(Formula::new(head, piece, &local));
+        }
+    }
+    derivation.add("The first pieces", formulas);
+    Ok(match options.format {
+        DeriveFormat::Latex => derivation.to_latex(options.width()),
+        _ => derivation.to_text(options.width()),
+    })
+}
+
+/// The echoes of a scene whose travel times have no common measure, in order of arrival.
+fn on_lattice(network: &Network, options: &Derive) -> Result<String, Failure> {
+    let refuse = |what: &str| {
+        let message = format!("the travel times have no common measure, so there {what}");
+        Err(Failure::usage(message, "derive the echoes: leave out the option, or evaluate"))
+    };
+    if options.general {
+        return refuse("is no form for every period");
+    }
+    if options.observable.is_some() || options.piece.is_some() || options.source_form {
+        return refuse("are no periods");
+    }
+    if options.form == Form::Piecewise {
+        return refuse("are no periods on which pieces hold");
+    }
+    let through = options.through.unwrap_or(THROUGH);
+    let waves: Vec<WaveIndex> = match &options.wave {
+        None => (0..network.waves().len()).collect(),
+        Some(name) => {
+            let name = language::normalise_name(name);
+            let found = network.waves().iter().position(|wave| wave.name == name);
+            let names: Vec<&str> = network.waves().iter().map(|wave| wave.name.as_str()).collect();
+            vec![found.ok_or_else(|| {
+                let remedy = format!("the waves of this scene are {}", names.join(", "));
+                Failure::usage(format!("`{name}` is no wave of this scene"), remedy)
+            })?]
+        }
+    };
+    let periods = network.lattice().periods().len();
+    let echoes = (0..periods)
+        .fold(1_u128, |product, _| product * (through as u128 + 1))
+        .saturating_mul(waves.len() as u128);
+    if echoes > MAX_ECHOES {
+        let message = format!(
+            "this would be about {echoes} echoes; at most {MAX_ECHOES} are derived at once"
+        );
+        return Err(Failure::usage(message, "ask for a smaller --through, or one wave"));
+    }
+    let _progress = progress::spinner("deriving");
+    let found = arrivals(network, &waves, through).map_err(|error| match error {
+        ArrivalError::Solve(error) => Failure::from(error),
+        ArrivalError::Evaluate(EvaluateError::Network(error)) => Failure::from(*error),
+        ArrivalError::Evaluate(error) => error.into(),
+    })?;
+    let local = network.local();
+    if options.format == DeriveFormat::Json {
+        return Ok(json_document(network, &found));
+    }
+    let time = &network.scene().time;
+    let formula = |arrival: &Arrival| {
+        let Arrival { wave, counts, delay, echo } = arrival;
+        Formula::of_arrival(&network.waves()[*wave].name, counts, delay, echo, &local, time)
+    };
+    let formulas: Vec<Formula> = found.iter().map(formula).collect();
+    let mark = if options.format == DeriveFormat::Latex { "%" } else { "#" };
+    Ok(format!("{}{}", constants(network, mark), formulas_as(&formulas, options)))
+}
+
+fn json_document(network: &Network, found: &[Arrival]) -> String {
+    let echo = |arrival: &Arrival| {
+        json!({
+            "wave": network.waves()[arrival.wave].name,
+            "counts": arrival.counts,
+            "delay": export::fraction_json(&arrival.delay),
+            "terms": export::expression_json(&arrival.echo),
+        })
+    };
+    let periods: Vec<Json> =
+        network.lattice().periods().iter().map(export::fraction_json).collect();
+    let document = json!({
+        "schema_version": export::SCHEMA_VERSION,
+        "title": network.scene().title,
+        "form": "arrivals",
+        "periods": periods,
+        "local": network.local().name(),
+        "echoes": found.iter().map(echo).collect::<Vec<_>>(),
+    });
+    format!("{document}\n")
+}
