@@ -9,7 +9,8 @@ use num_rational::BigRational;
 use num_traits::Pow;
 use proptest::prelude::*;
 use wavestep::language::syntax::{
-    Expression, Factor, Index, Node, Operator, Recurrence, Sign, Spanned, StatementKind, Term, Wave,
+    Expression, Factor, Function, Index, Node, Operator, Recurrence, Sign, Spanned, StatementKind,
+    Term, Wave,
 };
 use wavestep::language::{
     Diagnostic, MAX_CONSTANT_BITS, MAX_DEPTH, MAX_DIGITS, MAX_SOURCE_BYTES, Source, Span, Style,
@@ -543,7 +544,9 @@ fn assert_total(bytes: &[u8]) -> Result<(), TestCaseError> {
 
 fn name() -> impl Strategy<Value = Spanned<String>> {
     "[a-zA-Z][a-z0-9_]{0,3}"
-        .prop_filter("reserved", |name| !["exp", "sum"].contains(&name.as_str()))
+        .prop_filter("reserved", |name| {
+            !["cos", "exp", "sin", "sqrt", "sum"].contains(&name.as_str())
+        })
         .prop_filter("ends an expression", |name| {
             !["starts", "local", "time"].contains(&name.as_str())
         })
@@ -578,6 +581,10 @@ fn tree() -> impl Strategy<Value = Expression> {
         prop_oneof![
             (name(), boxed()).prop_map(|(name, argument)| Node::Call { name, argument }),
             boxed().prop_map(Node::Exponential),
+            (0_usize..3, boxed()).prop_map(|(i, argument)| {
+                let function = [Function::Cosine, Function::Sine, Function::SquareRoot][i];
+                Node::Function { function, argument }
+            }),
             (boxed(), name(), name()).prop_map(|(term, index, bound)| Node::Summation {
                 term,
                 index,

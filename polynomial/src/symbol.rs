@@ -46,7 +46,7 @@ impl Symbol {
     /// assert!(Symbol::square_root(6).is_none() && Symbol::square_root(1).is_none());
     /// ```
     pub fn square_root(n: i64) -> Option<Symbol> {
-        let is_prime = |n: u64| (2..=n.isqrt()).all(|d| n % d != 0);
+        let is_prime = |n: u64| (2..=n.isqrt()).all(|d| !n.is_multiple_of(d));
         let known = n == -1 || (2..1_000_000_000_000).contains(&n) && is_prime(n.unsigned_abs());
         known.then(|| Symbol(format!("sqrt({n})").into()))
     }

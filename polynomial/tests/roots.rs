@@ -75,9 +75,9 @@ proptest! {
     }
 
     #[test]
-    fn substitution_and_shift_agree_with_products(p in polynomials(), a in linear(), q in rooted()) {
-        prop_assume!(p.total_degree() < 12 && a.degree(&symbol("s")) == 0);
+    fn substitution_and_shift_agree_with_products(p in small_polynomials(), a in linear(), q in rooted()) {
         let (b, s) = (symbol("b"), symbol("s"));
+        let a = a.substitute(&s, &Polynomial::zero());
         let by_powers = |x: &Symbol, value: &Polynomial| -> Polynomial {
             p.coefficients(x).iter().map(|(power, c)| c * &value.pow(*power)).sum()
         };

@@ -25,6 +25,9 @@ use super::error::BallError;
 /// // Divided by 3 − i it is 1 + 2i again.
 /// let quotient = product.multiply(&b.reciprocal(64)?, 64);
 /// assert!(quotient.imaginary().contains(&Rational::from_integer(2.into())));
+/// assert_eq!(a.add(&b, 64), ComplexBall::new(ball(4), ball(1)));
+/// let two = Rational::from_integer(2.into());
+/// assert_eq!(a.multiply_rational(&two, 64), a.add(&a, 64));
 /// # Ok::<(), wavestep::ball::BallError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

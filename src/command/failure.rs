@@ -123,6 +123,10 @@ impl From<EvaluateError> for Failure {
             EvaluateError::TooManyPeriods { .. } | EvaluateError::TooManyEchoes { .. } => {
                 Failure::Computation(message, "ask for an earlier time".to_owned())
             }
+            EvaluateError::NotReal => {
+                let remedy = "observe a wave in which both poles of each complex pair occur";
+                Failure::Computation(message, remedy.to_owned())
+            }
             EvaluateError::Solve(error) => error.into(),
             EvaluateError::AccuracyNotReached { .. } => {
                 Failure::Accuracy(message, "raise --max-bits, or ask for fewer digits".to_owned())

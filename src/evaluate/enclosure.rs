@@ -126,8 +126,7 @@ mod tests {
         Rational::new(numerator.into(), denominator.into())
     }
 
-    /// `∫_0^x` undone by differentiation, in numbers: `e^{λx}(p' + λp)` for `λ = −1/2 + i√3/2` and a
-    /// difference quotient would not prove much; the equation `y'' + y' + y = 0` does.
+    /// `y'' + y' + y = 0` for `y = e^{λs} + e^{λ̄s}`, `λ = −1/2 + i√3/2`.
     #[test]
     fn a_solution_satisfies_its_equation_in_numbers() {
         let s = Symbol::new("s").unwrap();
@@ -159,11 +158,8 @@ mod tests {
         let value = Expression::from(&read("2 + 2*sqrt(2)") * &inverse.pow(2));
         let at = |value: i64| {
             let ball = move |_: &Symbol, bits| Some(Ball::from_rational(&rational(value, 1), bits));
-            enclose_expression(&value_of(&inverse), &ball, 64)
+            enclose_expression(&inverse.pow(2).into(), &ball, 64)
         };
-        fn value_of(inverse: &Fraction) -> Expression {
-            Expression::from(inverse.pow(2))
-        }
         assert!(at(5).unwrap().real().contains(&rational(1, 4)));
         assert_eq!(at(3), Err(EvaluateError::Ball(BallError::DivisorMayBeZero)));
         let five = |_: &Symbol, bits| Some(Ball::from_rational(&rational(5, 1), bits));

@@ -3,8 +3,10 @@
 //! First the exponential of the time variable, then descending powers of that variable, each with
 //! its coefficient; coefficients ascend in the exponentials of symbols (`1 + e^{−2μ} + …`) and in
 //! the symbols. The sign stands outside a bracket, so that what is inside starts positive; a common
-//! denominator stands outside, a common integer factor stays inside.
+//! denominator stands outside, a common integer factor stays inside. Conjugate exponentials are
+//! written as cosines and sines.
 
+use crate::export::oscillation::{Oscillation, Wave, oscillations};
 use crate::expression::{Expression, Fraction};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -55,6 +57,10 @@ pub(crate) enum Node {
     Power(Box<Node>, Box<Node>),
     /// `e^{…}`, with the exponent's sign.
     Exponential(Sign, Box<Node>),
+    /// `cos(…)` or `sin(…)`.
+    Oscillation(Wave, Box<Node>),
+    /// The square root of a positive integer, times the imaginary unit where that is said.
+    Root(Integer, bool),
     /// `L_k(x)`, a Laguerre polynomial: index and argument.
     Laguerre(Box<Node>, Box<Node>),
     /// `k!`
@@ -72,6 +78,9 @@ pub(crate) struct Monomial {
     pub exponents: Exponents,
 }
 
+/// Roots are written as one root of a product below this: its factors are found again by trial.
+const LARGEST_RADICAND: i64 = 1_000_000_000_000;
+
 /// Exponents of a few symbols.
 pub(crate) type Exponents = SmallVec<[u32; 4]>;
 
@@ -86,6 +95,49 @@ impl Monomial {
             }
             _ => Node::Monomial(self),
         }
+    }
+
+    /// The degree in the symbols that are no roots, and the number of roots.
+    fn degrees(&self) -> (u32, u32) {
+        self.powers().fold((0, 0), |(degree, roots), (x, e)| match x.square() {
+            None => (degree + e, roots),
+            Some(_) => (degree, roots + e),
+        })
+    }
+
+    /// As a node that shows its roots together with the number: `3*sqrt(6)/4*x`.
+    fn with_roots_apart(mut self) -> Node {
+        let (mut roots, mut radicand, mut imaginary) = (Vec::new(), Integer::one(), false);
+        for (symbol, exponent) in self.symbols.iter().zip(&mut self.exponents) {
+            let Some(square) = symbol.square().filter(|_| *exponent > 0) else { continue };
+            *exponent = 0;
+            let longer = &radicand * square;
+            match square {
+                -1 => imaginary = true,
+                _ if longer < Integer::from(LARGEST_RADICAND) => radicand = longer,
+                _ => roots.push(Node::Root(square.into(), false)),
+            }
+        }
+        if !radicand.is_one() || imaginary {
+            roots.insert(0, Node::Root(radicand, imaginary));
+        }
+        if roots.is_empty() {
+            return self.into_node();
+        }
+        let (top, bottom) = self.coefficient.clone().into_raw();
+        self.coefficient = Rational::one();
+        if !top.is_one() {
+            roots.insert(0, Node::Number(top.into()));
+        }
+        let mut factors = match bottom.is_one() {
+            true => roots,
+            false => {
+                let (top, bottom) = (Node::product(roots), Node::Number(bottom.into()));
+                vec![Node::Quotient(Box::new(top), Box::new(bottom))]
+            }
+        };
+        factors.extend(self.into_node().into_factors());
+        Node::product(factors)
     }
 
     /// The symbols that occur, with their exponents.
@@ -107,10 +159,18 @@ impl Node {
             Node::Sum(terms) | Node::Bracket(terms) => terms.iter().any(|term| term.1.is_tall()),
             Node::Product(factors) => factors.iter().any(Node::is_tall),
             Node::Power(base, _) => base.is_tall(),
-            Node::Symbol(_) | Node::Exponential(..) | Node::Laguerre(..) | Node::Factorial(_) => {
-                false
-            }
+            Node::Oscillation(_, angle) => angle.is_tall(),
+            Node::Symbol(_)
+            | Node::Root(..)
+            | Node::Exponential(..)
+            | Node::Laguerre(..)
+            | Node::Factorial(_) => false,
         }
+    }
+
+    /// Whether this is an exponential, a cosine or a sine.
+    fn is_wave(&self) -> bool {
+        matches!(self, Node::Exponential(..) | Node::Oscillation(..))
     }
 
     /// A product, of what there is.
@@ -175,9 +235,9 @@ impl Arrangement {
     /// apart. Zero has no terms.
     pub fn terms(&self, expression: &Expression) -> (Vec<Term>, Option<Vec<Term>>) {
         let Some(x) = &self.variable else {
-            let parts = expression.terms().map(|(exponent, p)| (exponent.clone(), p.clone()));
-            let mut parts: Vec<_> = parts.collect();
-            parts.sort_by_cached_key(|(exponent, _)| exponent_key(exponent));
+            let parts = oscillations(expression).into_iter();
+            let mut parts: Vec<Part> = parts.map(|(wave, p)| (wave, p.into_owned())).collect();
+            parts.sort_by_cached_key(|(exponent, _)| exponent.key());
             return (Coefficient::new(0, parts).terms(), None);
         };
         let mut apart = None;
@@ -194,16 +254,19 @@ impl Arrangement {
                     _ => inner.push(coefficient.times_power(x, self.factored)),
                 }
             }
-            if rate.is_zero() {
+            if rate.is_one() {
                 terms.extend(inner);
                 continue;
             }
-            let (sign, exponent) = Node::sum(fraction_terms(&(&rate * &Fraction::symbol(x))));
-            let exponential = Node::Exponential(sign, Box::new(exponent));
+            let growth = &rate.growth * &Fraction::symbol(x);
+            let mut factors = wave_factors(&Oscillation { growth, angle: rate.angle });
             terms.push(match inner.len() {
-                1 => with_factor(inner, exponential),
+                1 => with_factors(inner, factors),
                 // Here signs stay inside: the bracket is the polynomial of the wave function.
-                _ => (Sign::Plus, Node::Product(vec![exponential, Node::Bracket(inner)])),
+                _ => {
+                    factors.push(Node::Bracket(inner));
+                    (Sign::Plus, Node::Product(factors))
+                }
             });
         }
         (terms, apart)
@@ -214,67 +277,73 @@ impl Arrangement {
 struct Coefficient {
     power: u32,
     divisor: Integer,
-    parts: Vec<(Fraction, Fraction)>,
+    parts: Vec<Part>,
 }
 
-/// The coefficients of an expression by the rate of the variable in the exponent, then by its
-/// power.
+/// An exponential, cosine or sine with its coefficient.
+type Part = (Oscillation, Fraction);
+
+/// The coefficients of an expression by the rate of the variable in the exponent and by the angle
+/// that holds the variable, then by its power.
 fn by_rate_and_power(
     expression: &Expression,
     x: &Symbol,
-) -> Vec<(Fraction, BTreeMap<u32, Coefficient>)> {
-    let split = |(exponent, p)| {
-        let exponent: &Fraction = exponent;
-        let rate = exponent.derivative(x);
-        (exponent - &(&rate * &Fraction::symbol(x)), rate, p)
+) -> Vec<(Oscillation, BTreeMap<u32, Coefficient>)> {
+    let split = |exponent: Oscillation| {
+        let rate = exponent.growth.derivative(x);
+        let base = &exponent.growth - &(&rate * &Fraction::symbol(x));
+        let depends = exponent.angle.as_ref().is_some_and(|(_, angle)| angle.contains(x));
+        let (outer, inner) = if depends { (exponent.angle, None) } else { (None, exponent.angle) };
+        let base = Oscillation { growth: base, angle: inner };
+        (base, Oscillation { growth: rate, angle: outer })
     };
-    let mut terms: Vec<(Fraction, Fraction, &Fraction)> = expression.terms().map(split).collect();
-    terms.sort_by_cached_key(|(base, ..)| exponent_key(base));
-    let mut groups = BTreeMap::<Fraction, BTreeMap<u32, Vec<(Fraction, Fraction)>>>::new();
-    for (base, rate, p) in terms {
+    let terms = oscillations(expression).into_iter();
+    let mut terms: Vec<_> = terms.map(|(exponent, p)| (split(exponent), p)).collect();
+    terms.sort_by_cached_key(|((base, _), _)| base.key());
+    let mut groups = BTreeMap::<Oscillation, BTreeMap<u32, Vec<Part>>>::new();
+    for ((base, rate), p) in terms {
         let group = groups.entry(rate).or_default();
         for (power, part) in p.numerator().divided_coefficients(x) {
             group.entry(power).or_default().push((base.clone(), p.with_numerator(part)));
         }
     }
     let coefficient = |(power, parts)| (power, Coefficient::new(power, parts));
-    let by_power = |(rate, group): (Fraction, BTreeMap<u32, Vec<_>>)| {
+    let by_power = |(rate, group): (Oscillation, BTreeMap<u32, Vec<_>>)| {
         (rate, group.into_iter().map(coefficient).collect())
     };
     let mut groups: Vec<_> = groups.into_iter().map(by_power).collect();
-    groups.sort_by_cached_key(|group| exponent_key(&group.0));
+    groups.sort_by_cached_key(|group| group.0.key());
     groups
 }
 
-/// Zero first, then descending value where all symbols are 1: `−2μ` before `−4μ`.
-fn exponent_key(value: &Fraction) -> (bool, Rational, Fraction) {
-    let ones = |p: &Polynomial| p.evaluate(|_| Some(Rational::one())).unwrap_or_default();
-    let denominator = ones(&value.denominator());
-    let at_ones = match denominator.is_zero() {
-        true => Rational::zero(),
-        false => ones(value.numerator()) / denominator,
-    };
-    (!value.is_zero(), -at_ones, value.clone())
+/// The exponential, and the cosine or sine, of those that there are.
+fn wave_factors(oscillation: &Oscillation) -> Vec<Node> {
+    let mut factors = Vec::new();
+    if !oscillation.growth.is_zero() {
+        let (sign, exponent) = Node::sum(fraction_terms(&oscillation.growth));
+        factors.push(Node::Exponential(sign, Box::new(exponent)));
+    }
+    if let Some((wave, angle)) = &oscillation.angle {
+        let (_, angle) = Node::sum(fraction_terms(angle));
+        factors.push(Node::Oscillation(*wave, Box::new(angle)));
+    }
+    factors
 }
 
 impl Coefficient {
-    fn new(power: u32, parts: Vec<(Fraction, Fraction)>) -> Coefficient {
+    fn new(power: u32, parts: Vec<Part>) -> Coefficient {
         Coefficient { power, divisor: factorial(power), parts }
     }
 
     /// Whether writing it takes a bracket inside a bracket.
     fn is_nested(&self) -> bool {
-        let bracket = |(exponent, p): &(Fraction, Fraction)| {
-            !exponent.is_zero() && p.numerator().term_count() > 1
-        };
+        let bracket = |(exponent, p): &Part| !exponent.is_one() && p.numerator().term_count() > 1;
         self.parts.iter().any(bracket)
     }
 
     /// The terms, ascending.
     fn terms(&self) -> Vec<Term> {
-        let part = |(exponent, p): &(Fraction, Fraction)| {
-            (exponent.clone(), divided_terms(p, &self.divisor))
-        };
+        let part = |(exponent, p): &Part| (exponent.clone(), divided_terms(p, &self.divisor));
         sum_of_parts(self.parts.iter().map(part))
     }
 
@@ -286,7 +355,7 @@ impl Coefficient {
         {
             let (sign, node) = self.terms().remove(0);
             let mut factors = node.into_factors();
-            let place = factors.iter().position(|f| matches!(f, Node::Exponential(..)));
+            let place = factors.iter().position(Node::is_wave);
             factors.insert(place.unwrap_or(factors.len()), power);
             return (sign, Node::product(factors));
         }
@@ -316,7 +385,7 @@ impl Coefficient {
             false => Integer::one(),
         };
         let front = Rational::new(content.clone(), ordinary.denominator().clone());
-        let part = |(i, (exponent, p)): (usize, &(Fraction, Fraction))| {
+        let part = |(i, (exponent, p)): (usize, &Part)| {
             let terms = match p.as_polynomial() {
                 Some(polynomial) => {
                     let whole = |value: &Integer| match content.is_one() {
@@ -336,31 +405,37 @@ impl Coefficient {
 }
 
 /// `Σ e^{exponent} (terms)`.
-fn sum_of_parts(parts: impl Iterator<Item = (Fraction, Vec<Term>)>) -> Vec<Term> {
+fn sum_of_parts(parts: impl Iterator<Item = (Oscillation, Vec<Term>)>) -> Vec<Term> {
     let mut sum = Vec::new();
     for (exponent, inner) in parts {
-        if exponent.is_zero() {
+        if exponent.is_one() {
             sum.extend(inner);
         } else {
-            let (sign, exponent) = Node::sum(fraction_terms(&exponent));
-            sum.push(with_factor(inner, Node::Exponential(sign, Box::new(exponent))));
+            sum.push(with_factors(inner, wave_factors(&exponent)));
         }
     }
     sum
 }
 
-/// `factor · (inner)`: the factor before a bracket, or among the factors of a single term.
-fn with_factor(mut inner: Vec<Term>, factor: Node) -> Term {
+/// `waves · (inner)`: the waves before a bracket, or among the factors of a single term.
+fn with_factors(mut inner: Vec<Term>, mut waves: Vec<Node>) -> Term {
     if inner.len() == 1 {
         let (sign, node) = inner.remove(0);
         let mut factors = node.into_factors();
-        // A number and symbols stand before the exponential, a bracket after it.
-        let place = factors.iter().position(|f| matches!(f, Node::Sum(_) | Node::Exponential(..)));
-        factors.insert(place.unwrap_or(factors.len()), factor);
+        // A number and symbols stand before the exponentials, cosines and brackets after them.
+        for wave in waves {
+            let follows = |f: &Node| match (&wave, f) {
+                (Node::Exponential(..), Node::Exponential(..)) => true,
+                (_, f) => matches!(f, Node::Sum(_) | Node::Oscillation(..)),
+            };
+            let place = factors.iter().position(follows);
+            factors.insert(place.unwrap_or(factors.len()), wave);
+        }
         return (sign, Node::product(factors));
     }
     let (sign, inner) = positive_first(inner);
-    (sign, Node::Product(vec![factor, Node::Sum(inner)]))
+    waves.push(Node::Sum(inner));
+    (sign, Node::Product(waves))
 }
 
 /// Takes the sign out of a sum, so that what is left starts positive.
@@ -452,7 +527,7 @@ fn common_factors(p: &Polynomial) -> (Rational, Vec<Node>, Polynomial) {
     (content, common, rest)
 }
 
-/// The terms of a polynomial by ascending total degree.
+/// The terms of a polynomial by ascending total degree; of one degree, those without roots first.
 pub(crate) fn polynomial_terms(p: &Polynomial) -> Vec<Term> {
     monomials(p, coefficients(p, &Integer::one()))
 }
@@ -465,15 +540,19 @@ fn coefficients(p: &Polynomial, divisor: &Integer) -> Vec<Rational> {
 /// Terms with the exponents of a polynomial, put in the order of ascending total degree.
 fn monomials(p: &Polynomial, coefficients: impl IntoIterator<Item = Rational>) -> Vec<Term> {
     let symbols: Arc<[Symbol]> = p.symbols().into();
+    let has_roots = p.roots().next().is_some();
     let (_, terms) = p.divided_terms();
-    let mut terms: Vec<(u32, Term)> = terms
+    let mut terms: Vec<((u32, u32), Term)> = terms
         .zip(coefficients)
         .map(|((exponents, _), coefficient)| {
             let sign = Sign::of(&coefficient);
             let coefficient = if sign == Sign::Minus { -coefficient } else { coefficient };
             let (symbols, exponents) = (symbols.clone(), Exponents::from_slice(exponents));
-            let degree = exponents.iter().sum();
-            (degree, (sign, Monomial { coefficient, symbols, exponents }.into_node()))
+            let monomial = Monomial { coefficient, symbols, exponents };
+            if has_roots {
+                return (monomial.degrees(), (sign, monomial.with_roots_apart()));
+            }
+            ((monomial.exponents.iter().sum(), 0), (sign, monomial.into_node()))
         })
         .collect();
     terms.sort_by_key(|(degree, _)| *degree);

@@ -19,7 +19,8 @@ pub const SCHEMA_VERSION: u32 = 1;
 /// An expression as a list of terms
 /// `{"coefficient": "-4/3", "powers": {"s": 3}, "exponent": "-s"}`, each standing for
 /// `coefficient · Π symbol^power · e^{exponent}`; a term over a denominator has
-/// `"denominator": [{"factor": "r + 1", "power": 2}]` as well. Terms are ordered by exponent, then
+/// `"denominator": [{"factor": "r + 1", "power": 2}]` as well, and one with square roots
+/// `"roots": ["-1", "3"]`, the numbers under them: it is multiplied by `√−1 · √3`. Terms are ordered by exponent, then
 /// in the monomial order of the polynomials.
 ///
 /// ```
@@ -48,11 +49,22 @@ pub fn expression_json(expression: &Expression) -> Value {
                 .symbols()
                 .iter()
                 .zip(exponents)
-                .filter(|(_, power)| **power > 0)
+                .filter(|(symbol, power)| **power > 0 && symbol.square().is_none())
                 .map(|(symbol, power)| (symbol.name().to_owned(), json!(power)))
+                .collect();
+            let roots: Vec<Value> = numerator
+                .symbols()
+                .iter()
+                .zip(exponents)
+                .filter(|(_, power)| **power > 0)
+                .filter_map(|(symbol, _)| symbol.square())
+                .map(|square| Value::String(square.to_string()))
                 .collect();
             let mut term = Map::new();
             term.insert("coefficient".into(), Value::String(coefficient.to_string()));
+            if !roots.is_empty() {
+                term.insert("roots".into(), Value::Array(roots));
+            }
             term.insert("powers".into(), Value::Object(powers));
             term.insert("exponent".into(), Value::String(exponent.clone()));
             if !denominator.is_empty() {

@@ -13,6 +13,7 @@ mod json;
 mod lines;
 mod names;
 mod notation;
+mod oscillation;
 mod source;
 
 pub use explain::Derivation;

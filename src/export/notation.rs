@@ -5,7 +5,7 @@ use crate::export::lines::Writing;
 use crate::export::names::{Name, Names};
 use num_traits::One;
 use std::collections::BTreeMap;
-use wavestep_polynomial::{Rational, Symbol, decimal};
+use wavestep_polynomial::{Integer, Rational, Symbol, decimal};
 
 /// How the parts of a formula are written.
 pub(crate) trait Notation {
@@ -17,6 +17,10 @@ pub(crate) trait Notation {
     fn power(&self, base: &str, exponent: &str) -> String;
     /// `e^{exponent}`.
     fn exponential(&self, exponent: &str) -> String;
+    /// The root of a positive integer, times the imaginary unit where that is said.
+    fn root(&self, radicand: &Integer, imaginary: bool) -> String;
+    /// `cos(…)`, `sin(…)`.
+    fn function(&self, name: &str, argument: &str) -> String;
     /// A quotient; the flags say whether a side needs brackets where it is written in a line.
     fn quotient(&self, numerator: (&str, bool), denominator: (&str, bool)) -> String;
     /// A Laguerre polynomial.
@@ -183,6 +187,8 @@ impl<'a> Writer<'a> {
         match node {
             Node::Number(value) => n.number(value),
             Node::Symbol(symbol) => self.symbol(symbol),
+            Node::Root(radicand, imaginary) => n.root(radicand, *imaginary),
+            Node::Oscillation(wave, angle) => n.function(wave.name(), &self.flat(angle)),
             Node::Sum(terms) | Node::Bracket(terms) => self.inner(terms),
             Node::Monomial(_) | Node::Product(_) => {
                 let mut writer = Writer::new(self.notation, self.names);
@@ -206,6 +212,7 @@ impl<'a> Writer<'a> {
                 let simple = match &**base {
                     Node::Symbol(symbol) => !self.is_compound(symbol),
                     Node::Number(value) => value.denom().is_one(),
+                    Node::Root(radicand, imaginary) => radicand.is_one() || !imaginary,
                     _ => false,
                 };
                 let base = if simple { text } else { n.enclosed(&text) };
@@ -253,6 +260,15 @@ impl Notation for Text {
 
     fn exponential(&self, exponent: &str) -> String {
         format!("exp({exponent})")
+    }
+
+    fn root(&self, radicand: &Integer, imaginary: bool) -> String {
+        let sign = if imaginary { "-" } else { "" };
+        format!("sqrt({sign}{})", decimal(radicand))
+    }
+
+    fn function(&self, name: &str, argument: &str) -> String {
+        format!("{name}({argument})")
     }
 
     fn quotient(&self, numerator: (&str, bool), denominator: (&str, bool)) -> String {
@@ -361,6 +377,20 @@ impl Latex {
 }
 
 impl Notation for Latex {
+    fn root(&self, radicand: &Integer, imaginary: bool) -> String {
+        let root = if radicand.is_one() {
+            String::new()
+        } else {
+            format!("\\sqrt{{{}}}", decimal(radicand))
+        };
+        let unit = if imaginary { "\\mathrm{i}" } else { "" };
+        format!("{unit}{root}")
+    }
+
+    fn function(&self, name: &str, argument: &str) -> String {
+        format!("\\{name}{}", self.enclosed(argument))
+    }
+
     fn number(&self, value: &Rational) -> String {
         match value.denom().is_one() {
             true => decimal(value.numer()),
@@ -369,7 +399,11 @@ impl Notation for Latex {
     }
 
     fn symbol(&self, symbol: &Symbol) -> String {
-        Latex::name(symbol.name())
+        match symbol.square() {
+            None => Latex::name(symbol.name()),
+            Some(-1) => self.root(&Integer::one(), true),
+            Some(square) => self.root(&square.into(), false),
+        }
     }
 
     fn choose<'a>(&self, name: &'a Name) -> &'a str {
@@ -405,7 +439,7 @@ impl Notation for Latex {
 
     fn times(&self, left: &Node, right: &Node) -> &'static str {
         match (left, right) {
-            (Node::Exponential(..), Node::Sum(_) | Node::Bracket(_)) => "",
+            (Node::Exponential(..) | Node::Oscillation(..), Node::Sum(_) | Node::Bracket(_)) => "",
             (_, Node::Sum(_)) => "\\,",
             _ => " ",
         }

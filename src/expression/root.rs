@@ -74,6 +74,39 @@ impl Fraction {
 }
 
 impl Expression {
+    /// `cos angle = (e^{i angle} + e^{−i angle})/2`.
+    ///
+    /// ```
+    /// use wavestep::expression::{Expression, Fraction};
+    /// use wavestep_polynomial::{Polynomial, Symbol};
+    ///
+    /// let s = Symbol::new("s").unwrap();
+    /// let angle = Fraction::from("2*s".parse::<Polynomial>().unwrap());
+    /// let (cos, sin) = (Expression::cosine(&angle), Expression::sine(&angle));
+    /// assert!((&cos.pow(2) + &sin.pow(2)).is_one());
+    /// let two = wavestep_polynomial::Rational::from_integer(2.into());
+    /// assert_eq!(sin.derivative(&s), cos.scale(&two));
+    /// ```
+    pub fn cosine(angle: &Fraction) -> Expression {
+        let half = Fraction::constant(&Rational::new(1.into(), 2.into()));
+        Expression::pair(angle, half.clone(), half)
+    }
+
+    /// `sin angle = (e^{i angle} − e^{−i angle})/(2i)`.
+    pub fn sine(angle: &Fraction) -> Expression {
+        let half = imaginary_unit().scale(&Rational::new(1.into(), 2.into()));
+        Expression::pair(angle, -&half, half)
+    }
+
+    /// `up · e^{i angle} + down · e^{−i angle}`.
+    fn pair(angle: &Fraction, up: Fraction, down: Fraction) -> Expression {
+        let exponent = &imaginary_unit() * angle;
+        let mut sum = Expression::zero();
+        sum.add_term(-&exponent, down);
+        sum.add_term(exponent, up);
+        sum
+    }
+
     /// The square roots that occur, ascending by name.
     ///
     /// ```
@@ -114,6 +147,11 @@ impl Expression {
         }
         conjugate
     }
+}
+
+/// The root of −1.
+fn imaginary_unit() -> Fraction {
+    Fraction::symbol(&Symbol::square_root(-1).expect("the imaginary unit"))
 }
 
 /// `√c`: with `a = s² Π p` and `b = t² Π q`, it is `√(a/b) = s/(t Π q) · Π √p Π √q`.

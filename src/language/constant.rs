@@ -102,6 +102,7 @@ fn evaluate(expression: &Expression, source: &Source) -> Result<Fraction, Diagno
         | Node::Wave(_)
         | Node::Call { .. }
         | Node::Exponential(_)
+        | Node::Function { .. }
         | Node::Summation { .. } => Err(not_constant(expression, source)),
     }
 }
@@ -159,6 +160,10 @@ fn not_constant(expression: &Expression, source: &Source) -> Diagnostic {
         }
         Node::Exponential(_) => (
             "`exp` of a number is irrational, so it is no exact constant".to_owned(),
+            "a rational number is needed here",
+        ),
+        Node::Function { function, .. } => (
+            format!("`{function}` of a number may be irrational, so it is no exact constant"),
             "a rational number is needed here",
         ),
         _ => ("this is not a constant".to_owned(), "a number is needed here"),

@@ -164,6 +164,12 @@ impl<'a> Lowering<'a> {
                     .error("a period holds no exponential", length.span, "holds an exponential")
                     .with_remedy("introduce a symbol for it"));
             };
+            if period.roots().next().is_some() {
+                return Err(self
+                    .scope
+                    .error("a period holds no square root", length.span, "holds a square root")
+                    .with_remedy("measure time in units in which it is rational"));
+            }
             self.declare(local)?;
             self.declare(time)?;
             result = Some((period, symbol(&local.value), symbol(&time.value)));

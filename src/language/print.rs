@@ -4,8 +4,8 @@ use std::fmt::{self, Display, Formatter, Write};
 
 use super::number;
 use super::syntax::{
-    Condition, Expression, Factor, Formula, Index, Listing, Name, Node, Operator, Recurrence,
-    Relation, Rewriting, Sign, Spanned, Statement, StatementKind, Symbol, Term, Wave,
+    Condition, Expression, Factor, Formula, Function, Index, Listing, Name, Node, Operator,
+    Recurrence, Relation, Rewriting, Sign, Spanned, Statement, StatementKind, Symbol, Term, Wave,
 };
 
 impl<T: Display> Display for Spanned<T> {
@@ -36,6 +36,7 @@ impl Node {
             | Self::Wave(_)
             | Self::Call { .. }
             | Self::Exponential(_)
+            | Self::Function { .. }
             | Self::Summation { .. } => Tightness::Atom,
         }
     }
@@ -63,6 +64,7 @@ impl Display for Node {
             Self::Wave(wave) => wave.fmt(f),
             Self::Call { name, argument } => write!(f, "{name}({argument})"),
             Self::Exponential(argument) => write!(f, "exp({argument})"),
+            Self::Function { function, argument } => write!(f, "{function}({argument})"),
             Self::Summation { term, index, bound } => write!(f, "sum({term}, {index} < {bound})"),
             Self::Sum(terms) => sum(terms, f),
             Self::Product(factors) => product(factors, f),
@@ -72,6 +74,16 @@ impl Display for Node {
                 write!(f, "{base}^{}", Within(exponent, Tightness::Sign))
             }
         }
+    }
+}
+
+impl Display for Function {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cosine => "cos",
+            Self::Sine => "sin",
+            Self::SquareRoot => "sqrt",
+        })
     }
 }
 

@@ -12,7 +12,7 @@ use super::constant::{MAX_CONSTANT_BITS, constant};
 use super::diagnostic::Diagnostic;
 use super::source::Source;
 use super::syntax::{
-    Expression as Tree, Factor, Index, Node, Operator, Sign, Span, Spanned, Term, Wave,
+    Expression as Tree, Factor, Function, Index, Node, Operator, Sign, Span, Spanned, Term, Wave,
 };
 use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::WaveIndex;
@@ -24,11 +24,16 @@ const MAX_LAG: i64 = 1000;
 const MAX_EXPONENT: u32 = 1000;
 
 /// Functions that people write and that the language does not have.
-pub(super) const FUNCTIONS: [&str; 10] =
-    ["sin", "cos", "tan", "sinh", "cosh", "tanh", "sqrt", "ln", "log", "abs"];
+pub(super) const FUNCTIONS: [&str; 7] = ["tan", "sinh", "cosh", "tanh", "ln", "log", "abs"];
+
+/// The functions that the language has.
+const KNOWN_FUNCTIONS: [&str; 4] = ["cos", "exp", "sin", "sqrt"];
 
 /// The most terms that a sum, product or power in an expression may be worked out to.
 const MAX_TERMS: usize = 100_000;
+
+/// The most different square roots in a divisor.
+const MAX_ROOTS: usize = 6;
 
 /// The highest degree that a product or power may be worked out to.
 const MAX_DEGREE: u32 = 2 * MAX_EXPONENT;
@@ -187,6 +192,9 @@ impl<'a> Lowering<'a> {
             Node::Wave(wave) => self.wave(wave, tree.span),
             Node::Call { name, argument } => self.call(name, argument, tree.span),
             Node::Exponential(argument) => self.exponential(argument).map(Linear::from),
+            Node::Function { function, argument } => {
+                self.function(*function, argument).map(Linear::from)
+            }
             Node::Summation { term, index, bound } => self.summation(term, index, bound, tree.span),
             Node::Sum(terms) => self.sum(terms, tree.span),
             Node::Product(factors) => self.product(factors),
@@ -280,7 +288,8 @@ impl<'a> Lowering<'a> {
             .or_remedy(format!("declare it with `symbol {name}`")))
     }
 
-    fn wave_named(&self, name: &Spanned<String>) -> Outcome<WaveIndex> {
+    /// The wave of this name; `functions` are what else could have been meant.
+    fn wave_named(&self, name: &Spanned<String>, functions: &[&str]) -> Outcome<WaveIndex> {
         let scope = self.scope;
         if let Some(wave) = scope.waves.get(&name.value) {
             return Ok(*wave);
@@ -296,11 +305,13 @@ impl<'a> Lowering<'a> {
         if FUNCTIONS.contains(&name.value.as_str()) {
             let message = format!("the function `{}` is not known", name.value);
             return Err(self.error(message, name.span, "a function").with_remedy(
-                "the only function is `exp`: forcing is a sum of terms `t^k*exp(a*t)`",
+                "the functions are `exp`, `cos`, `sin` and `sqrt`: forcing is a sum of terms \
+                 `t^k*exp(a*t)*cos(b*t)`",
             ));
         }
+        let names = scope.waves.keys().map(String::as_str).chain(functions.iter().copied());
         let error = self.error(format!("unknown wave `{}`", name.value), name.span, "not declared");
-        Err(with_likely(error, &name.value, scope.waves.keys().map(String::as_str))
+        Err(with_likely(error, &name.value, names)
             .or_remedy(format!("declare it with `wave {}`", name.value)))
     }
 
@@ -310,7 +321,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn wave(&self, wave: &Wave, span: Span) -> Outcome<Linear> {
-        let index = self.wave_named(&wave.name)?;
+        let index = self.wave_named(&wave.name, &[])?;
         if wave.primes > 1 {
             return Err(self
                 .error("second and higher derivatives are not supported", span, "differentiated")
@@ -365,7 +376,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn call(&self, name: &Spanned<String>, argument: &Tree, span: Span) -> Outcome<Linear> {
-        let wave = self.wave_named(name)?;
+        let wave = self.wave_named(name, &KNOWN_FUNCTIONS)?;
         let time = match (&self.scope.time, self.place) {
             (Some(time), Place::Observable) => time,
             _ => {
@@ -405,14 +416,65 @@ impl<'a> Lowering<'a> {
                     "exponents are quotients of polynomials in the symbols and the time",
                 ));
         };
-        if let Some(time) = self.scope.time.as_ref().filter(|time| exponent.contains(time))
-            && exponent.derivative(time).contains(time)
-        {
+        if !self.is_linear_in_time(&exponent) {
+            let time = self.time_name();
             return Err(self
                 .error("the exponent is not linear in time", argument.span, "not linear")
                 .with_remedy(format!("write exponentials such as `exp(-2*{time})`")));
         }
         Ok(Expression::exponential(exponent))
+    }
+
+    fn time_name(&self) -> &str {
+        self.scope.time.as_ref().map_or("t", Symbol::name)
+    }
+
+    fn is_linear_in_time(&self, exponent: &Fraction) -> bool {
+        let time = self.scope.time.as_ref().filter(|time| exponent.contains(time));
+        time.is_none_or(|time| !exponent.derivative(time).contains(time))
+    }
+
+    /// `cos`, `sin`, `sqrt`.
+    fn function(&self, function: Function, argument: &Tree) -> Outcome<Expression> {
+        let value = self.plain(argument, &format!("the argument of `{function}`"))?;
+        if function == Function::SquareRoot {
+            return self.square_root(&value, argument.span);
+        }
+        let Some(angle) = value.as_fraction() else {
+            return Err(self
+                .error(
+                    format!("an exponential in the argument of `{function}`"),
+                    argument.span,
+                    "holds an exponential",
+                )
+                .with_remedy("angles are quotients of polynomials in the symbols and the time"));
+        };
+        if !self.is_linear_in_time(&angle) {
+            let message = format!("the argument of `{function}` is not linear in time");
+            let time = self.time_name();
+            return Err(self
+                .error(message, argument.span, "not linear")
+                .with_remedy(format!("write functions such as `{function}(2*{time})`")));
+        }
+        Ok(match function {
+            Function::Cosine => Expression::cosine(&angle),
+            _ => Expression::sine(&angle),
+        })
+    }
+
+    fn square_root(&self, value: &Expression, span: Span) -> Outcome<Expression> {
+        let Some(number) = value.as_constant() else {
+            return Err(self
+                .error("the root of what is no rational number", span, "not a rational number")
+                .with_remedy(
+                    "write roots of numbers, such as `sqrt(3)`, and introduce a symbol for others",
+                ));
+        };
+        let root = Fraction::constant(&number).square_root().ok_or_else(|| {
+            self.error("the factors of this number are not found", span, "too large")
+                .with_remedy("write a product of roots of smaller numbers, or introduce a symbol")
+        })?;
+        Ok(root.into())
     }
 
     fn summation(
@@ -563,6 +625,11 @@ impl<'a> Lowering<'a> {
                 format!("forcing holds powers such as `{time}^2`, and exponentials of time"),
             ));
         }
+        if !norm_is_moderate(value) {
+            return Err(self
+                .error("this divisor holds too many square roots", span, "divided by here")
+                .with_remedy("introduce a symbol for it, or divide by fewer roots at a time"));
+        }
         if self.place == Place::Formula {
             let mut terms = value.terms();
             if let (Some((exponent, coefficient)), None) = (terms.next(), terms.next()) {
@@ -646,6 +713,19 @@ fn power_is_moderate(base: &Expression, count: u32) -> bool {
     terms <= MAX_TERMS
         && degree(base).saturating_mul(count) <= MAX_DEGREE
         && bits <= MAX_CONSTANT_BITS
+}
+
+/// Division by what holds k roots multiplies 2^k conjugates; of a number, they are as many terms.
+fn norm_is_moderate(value: &Expression) -> bool {
+    let count = value.terms().map(|(_, p)| p.roots().count()).max().unwrap_or(0);
+    if count == 0 {
+        return true;
+    }
+    let conjugates = 1_u32.checked_shl(count as u32).unwrap_or(u32::MAX);
+    let is_number = value.terms().all(|(_, p)| p.numerator().is_algebraic_number());
+    count <= MAX_ROOTS
+        && bits(value).saturating_mul(u64::from(conjugates)) <= MAX_CONSTANT_BITS
+        && (is_number || power_is_moderate(value, conjugates))
 }
 
 /// A sum brings fractions to a common denominator.

@@ -83,7 +83,7 @@ impl<T: Eq> Eq for Spanned<T> {}
 /// A name, Greek letters already spelt out: `μ_1` is `mu_1`.
 ///
 /// # Invariants
-/// An ASCII letter followed by ASCII letters, digits and `_`; neither `exp` nor `sum`.
+/// An ASCII letter followed by ASCII letters, digits and `_`; none of `cos`, `exp`, `sin`, `sqrt` and `sum`.
 ///
 /// ```
 /// use wavestep::language::{Source, parse_recurrence, syntax::{Name, StatementKind}};
@@ -162,6 +162,13 @@ pub enum Node {
     },
     /// `exp(argument)`.
     Exponential(Box<Expression>),
+    /// `cos(argument)`, `sin(argument)`, `sqrt(argument)`.
+    Function {
+        /// Which one.
+        function: Function,
+        /// What it is applied to.
+        argument: Box<Expression>,
+    },
     /// `sum(term, index < bound)`: over all indices from 0 up to, not including, the bound.
     Summation {
         /// The summand, which may mention the index.
@@ -184,6 +191,27 @@ pub enum Node {
         /// To which power.
         exponent: Box<Expression>,
     },
+}
+
+/// A function of the language beside `exp`.
+///
+/// ```
+/// use wavestep::language::{Source, parse_expression, syntax::{Function, Node}};
+///
+/// let tree = parse_expression(&Source::new("text", "cos(2*t)")?)?;
+/// assert!(matches!(tree.value, Node::Function { function: Function::Cosine, .. }));
+/// let names = [Function::Cosine, Function::Sine, Function::SquareRoot].map(|f| f.to_string());
+/// assert_eq!(names, ["cos", "sin", "sqrt"]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// `cos`
+    Cosine,
+    /// `sin`
+    Sine,
+    /// `sqrt`
+    SquareRoot,
 }
 
 /// One term of a [`Node::Sum`].

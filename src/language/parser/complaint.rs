@@ -122,7 +122,7 @@ fn replacement(character: char) -> Option<&'static str> {
         '–' | '—' | '‐' | '‑' => "this is a dash; write the minus sign `-`",
         '÷' => "write `/`",
         '∞' => "only finite numbers can be used",
-        '√' => "roots have no notation; introduce a symbol for the root instead",
+        '√' => "write `sqrt(2)`",
         '“' | '”' | '„' | '«' | '»' => "write straight quotation marks: \"…\"",
         '{' | '}' => "group with parentheses: `(…)`",
         '!' => "there is no factorial; `!` only stands in `!=`",
@@ -368,7 +368,7 @@ fn misplaced_prime(input: Input<'_>, span: Span, name: &str) -> Diagnostic {
         .with_remedy(format!("write the derivative of a wave as `{name}[n]'`"))
 }
 
-/// `exp` or `sum` where a name is needed.
+/// `exp` or another function where a name is needed.
 pub(super) fn reserved(input: Input<'_>, name: &str, span: Span) -> Refusal {
     refuse(
         at(
@@ -381,9 +381,15 @@ pub(super) fn reserved(input: Input<'_>, name: &str, span: Span) -> Refusal {
     )
 }
 
-/// `exp` or `sum` without argument.
+/// `exp` or another function without argument.
 pub(super) fn function_alone(input: Input<'_>, name: &str, span: Span) -> Refusal {
-    let form = if name == "exp" { "exp(-2*t)" } else { "sum(f[i], i < n)" };
+    let form = match name {
+        "cos" => "cos(2*t)",
+        "exp" => "exp(-2*t)",
+        "sin" => "sin(2*t)",
+        "sqrt" => "sqrt(3)",
+        _ => "sum(f[i], i < n)",
+    };
     refuse(
         at(
             input,

@@ -10,7 +10,7 @@ use nom::combinator::opt;
 
 use super::super::name;
 use super::super::syntax::{
-    Expression, Factor, Index, Name, Node, Operator, Sign, Span, Spanned, Term, Wave,
+    Expression, Factor, Function, Index, Name, Node, Operator, Sign, Span, Spanned, Term, Wave,
 };
 use super::super::{MAX_DEPTH, MAX_INDEX};
 use super::lexical::{
@@ -101,6 +101,7 @@ enum Role {
     Grouping,
     Call(Name),
     Exponential,
+    Function(Function),
     Summation,
 }
 
@@ -239,6 +240,10 @@ fn close<'a>(rest: Input<'a>, opening: Opening, inner: Expression) -> Parsed<'a,
     let (rest, node) = match role {
         Role::Grouping => (rest, inner.value),
         Role::Exponential => (rest, Node::Exponential(Box::new(inner))),
+        Role::Function(function) => {
+            let argument = Box::new(inner);
+            (rest, Node::Function { function, argument })
+        }
         Role::Call(name) => {
             let argument = Box::new(inner);
             (rest, Node::Call { name, argument })
@@ -317,13 +322,16 @@ fn number<'a>(start: Input<'a>, before: Input<'a>) -> Parsed<'a, Operand> {
     }
 }
 
-/// `name`, `name[index]'`, or the beginning of `name(argument)`, `exp(…)`, `sum(…)`.
+/// `name`, `name[index]'`, or the beginning of `name(argument)`, of a function, `sum(…)`.
 fn named(start: Input<'_>) -> Parsed<'_, Operand> {
     let (rest, written) = token(word).parse(start)?;
     let spelt = Spanned::new(name::normalise(written.value), written.span);
     if let (after, Some(parenthesis)) = opt(symbol("(")).parse(rest)? {
         let role = match written.value {
+            "cos" => Role::Function(Function::Cosine),
             "exp" => Role::Exponential,
+            "sin" => Role::Function(Function::Sine),
+            "sqrt" => Role::Function(Function::SquareRoot),
             "sum" => Role::Summation,
             _ => Role::Call(spelt),
         };

@@ -1,0 +1,155 @@
+//! Sums of conjugate exponentials as cosines and sines.
+
+use crate::export::arrangement::{Sign, fraction_terms};
+use crate::expression::{Expression, Fraction};
+use num_traits::{One, Zero};
+use std::borrow::Cow;
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
+
+/// A function that oscillates.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Wave {
+    /// `cos`
+    Cosine,
+    /// `sin`
+    Sine,
+}
+
+impl Wave {
+    /// The name of the function.
+    pub fn name(self) -> &'static str {
+        match self {
+            Wave::Cosine => "cos",
+            Wave::Sine => "sin",
+        }
+    }
+}
+
+/// `e^{growth}`, times the cosine or the sine of an angle where there is one.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) struct Oscillation {
+    /// The exponent; real where there is an angle.
+    pub growth: Fraction,
+    /// The function and its angle, which is written without a sign in front.
+    pub angle: Option<(Wave, Fraction)>,
+}
+
+impl Oscillation {
+    /// `e^{growth}`.
+    pub fn growing(growth: Fraction) -> Oscillation {
+        Oscillation { growth, angle: None }
+    }
+
+    /// Whether this is the factor 1.
+    pub fn is_one(&self) -> bool {
+        self.growth.is_zero() && self.angle.is_none()
+    }
+
+    /// The order of writing: 1 first, then descending value of the exponent where all symbols are 1,
+    /// `e^{−2μ}` before `e^{−4μ}`; without an angle before those with one.
+    pub fn key(&self) -> impl Ord + use<> {
+        let angle = self.angle.as_ref().map(|(wave, angle)| (key(angle), *wave));
+        (!self.is_one(), key(&self.growth), angle)
+    }
+}
+
+/// Descending value where all symbols are 1; fractions of one value in a fixed order.
+fn key(value: &Fraction) -> (Rational, Fraction) {
+    let ones = |p: &Polynomial| {
+        // Roots as decimals of six digits: for the order on the page that is enough.
+        let at_roots = p.roots().fold(p.clone(), |at, root| {
+            at.substitute(root, &Polynomial::constant(&approximation(root)))
+        });
+        at_roots.evaluate(|_| Some(Rational::one())).unwrap_or_default()
+    };
+    let denominator = ones(&value.denominator());
+    let at_ones = match denominator.is_zero() {
+        true => Rational::zero(),
+        false => ones(value.numerator()) / denominator,
+    };
+    (-at_ones, value.clone())
+}
+
+/// `√n` rounded down to six decimals; 1 for the imaginary unit.
+fn approximation(root: &Symbol) -> Rational {
+    let million = Integer::from(1_000_000);
+    let square = Integer::from(root.square().map_or(1, i64::abs)) * &million * &million;
+    Rational::new(square.sqrt(), million)
+}
+
+/// The terms of an expression. Where it is real, conjugate terms are taken together:
+///
+/// ```text
+/// (a + ib) e^{σ+iω} + (a − ib) e^{σ−iω} = e^σ (2a cos ω − 2b sin ω)
+/// ```
+///
+/// An expression that is not real is left as it is.
+pub(crate) fn oscillations(expression: &Expression) -> Vec<(Oscillation, Cow<'_, Fraction>)> {
+    let i = Symbol::square_root(-1).expect("the imaginary unit");
+    let is_complex = |exponent: &Fraction| exponent.roots().any(|root| *root == i);
+    let mut parts = Vec::new();
+    let paired = expression.terms().any(|(exponent, _)| is_complex(exponent))
+        && expression.conjugate(&i) == *expression;
+    for (exponent, p) in expression.terms() {
+        if !paired || !is_complex(exponent) {
+            parts.push((Oscillation::growing(exponent.clone()), Cow::Borrowed(p)));
+            continue;
+        }
+        let half = Rational::new(1.into(), 2.into());
+        let minus_i = -&Fraction::symbol(&i);
+        let real = |value: &Fraction| (value + &value.conjugate(&i)).scale(&half);
+        let imaginary = |value: &Fraction| &(value - &value.conjugate(&i)).scale(&half) * &minus_i;
+        let angle = imaginary(exponent);
+        // Of the two conjugates, the one whose angle starts without a sign.
+        if fraction_terms(&angle).first().is_some_and(|term| term.0 == Sign::Minus) {
+            continue;
+        }
+        let two = Rational::from_integer(2.into());
+        let values =
+            [(Wave::Cosine, real(p).scale(&two)), (Wave::Sine, -&imaginary(p).scale(&two))];
+        for (wave, value) in values.into_iter().filter(|(_, value)| !value.is_zero()) {
+            let growth = real(exponent);
+            let angle = Some((wave, angle.clone()));
+            parts.push((Oscillation { growth, angle }, Cow::Owned(value)));
+        }
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Fraction {
+        text.parse::<Polynomial>().expect("a polynomial").into()
+    }
+
+    /// The sum of `p · e^{growth} · cos angle` and the like is the expression again.
+    #[test]
+    fn the_parts_add_up_to_the_expression() {
+        let i = Symbol::square_root(-1).unwrap();
+        let exponents = ["0", "-s", "s*sqrt(-1)", "2*mu - 1/2*s*sqrt(-1)*sqrt(3)", "3*sqrt(-1)"];
+        let factors = ["1", "s - sqrt(2)", "sqrt(-1)", "mu*s^2 - 3*sqrt(-1)*sqrt(2)"];
+        let mut whole = Expression::zero();
+        for exponent in exponents.map(read) {
+            for factor in factors.map(read) {
+                whole.add_term(exponent.clone(), factor);
+            }
+            let real = &whole + &whole.conjugate(&i);
+            let mut sum = Expression::zero();
+            for (oscillation, p) in oscillations(&real) {
+                assert_eq!(&p.conjugate(&i), &*p);
+                let wave = match &oscillation.angle {
+                    None => Expression::one(),
+                    Some((Wave::Cosine, angle)) => Expression::cosine(angle),
+                    Some((Wave::Sine, angle)) => Expression::sine(angle),
+                };
+                sum += &wave.times(&p).times_exponential(&oscillation.growth);
+            }
+            assert_eq!(sum, real);
+            assert!(oscillations(&real).iter().all(|(o, _)| o.growth.roots().all(|r| *r != i)));
+        }
+        // What is not real is left alone.
+        assert!(oscillations(&whole).iter().all(|(oscillation, _)| oscillation.angle.is_none()));
+    }
+}
