@@ -1,5 +1,6 @@
 //! What the documents show is what the command does: every `console` block is run, every `wave`
-//! block is read, and the Rust of the README is an example that is built.
+//! block is read, every `refused` block is refused as the `text` block after it says, and the Rust of
+//! the README is an example that is built.
 //!
 //! With `UPDATE_DOCUMENTS=1` the output in the documents is written anew; read it before you keep it.
 
@@ -7,10 +8,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use wavestep::language::{Source, read_recurrence};
+use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
 
-const DOCUMENTS: [&str; 4] =
-    ["README.md", "docs/language.md", "docs/output.md", "docs/tutorial.md"];
+const DOCUMENTS: [&str; 5] = [
+    "README.md",
+    "docs/language.md",
+    "docs/output.md",
+    "docs/scene-language.md",
+    "docs/tutorial.md",
+];
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
@@ -65,6 +71,16 @@ fn run(line: &str, folder: &Path) -> String {
     format!("{line}\n{}{}", text(output.stdout), text(output.stderr))
 }
 
+/// What is wrong with a text that states a recurrence or a scene.
+fn refusals(name: &str, lines: &[&str]) -> Vec<Diagnostic> {
+    let source = Source::new(name, lines.join("\n")).expect("a text");
+    let values = BTreeMap::new();
+    match kind(&source) {
+        Kind::Recurrence => read_recurrence(&source, &values).err().into_iter().collect(),
+        Kind::Scene => read_scene(&source, &values).err().unwrap_or_default(),
+    }
+}
+
 /// The document with the real output of its commands, and how many they are. Files that it names,
 /// as in "```wave mine.wave", are written first.
 fn with_real_output(name: &str) -> (String, usize) {
@@ -73,6 +89,7 @@ fn with_real_output(name: &str) -> (String, usize) {
     fs::create_dir_all(&folder).expect("a folder");
     let document = read(name);
     let (mut real, mut commands) = (String::new(), 0);
+    let mut refused = None;
     for part in blocks(&document) {
         let Block { info, lines } = match part {
             Ok(block) => block,
@@ -89,8 +106,15 @@ fn with_real_output(name: &str) -> (String, usize) {
                 let asked = lines.iter().filter(|line| line.starts_with("$ "));
                 asked.inspect(|_| commands += 1).map(|line| run(line, &folder)).collect()
             }
+            "text" if refused.is_some() => refused.take().expect("just seen"),
             _ => lines.iter().map(|line| format!("{line}\n")).collect(),
         };
+        if info == "refused" {
+            let errors = refusals("scene.wave", &lines);
+            assert!(!errors.is_empty(), "in {name}: not refused:\n{}", lines.join("\n"));
+            let texts: Vec<String> = errors.iter().map(|error| format!("{error}\n")).collect();
+            refused = Some(texts.join("\n"));
+        }
         real.push_str(&format!("```{info}\n{text}```\n"));
     }
     (real, commands)
@@ -111,7 +135,7 @@ fn console_blocks_show_the_real_output() {
 }
 
 #[test]
-fn wave_blocks_are_recurrences() {
+fn wave_blocks_are_read() {
     let mut read_blocks = 0;
     for name in DOCUMENTS {
         let document = read(name);
@@ -119,14 +143,13 @@ fn wave_blocks_are_recurrences() {
             if block.info.split(' ').next() != Some("wave") {
                 continue;
             }
-            let source = Source::new(name, block.lines.join("\n")).expect("a text");
-            if let Err(diagnostic) = read_recurrence(&source, &BTreeMap::new()) {
+            if let Some(diagnostic) = refusals(name, &block.lines).first() {
                 panic!("in {name}:\n{diagnostic}");
             }
             read_blocks += 1;
         }
     }
-    assert!(read_blocks >= 2);
+    assert!(read_blocks >= 12);
 }
 
 #[test]

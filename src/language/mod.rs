@@ -73,6 +73,9 @@ use syntax::{Expression, Listing, Recurrence, Scene};
 /// ```
 pub const MAX_DEPTH: u16 = 200;
 
+/// The most mistakes that one reading of a scene looks for.
+const MAX_MISTAKES: usize = 50;
+
 /// The largest index of a wave, and the largest number added to one.
 const MAX_INDEX: u32 = 1_000_000;
 
@@ -229,7 +232,8 @@ pub fn parse_scene(source: &Source) -> Result<Scene, Diagnostic> {
 /// start.
 ///
 /// # Errors
-/// All independent mistakes that one reading finds, in the order of the text; at least one.
+/// All independent mistakes that one reading finds, in the order of the text; at least one, and no
+/// more than fifty.
 ///
 /// ```
 /// use std::collections::BTreeMap;

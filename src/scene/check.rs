@@ -324,7 +324,11 @@ impl Check<'_> {
             for (term, part) in seen.terms.iter().enumerate() {
                 let here = Part::Term { observable, term };
                 if let Some(mistake) = self.observed(part) {
-                    self.fault(mistake, [here]);
+                    let mut parts = vec![here];
+                    if mistake == Mistake::Infinite {
+                        parts.extend(self.infinite_bar(part).map(Part::Element));
+                    }
+                    self.fault(mistake, parts);
                 }
                 let first = &seen.terms[0];
                 if scene.dimensional && part.measure.dimension() != first.measure.dimension() {
@@ -337,15 +341,14 @@ impl Check<'_> {
 
     fn observed(&self, seen: &Seen) -> Option<Mistake> {
         let Seen { measure, place, .. } = seen;
-        let Some(element) = place.element() else { return self.of_line(*measure) };
+        let Some(element) = place.element() else { return self.of_line(seen) };
         let kind = &self.scene.elements[element].kind;
         if !is_measurable(*measure, kind, matches!(place, Place::Element(_))) {
             return Some(Mistake::NotMeasurable);
         }
         let Kind::Bar(bar) = kind else { return None };
         if matches!(place, Place::Element(_)) {
-            let infinite = bar.is_endless() && is_infinite(*measure, bar);
-            return infinite.then_some(Mistake::Infinite);
+            return self.infinite_bar(seen).map(|_| Mistake::Infinite);
         }
         match (&bar.body, measure) {
             (Body::Impedance { .. }, Measure::Stress) => Some(Mistake::NoArea),
@@ -378,15 +381,26 @@ impl Check<'_> {
         }
     }
 
-    fn of_line(&self, measure: Measure) -> Option<Mistake> {
-        if !matches!(measure, Measure::Energy | Measure::Momentum) {
-            return Some(Mistake::NotMeasurable);
+    fn of_line(&self, seen: &Seen) -> Option<Mistake> {
+        match seen.measure {
+            Measure::Energy | Measure::Momentum => {
+                self.infinite_bar(seen).map(|_| Mistake::Infinite)
+            }
+            _ => Some(Mistake::NotMeasurable),
         }
-        let infinite = self.scene.elements.iter().any(|element| match &element.kind {
-            Kind::Bar(bar) => bar.is_endless() && is_infinite(measure, bar),
+    }
+
+    /// An endless bar with infinite energy or momentum, where it or the line is observed.
+    fn infinite_bar(&self, seen: &Seen) -> Option<ElementIndex> {
+        let observed = seen.place.element();
+        let mut elements = self.scene.elements.iter().enumerate();
+        let found = elements.find(|(index, element)| match &element.kind {
+            Kind::Bar(bar) if observed.is_none_or(|observed| observed == *index) => {
+                bar.is_endless() && is_infinite(seen.measure, bar)
+            }
             _ => false,
         });
-        infinite.then_some(Mistake::Infinite)
+        found.map(|(index, _)| index)
     }
 }
 

@@ -3,9 +3,27 @@
 use crate::expression::{Expression, Fraction};
 
 /// The place of an element in [`Scene::elements`](crate::scene::Scene::elements).
+///
+/// ```
+/// use wavestep::scene::{ElementIndex, Place};
+///
+/// let first: ElementIndex = 0;
+/// assert_eq!(Place::Element(first).element(), Some(first));
+/// ```
 pub type ElementIndex = usize;
 
 /// A named part of a scene.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::Element;
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nline free - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Element { name, .. } = &scene.elements[0];
+/// assert_eq!(name, "ram");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Element {
     /// What it is called.
@@ -15,7 +33,18 @@ pub struct Element {
 }
 
 /// What an element is. All values are in metres, kilograms and seconds, or plain numbers.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::Kind;
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nline free - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// assert!(matches!(scene.elements[0].kind, Kind::Mass(_)));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a scene holds few elements, most of them bars")]
 pub enum Kind {
     /// A uniform bar.
     Bar(Bar),
@@ -30,6 +59,17 @@ pub enum Kind {
 }
 
 /// A uniform bar, finite or endless, moving and strained uniformly at the start.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Bar, Kind};
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Kind::Bar(Bar { velocity, strain, .. }) = &scene.elements[0].kind else { panic!("a bar") };
+/// assert!(velocity.is_one() && strain.is_zero());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Bar {
     /// What it is made of.
@@ -66,6 +106,17 @@ impl Bar {
 }
 
 /// What a bar is made of.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Body, Kind};
+///
+/// let text = "scene \"A\"\nbar rod { modulus = 4, density = 1, area = 3, velocity = 1 }\nline free - rod - endless";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Kind::Bar(bar) = &scene.elements[0].kind else { panic!("a bar") };
+/// assert!(matches!(&bar.body, Body::Solid { density, length: None, .. } if density.is_one()));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Body {
     /// By impedance `Z = EA/c` and travel time `τ = L/c`. Strain is then `−X/(Zc)`, with the wave
@@ -90,6 +141,17 @@ pub enum Body {
 }
 
 /// A rigid mass: `X_left − X_right = M v'`.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Kind, Mass};
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nline free - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Kind::Mass(Mass { mass, velocity }) = &scene.elements[0].kind else { panic!("a mass") };
+/// assert!(velocity.is_one() && (mass - velocity).is_one());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mass {
     /// `M`.
@@ -99,6 +161,17 @@ pub struct Mass {
 }
 
 /// A spring of stiffness `k` with a parallel damper `d`: `X = k α + d α'`, `α' = v_left − v_right`.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Kind, Spring};
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nspring s { stiffness = 1 }\nline fixed - s - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Kind::Spring(Spring { stiffness, damping }) = &scene.elements[1].kind else { panic!() };
+/// assert!(stiffness.is_one() && damping.is_zero());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Spring {
     /// `k`; zero for a damper alone.
@@ -109,6 +182,17 @@ pub struct Spring {
 
 /// A spring of stiffness `k` with a parallel damper `d` to the ground: `X_left − X_right = d v + k u`,
 /// `u' = v`.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Kind, Support};
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nsupport s { damping = 1 }\nline free - s - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Kind::Support(Support { stiffness, damping }) = &scene.elements[1].kind else { panic!() };
+/// assert!(stiffness.is_zero() && damping.is_one());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Support {
     /// `k`.
@@ -118,6 +202,17 @@ pub struct Support {
 }
 
 /// A load that acts from `from` until `until`.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Kind, Load};
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2 }\nload push { force = exp(-t), until = 1 }\nline free - push - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Kind::Load(Load { course, from, until, .. }) = &scene.elements[1].kind else { panic!() };
+/// assert!(course.contains(&scene.time) && from.is_zero() && until.is_some());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Load {
     /// What is given.
@@ -131,6 +226,16 @@ pub struct Load {
 }
 
 /// What a load gives.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Drive, Kind};
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2 }\nload push { force = exp(-t), until = 1 }\nline free - push - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// assert!(matches!(&scene.elements[1].kind, Kind::Load(load) if load.drive == Drive::Force));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Drive {
     /// A force: `X_right − X_left = F(t)`.

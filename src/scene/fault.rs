@@ -216,7 +216,7 @@ impl fmt::Display for Mistake {
             Mistake::ShareOfEndless => "an endless bar has no length to take a share of",
             Mistake::OutsideBar => "this section may lie outside the bar",
             Mistake::MixedDimensions => "terms of different dimensions cannot be added",
-            Mistake::Infinite => "this is infinite",
+            Mistake::Infinite => "what an endless bar holds from the start is infinite",
         })
     }
 }

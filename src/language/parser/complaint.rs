@@ -269,6 +269,7 @@ pub(super) fn expected_expression(input: Input<'_>) -> Refusal {
         Some(operator @ ('+' | '-' | '*' | '/' | '^')) => {
             Some(format!("write an operand after `{operator}`, or delete the `{operator}`"))
         }
+        _ if start.fragment().starts_with('{') => replacement('{').map(str::to_owned),
         Some('(') => Some("write an expression between the parentheses".to_owned()),
         _ => form_remedy(input),
     };
@@ -325,7 +326,14 @@ pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Refusal {
     }
     let numbers = matches!(left.value, Node::Number(_)) && next.kind == FoundKind::Number;
     let applied = source.text()[next.span.end..].starts_with('(');
-    let remedy = if numbers {
+    let unit_first = input.extra.extent == Extent::Unit
+        && matches!(left.value, Node::Name(_))
+        && next.kind == FoundKind::Number;
+    let remedy = if unit_first {
+        format!(
+            "a unit stands behind the value, as in `{after} {before}`; a product is written `{before}*{after}`"
+        )
+    } else if numbers {
         format!("join the digits, or write an operator between `{before}` and `{after}`")
     } else if unit == "number" {
         format!("{NUMBERS}, without a unit")
@@ -597,14 +605,19 @@ pub(super) fn open_brace(input: Input<'_>, opener: Span, what: &str) -> Refusal 
                 .with_remedy("add the missing `}`; lines between braces are indented"),
         );
     }
-    let diagnostic = expected_diagnostic(input, what, form_remedy(input));
+    let remedy = match next.kind {
+        FoundKind::Word => Some(COMMAS.to_owned()),
+        _ => form_remedy(input),
+    };
+    let diagnostic = expected_diagnostic(input, what, remedy);
     refuse(diagnostic.with_secondary(opener, "the properties open here"))
 }
 
+const COMMAS: &str = "separate properties by commas, also at the ends of lines";
+
 /// A property directly after another.
 pub(super) fn missing_comma(input: Input<'_>) -> Refusal {
-    const COMMA: &str = "separate properties by commas, also at the ends of lines";
-    refuse(expected_diagnostic(input, "`,` or a unit", Some(COMMA.to_owned())))
+    refuse(expected_diagnostic(input, "`,` or a unit", Some(COMMAS.to_owned())))
 }
 
 /// `2 m + 3 mm`
@@ -664,6 +677,15 @@ pub(super) fn two_measures(input: Input<'_>, span: Span, first: Span) -> Refusal
         at(input, "a product of measures cannot be observed", span, "times this")
             .with_secondary(first, "a measure")
             .with_remedy("observe both, each by a statement of its own, or add them"),
+    )
+}
+
+/// `force(a)^2`
+pub(super) fn power_of_measure(input: Input<'_>, measure: Span) -> Refusal {
+    refuse(
+        at(input, "a power of a measure cannot be observed", found(input).span, "a power")
+            .with_secondary(measure, "of this measure")
+            .with_remedy("observe a sum of measures, each with a factor: `2*force(rod.left)`"),
     )
 }
 

@@ -14,6 +14,7 @@ use nom::error::{ErrorKind, ParseError};
 use nom::{IResult, Input as _};
 use nom_locate::LocatedSpan;
 
+use super::MAX_MISTAKES;
 use super::diagnostic::Diagnostic;
 use super::layout;
 use super::source::Source;
@@ -150,7 +151,7 @@ pub(super) fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
             Err(error) => errors.push(error),
         }
         // What follows an open brace was probably meant to stand between braces.
-        if !errors.is_empty() && scene::leaves_brace_open(input) {
+        if !errors.is_empty() && scene::leaves_brace_open(input) || errors.len() >= MAX_MISTAKES {
             break;
         }
     }

@@ -179,6 +179,9 @@ fn unit_power(input: Input<'_>) -> Parsed<'_, i8> {
         let (rest, Some(digits)) = opt(token(digits)).parse(rest)? else {
             return Err(complaint::unit_power(input, rest));
         };
+        if rest.fragment().starts_with('.') {
+            return Err(complaint::unit_power(input, rest));
+        }
         let sign = if minus.is_some() { "-" } else { "" };
         (rest, format!("{sign}{}", digits.value))
     } else {
@@ -352,6 +355,9 @@ fn measured(input: Input<'_>, measure: Spanned<Measure>) -> Parsed<'_, Reading> 
     let (rest, opener) = demand("(", rest)?;
     let (rest, place) = place(rest)?;
     match opt(symbol(")")).parse(rest)? {
+        (rest, Some(_)) if skip_blank(rest).fragment().starts_with('^') => {
+            Err(complaint::power_of_measure(rest, measure.span))
+        }
         (rest, Some(_)) => Ok((rest, Reading { measure, place })),
         (_, None) => Err(complaint::unclosed_place(rest, opener)),
     }

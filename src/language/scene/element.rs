@@ -38,6 +38,9 @@ const DAMPING: Form = ("damping", "a damping", Dimension::IMPEDANCE);
 const FORCE: Form = ("force", "a force", Dimension::FORCE);
 const FROM: Form = ("from", "a time", Dimension::TIME);
 const UNTIL: Form = ("until", "a time", Dimension::TIME);
+/// The most terms of a value that is squared.
+const MAX_TERMS_SQUARED: usize = 300;
+
 /// A name, not a quantity.
 const MATERIAL: &str = "material";
 
@@ -83,12 +86,15 @@ impl<'a> Lowering<'a> {
     pub(super) fn properties(&mut self) {
         for statement in self.statements() {
             let SceneStatementKind::Declaration(declaration) = statement else { continue };
-            if declaration.kind == Declared::Material {
+            if declaration.kind == Declared::Material && !self.is_hopeless() {
                 let material = self.given(declaration).and_then(|given| self.stuff(&given));
                 self.materials.entry(declaration.name.value.clone()).or_insert(material);
             }
         }
         for index in 0..self.elements.len() {
+            if self.is_hopeless() {
+                return;
+            }
             let declaration = self.elements[index].declaration;
             let Some(given) = self.given(declaration) else { continue };
             let kind = match declaration.kind {
@@ -209,22 +215,48 @@ impl<'a> Lowering<'a> {
             return Some(());
         }
         let span = property.map_or(self.tree.title.span, |property| property.value.span);
-        let error = self.not_positive(format!("{what} is not certainly positive"), span, value);
+        let error =
+            self.not_positive(format!("{what} is not certainly positive"), span, value, false);
         self.errors.push(error);
         None
     }
 
-    /// A value that must be positive and may not be.
-    pub(super) fn not_positive(&self, message: String, span: Span, value: &Fraction) -> Diagnostic {
-        let (label, remedy) = match value.as_constant() {
-            Some(_) if value.is_zero() => ("this is zero".to_owned(), "give a positive value"),
-            Some(_) => ("this is negative".to_owned(), "give a positive value"),
-            None => (
-                "may be zero or negative".to_owned(),
-                "declare its symbols with conditions, as in `symbol a > 0`",
-            ),
+    /// A value that must be positive, or zero if that is allowed, and may not be.
+    pub(super) fn not_positive(
+        &self,
+        message: String,
+        span: Span,
+        value: &Fraction,
+        or_zero: bool,
+    ) -> Diagnostic {
+        let has_symbols = value.symbols().iter().any(|symbol| symbol.name() != PI);
+        let label = match value.as_constant() {
+            Some(_) if value.is_zero() => "this is zero",
+            Some(_) => "this is negative",
+            None if or_zero => "may be negative",
+            None => "may be zero or negative",
+        };
+        let remedy = match (has_symbols, or_zero) {
+            (true, true) => "declare its symbols with conditions, as in `symbol a >= 0`",
+            (true, false) => "declare its symbols with conditions, as in `symbol a > 0`",
+            (false, true) => "give zero or a positive value",
+            (false, false) => "give a positive value",
         };
         self.scope.error(message, span, label).with_remedy(remedy)
+    }
+
+    /// The square of a property, unless it would be huge.
+    fn square(&mut self, given: &Given<'_>, name: &str, value: &Fraction) -> Option<Fraction> {
+        if value.numerator().term_count() <= MAX_TERMS_SQUARED {
+            return Some(value.pow(2));
+        }
+        let span = given.get(name).map_or(given.span(), |property| property.value.span);
+        let error = self
+            .scope
+            .error("this value is too large when squared", span, "grows too large")
+            .with_remedy("introduce a symbol for a part of it");
+        self.errors.push(error);
+        None
     }
 
     /// Modulus and density, of a material or a bar.
@@ -236,7 +268,8 @@ impl<'a> Lowering<'a> {
             Ok(None) => self.demanded(given, MODULUS, "modulus = 210 GPa"),
             Ok(Some(speed)) => {
                 self.refuse_not_positive(given.get("wave_speed"), &speed, "the wave speed")?;
-                density.as_ref().map(|density| density * &speed.pow(2))
+                let square = self.square(given, "wave_speed", &speed)?;
+                density.as_ref().map(|density| density * &square)
             }
         };
         Some(Material { modulus: modulus?, density: density? })
@@ -341,7 +374,7 @@ impl<'a> Lowering<'a> {
         let inner = self.optional(given, INNER_DIAMETER).ok()?;
         let outer_property = given.get("diameter");
         self.refuse_not_positive(outer_property, &diameter, "the diameter")?;
-        let mut squares = diameter.pow(2);
+        let mut squares = self.square(given, "diameter", &diameter)?;
         if let (Some(inner), Some(property)) = (inner, given.get("inner_diameter")) {
             if !inner.is_zero() {
                 self.refuse_not_positive(Some(property), &inner, "the inner diameter")?;
@@ -360,7 +393,7 @@ impl<'a> Lowering<'a> {
                 self.errors.push(error);
                 return None;
             }
-            squares = &squares - &inner.pow(2);
+            squares = &squares - &self.square(given, "inner_diameter", &inner)?;
         }
         let quarter = Rational::new(1.into(), 4.into());
         Some((&squares * &Fraction::symbol(&super::symbol(PI))).scale(&quarter))

@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 
 use wavestep_polynomial::{Rational, Symbol};
 
+use super::MAX_MISTAKES;
 use super::diagnostic::Diagnostic;
 use super::name;
 use super::parameters;
@@ -25,6 +26,9 @@ use element::Material;
 use tree::{Declaration, Declared, SceneStatementKind, Section, Unit};
 
 type Outcome<T> = Result<T, Diagnostic>;
+
+/// What is said of a value without unit, once in a scene.
+const NEEDS_UNIT: &str = "needs a unit in this scene";
 
 /// The name of time in loads.
 const TIME: &str = "t";
@@ -76,7 +80,7 @@ pub(super) fn scene(
         return Ok(scene);
     }
     let refusals: Vec<Diagnostic> =
-        faults.iter().map(|fault| lowering.refusal(&scene, fault)).collect();
+        faults.iter().take(MAX_MISTAKES).map(|fault| lowering.refusal(&scene, fault)).collect();
     lowering.errors.extend(refusals);
     Err(lowering.into_errors())
 }
@@ -144,12 +148,32 @@ impl<'a> Lowering<'a> {
         outcome.map_err(|error| self.errors.push(error)).ok()
     }
 
-    /// The errors in the order of the text, each once.
+    /// The errors in the order of the text, each mistake once.
     fn into_errors(mut self) -> Vec<Diagnostic> {
         self.errors.sort_by_key(|error| (error.span().start, error.span().end));
-        self.errors
-            .dedup_by(|one, other| one.span() == other.span() && one.message() == other.message());
-        self.errors
+        self.errors.truncate(10 * MAX_MISTAKES);
+        let mut kept: Vec<Diagnostic> = Vec::new();
+        for error in self.errors {
+            let same = kept.iter().position(|first| first.message() == error.message());
+            let unit = kept.iter().position(|first| first.message().ends_with(NEEDS_UNIT));
+            match (same, unit) {
+                // An unknown name is unknown wherever it stands.
+                (Some(_), _) if error.message().starts_with("unknown ") => {}
+                (Some(first), _) if kept[first].span() == error.span() => {}
+                (_, Some(first)) if error.message().ends_with(NEEDS_UNIT) => {
+                    let known = kept[first].clone();
+                    kept[first] = known.with_secondary(error.span(), "and this");
+                }
+                _ => kept.push(error),
+            }
+        }
+        kept.truncate(MAX_MISTAKES);
+        kept
+    }
+
+    /// Whether enough is wrong: one after the other, too many would take too long.
+    fn is_hopeless(&self) -> bool {
+        self.errors.len() >= MAX_MISTAKES
     }
 
     fn declare(&mut self, name: &Name, meaning: Meaning) {
@@ -249,14 +273,14 @@ impl<'a> Lowering<'a> {
             self.errors.push(error);
             return None;
         };
-        let elements: Vec<Option<ElementIndex>> = line
-            .elements
-            .iter()
-            .map(|name| {
-                let outcome = self.element(name);
-                self.keep(outcome)
-            })
-            .collect();
+        let mut elements = Vec::new();
+        for name in &line.elements {
+            if self.is_hopeless() {
+                return None;
+            }
+            let outcome = self.element(name);
+            elements.push(self.keep(outcome));
+        }
         Some(scene::Line {
             left: line.left.value,
             elements: elements.into_iter().collect::<Option<_>>()?,
@@ -366,7 +390,7 @@ impl<'a> Lowering<'a> {
             }
             (None, Some(first)) if needed != Dimension::NONE && !is_zero => Err(self
                 .scope
-                .error(format!("{what} needs a unit in this scene"), tree.span, "a plain number")
+                .error(format!("{what} {NEEDS_UNIT}"), tree.span, "a plain number")
                 .with_secondary(first, "this scene has units")
                 .with_remedy(format!(
                     "write `{} {symbol}`, or leave out all units",

@@ -14,6 +14,9 @@ impl Lowering<'_> {
             let SceneStatementKind::Observe { name, terms } = statement else { continue };
             let mut seen = Vec::new();
             for term in terms {
+                if self.is_hopeless() {
+                    return observables;
+                }
                 let outcome = self.seen(&term.value);
                 seen.extend(self.keep(outcome).flatten());
             }

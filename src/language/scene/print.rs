@@ -27,13 +27,16 @@ impl Display for SceneStatementKind {
             Self::Observe { name, terms } => {
                 write!(f, "observe {name} =")?;
                 for (position, term) in terms.iter().enumerate() {
+                    let text = term.to_string();
                     f.write_str(match (position, term.value.sign) {
+                        // A minus here would be the sign of the term.
+                        (0, Sign::Plus) if text.starts_with('-') => " +",
                         (0, Sign::Plus) => " ",
                         (0, Sign::Minus) => " -",
                         (_, Sign::Plus) => " + ",
                         (_, Sign::Minus) => " - ",
                     })?;
-                    term.fmt(f)?;
+                    f.write_str(&text)?;
                 }
                 Ok(())
             }

@@ -18,7 +18,8 @@ impl Lowering<'_> {
             (fault.mistake, fault.parts.first())
             && let Some(value) = value(scene, *element, *property)
         {
-            return self.not_positive(fault.to_string(), spans[0], value);
+            let or_zero = fault.mistake == Mistake::Negative;
+            return self.not_positive(fault.to_string(), spans[0], value, or_zero);
         }
         let (message, labels, remedy) = self.explained(scene, fault);
         let mut labels = labels.into_iter();
@@ -213,7 +214,7 @@ impl Lowering<'_> {
                 )
             }
             Mistake::Infinite => (
-                own(&["an endless bar is in motion or strained from the start"]),
+                own(&["of an endless bar", "in motion or strained from the start"]),
                 "observe a finite bar, or let the endless one start at rest".to_owned(),
             ),
         };
@@ -301,7 +302,7 @@ impl Lowering<'_> {
         let beside = match (&scene.elements[element].kind, seen.measure) {
             (Kind::Bar(_), _) => "",
             (_, Measure::Velocity | Measure::Displacement) => {
-                ", or observe the end of a bar or a mass beside it"
+                ", or the end of a bar or a mass beside it"
             }
             (Kind::Mass(_), Measure::Force) => ", or the force at the end of a bar beside it",
             _ => "",

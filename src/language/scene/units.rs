@@ -93,9 +93,9 @@ pub(super) fn worth(scope: &Scope, unit: &Unit) -> Result<Worth, Diagnostic> {
         for (sum, own) in powers.iter_mut().zip([length, mass, time]) {
             *sum += i32::from(own) * power;
         }
-        if powers.iter().any(|power| power.abs() > MAX_POWER) {
+        if powers.iter().any(|power| power.abs() > MAX_POWER) || unit.value.len() > MAX_FACTORS {
             return Err(scope
-                .error("the powers of this unit are too large", unit.span, "too large")
+                .error("this unit is too long, or its powers are too large", unit.span, "too large")
                 .with_remedy("write a unit such as `kg/m^3` or `kN*s/m`"));
         }
     }
@@ -106,6 +106,9 @@ pub(super) fn worth(scope: &Scope, unit: &Unit) -> Result<Worth, Diagnostic> {
 /// The largest power of metres, kilograms and seconds.
 const MAX_POWER: i32 = 40;
 
+/// The most factors of a unit.
+const MAX_FACTORS: usize = 12;
+
 fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic {
     let error = scope.error(format!("unknown unit `{name}`"), span, "no unit");
     let (letters, digits) =
@@ -115,7 +118,9 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
         .map(|at| name.split_at(at))
         .find(|(left, right)| named(left).is_some() && named(right).is_some());
     if scope.symbols.contains_key(name) || name == "t" {
-        error.with_remedy(format!("multiplication is always written: `…*{name}`"))
+        error.with_remedy(format!(
+            "no unit has this name; multiplication is written, as in `2*{name}`"
+        ))
     } else if !digits.is_empty() && named(letters).is_some() {
         error.with_remedy(format!("write powers with `^`: `{letters}^{digits}`"))
     } else if let Some((left, right)) = parted {
