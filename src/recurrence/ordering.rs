@@ -257,6 +257,22 @@ fn with_rate(mut step: Step, part: Part) -> Outcome<Step> {
     Ok(step)
 }
 
+/// The wave itself, or, for one that was added, the first that has a derivative and no rule.
+fn without_start(statement: &Statement, wave: WaveIndex) -> WaveIndex {
+    if wave < statement.waves.len() {
+        return wave;
+    }
+    let differentiated = |wave: &WaveIndex| {
+        statement.equations.iter().any(|form| !form.operator(*wave).slope_now().is_zero())
+    };
+    let ruled = |wave: &WaveIndex| {
+        statement.continuity.iter().any(|rule| !rule.form.operator(*wave).value_now().is_zero())
+    };
+    let mut waves = 0..statement.waves.len();
+    let first = waves.clone().find(differentiated).unwrap_or(0);
+    waves.find(|wave| differentiated(wave) && !ruled(wave)).unwrap_or(first)
+}
+
 /// Solves the continuity rules, on the current period, for the waves with differential steps.
 fn assign_starts(
     statement: &Statement,
@@ -280,8 +296,8 @@ fn assign_starts(
         let holds =
             |(row, _): &(Row, Expression)| !row.form.operator(step.wave).value_now().is_zero();
         let Some(i) = rules.iter().position(holds) else {
-            let fault = Fault::NoStart(statement.waves[step.wave].clone());
-            return refuse(Part::Wave(step.wave), fault);
+            let wave = without_start(statement, step.wave);
+            return refuse(Part::Wave(wave), Fault::NoStart(statement.waves[wave].clone()));
         };
         let (row, initial) = rules.remove(i);
         let leading = row.form.operator(step.wave).value_now();
@@ -302,8 +318,9 @@ fn assign_starts(
     for (place, form, initial, part) in found {
         let known: Vec<WaveIndex> = steps[..=place].iter().map(|step| step.wave).collect();
         if let Some(wave) = form.waves_now().find(|wave| !known.contains(wave)) {
-            let names = [steps[place].wave, wave].map(|wave| statement.waves[wave].clone());
-            return refuse(part, Fault::Coupled(names.into()));
+            let stated = [steps[place].wave, wave].into_iter();
+            let names = stated.filter_map(|wave| statement.waves.get(wave).cloned());
+            return refuse(part, Fault::Coupled(names.collect()));
         }
         if let Some(start) = &mut steps[place].start {
             start.continuous = form;
