@@ -12,7 +12,6 @@ use wavestep::ball::{Decimal, Exactness};
 use wavestep::evaluate::{Evaluator, Side, Value};
 use wavestep::export::SCHEMA_VERSION;
 use wavestep::language;
-use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
 
@@ -35,25 +34,8 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
     match input::subject(&options.scene)? {
         Subject::Recurrence(recurrence) => of_recurrence(recurrence, options),
-        Subject::Scene(network) if is_plain(&network, options) => {
-            of_recurrence(network.recurrence()?, options)
-        }
         Subject::Scene(network) => scene_eval::run(&network, options),
     }
-}
-
-/// Whether all that is asked for is linear, on one grid, and free of units and named constants: then
-/// rational values are told exactly.
-fn is_plain(network: &Network, options: &Eval) -> bool {
-    let name = language::normalise_name(&options.quantity);
-    let energy = |observed: &Observed| {
-        observed.name == name && matches!(observed.value, ObservedValue::Energy(_))
-    };
-    !network.scene().dimensional
-        && network.model().constants.is_empty()
-        && network.lattice().periods().len() == 1
-        && !network.observables().iter().any(energy)
-        && !options.stats
 }
 
 fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, Failure> {
@@ -110,7 +92,7 @@ pub fn unknown(names: Vec<&str>, options: &Eval) -> Failure {
 }
 
 /// `n` periods and the local time on the next.
-fn time_on_period(
+pub fn time_on_period(
     n: usize,
     local: &str,
     period: &BigRational,

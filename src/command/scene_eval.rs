@@ -1,28 +1,29 @@
 //! `eval` for scenes: in their units, with constants, on lattices, and energies.
 
 use super::arguments::{Eval, EvalFormat, SideOption};
-use super::eval::{Row, csv, json_document, text, times, unknown};
+use super::eval::{Row, csv, json_document, text, time_on_period, times, unknown};
 use super::failure::Failure;
 use super::progress;
+use num_rational::BigRational;
 use wavestep::evaluate::{SceneEvaluator, Side};
 use wavestep::expression::{Expression, Fraction, Root};
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::recurrence::{Observation, ObservedWave};
 use wavestep::scene::Dimension;
+use wavestep::solution::Solution;
 
 /// Evaluates an observable or a wave of a scene.
 pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
     let observed = observed(network, options)?;
-    if options.piece.is_some() {
-        let message = "the times of this scene are told from its start";
-        return Err(Failure::usage(message, "give --at T, or --from, --to and --points"));
-    }
     let side = match options.side {
         SideOption::Left => Side::Left,
         SideOption::Right => Side::Right,
     };
-    let times = times(options)?;
+    let times = match (options.piece, &options.local) {
+        (Some(n), Some(local)) => vec![time_on_piece(network, &observed, n, local, side)?],
+        _ => times(options)?,
+    };
     let scaled: Vec<Fraction> = times.iter().map(|time| network.scaled_time(time)).collect();
     let last = times.iter().zip(&scaled).max().map(|(_, scaled)| scaled.clone());
     let last = last.expect("times without any are refused");
@@ -50,6 +51,28 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
         EvalFormat::Csv => csv(&rows, options.digits),
         EvalFormat::Json => json_document(&network.scene().title, &rows, options, &unit),
     })
+}
+
+/// The time on a period of the observable, in scenes on one grid and without units.
+fn time_on_piece(
+    network: &Network,
+    observed: &Observed,
+    n: usize,
+    local: &str,
+    side: Side,
+) -> Result<BigRational, Failure> {
+    let refuse = || {
+        let message = format!("{} has no periods of its own", observed.name);
+        Failure::usage(message, "give --at T, or --from, --to and --points")
+    };
+    let ObservedValue::Linear(observation) = &observed.value else { return Err(refuse()) };
+    let one_grid = network.lattice().periods().len() == 1 && !network.scene().dimensional;
+    let solution = one_grid.then(|| network.recurrence()).transpose()?.map(Solution::new);
+    let offset = solution.as_ref().and_then(|solution| solution.offset(observation));
+    let number = |value: &Fraction| value.as_constant().ok_or_else(refuse);
+    let period = number(&network.lattice().periods()[0])?;
+    let offset = number(&offset.ok_or_else(refuse)?)?;
+    Ok(offset + time_on_period(n, local, &period, side)?)
 }
 
 /// The observable asked for, or a wave in the scale of the scene.

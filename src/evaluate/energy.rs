@@ -42,11 +42,11 @@ impl SceneEvaluator<'_> {
         let mut parts = Vec::new();
         for term in terms {
             let coefficient = || term.coefficient.clone();
+            self.want_until_last(numbers, &term.of)?;
             let start = match &term.window {
                 Window::Now => {
                     let arrived = self.arrived(numbers, &term.of, at, side)?;
                     let forced = self.forcing(numbers, &term.of, at, side)?;
-                    self.want_all(&arrived);
                     if !(arrived.is_empty() && forced.is_zero()) {
                         parts.push(Part::Now(coefficient(), arrived, forced));
                     }
@@ -61,7 +61,6 @@ impl SceneEvaluator<'_> {
             }
             let start = if early { Fraction::zero() } else { start };
             let arrived = self.arrived(numbers, &term.of, at, Side::Left)?;
-            self.want_all(&arrived);
             // The moments at which something arrives after the start, in order.
             let mut moments = vec![start];
             for echo in &arrived {
@@ -92,10 +91,6 @@ impl SceneEvaluator<'_> {
             }
         }
         Ok(parts)
-    }
-
-    fn want_all(&self, arrived: &[Arrived]) {
-        arrived.iter().for_each(|echo| self.want(echo.wave, echo.number));
     }
 
     /// An enclosure of the sum of the parts.

@@ -1,5 +1,6 @@
 //! Arithmetic modulo the prime `2^61 − 1`: a residue that is not zero proves a number is not zero.
 
+use crate::expression::{Expression, Field, Fraction, NotAUnit};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -68,6 +69,58 @@ pub(crate) fn evaluate_divided(coefficients: &IntegerRow, x: Residue) -> Residue
     coefficients.iter().enumerate().rev().fold(Residue(0), |value, (j, c)| {
         value.times(x).times(inverses[j + 1]).plus(Residue(c.modulo(PRIME)))
     })
+}
+
+/// The value of `Σ_j c_j x^j/j!`, coefficient by coefficient.
+pub(crate) fn evaluate_row(coefficients: &[Residue], x: Residue) -> Residue {
+    let value = |sum: Residue, (j, c): (usize, &Residue)| {
+        let share = Residue(j as u64 + 1).inverse().expect("rows are shorter than the prime");
+        sum.times(x).times(share).plus(*c)
+    };
+    coefficients.iter().enumerate().rev().fold(Residue(0), value)
+}
+
+/// The field of residues, for coefficients that are rational numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Modular;
+
+/// A value that has no residue: it is no rational number, or the prime divides its denominator.
+#[derive(Debug)]
+pub(crate) struct NoResidue;
+
+impl From<NotAUnit> for NoResidue {
+    fn from(_: NotAUnit) -> NoResidue {
+        NoResidue
+    }
+}
+
+impl Field for Modular {
+    type Value = Residue;
+    type Error = NoResidue;
+
+    fn zero(&self) -> Residue {
+        Residue(0)
+    }
+
+    fn is_zero(&self, value: &Residue) -> bool {
+        value.is_zero()
+    }
+
+    fn embed(&self, value: &Expression) -> Result<Residue, NoResidue> {
+        value.as_constant().and_then(|value| Residue::of_rational(&value)).ok_or(NoResidue)
+    }
+
+    fn inverse(&self, value: &Fraction) -> Result<Residue, NoResidue> {
+        self.embed(&value.clone().into())?.inverse().ok_or(NoResidue)
+    }
+
+    fn add(&self, sum: &mut Residue, other: &Residue) {
+        *sum = sum.plus(*other);
+    }
+
+    fn product(&self, left: &Residue, right: &Residue) -> Residue {
+        left.times(*right)
+    }
 }
 
 #[cfg(test)]

@@ -6,9 +6,10 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
+use crate::evaluate::modular::{self, Modular, Residue};
 use crate::evaluate::numbers::Numbers;
 use crate::evaluate::value::Value;
-use crate::expression::{Constant, Expression, Field as _, Fraction, Transform};
+use crate::expression::{Constant, Exact, Expression, Field, Fraction, Root, Transform};
 use crate::network::{Network, NetworkError, Observed, ObservedValue, Unfolded};
 use crate::recurrence::{Observation, WaveIndex};
 use crate::solution::{Demand, EchoByEcho};
@@ -17,13 +18,16 @@ use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
-use wavestep_polynomial::Rational;
+use wavestep_polynomial::{Polynomial, Rational};
 
 /// The most echoes of one wave that are worked out.
 pub const MAX_ECHOES: usize = 20_000;
 
+/// The largest degree of polynomials that are worked with exactly.
+const MAX_DEGREE: u64 = Polynomial::MAX_EXPONENT as u64;
+
 /// The echoes of all waves, by wave and number.
-pub(crate) type Echoes = Vec<Vec<Transform<ComplexBall>>>;
+pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 
 /// Evaluates observables of a scene, up to a last time.
 pub struct SceneEvaluator<'a> {
@@ -32,9 +36,21 @@ pub struct SceneEvaluator<'a> {
     unfolded: Unfolded,
     /// When each echo arrives, by number.
     arrivals: Vec<(usize, Fraction)>,
-    echoes: RefCell<BTreeMap<u64, Rc<Echoes>>>,
+    last: Fraction,
     demand: RefCell<Demand>,
+    known: RefCell<Known>,
     expanded: Cell<usize>,
+}
+
+/// Echoes that have been worked out, as far as they are wanted.
+#[derive(Default)]
+struct Known {
+    /// As enclosures, by bits.
+    enclosed: BTreeMap<u64, Rc<Echoes>>,
+    /// As residues; `None` within where there are none.
+    residues: Option<Option<Rc<Echoes<Residue>>>>,
+    /// As expressions; `None` within where one cannot be given exactly.
+    exact: Option<Option<Rc<Echoes<Expression>>>>,
 }
 
 /// An echo that has arrived: its wave and number, the coefficient it is seen with, and for how long.
@@ -82,7 +98,8 @@ impl<'a> SceneEvaluator<'a> {
             network,
             constants,
             arrivals,
-            echoes: RefCell::default(),
+            last: last.clone(),
+            known: RefCell::default(),
             demand,
             expanded: Cell::new(0),
             unfolded,
@@ -152,15 +169,16 @@ impl<'a> SceneEvaluator<'a> {
         if arrived.is_empty() && forced.is_zero() {
             return Ok(Value::Exact(Rational::zero()));
         }
-        for echo in &arrived {
-            self.want(echo.wave, echo.number);
+        self.want_until_last(&numbers, observation)?;
+        if let Some(value) = self.rational_value(&arrived, &forced, unit) {
+            return Ok(Value::Exact(value));
         }
         let mut suspicious = true;
         certified(digits, limit_bits, |bits| {
             let sum = self.enclose(&numbers, &arrived, &forced, bits)?;
             if suspicious && sum.contains_zero() && bits > 200 {
                 suspicious = false;
-                if self.is_zero(&arrived, &forced)? {
+                if self.exact(&arrived, &forced).is_some_and(|sum| sum.is_zero()) {
                     return Ok(Ball::zero());
                 }
             }
@@ -207,14 +225,24 @@ impl<'a> SceneEvaluator<'a> {
         }
     }
 
-    /// Notes that an echo is needed; what was worked out without it is dropped.
-    pub(crate) fn want(&self, wave: WaveIndex, number: usize) {
-        let mut demand = self.demand.borrow_mut();
-        if !demand.wants(wave, number) {
-            let exists = |k| self.unfolded.counts(k).is_some();
-            demand.add_where(self.unfolded.recurrence(), wave, number, exists);
-            self.echoes.borrow_mut().clear();
+    /// Notes that all echoes are needed that are seen until the last time, once for all times before;
+    /// what was worked out without them is dropped.
+    pub(crate) fn want_until_last(
+        &self,
+        numbers: &Numbers<'_>,
+        observation: &Observation,
+    ) -> Result<(), EvaluateError> {
+        for Arrived { wave, number, .. } in
+            self.arrived(numbers, observation, &self.last, Side::Right)?
+        {
+            let mut demand = self.demand.borrow_mut();
+            if !demand.wants(wave, number) {
+                let exists = |k| self.unfolded.counts(k).is_some();
+                demand.add_where(self.unfolded.recurrence(), wave, number, exists);
+                *self.known.borrow_mut() = Known::default();
+            }
         }
+        Ok(())
     }
 
     pub(crate) fn enclose(
@@ -246,42 +274,92 @@ impl<'a> SceneEvaluator<'a> {
         numbers: &Numbers<'_>,
         bits: u64,
     ) -> Result<Rc<Echoes>, EvaluateError> {
-        if let Some(known) = self.echoes.borrow().get(&bits) {
+        if let Some(known) = self.known.borrow().enclosed.get(&bits) {
             return Ok(known.clone());
         }
+        let echoes = Rc::new(self.solve_in(numbers.field(bits))?);
+        self.known.borrow_mut().enclosed.insert(bits, echoes.clone());
+        Ok(echoes)
+    }
+
+    /// All echoes that are wanted, with coefficients in a field.
+    fn solve_in<F: Field>(&self, field: F) -> Result<Echoes<F::Value>, F::Error> {
         let demand = self.demand.borrow().clone();
         let recurrence = self.unfolded.recurrence();
-        let mut solver = EchoByEcho::in_field(recurrence, numbers.field(bits))?;
         let last = demand.last();
-        solver = solver.wanting(demand);
+        let mut solver = EchoByEcho::in_field(recurrence, field)?.wanting(demand);
         for _ in 0..last.map_or(0, |last| last + 1) {
             solver.expand().map_err(|failed| failed.reason)?;
         }
         self.expanded.set(solver.expanded());
-        let echoes = (0..recurrence.wave_count()).map(|wave| solver.transforms(wave).to_vec());
-        let echoes = Rc::new(echoes.collect::<Echoes>());
-        self.echoes.borrow_mut().insert(bits, echoes.clone());
-        Ok(echoes)
+        Ok(solver.into_transforms())
     }
 
-    /// Whether the sum is zero as an expression.
-    fn is_zero(&self, arrived: &[Arrived], forced: &Expression) -> Result<bool, EvaluateError> {
-        let recurrence = self.unfolded.recurrence();
-        let demand = self.demand.borrow().clone();
-        let last = demand.last();
-        let mut solver = EchoByEcho::new(recurrence).wanting(demand);
-        for _ in 0..last.map_or(0, |last| last + 1) {
-            if solver.advance().is_err() {
-                return Ok(false);
-            }
+    fn residues(&self) -> Option<Rc<Echoes<Residue>>> {
+        if let Some(known) = &self.known.borrow().residues {
+            return known.clone();
         }
-        let local = &recurrence.statement().local;
+        let residues = self.solve_in(Modular).ok().map(Rc::new);
+        self.known.borrow_mut().residues = Some(residues.clone());
+        residues
+    }
+
+    /// The sum as one exact expression; `None` where an echo cannot be given exactly.
+    fn exact(&self, arrived: &[Arrived], forced: &Expression) -> Option<Expression> {
+        let recurrence = self.unfolded.recurrence();
+        let statement = recurrence.statement();
+        let known = self.known.borrow().exact.clone();
+        let echoes = match known {
+            Some(known) => known,
+            None => {
+                let order = self.demand.borrow().last().unwrap_or(0);
+                let feasible = recurrence.degree_estimate(order) <= MAX_DEGREE;
+                let exact = || self.solve_in(Exact::new(&statement.assumptions)).ok();
+                let echoes = feasible.then(exact).flatten().map(Rc::new);
+                self.known.borrow_mut().exact = Some(echoes.clone());
+                echoes
+            }
+        }?;
         let mut sum = forced.clone();
         for Arrived { wave, number, coefficient, since } in arrived {
-            let echo = solver.transforms(*wave)[*number].function(local);
-            sum.add_scaled(&echo.substitute(local, since)?, coefficient);
+            let echo = echoes[*wave][*number].function(&statement.local);
+            sum.add_scaled(&echo.substitute(&statement.local, since).ok()?, coefficient);
         }
-        Ok(sum.is_zero())
+        Some(sum)
+    }
+
+    /// The value where it is a rational number, for scenes in rational numbers. That it is not is
+    /// settled by residues, without long numbers: by the theorem of Lindemann and Weierstrass a sum
+    /// is rational exactly when its terms with each exponent other than 0 add up to 0.
+    fn rational_value(
+        &self,
+        arrived: &[Arrived],
+        forced: &Expression,
+        unit: &Root,
+    ) -> Option<Rational> {
+        let unit = unit.exact()?.as_constant()?;
+        let echoes = self.residues()?;
+        let mut groups = BTreeMap::<Rational, Residue>::new();
+        let mut add = |exponent: Rational, value: Residue| {
+            let sum = groups.entry(exponent).or_default();
+            *sum = sum.plus(value);
+        };
+        for (exponent, coefficient) in forced.terms() {
+            add(exponent.as_constant()?, Residue::of_rational(&coefficient.as_constant()?)?);
+        }
+        for Arrived { wave, number, coefficient, since } in arrived {
+            let x = since.as_constant()?;
+            let coefficient = Residue::of_rational(&coefficient.as_constant()?)?;
+            for (pole, row) in echoes[*wave][*number].poles() {
+                let value = modular::evaluate_row(row, Residue::of_rational(&x)?);
+                add(pole.as_constant()? * &x, value.times(coefficient));
+            }
+        }
+        groups.remove(&Rational::zero());
+        if groups.values().any(|residue| !residue.is_zero()) {
+            return None;
+        }
+        Some(self.exact(arrived, forced)?.as_constant()? * unit)
     }
 }
 

@@ -120,6 +120,11 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
         &self.echoes[wave]
     }
 
+    /// The transforms of the echoes of all waves.
+    pub(crate) fn into_transforms(self) -> Vec<Vec<Transform<F::Value>>> {
+        self.echoes
+    }
+
     /// How many echoes other than zero have been worked out.
     pub fn expanded(&self) -> usize {
         self.expanded
