@@ -20,6 +20,7 @@
 struct Readme;
 
 pub mod ball;
+pub mod enclosure;
 pub mod evaluate;
 pub mod export;
 pub mod expression;

@@ -8,14 +8,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 12] = [
+const LAYERS: [(&str, &[&str]); 13] = [
     ("ball", &[]),
     ("expression", &[]),
+    ("enclosure", &["ball", "expression"]),
     ("scene", &["expression"]),
-    ("recurrence", &["expression"]),
+    ("recurrence", &["enclosure", "expression"]),
     ("network", &["expression", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
-    ("evaluate", &["ball", "expression", "network", "recurrence", "scene", "solution"]),
+    (
+        "evaluate",
+        &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"],
+    ),
     ("export", &["expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
@@ -24,6 +28,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
         "command",
         &[
             "ball",
+            "enclosure",
             "evaluate",
             "export",
             "expression",

@@ -72,6 +72,16 @@ impl Ball {
         Self::new(midpoint, radius)
     }
 
+    /// A ball around two rationals and all that is between them.
+    #[must_use]
+    pub(crate) fn between(lower: &BigRational, upper: &BigRational, precision: u64) -> Self {
+        let two = BigRational::from_integer(2.into());
+        let half = (upper - lower) / &two;
+        let middle = Self::from_rational(&((lower + upper) / &two), precision);
+        let radius = middle.radius.add(&Magnitude::from_rational(&half));
+        Self::new(middle.midpoint, radius)
+    }
+
     /// The midpoint.
     #[must_use]
     pub(crate) const fn midpoint(&self) -> &Binary {

@@ -5,9 +5,10 @@ use super::derive::{formulas_as, of_recurrence};
 use super::failure::Failure;
 use super::progress;
 use serde_json::{Value as Json, json};
-use wavestep::evaluate::{Arrival, ArrivalError, EvaluateError, Numbers, arrivals};
+use wavestep::enclosure::Numbers;
+use wavestep::evaluate::{Arrival, ArrivalError, EvaluateError, arrivals};
 use wavestep::export::{self, Derivation, Formula, Head};
-use wavestep::expression::Root;
+use wavestep::expression::{Constant, Definition, Root};
 use wavestep::language;
 use wavestep::network::{Network, ObservedValue};
 use wavestep::recurrence::WaveIndex;
@@ -39,8 +40,8 @@ pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
     let derived = of_recurrence(network.recurrence()?, options)?;
     Ok(match options.format {
         DeriveFormat::Json => derived,
-        DeriveFormat::Text => format!("{}{derived}", constants(network, "#")),
-        DeriveFormat::Latex => format!("{}{derived}", constants(network, "%")),
+        DeriveFormat::Text => format!("{}{derived}", constants(network, "#")?),
+        DeriveFormat::Latex => format!("{}{derived}", constants(network, "%")?),
     })
 }
 
@@ -58,20 +59,23 @@ fn refuse_energy(network: &Network, name: &str) -> Result<(), Failure> {
     }
 }
 
-/// A root as a decimal number, where all in it is known.
-fn decimal(network: &Network, value: &Root) -> Option<String> {
-    let numbers = Numbers::new(&network.model().constants);
-    let ball = numbers.enclose_root(value, 64).ok()?;
+/// A definition as a decimal number, where all in it is known.
+fn decimal(constants: &[Constant], value: &Definition) -> Option<String> {
+    let numbers = Numbers::new(constants);
+    let ball = numbers.enclose_definition(value, 64).ok()?;
     Some(ball.to_decimal(DIGITS).midpoint().to_string())
 }
 
 /// Lines that say what the constants in formulas are, and in which units.
-fn constants(network: &Network, mark: &str) -> String {
+fn constants(network: &Network, mark: &str) -> Result<String, Failure> {
     let (model, scene) = (network.model(), network.scene());
+    let unfolded = network.unfold(&vec![0; network.lattice().periods().len()])?;
+    let constants = unfolded.recurrence().constants();
     let mut lines = String::new();
     if scene.dimensional {
         let unit = |value: &Root, unit: &str| {
-            decimal(network, value).map_or(unit.to_owned(), |number| format!("{number} {unit}"))
+            decimal(constants, &value.clone().into())
+                .map_or(unit.to_owned(), |number| format!("{number} {unit}"))
         };
         let (time, velocity) = (unit(&model.scale.time, "s"), unit(&model.scale.velocity, "m/s"));
         let force = unit(&model.scale.force(), "N");
@@ -79,12 +83,12 @@ fn constants(network: &Network, mark: &str) -> String {
             "{mark} times in {time}, velocities in {velocity}, forces in {force}\n"
         ));
     }
-    for constant in &model.constants {
-        if let Some(number) = decimal(network, &constant.value) {
+    for constant in constants {
+        if let Some(number) = decimal(constants, &constant.value) {
             lines.push_str(&format!("{mark} {} = {number}\n", constant.symbol));
         }
     }
-    lines
+    Ok(lines)
 }
 
 fn explain(network: &Network, options: &Derive) -> Result<String, Failure> {
@@ -93,7 +97,8 @@ fn explain(network: &Network, options: &Derive) -> Result<String, Failure> {
         return Err(Failure::usage("a derivation is for reading, not for programs", remedy));
     }
     let recurrence = network.recurrence()?;
-    let mut derivation = Derivation::of(network, &recurrence, &|value| decimal(network, value));
+    let mut derivation =
+        Derivation::of(network, &recurrence, &|value| decimal(recurrence.constants(), value));
     let solution = Solution::new(recurrence);
     let local = solution.recurrence().statement().local.clone();
     let mut formulas = Vec::new();
@@ -165,7 +170,7 @@ fn on_lattice(network: &Network, options: &Derive) -> Result<String, Failure> {
     };
     let formulas: Vec<Formula> = found.iter().map(formula).collect();
     let mark = if options.format == DeriveFormat::Latex { "%" } else { "#" };
-    Ok(format!("{}{}", constants(network, mark), formulas_as(&formulas, options)))
+    Ok(format!("{}{}", constants(network, mark)?, formulas_as(&formulas, options)))
 }
 
 fn json_document(network: &Network, found: &[Arrival]) -> String {

@@ -1,7 +1,7 @@
 //! The echoes of a lattice in the order in which they arrive.
 
+use crate::enclosure::{EnclosureError, Numbers};
 use crate::evaluate::evaluator::EvaluateError;
-use crate::evaluate::numbers::Numbers;
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::recurrence::WaveIndex;
@@ -56,6 +56,12 @@ pub enum ArrivalError {
 impl From<SolveError> for ArrivalError {
     fn from(error: SolveError) -> ArrivalError {
         ArrivalError::Solve(error)
+    }
+}
+
+impl From<EnclosureError> for ArrivalError {
+    fn from(error: EnclosureError) -> ArrivalError {
+        ArrivalError::Evaluate(error.into())
     }
 }
 

@@ -7,8 +7,8 @@
 //! ```
 
 use crate::ball::{Ball, ComplexBall};
+use crate::enclosure::Numbers;
 use crate::evaluate::evaluator::{EvaluateError, Side};
-use crate::evaluate::numbers::Numbers;
 use crate::evaluate::scene::{Arrived, SceneEvaluator};
 use crate::expression::{Expression, Field as _, Fraction, Transform};
 use crate::network::{EnergyTerm, Window};

@@ -1,8 +1,8 @@
 //! The value of a wave or an observable at a time, certified.
 
 use crate::ball::{Ball, BallError, CertifyError, certify};
+use crate::enclosure::{EnclosureError, enclose_expression};
 use crate::evaluate::contribution::{Amount, Contribution, Parts, enclose, rational_value};
-use crate::evaluate::enclosure::enclose_expression;
 use crate::evaluate::value::Value;
 use crate::expression::{EchoSum, Expression, NotAUnit};
 use crate::network::NetworkError;
@@ -222,6 +222,26 @@ impl fmt::Display for EvaluateError {
 }
 
 impl std::error::Error for EvaluateError {}
+
+impl From<EnclosureError> for EvaluateError {
+    fn from(error: EnclosureError) -> EvaluateError {
+        match error {
+            EnclosureError::MissingValue(symbol) => EvaluateError::MissingValue(symbol),
+            EnclosureError::Ball(error) => EvaluateError::Ball(error),
+            EnclosureError::NotReal => EvaluateError::NotReal,
+            EnclosureError::Division(reason) => EvaluateError::Division(reason),
+            EnclosureError::Undecided { best, bits } => {
+                EvaluateError::AccuracyNotReached { best, bits }
+            }
+        }
+    }
+}
+
+impl From<NotAUnit> for EvaluateError {
+    fn from(reason: NotAUnit) -> EvaluateError {
+        EvaluateError::Division(reason)
+    }
+}
 
 impl From<SolveError> for EvaluateError {
     fn from(error: SolveError) -> EvaluateError {

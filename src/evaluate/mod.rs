@@ -6,20 +6,16 @@
 
 mod arrivals;
 mod contribution;
-mod enclosure;
 mod energy;
 mod evaluator;
 mod modular;
-mod numbers;
 mod scene;
 mod value;
 
 pub use arrivals::{Arrival, ArrivalError, arrivals};
-pub use enclosure::enclose_expression;
 pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
     Side,
 };
-pub use numbers::Numbers;
 pub use scene::{MAX_ECHOES, SceneEvaluator};
 pub use value::Value;

@@ -5,11 +5,11 @@
 //! place that is observed.
 
 use crate::ball::{Ball, ComplexBall};
+use crate::enclosure::Numbers;
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
-use crate::evaluate::numbers::Numbers;
 use crate::evaluate::value::Value;
-use crate::expression::{Constant, Exact, Expression, Field, Fraction, Root, Transform};
+use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
 use crate::network::{Network, NetworkError, Observed, ObservedValue, Unfolded};
 use crate::recurrence::{Observation, WaveIndex};
 use crate::solution::{Demand, EchoByEcho};
@@ -32,7 +32,6 @@ pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 /// Evaluates observables of a scene, up to a last time.
 pub struct SceneEvaluator<'a> {
     network: &'a Network,
-    constants: &'a [Constant],
     unfolded: Unfolded,
     /// When each echo arrives, by number.
     arrivals: Vec<(usize, Fraction)>,
@@ -68,8 +67,7 @@ impl<'a> SceneEvaluator<'a> {
     /// [`EvaluateError::MissingValue`] where a symbol is left, [`EvaluateError::TooManyEchoes`]
     /// where more echoes arrive until then than are worked out.
     pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEvaluator<'a>, EvaluateError> {
-        let constants = &network.model().constants[..];
-        let numbers = Numbers::new(constants);
+        let numbers = Numbers::new(&network.model().constants);
         // A wave is seen at most as long before its own clock as that clock is late.
         let latest = network.lateness().fold(last.clone(), |sum, late| &sum + late);
         let mut bounds = Vec::new();
@@ -85,18 +83,14 @@ impl<'a> SceneEvaluator<'a> {
             NetworkError::Division(reason) => EvaluateError::Division(reason),
             other => EvaluateError::Network(Box::new(other)),
         })?;
-        let symbols = unfolded.recurrence().symbols();
-        let mut open = symbols.filter(|symbol| numbers.value(symbol, 64).is_none());
-        if let Some(symbol) = open.next() {
+        if let Some(symbol) = unfolded.recurrence().symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
         let delay = |k| (k, unfolded.delay(k).expect("within the bounds"));
         let arrivals = unfolded.numbers().map(delay).collect();
         let demand = RefCell::new(Demand::none(unfolded.recurrence()));
-        drop(open);
         Ok(SceneEvaluator {
             network,
-            constants,
             arrivals,
             last: last.clone(),
             known: RefCell::default(),
@@ -107,8 +101,8 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// The numbers of the scene's constants.
-    pub fn numbers(&self) -> Numbers<'a> {
-        Numbers::new(self.constants)
+    pub fn numbers(&self) -> Numbers<'_> {
+        Numbers::new(self.unfolded.recurrence().constants())
     }
 
     /// How many echoes can reach what was asked for.

@@ -4,7 +4,7 @@ use crate::export::arrangement::{Sign, Term, arrange};
 use crate::export::formula::{Formula, Head, Right, latex, text};
 use crate::export::names::{Name, Names};
 use crate::export::notation::Latex;
-use crate::expression::{Expression, Fraction, Root};
+use crate::expression::{Constant, Definition, Expression, Fraction, Root};
 use crate::network::{Law, Network, Role, Rule};
 use crate::recurrence::{LinearForm, Recurrence};
 use crate::scene::ElementIndex;
@@ -51,11 +51,11 @@ impl Derivation {
     pub fn of(
         network: &Network,
         recurrence: &Recurrence,
-        decimal: &dyn Fn(&Root) -> Option<String>,
+        decimal: &dyn Fn(&Definition) -> Option<String>,
     ) -> Derivation {
         let writer = Writer::new(recurrence);
         let mut derivation = Derivation { parts: Vec::new() };
-        derivation.scales(network, decimal);
+        derivation.scales(network, recurrence.constants(), decimal);
         derivation.waves(network);
         derivation.laws(network, &writer);
         derivation.recurrence(network, &writer);
@@ -73,7 +73,12 @@ impl Derivation {
     }
 
     /// In which units the scene is written, and the constants that got names.
-    fn scales(&mut self, network: &Network, decimal: &dyn Fn(&Root) -> Option<String>) {
+    fn scales(
+        &mut self,
+        network: &Network,
+        constants: &[Constant],
+        decimal: &dyn Fn(&Definition) -> Option<String>,
+    ) {
         let (scene, model) = (network.scene(), network.model());
         let name = |element: Option<ElementIndex>| {
             element.map_or("the scene", |element| &scene.elements[element].name)
@@ -85,18 +90,19 @@ impl Derivation {
             units.push(("T", "s", &model.scale.time, "time", of));
             units.push(("V", "m/s", &model.scale.velocity, "velocity", moving));
             for (symbol, unit, value, what, of) in units {
-                let number = decimal(value).map_or(String::new(), |n| format!(" = {n} {unit}"));
+                let number = decimal(&value.clone().into());
+                let number = number.map_or(String::new(), |n| format!(" = {n} {unit}"));
                 self.sentence(format!("The unit of {what} is {symbol}{number}, from `{of}`."));
             }
             self.sentence("Forces are in Z V, displacements in V T.");
         }
-        if !model.constants.is_empty() {
-            let constants = model.constants.iter().map(|constant| {
+        if !constants.is_empty() {
+            let constants = constants.iter().map(|constant| {
                 let head = Head::Written(
                     constant.symbol.name().to_owned(),
                     Latex::name(constant.symbol.name()),
                 );
-                let right = root(&constant.value);
+                let right = definition(&constant.value);
                 let number = decimal(&constant.value).map(|number| format!("= {number}"));
                 let remark = number.map(|number| (number.clone(), String::new()));
                 Formula { head, right, remark }
@@ -382,6 +388,27 @@ fn told(network: &Network, law: &Law) -> String {
         Rule::Displacement(support) => format!("{place}, {} moves with the line:", name(support)),
         Rule::Imposed(load) => format!("{place}, {} imposes its velocity:", name(load)),
         Rule::Integral(_) => String::new(),
+    }
+}
+
+/// A definition as a right side.
+fn definition(value: &Definition) -> Right {
+    match value {
+        Definition::Root(value) => root(value),
+        Definition::Zero { polynomial, between: (lower, upper) } => {
+            let x = Symbol::new("x").expect("a name");
+            let value = polynomial
+                .iter()
+                .fold(Fraction::zero(), |sum, c| &(&sum * &Fraction::symbol(&x)) + c);
+            let head = Head::Written(String::new(), String::new());
+            let formula = Formula::new(head, &value.into(), &x);
+            let text = formula.to_line().replace(" = ", "");
+            let latex = formula.right_latex();
+            Right::Written(
+                format!("the x between {lower} and {upper} with {text} = 0"),
+                format!("x \\in ({lower}, {upper}),\\ {latex} = 0"),
+            )
+        }
     }
 }
 

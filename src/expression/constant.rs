@@ -98,21 +98,55 @@ fn rational_square_root(value: &Rational) -> Option<Rational> {
     }
 }
 
-/// A positive constant that is named, because it is no rational number: formulas hold its symbol,
-/// and numbers come from its definition.
+/// What a named constant is.
 ///
 /// ```
-/// use wavestep::expression::{Constant, Fraction, Root};
+/// use wavestep::expression::{Definition, Fraction, Root};
+/// use wavestep_polynomial::Rational;
+///
+/// let number = |value: i64| Rational::from_integer(value.into());
+/// let two = Fraction::constant(&number(2));
+/// assert_eq!(Definition::from(Root::of(two.clone())), Definition::Root(Root::of(two.clone())));
+/// // x³ − 2 = 0 between 1 and 2.
+/// let polynomial = vec![Fraction::one(), Fraction::zero(), Fraction::zero(), -&two];
+/// let cube_root = Definition::Zero { polynomial, between: (number(1), number(2)) };
+/// assert_ne!(cube_root, Definition::Root(Root::of(two)));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Definition {
+    /// A factor times a square root.
+    Root(Root),
+    /// A zero of a polynomial, coefficients from the highest power down, between two numbers at
+    /// which it has different signs: the one that halving finds.
+    Zero {
+        /// The coefficients.
+        polynomial: Vec<Fraction>,
+        /// Where the zero is looked for.
+        between: (Rational, Rational),
+    },
+}
+
+impl From<Root> for Definition {
+    fn from(root: Root) -> Definition {
+        Definition::Root(root)
+    }
+}
+
+/// A real constant that is named, because it is no rational number: formulas hold its symbol, and
+/// numbers come from its definition.
+///
+/// ```
+/// use wavestep::expression::{Constant, Definition, Fraction, Root};
 /// use wavestep_polynomial::{Rational, Symbol};
 ///
 /// let two = Fraction::constant(&Rational::from_integer(2.into()));
-/// let ratio = Constant { symbol: Symbol::new("r").unwrap(), value: Root::of(two.clone()) };
-/// assert_eq!(ratio.value.radicand(), &two);
+/// let ratio = Constant { symbol: Symbol::new("r").unwrap(), value: Root::of(two).into() };
+/// assert!(matches!(ratio.value, Definition::Root(_)));
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Constant {
     /// Its name in formulas.
     pub symbol: Symbol,
     /// What it is, in `pi`, constants before it, and the scene's symbols.
-    pub value: Root,
+    pub value: Definition,
 }

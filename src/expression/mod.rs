@@ -19,7 +19,7 @@ mod sum;
 mod transform;
 
 pub use assumptions::{Assumptions, Condition, NotInvertible, Relation};
-pub use constant::{Constant, Root};
+pub use constant::{Constant, Definition, Root};
 pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};
 pub use piecewise::Piecewise;

@@ -37,6 +37,7 @@ pub(super) fn recurrence(
     let mut statement = Statement {
         title: tree.title.value.clone(),
         assumptions: Assumptions::default(),
+        constants: Vec::new(),
         period,
         local,
         time,

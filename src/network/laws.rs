@@ -100,6 +100,7 @@ impl Network {
         Statement {
             title: self.scene.title.clone(),
             assumptions: self.model.assumptions.clone(),
+            constants: self.model.constants.clone(),
             period: self.lattice.periods()[0].clone(),
             local: self.local(),
             time: self.scene.time.clone(),

@@ -4,7 +4,9 @@
 //! velocities in the first one that is not zero. What is then rational is put in as a number; what
 //! is not gets a name, such as `kappa_specimen = k τ/Z`, and keeps its definition.
 
-use crate::expression::{Assumptions, Condition, Constant, Expression, Fraction, Relation, Root};
+use crate::expression::{
+    Assumptions, Condition, Constant, Definition, Expression, Fraction, Relation, Root,
+};
 use crate::network::equations::NetworkError;
 use crate::scene::{Body, Drive, ElementIndex, Kind, Scene};
 use num_traits::{Signed, Zero};
@@ -197,17 +199,18 @@ impl Model {
         let negative = value.factor().numerator().leading_coefficient().is_negative();
         let minus = Root::from(-&Fraction::one());
         let value = if negative { value.times(&minus) } else { value };
-        let known = self.constants.iter().find(|constant| constant.value == value);
+        let definition = Definition::from(value);
+        let known = self.constants.iter().find(|constant| constant.value == definition);
         let symbol = match known {
             Some(constant) => constant.symbol.clone(),
-            None => self.name(name, value),
+            None => self.name(name, definition),
         };
         let symbol = Fraction::symbol(&symbol);
         if negative { -&symbol } else { symbol }
     }
 
     /// Names a positive constant.
-    fn name(&mut self, name: &str, value: Root) -> Symbol {
+    fn name(&mut self, name: &str, value: Definition) -> Symbol {
         let mut name = name.to_owned();
         while self.assumptions.symbols().any(|(symbol, _)| symbol.name() == name) {
             name.push('_');

@@ -10,6 +10,7 @@
 use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
+use crate::recurrence::naming::Naming;
 use crate::recurrence::roots;
 use wavestep_polynomial::Rational;
 
@@ -36,18 +37,18 @@ pub(crate) fn uncouple(
     mut forms: Vec<LinearForm>,
     mut waves: Vec<WaveIndex>,
     hidden: WaveIndex,
-    assumptions: &Assumptions,
+    naming: &mut Naming,
 ) -> Result<Uncoupled, Stuck> {
-    solve_for_slopes(&mut forms, &waves, assumptions)?;
+    solve_for_slopes(&mut forms, &waves, naming.assumptions())?;
     let mut matrix = rates(&forms, &waves).ok_or(Stuck::Degenerate)?;
     let (polynomial, _) = characteristic(&matrix);
-    let mut roots = roots::of(&polynomial, assumptions).ok_or(Stuck::Roots(polynomial))?;
+    let mut roots = roots::of(&polynomial, naming).ok_or(Stuck::Roots(polynomial))?;
     let (mut steps, mut algebraic) = (Vec::new(), Vec::new());
     let mut added = 0;
     while waves.len() > 1 {
         let rate = roots.pop().expect("as many roots as waves");
         let (place, vector) =
-            left_eigenvector(&matrix, &rate, assumptions).ok_or(Stuck::Degenerate)?;
+            left_eigenvector(&matrix, &rate, naming.assumptions()).ok_or(Stuck::Degenerate)?;
         let auxiliary = hidden + added;
         added += 1;
         // z' + a z + l R = 0

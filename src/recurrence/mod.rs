@@ -7,6 +7,7 @@
 
 mod coupled;
 mod form;
+mod naming;
 mod notation;
 mod ordering;
 #[expect(clippy::module_inception, reason = "the file is named for the type it holds")]

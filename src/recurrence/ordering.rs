@@ -8,6 +8,7 @@ use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::WaveIndex;
 use crate::recurrence::coupled::{Stuck, Uncoupled, uncouple};
 use crate::recurrence::form::LinearForm;
+use crate::recurrence::naming::Naming;
 use crate::recurrence::statement::{Fault, InvalidRecurrence, Part, Statement};
 use std::collections::BTreeSet;
 
@@ -85,8 +86,17 @@ struct Row {
     part: Part,
 }
 
-/// The steps of a statement, in solving order, and how many waves were added to those stated.
-pub(crate) fn order(statement: &Statement) -> Outcome<(Vec<Step>, usize)> {
+/// A statement in solving order.
+pub(crate) struct Ordered {
+    pub steps: Vec<Step>,
+    /// How many waves were added to those stated.
+    pub hidden: usize,
+    /// The constants of the statement, and those that were named.
+    pub naming: Naming,
+}
+
+/// The steps of a statement, in solving order.
+pub(crate) fn order(statement: &Statement) -> Outcome<Ordered> {
     let count = Fault::Count { equations: statement.equations.len(), waves: statement.waves.len() };
     match statement.equations.len().cmp(&statement.waves.len()) {
         std::cmp::Ordering::Less => {
@@ -111,13 +121,18 @@ pub(crate) fn order(statement: &Statement) -> Outcome<(Vec<Step>, usize)> {
             }
         })
         .collect::<Outcome<_>>()?;
-    let (steps, hidden) = order_equations(statement, &mut rows)?;
-    Ok((assign_starts(statement, steps, &mut rules)?, hidden))
+    let mut naming = Naming::new(statement);
+    let (steps, hidden) = order_equations(statement, &mut rows, &mut naming)?;
+    Ok(Ordered { steps: assign_starts(statement, steps, &mut rules)?, hidden, naming })
 }
 
 /// Takes a row that has one unknown on the current period, while there is one; else eliminates an
 /// unknown with an algebraic row; else uncouples rows with derivatives.
-fn order_equations(statement: &Statement, rows: &mut Vec<Row>) -> Outcome<(Vec<Step>, usize)> {
+fn order_equations(
+    statement: &Statement,
+    rows: &mut Vec<Row>,
+    naming: &mut Naming,
+) -> Outcome<(Vec<Step>, usize)> {
     let mut unknown: BTreeSet<WaveIndex> = (0..statement.waves.len()).collect();
     let mut eliminated = BTreeSet::new();
     let mut steps = Vec::new();
@@ -151,7 +166,7 @@ fn order_equations(statement: &Statement, rows: &mut Vec<Row>) -> Outcome<(Vec<S
             });
         let Some((pivot, wave)) = pivot else {
             let next_hidden = statement.waves.len() + hidden;
-            let found = uncouple_some(statement, rows, &open, next_hidden)?;
+            let found = uncouple_some(statement, rows, &open, next_hidden, naming)?;
             hidden += found.hidden;
             for (wave, equation) in found.steps {
                 unknown.remove(&wave);
@@ -189,6 +204,7 @@ fn uncouple_some(
     rows: &mut Vec<Row>,
     open: &[Vec<WaveIndex>],
     hidden: WaveIndex,
+    naming: &mut Naming,
 ) -> Outcome<Found> {
     let coupled = |waves: &BTreeSet<WaveIndex>| {
         Fault::Coupled(waves.iter().map(|wave| statement.waves[*wave].clone()).collect())
@@ -200,7 +216,7 @@ fn uncouple_some(
     let part = rows[chosen[0]].part;
     let forms = chosen.iter().map(|i| rows[*i].form.clone()).collect();
     let unknowns = waves.iter().copied().collect();
-    let uncoupled = uncouple(forms, unknowns, hidden, &statement.assumptions);
+    let uncoupled = uncouple(forms, unknowns, hidden, naming);
     let Uncoupled { steps, hidden } = uncoupled.map_err(|stuck| {
         let names = || waves.iter().map(|wave| statement.waves[*wave].clone()).collect();
         let fault = match stuck {

@@ -1,9 +1,9 @@
 //! Statements that have been checked and put in solving order.
 
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Constant, Expression, Fraction};
 use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
-use crate::recurrence::ordering::{self, Step};
+use crate::recurrence::ordering::{self, Ordered, Step};
 use crate::recurrence::statement::{
     Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Part, Statement,
 };
@@ -48,7 +48,7 @@ impl Recurrence {
     ///
     /// # Cost
     /// At most one row operation for each pair of equations.
-    pub fn new(statement: Statement) -> Result<Recurrence, InvalidRecurrence> {
+    pub fn new(mut statement: Statement) -> Result<Recurrence, InvalidRecurrence> {
         if !statement.assumptions.is_positive(&statement.period) {
             let fault = Fault::PeriodNotPositive;
             return Err(InvalidRecurrence { part: Part::Period, fault });
@@ -60,7 +60,8 @@ impl Recurrence {
             let fault = Fault::DegreeTooHigh;
             return Err(InvalidRecurrence { part: Part::Equation(0), fault });
         }
-        let (steps, hidden) = ordering::order(&statement)?;
+        let Ordered { steps, hidden, naming } = ordering::order(&statement)?;
+        (statement.constants, statement.assumptions) = naming.into_parts();
         Ok(Recurrence { statement, steps, hidden })
     }
 
@@ -129,9 +130,18 @@ impl Recurrence {
         self.observable(name).map(|observable| observable.observation.clone())
     }
 
-    /// The symbols of the recurrence, times apart, in the order of their names.
+    /// The symbols of the recurrence, times and constants with a definition apart, in the order of
+    /// their names.
     pub fn symbols(&self) -> impl Iterator<Item = &Symbol> + '_ {
-        self.statement.assumptions.symbols().map(|(symbol, _)| symbol)
+        let defined = |symbol: &Symbol| self.constants().iter().any(|c| c.symbol == *symbol);
+        let symbols = self.statement.assumptions.symbols().map(|(symbol, _)| symbol);
+        symbols.filter(move |symbol| !defined(symbol))
+    }
+
+    /// The constants with a definition, those included that were named for rates that are no
+    /// rational numbers.
+    pub fn constants(&self) -> &[Constant] {
+        &self.statement.constants
     }
 }
 

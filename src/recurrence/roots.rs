@@ -1,14 +1,17 @@
-//! Exact roots of polynomials: rational ones, and those of quadratics.
+//! Roots of polynomials: rational ones, those of quadratics, and real ones that are named.
 //!
 //! Floating-point numbers only suggest what to try; a root is taken when the division leaves no rest.
+//! Where no exact root is found and all coefficients are numbers, a real root, or the square root in
+//! a quadratic, becomes a constant with a name and a definition.
 
-use crate::expression::{Assumptions, Fraction};
+use crate::expression::Fraction;
+use crate::recurrence::naming::Naming;
 use num_traits::{FromPrimitive, One, ToPrimitive, Zero};
 use wavestep_polynomial::{Integer, Rational};
 
 /// All roots of a monic polynomial, given by its coefficients, highest power first; `None` where
 /// they are not found.
-pub(crate) fn of(polynomial: &[Fraction], assumptions: &Assumptions) -> Option<Vec<Fraction>> {
+pub(crate) fn of(polynomial: &[Fraction], naming: &mut Naming) -> Option<Vec<Fraction>> {
     let mut rest = polynomial.to_vec();
     let mut roots = Vec::new();
     loop {
@@ -19,23 +22,40 @@ pub(crate) fn of(polynomial: &[Fraction], assumptions: &Assumptions) -> Option<V
                 return Some(roots);
             }
             3 => {
-                roots.extend(of_quadratic(&rest[1], &rest[2], assumptions)?);
+                roots.extend(of_quadratic(&rest[1], &rest[2], naming)?);
                 return Some(roots);
             }
-            _ => {
-                let (factor, quotient) = rational_factor(&rest)?;
-                roots.extend(of(&factor, assumptions)?);
-                rest = quotient;
-            }
+            _ => match rational_factor(&rest) {
+                Some((factor, quotient)) => {
+                    roots.extend(of(&factor, naming)?);
+                    rest = quotient;
+                }
+                None => {
+                    let root = naming.real_zero(&rest)?;
+                    rest = deflated(&rest, &root);
+                    roots.push(root);
+                }
+            },
         }
     }
 }
 
 /// The roots of `λ² + b λ + c`: `−b/2 ± √(b²/4 − c)`.
-fn of_quadratic(b: &Fraction, c: &Fraction, _: &Assumptions) -> Option<[Fraction; 2]> {
+fn of_quadratic(b: &Fraction, c: &Fraction, naming: &mut Naming) -> Option<[Fraction; 2]> {
     let half = b.scale(&Rational::new((-1).into(), 2.into()));
-    let root = (&half.pow(2) - c).square_root()?;
+    let square = &half.pow(2) - c;
+    let root = square.square_root().or_else(|| naming.square_root(&square))?;
     Some([&half + &root, &half - &root])
+}
+
+/// The quotient by `λ − root`, without the rest, which is zero because it is a root.
+fn deflated(polynomial: &[Fraction], root: &Fraction) -> Vec<Fraction> {
+    let mut quotient: Vec<Fraction> = Vec::with_capacity(polynomial.len() - 1);
+    for coefficient in &polynomial[..polynomial.len() - 1] {
+        let carried = quotient.last().map_or_else(Fraction::zero, |last| last * root);
+        quotient.push(coefficient + &carried);
+    }
+    quotient
 }
 
 /// A linear or quadratic factor with rational coefficients, and the quotient by it.
@@ -154,6 +174,7 @@ fn convergents(value: f64) -> Vec<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::enclosure::{Numbers, enclose_expression};
 
     fn polynomial(coefficients: &[(i64, i64)]) -> Vec<Fraction> {
         let number = |(p, q): &(i64, i64)| Rational::new((*p).into(), (*q).into());
@@ -176,7 +197,7 @@ mod tests {
             &[(1, 1), (2, 1), (3, 1), (2, 1), (1, 1)],
         ] {
             let p = polynomial(coefficients);
-            let roots = of(&p, &Assumptions::default()).unwrap();
+            let roots = of(&p, &mut Naming::default()).unwrap();
             assert_eq!(roots.len(), p.len() - 1);
             assert!(roots.iter().all(|root| value(&p, root).is_zero()), "{coefficients:?}");
             // All of them, with their multiplicities: the product of the factors is p.
@@ -190,9 +211,30 @@ mod tests {
             });
             assert_eq!(product, p);
         }
-        // λ³ − 2 has no rational factor.
-        assert!(
-            of(&polynomial(&[(1, 1), (0, 1), (0, 1), (-2, 1)]), &Assumptions::default()).is_none()
-        );
+    }
+
+    #[test]
+    fn a_cubic_has_a_named_root_and_a_pair() {
+        // λ³ − 2: the real root r, and −r/2 ± i√(r² − r²/4), as a root of the deflated quadratic.
+        let mut naming = Naming::default();
+        let p = polynomial(&[(1, 1), (0, 1), (0, 1), (-2, 1)]);
+        let roots = of(&p, &mut naming).unwrap();
+        let (constants, _) = naming.into_parts();
+        let names: Vec<&str> = constants.iter().map(|constant| constant.symbol.name()).collect();
+        assert_eq!((roots.len(), &names[..]), (3, &["rho", "omega"][..]));
+        // Each of them is a zero, in numbers.
+        let numbers = Numbers::new(&constants);
+        for root in &roots {
+            let value = enclose_expression(
+                &value(&p, root).into(),
+                &|symbol, bits| numbers.value(symbol, bits),
+                200,
+            );
+            let value = value.unwrap();
+            for part in [value.real(), value.imaginary()] {
+                assert!(part.contains(&Rational::zero()));
+                assert!(part.to_decimal(3).radius() < 1e-50);
+            }
+        }
     }
 }

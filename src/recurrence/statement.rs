@@ -1,6 +1,6 @@
 //! Recurrences as a person states them, and what may be wrong with them.
 
-use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
+use crate::expression::{Assumptions, Constant, Expression, Fraction, NotInvertible};
 use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::notation::SourceNotation;
@@ -122,6 +122,7 @@ pub struct ObservedWave {
 /// let statement = Statement {
 ///     title: "Constant force".to_owned(),
 ///     assumptions: Assumptions::default(),
+///     constants: Vec::new(),
 ///     period: Fraction::constant(&Rational::from_integer(2.into())),
 ///     local: Symbol::new("s").unwrap(),
 ///     time: Symbol::new("t").unwrap(),
@@ -140,6 +141,8 @@ pub struct Statement {
     pub title: String,
     /// Symbols with their conditions, and the factors taken to be non-zero.
     pub assumptions: Assumptions,
+    /// Symbols that are constants with a definition; they are among the symbols assumed as well.
+    pub constants: Vec<Constant>,
     /// The length `D` of a period.
     pub period: Fraction,
     /// The time on one period, restarting at 0.

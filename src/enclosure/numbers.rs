@@ -1,9 +1,9 @@
 //! Constants that have names, as numbers; and the field of enclosures.
 
 use crate::ball::{Ball, ComplexBall};
-use crate::evaluate::enclosure::enclose_expression;
-use crate::evaluate::evaluator::EvaluateError;
-use crate::expression::{Constant, Expression, Field, Fraction, NotAUnit, Root};
+use crate::enclosure::error::EnclosureError;
+use crate::enclosure::expression::enclose_expression;
+use crate::expression::{Constant, Definition, Expression, Field, Fraction, Root};
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -15,13 +15,13 @@ const COMPARISON_BITS: u64 = 1 << 14;
 /// Named constants with their definitions, and `pi`.
 ///
 /// ```
-/// use wavestep::evaluate::Numbers;
+/// use wavestep::enclosure::Numbers;
 /// use wavestep::expression::{Constant, Fraction, Root};
 /// use wavestep_polynomial::{Rational, Symbol};
 ///
 /// let two = Fraction::constant(&Rational::from_integer(2.into()));
 /// let r = Symbol::new("r").unwrap();
-/// let constants = [Constant { symbol: r.clone(), value: Root::of(two) }];
+/// let constants = [Constant { symbol: r.clone(), value: Root::of(two).into() }];
 /// let numbers = Numbers::new(&constants);
 /// let ball = numbers.enclose(&Fraction::symbol(&r), 60).unwrap();
 /// assert!(ball.to_string().starts_with("1.41421356237309504"));
@@ -50,7 +50,7 @@ impl<'a> Numbers<'a> {
         }
         let own = self.constants.iter().find(|constant| constant.symbol == *symbol);
         let ball = match own {
-            Some(constant) => self.enclose_root(&constant.value, bits + 16).ok()?,
+            Some(constant) => self.enclose_definition(&constant.value, bits + 16).ok()?,
             None if symbol.name() == "pi" => Ball::pi(bits),
             None => return None,
         };
@@ -61,34 +61,84 @@ impl<'a> Numbers<'a> {
     /// An enclosure of a real value.
     ///
     /// # Errors
-    /// [`EvaluateError`] where a symbol has no value.
-    pub fn enclose(&self, value: &Fraction, bits: u64) -> Result<Ball, EvaluateError> {
+    /// [`EnclosureError`] where a symbol has no value.
+    pub fn enclose(&self, value: &Fraction, bits: u64) -> Result<Ball, EnclosureError> {
         Ok(self.enclose_complex(&value.clone().into(), bits)?.real().clone())
+    }
+
+    /// An enclosure of what a named constant is defined to be.
+    ///
+    /// # Errors
+    /// As [`Numbers::enclose`].
+    pub fn enclose_definition(
+        &self,
+        value: &Definition,
+        bits: u64,
+    ) -> Result<Ball, EnclosureError> {
+        match value {
+            Definition::Root(root) => self.enclose_root(root, bits),
+            Definition::Zero { polynomial, between } => {
+                self.enclose_zero(polynomial, between, bits)
+            }
+        }
     }
 
     /// An enclosure of a factor times a root.
     ///
     /// # Errors
     /// As [`Numbers::enclose`]; also where the radicand is not certainly positive.
-    pub fn enclose_root(&self, value: &Root, bits: u64) -> Result<Ball, EvaluateError> {
+    pub fn enclose_root(&self, value: &Root, bits: u64) -> Result<Ball, EnclosureError> {
         let factor = self.enclose(value.factor(), bits)?;
         if value.radicand().is_one() {
             return Ok(factor);
         }
         let root = self.enclose(value.radicand(), bits)?.sqrt(bits);
-        let root = root.ok_or(EvaluateError::NotReal)?;
+        let root = root.ok_or(EnclosureError::NotReal)?;
         Ok(factor.multiply(&root, bits))
     }
 
-    fn enclose_complex(&self, value: &Expression, bits: u64) -> Result<ComplexBall, EvaluateError> {
+    /// The zero of a polynomial, coefficients from the highest power down, that halving finds
+    /// between two numbers at which it has different signs; of the halves the lower one is taken
+    /// where the signs differ there.
+    fn enclose_zero(
+        &self,
+        polynomial: &[Fraction],
+        (lower, upper): &(Rational, Rational),
+        bits: u64,
+    ) -> Result<Ball, EnclosureError> {
+        let sign = |x: &Rational| -> Result<Ordering, EnclosureError> {
+            let x = Fraction::constant(x);
+            let value = polynomial.iter().fold(Fraction::zero(), |sum, c| &(&sum * &x) + c);
+            self.compare(&value, &Fraction::zero())
+        };
+        let (mut lower, mut upper) = (lower.clone(), upper.clone());
+        let at_lower = sign(&lower)?;
+        let size = upper.clone().max(-lower.clone()).ceil().to_integer().bits();
+        let two = Rational::from_integer(2.into());
+        for _ in 0..bits + size {
+            let middle = (&lower + &upper) / &two;
+            match sign(&middle)? {
+                Ordering::Equal => return Ok(Ball::from_rational(&middle, bits)),
+                found if found == at_lower => lower = middle,
+                _ => upper = middle,
+            }
+        }
+        Ok(Ball::between(&lower, &upper, bits))
+    }
+
+    fn enclose_complex(
+        &self,
+        value: &Expression,
+        bits: u64,
+    ) -> Result<ComplexBall, EnclosureError> {
         enclose_expression(value, &|symbol, bits| self.value(symbol, bits), bits)
     }
 
     /// Which of two numbers is larger; equal where they are so as expressions.
     ///
     /// # Errors
-    /// [`EvaluateError::AccuracyNotReached`] where they cannot be told apart.
-    pub fn compare(&self, left: &Fraction, right: &Fraction) -> Result<Ordering, EvaluateError> {
+    /// [`EnclosureError::Undecided`] where they cannot be told apart.
+    pub fn compare(&self, left: &Fraction, right: &Fraction) -> Result<Ordering, EnclosureError> {
         let difference = left - right;
         if let Some(number) = difference.as_constant() {
             return Ok(number.cmp(&Rational::default()));
@@ -101,7 +151,7 @@ impl<'a> Numbers<'a> {
                 return Ok(if negative { Ordering::Less } else { Ordering::Greater });
             }
             if bits >= COMPARISON_BITS {
-                return Err(EvaluateError::AccuracyNotReached { best: Box::new(ball), bits });
+                return Err(EnclosureError::Undecided { best: Box::new(ball), bits });
             }
             bits *= 4;
         }
@@ -120,15 +170,9 @@ pub(crate) struct Enclosing<'a> {
     bits: u64,
 }
 
-impl From<NotAUnit> for EvaluateError {
-    fn from(reason: NotAUnit) -> EvaluateError {
-        EvaluateError::Division(reason)
-    }
-}
-
 impl Field for Enclosing<'_> {
     type Value = ComplexBall;
-    type Error = EvaluateError;
+    type Error = EnclosureError;
 
     fn zero(&self) -> ComplexBall {
         ComplexBall::zero()
@@ -139,13 +183,13 @@ impl Field for Enclosing<'_> {
         zero(value.real()) && zero(value.imaginary())
     }
 
-    fn embed(&self, value: &Expression) -> Result<ComplexBall, EvaluateError> {
+    fn embed(&self, value: &Expression) -> Result<ComplexBall, EnclosureError> {
         self.numbers.enclose_complex(value, self.bits)
     }
 
-    fn inverse(&self, value: &Fraction) -> Result<ComplexBall, EvaluateError> {
+    fn inverse(&self, value: &Fraction) -> Result<ComplexBall, EnclosureError> {
         let ball = self.embed(&value.clone().into())?;
-        ball.reciprocal(self.bits).map_err(EvaluateError::Ball)
+        ball.reciprocal(self.bits).map_err(EnclosureError::Ball)
     }
 
     fn add(&self, sum: &mut ComplexBall, other: &ComplexBall) {

@@ -1,7 +1,7 @@
 //! Enclosures of exact expressions whose symbols are known as balls.
 
 use crate::ball::{Ball, BallError, ComplexBall};
-use crate::evaluate::evaluator::EvaluateError;
+use crate::enclosure::error::EnclosureError;
 use crate::expression::{Expression, Fraction};
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
@@ -16,15 +16,15 @@ type Powers = BTreeMap<Symbol, Vec<ComplexBall>>;
 /// whose enclosure contains 0.
 ///
 /// # Errors
-/// - [`EvaluateError::MissingValue`] with the first symbol for which `values` answers `None`;
-/// - [`EvaluateError::Ball`] where an exponent is too large or a denominator may be zero.
+/// - [`EnclosureError::MissingValue`] with the first symbol for which `values` answers `None`;
+/// - [`EnclosureError::Ball`] where an exponent is too large or a denominator may be zero.
 ///
 /// # Cost
 /// A product of complex balls for each symbol of each term, and an exponential for each exponent.
 ///
 /// ```
 /// use wavestep::ball::Ball;
-/// use wavestep::evaluate::enclose_expression;
+/// use wavestep::enclosure::enclose_expression;
 /// use wavestep::expression::{Expression, Fraction};
 /// use wavestep_polynomial::{Polynomial, Symbol};
 ///
@@ -43,14 +43,14 @@ pub fn enclose_expression(
     expression: &Expression,
     values: &dyn Fn(&Symbol, u64) -> Option<Ball>,
     bits: u64,
-) -> Result<ComplexBall, EvaluateError> {
+) -> Result<ComplexBall, EnclosureError> {
     let mut powers = Powers::new();
     for symbol in expression.symbols() {
         let value = match symbol.square() {
             Some(square) => root(square, bits),
             None => match values(&symbol, bits) {
                 Some(value) => value.into(),
-                None => return Err(EvaluateError::MissingValue(symbol)),
+                None => return Err(EnclosureError::MissingValue(symbol)),
             },
         };
         let degree = expression
@@ -64,10 +64,10 @@ pub fn enclose_expression(
     }
     let mut sum = ComplexBall::zero();
     for (exponent, p) in expression.terms() {
-        let mut term = fraction(p, &powers, bits).map_err(EvaluateError::Ball)?;
+        let mut term = fraction(p, &powers, bits).map_err(EnclosureError::Ball)?;
         if !exponent.is_zero() {
-            let exponent = fraction(exponent, &powers, bits).map_err(EvaluateError::Ball)?;
-            let exponential = exponent.exp(bits).map_err(EvaluateError::Ball)?;
+            let exponent = fraction(exponent, &powers, bits).map_err(EnclosureError::Ball)?;
+            let exponential = exponent.exp(bits).map_err(EnclosureError::Ball)?;
             term = term.multiply(&exponential, bits);
         }
         sum = sum.add(&term, bits);
@@ -161,7 +161,7 @@ mod tests {
             enclose_expression(&inverse.pow(2).into(), &ball, 64)
         };
         assert!(at(5).unwrap().real().contains(&rational(1, 4)));
-        assert_eq!(at(3), Err(EvaluateError::Ball(BallError::DivisorMayBeZero)));
+        assert_eq!(at(3), Err(EnclosureError::Ball(BallError::DivisorMayBeZero)));
         let five = |_: &Symbol, bits| Some(Ball::from_rational(&rational(5, 1), bits));
         let root = enclose_expression(&value, &five, 64).unwrap();
         // (1 + √2)/2 is a root of 4x² − 4x − 1.

@@ -1,0 +1,12 @@
+//! Exact values as numbers: enclosures of expressions, and of constants that have names.
+//!
+//! A named constant is no rational number; formulas hold its symbol, and here its definition is worked
+//! out to as many bits as are asked for.
+
+mod error;
+mod expression;
+mod numbers;
+
+pub use error::EnclosureError;
+pub use expression::enclose_expression;
+pub use numbers::Numbers;

@@ -1,0 +1,122 @@
+//! Names for rates that are no rational numbers.
+
+use crate::enclosure::Numbers;
+use crate::expression::{Assumptions, Condition, Constant, Definition, Fraction, Relation, Root};
+use crate::recurrence::statement::Statement;
+use std::cmp::Ordering;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// Into how many stretches a line is cut in search of a sign change.
+const STRETCHES: i64 = 64;
+
+/// The constants of a statement and those that are named, with what is assumed of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Naming {
+    constants: Vec<Constant>,
+    assumptions: Assumptions,
+    /// Names that are taken besides those of symbols.
+    taken: Vec<String>,
+}
+
+impl Naming {
+    pub fn new(statement: &Statement) -> Naming {
+        let times = [&statement.local, &statement.time].map(|symbol| symbol.name().to_owned());
+        let taken = statement.waves.iter().cloned().chain(times).collect();
+        let (constants, assumptions) = (statement.constants.clone(), statement.assumptions.clone());
+        Naming { constants, assumptions, taken }
+    }
+
+    pub fn into_parts(self) -> (Vec<Constant>, Assumptions) {
+        (self.constants, self.assumptions)
+    }
+
+    pub fn assumptions(&self) -> &Assumptions {
+        &self.assumptions
+    }
+
+    /// `√square` as a named constant, times `i` where the square is negative; `None` where its sign
+    /// is not known.
+    pub fn square_root(&mut self, square: &Fraction) -> Option<Fraction> {
+        let order = self.sign(square)?;
+        let (size, factor) = match order {
+            Ordering::Greater => (square.clone(), Fraction::one()),
+            Ordering::Less => {
+                let i = Symbol::square_root(-1).expect("the imaginary unit");
+                (-square, Fraction::symbol(&i))
+            }
+            Ordering::Equal => return Some(Fraction::zero()),
+        };
+        let root = self.name("omega", Root::of(size).into(), Relation::Greater);
+        Some(&Fraction::symbol(&root) * &factor)
+    }
+
+    /// A real zero of a polynomial, coefficients from the highest power down, as a named constant;
+    /// `None` where no change of sign is found.
+    pub fn real_zero(&mut self, polynomial: &[Fraction]) -> Option<Fraction> {
+        let bound = self.bound(polynomial)?;
+        let at = |k: i64| &bound * Rational::new(k.into(), STRETCHES.into());
+        let value = |x: &Rational| {
+            let x = Fraction::constant(x);
+            polynomial.iter().fold(Fraction::zero(), |sum, c| &(&sum * &x) + c)
+        };
+        let mut before: Option<(Rational, Ordering)> = None;
+        for k in -STRETCHES..=STRETCHES {
+            let x = at(k);
+            let sign = self.sign(&value(&x))?;
+            if sign == Ordering::Equal {
+                return Some(Fraction::constant(&x));
+            }
+            if let Some((lower, other)) = before
+                && other != sign
+            {
+                let positive = x > Rational::default();
+                let relation = if positive { Relation::Greater } else { Relation::Less };
+                let polynomial = polynomial.to_vec();
+                let zero = Definition::Zero { polynomial, between: (lower, x) };
+                return Some(Fraction::symbol(&self.name("rho", zero, relation)));
+            }
+            before = Some((x, sign));
+        }
+        None
+    }
+
+    /// All zeros are smaller in size than this number: `1 + max |c_i|`, for a monic polynomial.
+    fn bound(&self, polynomial: &[Fraction]) -> Option<Rational> {
+        let mut bound = Rational::from_integer(1.into());
+        loop {
+            let limit = Fraction::constant(&bound);
+            let mut within = true;
+            for c in polynomial {
+                within &= self.sign(&(&limit - c))? == Ordering::Greater
+                    && self.sign(&(&limit + c))? == Ordering::Greater;
+            }
+            if within {
+                return Some(&bound + Rational::from_integer(1.into()));
+            }
+            bound *= Rational::from_integer(2.into());
+        }
+    }
+
+    fn sign(&self, value: &Fraction) -> Option<Ordering> {
+        Numbers::new(&self.constants).compare(value, &Fraction::zero()).ok()
+    }
+
+    /// Names a constant.
+    fn name(&mut self, name: &str, value: Definition, relation: Relation) -> Symbol {
+        if let Some(known) = self.constants.iter().find(|constant| constant.value == value) {
+            return known.symbol.clone();
+        }
+        let taken = |name: &str| {
+            self.taken.iter().any(|other| other == name)
+                || self.assumptions.symbols().any(|(symbol, _)| symbol.name() == name)
+        };
+        let numbered = (2..).map(|k| format!("{name}_{k}"));
+        let mut names = std::iter::once(name.to_owned()).chain(numbered);
+        let free = names.find(|name| !taken(name)).expect("there is always another number");
+        let symbol = Symbol::new(&free).expect("a name with letters in front");
+        let condition = Condition { relation, bound: Rational::default() };
+        self.assumptions.declare_symbol(symbol.clone(), Some(condition));
+        self.constants.push(Constant { symbol: symbol.clone(), value });
+        symbol
+    }
+}
