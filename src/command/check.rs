@@ -5,11 +5,20 @@ use super::arguments::Check;
 use super::failure::Failure;
 use super::input;
 use super::lock;
+use wavestep::ball::Ball;
+use wavestep::enclosure::{Numbers, enclose_expression};
 use wavestep::export;
+use wavestep::expression::Fraction;
+use wavestep::recurrence::{Coupled, Recurrence};
 use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
+use wavestep_polynomial::Symbol;
 
 /// The periods for which both derivations are compared.
 const PERIODS: usize = 6;
+
+/// The precision of rates, and their digits.
+const RATE_BITS: u64 = 64;
+const RATE_DIGITS: usize = 6;
 
 /// Checks a scene and says what was found.
 pub fn run(options: &Check) -> Result<String, Failure> {
@@ -24,8 +33,10 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         by_period.advance()?;
         by_echo.advance()?;
         for (wave, name) in statement.waves.iter().enumerate() {
-            let piece = by_echo.sum(wave).piece(n);
-            if piece.as_ref() != Ok(&by_period.waves()[wave].pieces()[n]) {
+            let piece = by_echo.sum(wave).piece(n).ok();
+            let other = &by_period.waves()[wave].pieces()[n];
+            let difference = piece.map(|piece| statement.assumptions.reduced(&(&piece - other)));
+            if difference.is_none_or(|difference| !difference.is_zero()) {
                 let message = format!("the two derivations of {name}[{n}] disagree");
                 let remedy = "please report this scene: it is a fault of wavestep".to_owned();
                 return Err(Failure::Computation(message, remedy));
@@ -45,6 +56,11 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         let kind = if step.start.is_some() { "first-order differential" } else { "algebraic" };
         report.push_str(&format!("  wave {}: {kind}\n", recurrence.wave_name(step.wave)));
     }
+    for coupled in recurrence.coupled() {
+        let names: Vec<String> = coupled.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
+        let rates = rates(&recurrence, coupled).join(", ");
+        report.push_str(&format!("  coupled: {}, with the rates {rates}\n", names.join(", ")));
+    }
     let observables: Vec<&str> =
         statement.observables.iter().map(|observable| observable.name.as_str()).collect();
     if !observables.is_empty() {
@@ -62,4 +78,25 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         report.push_str(&format!("  general n of {name}: {found}\n"));
     }
     Ok(report)
+}
+
+/// The rates of a system: exactly, or as decimals where they are named or complex.
+pub fn rates(recurrence: &Recurrence, coupled: &Coupled) -> Vec<String> {
+    let numbers = Numbers::new(recurrence.constants());
+    let decimal = |rate: &Fraction| {
+        let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
+        let ball = enclose_expression(&rate.clone().into(), &values, RATE_BITS).ok()?;
+        let part = |ball: &Ball| ball.to_decimal(RATE_DIGITS).midpoint().to_string();
+        let imaginary = part(ball.imaginary());
+        Some(match imaginary.trim_start_matches('-') {
+            zero if zero.trim_matches(['0', '.']).is_empty() => part(ball.real()),
+            size if imaginary.starts_with('-') => format!("{} - {size}i", part(ball.real())),
+            size => format!("{} + {size}i", part(ball.real())),
+        })
+    };
+    let told = |rate: &Fraction| match rate.as_constant() {
+        Some(number) => number.to_string(),
+        None => decimal(rate).unwrap_or_else(|| rate.to_string()),
+    };
+    coupled.rates.iter().map(told).collect()
 }

@@ -1,6 +1,7 @@
 //! `derive` for scenes: explained, on lattices, with the constants that were named.
 
 use super::arguments::{Derive, DeriveFormat, Form};
+use super::check;
 use super::derive::{formulas_as, of_recurrence};
 use super::failure::Failure;
 use super::progress;
@@ -8,10 +9,10 @@ use serde_json::{Value as Json, json};
 use wavestep::enclosure::Numbers;
 use wavestep::evaluate::{Arrival, ArrivalError, EvaluateError, arrivals};
 use wavestep::export::{self, Derivation, Formula, Head};
-use wavestep::expression::{Constant, Definition, Root};
+use wavestep::expression::{Constant, Definition, Fraction, Root};
 use wavestep::language;
 use wavestep::network::{Network, ObservedValue};
-use wavestep::recurrence::WaveIndex;
+use wavestep::recurrence::{Recurrence, WaveIndex};
 use wavestep::solution::Solution;
 
 /// The last echo of a lattice that is derived where nothing else is asked for.
@@ -37,7 +38,13 @@ pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
     if network.lattice().periods().len() > 1 {
         return on_lattice(network, options);
     }
-    let derived = of_recurrence(network.recurrence()?, options)?;
+    let recurrence = network.recurrence()?;
+    let remedy = remedy_of_rates(&recurrence);
+    let derived =
+        of_recurrence(recurrence, options).map_err(|failure| match (&failure, remedy) {
+            (Failure::Computation(..), Some(remedy)) => failure.with_remedy(&remedy),
+            _ => failure,
+        })?;
     Ok(match options.format {
         DeriveFormat::Json => derived,
         DeriveFormat::Text => format!("{}{derived}", constants(network, "#")?),
@@ -57,6 +64,20 @@ fn refuse_energy(network: &Network, name: &str) -> Result<(), Failure> {
             format!("evaluate it: wavestep eval SCENE --quantity {name} --at T"),
         )),
     }
+}
+
+/// What to do where rates are named constants that the derivation cannot go on with.
+pub fn remedy_of_rates(recurrence: &Recurrence) -> Option<String> {
+    let named = |rate: &Fraction| rate.as_constant().is_none();
+    let system = recurrence.coupled().iter().find(|system| system.rates.iter().any(named))?;
+    let names: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
+    let rates = check::rates(recurrence, system).join(", ");
+    Some(format!(
+        "{} decay together at the rates {rates}; formulas hold rates that are rational or roots of \
+         one quadratic in rational numbers: give such values, or evaluate, which works with any \
+         certified rates",
+        names.join(" and ")
+    ))
 }
 
 /// A definition as a decimal number, where all in it is known.

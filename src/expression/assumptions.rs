@@ -120,6 +120,8 @@ impl fmt::Display for Condition {
 pub struct Assumptions {
     conditions: BTreeMap<Symbol, Option<Condition>>,
     factors: BTreeSet<Polynomial>,
+    /// What the squares of symbols are.
+    squares: BTreeMap<Symbol, Fraction>,
 }
 
 /// An expression that the declared factors do not allow to divide by.
@@ -178,6 +180,58 @@ impl Assumptions {
         self.factors.extend(unit.factors().map(|(factor, _)| factor.clone()));
     }
 
+    /// Declares the square of a symbol, free of the symbol itself.
+    ///
+    /// ```
+    /// use wavestep::expression::{Assumptions, Condition, Fraction, Relation};
+    /// use wavestep::language::{Source, read_expression};
+    /// use wavestep_polynomial::{Polynomial, Rational, Symbol};
+    ///
+    /// let positive = Condition { relation: Relation::Greater, bound: Rational::default() };
+    /// let symbol = |name| Symbol::new(name).unwrap();
+    /// let mut known = Assumptions::default();
+    /// known.declare_symbol(symbol("k"), Some(positive.clone()));
+    /// known.declare_symbol(symbol("w"), Some(positive));
+    /// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
+    /// // k² + w² is not known to have an inverse, until w² is known to be k − k².
+    /// assert!(known.invert(&read("k^2 + w^2")).is_err());
+    /// known.declare_square(symbol("w"), read("k - k^2").as_fraction().unwrap());
+    /// assert_eq!(known.invert(&read("k^2 + w^2")), Ok(read("1/k")));
+    /// assert_eq!(known.reduced(&read("w^3")), read("(k - k^2)*w"));
+    /// ```
+    pub fn declare_square(&mut self, symbol: Symbol, square: Fraction) {
+        self.squares.insert(symbol, square);
+    }
+
+    /// The value with known squares put in, so that no symbol with one has a power above the first
+    /// in a numerator.
+    pub fn reduced(&self, value: &Expression) -> Expression {
+        let mut reduced = Expression::zero();
+        for (exponent, coefficient) in value.terms() {
+            let below = coefficient.with_numerator(Polynomial::one());
+            let above = self.reduced_polynomial(coefficient.numerator());
+            reduced.add_term(exponent.clone(), &above * &below);
+        }
+        reduced
+    }
+
+    fn reduced_polynomial(&self, p: &Polynomial) -> Fraction {
+        let mut value = Fraction::from(p.clone());
+        for (symbol, square) in self.squares.iter().rev() {
+            if value.numerator().degree(symbol) < 2 {
+                continue;
+            }
+            let below = value.with_numerator(Polynomial::one());
+            let powers = value.numerator().coefficients(symbol).into_iter();
+            let above = powers.fold(Fraction::zero(), |sum, (power, coefficient)| {
+                let odd = Polynomial::symbol(symbol).pow(power % 2);
+                &sum + &(&square.pow(power / 2) * &(&coefficient * &odd).into())
+            });
+            value = &above * &below;
+        }
+        value
+    }
+
     /// The declared symbols with their conditions, ascending by name.
     pub fn symbols(&self) -> impl Iterator<Item = (&Symbol, Option<&Condition>)> + '_ {
         self.conditions.iter().map(|(symbol, condition)| (symbol, condition.as_ref()))
@@ -213,9 +267,42 @@ impl Assumptions {
         if terms.next().is_some() {
             return Err(NotInvertible::SumOfExponentials);
         }
-        let inverse = self.invert_polynomial(coefficient.numerator())?;
+        let inverse = self.invert_polynomial(coefficient.numerator());
+        let inverse = inverse.or_else(|refused| {
+            let conjugated = self.invert_by_squares(coefficient.numerator());
+            conjugated.ok_or(refused)
+        })?;
         let inverse = &Fraction::from(coefficient.denominator()) * &inverse;
         Ok(Expression::from(inverse).times_exponential(&-exponent))
+    }
+
+    /// The inverse by known squares: that of `a + b w` is `(a − b w)/(a² − b² w²)`.
+    fn invert_by_squares(&self, p: &Polynomial) -> Option<Fraction> {
+        if self.squares.is_empty() {
+            return None;
+        }
+        let reduced = self.reduced_polynomial(p);
+        let mut inverse = Fraction::from(reduced.denominator());
+        let mut rest = reduced.numerator().clone();
+        for symbol in self.squares.keys().rev() {
+            if let Ok(found) = self.invert_polynomial(&rest) {
+                return Some(&inverse * &found);
+            }
+            let conjugate = rest.substitute(symbol, &-&Polynomial::symbol(symbol));
+            if rest.degree(symbol) == 0 {
+                continue;
+            }
+            let norm = self.reduced_polynomial(&(&rest * &conjugate));
+            inverse = &(&inverse * &conjugate.into()) * &norm.denominator().into();
+            rest = norm.numerator().clone();
+        }
+        if rest.roots().next().is_some() {
+            let (multiplier, norm) = rest.norm();
+            let norm = self.reduced_polynomial(&norm);
+            inverse = &(&inverse * &multiplier.into()) * &norm.denominator().into();
+            rest = norm.numerator().clone();
+        }
+        Some(&inverse * &self.invert_norm(&rest).ok()?)
     }
 
     fn invert_polynomial(&self, p: &Polynomial) -> Result<Fraction, NotInvertible> {

@@ -27,6 +27,8 @@ pub(crate) struct Uncoupled {
     pub steps: Vec<(WaveIndex, LinearForm)>,
     /// How many waves were added.
     pub hidden: usize,
+    /// The rates at which the waves decay together.
+    pub rates: Vec<Fraction>,
 }
 
 type Matrix = Vec<Vec<Fraction>>;
@@ -43,6 +45,7 @@ pub(crate) fn uncouple(
     let mut matrix = rates(&forms, &waves).ok_or(Stuck::Degenerate)?;
     let (polynomial, _) = characteristic(&matrix);
     let mut roots = roots::of(&polynomial, naming).ok_or(Stuck::Roots(polynomial))?;
+    let rates_found = roots.clone();
     let (mut steps, mut algebraic) = (Vec::new(), Vec::new());
     let mut added = 0;
     while waves.len() > 1 {
@@ -85,7 +88,7 @@ pub(crate) fn uncouple(
     equation.add_scaled(&LinearForm::wave(wave, 0), &rate.into(), 0);
     steps.push((wave, equation));
     steps.extend(algebraic.into_iter().rev());
-    Ok(Uncoupled { steps, hidden: added })
+    Ok(Uncoupled { steps, hidden: added, rates: rates_found })
 }
 
 /// Turns the forms into `x_i' + … = 0`, one slope each.

@@ -17,7 +17,7 @@ mod statement;
 
 pub use form::{LinearForm, Operator};
 pub use notation::{SourceNotation, SourceProduct};
-pub use ordering::{Start, Step};
+pub use ordering::{Coupled, Start, Step};
 pub use recurrence::Recurrence;
 pub use statement::{
     Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Part, Statement,

@@ -46,7 +46,8 @@ impl Naming {
             }
             Ordering::Equal => return Some(Fraction::zero()),
         };
-        let root = self.name("omega", Root::of(size).into(), Relation::Greater);
+        let root = self.name("omega", Root::of(size.clone()).into(), Relation::Greater);
+        self.assumptions.declare_square(root.clone(), size);
         Some(&Fraction::symbol(&root) * &factor)
     }
 

@@ -93,6 +93,37 @@ pub(crate) struct Ordered {
     pub hidden: usize,
     /// The constants of the statement, and those that were named.
     pub naming: Naming,
+    pub coupled: Vec<Coupled>,
+}
+
+/// Waves whose differential equations are coupled, and the rates `a` at which they decay together:
+/// they are sums of `e^{−at}` where nothing else arrives.
+///
+/// ```
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let source = Source::new("cushion.wave", r#"
+///     recurrence "A mass, a spring of stiffness 1 and an endless bar"
+///     period 1, local s, time t
+///     wave a, v
+///     equation a[n]' = v[n] - a[n]
+///     equation v[n]' = -2/9*a[n]
+///     continuous a[n] starts at 0
+///     continuous v[n] starts at 1
+/// "#)?;
+/// let recurrence = read_recurrence(&source, &Default::default())?;
+/// let [coupled] = recurrence.coupled() else { panic!("one system") };
+/// // λ² − λ + 2/9 = 0
+/// let rates: Vec<String> = coupled.rates.iter().map(ToString::to_string).collect();
+/// assert_eq!((coupled.waves.len(), &rates[..]), (2, &["2/3".to_owned(), "1/3".to_owned()][..]));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Coupled {
+    /// The waves.
+    pub waves: Vec<WaveIndex>,
+    /// The rates, with their multiplicities.
+    pub rates: Vec<Fraction>,
 }
 
 /// The steps of a statement, in solving order.
@@ -122,8 +153,10 @@ pub(crate) fn order(statement: &Statement) -> Outcome<Ordered> {
         })
         .collect::<Outcome<_>>()?;
     let mut naming = Naming::new(statement);
-    let (steps, hidden) = order_equations(statement, &mut rows, &mut naming)?;
-    Ok(Ordered { steps: assign_starts(statement, steps, &mut rules)?, hidden, naming })
+    let mut coupled = Vec::new();
+    let (steps, hidden) = order_equations(statement, &mut rows, &mut naming, &mut coupled)?;
+    let steps = assign_starts(statement, steps, &mut rules)?;
+    Ok(Ordered { steps, hidden, naming, coupled })
 }
 
 /// Takes a row that has one unknown on the current period, while there is one; else eliminates an
@@ -132,6 +165,7 @@ fn order_equations(
     statement: &Statement,
     rows: &mut Vec<Row>,
     naming: &mut Naming,
+    coupled: &mut Vec<Coupled>,
 ) -> Outcome<(Vec<Step>, usize)> {
     let mut unknown: BTreeSet<WaveIndex> = (0..statement.waves.len()).collect();
     let mut eliminated = BTreeSet::new();
@@ -168,6 +202,7 @@ fn order_equations(
             let next_hidden = statement.waves.len() + hidden;
             let found = uncouple_some(statement, rows, &open, next_hidden, naming)?;
             hidden += found.hidden;
+            coupled.push(found.coupled);
             for (wave, equation) in found.steps {
                 unknown.remove(&wave);
                 steps.push((Step { wave, equation, start: None }, found.part));
@@ -196,6 +231,7 @@ struct Found {
     steps: Vec<(WaveIndex, LinearForm)>,
     hidden: usize,
     part: Part,
+    coupled: Coupled,
 }
 
 /// Takes the fewest rows with derivatives that have as many unknowns as they are, and uncouples them.
@@ -217,7 +253,7 @@ fn uncouple_some(
     let forms = chosen.iter().map(|i| rows[*i].form.clone()).collect();
     let unknowns = waves.iter().copied().collect();
     let uncoupled = uncouple(forms, unknowns, hidden, naming);
-    let Uncoupled { steps, hidden } = uncoupled.map_err(|stuck| {
+    let Uncoupled { steps, hidden, rates } = uncoupled.map_err(|stuck| {
         let names = || waves.iter().map(|wave| statement.waves[*wave].clone()).collect();
         let fault = match stuck {
             Stuck::Degenerate => coupled(&waves),
@@ -228,7 +264,8 @@ fn uncouple_some(
     for i in chosen.into_iter().rev() {
         rows.remove(i);
     }
-    Ok(Found { steps, hidden, part })
+    let coupled = Coupled { waves: waves.into_iter().collect(), rates };
+    Ok(Found { steps, hidden, part, coupled })
 }
 
 /// The smallest set of rows with as many unknowns as rows, ascending, and these unknowns. Starting

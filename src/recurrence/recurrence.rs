@@ -3,7 +3,7 @@
 use crate::expression::{Constant, Expression, Fraction};
 use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
-use crate::recurrence::ordering::{self, Ordered, Step};
+use crate::recurrence::ordering::{self, Coupled, Ordered, Step};
 use crate::recurrence::statement::{
     Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Part, Statement,
 };
@@ -38,6 +38,7 @@ pub struct Recurrence {
     statement: Statement,
     steps: Vec<Step>,
     hidden: usize,
+    coupled: Vec<Coupled>,
 }
 
 impl Recurrence {
@@ -60,9 +61,9 @@ impl Recurrence {
             let fault = Fault::DegreeTooHigh;
             return Err(InvalidRecurrence { part: Part::Equation(0), fault });
         }
-        let Ordered { steps, hidden, naming } = ordering::order(&statement)?;
+        let Ordered { steps, hidden, naming, coupled } = ordering::order(&statement)?;
         (statement.constants, statement.assumptions) = naming.into_parts();
-        Ok(Recurrence { statement, steps, hidden })
+        Ok(Recurrence { statement, steps, hidden, coupled })
     }
 
     /// What was stated.
@@ -73,6 +74,11 @@ impl Recurrence {
     /// The steps, in solving order.
     pub fn steps(&self) -> &[Step] {
         &self.steps
+    }
+
+    /// The systems of waves whose differential equations are coupled.
+    pub fn coupled(&self) -> &[Coupled] {
+        &self.coupled
     }
 
     /// The number of waves, those that were added to uncouple equations included.

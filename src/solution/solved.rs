@@ -2,6 +2,7 @@
 
 use crate::expression::{EchoSum, Expression, NotAUnit, Transform};
 use crate::recurrence::{Recurrence, WaveIndex};
+use crate::solution::demand::Demand;
 use crate::solution::echo::EchoByEcho;
 use crate::solution::error::{SolveError, check_degree};
 use crate::solution::general::{GeneralForm, Unknown};
@@ -82,11 +83,14 @@ impl Solution {
             let echoes = template.echoes(through, &statement.local);
             return Ok(EchoSum::new(statement.period.clone(), statement.local.clone(), echoes));
         }
-        Ok(self.expanded(through)?.sum(wave))
+        Ok(self.expanded(wave, through)?.sum(wave))
     }
 
-    fn expanded(&self, through: usize) -> Result<EchoByEcho<'_>, SolveError> {
-        let mut solver = EchoByEcho::new(&self.recurrence);
+    /// The echoes of a wave, and of those that it needs.
+    fn expanded(&self, wave: WaveIndex, through: usize) -> Result<EchoByEcho<'_>, SolveError> {
+        let mut demand = Demand::none(&self.recurrence);
+        (0..=through).for_each(|k| demand.add(&self.recurrence, wave, k));
+        let mut solver = EchoByEcho::new(&self.recurrence).wanting(demand);
         for _ in 0..=through {
             solver.advance()?;
         }
@@ -176,7 +180,7 @@ impl Solution {
     /// ```
     pub fn table(&self, wave: WaveIndex, through: usize) -> Result<Option<EchoTable>, SolveError> {
         let Some(template) = self.template(wave) else {
-            let solver = self.expanded(through)?;
+            let solver = self.expanded(wave, through)?;
             let rows: Option<_> = solver.transforms(wave).iter().map(row_of).collect();
             return Ok(rows.map(EchoTable::new));
         };
