@@ -2,6 +2,7 @@
 //! with what is locked.
 
 use super::arguments::Check;
+use super::derive_scene::remedy_of_rates;
 use super::failure::Failure;
 use super::input;
 use super::lock;
@@ -10,7 +11,7 @@ use wavestep::enclosure::{Numbers, enclose_expression};
 use wavestep::export;
 use wavestep::expression::Fraction;
 use wavestep::recurrence::{Coupled, Recurrence};
-use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
+use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution, SolveError};
 use wavestep_polynomial::Symbol;
 
 /// The periods for which both derivations are compared.
@@ -29,9 +30,13 @@ pub fn run(options: &Check) -> Result<String, Failure> {
     let statement = recurrence.statement();
     let mut by_period = PeriodByPeriod::new(&recurrence);
     let mut by_echo = EchoByEcho::new(&recurrence);
+    let told = |error: SolveError| match remedy_of_rates(&recurrence) {
+        Some(remedy) => Failure::from(error).with_remedy(&remedy),
+        None => Failure::from(error),
+    };
     for n in 0..=PERIODS {
-        by_period.advance()?;
-        by_echo.advance()?;
+        by_period.advance().map_err(told)?;
+        by_echo.advance().map_err(told)?;
         for (wave, name) in statement.waves.iter().enumerate() {
             let piece = by_echo.sum(wave).piece(n).ok();
             let other = &by_period.waves()[wave].pieces()[n];

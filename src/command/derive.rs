@@ -11,7 +11,9 @@ use wavestep::export::{self, Formula, Head, SourceForm};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language;
 use wavestep::recurrence::{Observable, Recurrence, WaveIndex};
-use wavestep::solution::{GeneralForm, ObserveError, ObservedPieces, Solution, Unknown};
+use wavestep::solution::{
+    GeneralForm, ObserveError, ObservedPieces, ObservedStretch, Solution, Unknown,
+};
 
 /// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
@@ -48,6 +50,12 @@ pub fn of_recurrence(recurrence: Recurrence, options: &Derive) -> Result<String,
     if options.source_form {
         let formulas = source_form(&solution, &waves, options)?;
         return Ok(formulas_as(&formulas, options));
+    }
+    if let Some(observable) = &observable
+        && options.form != Form::Echo
+        && solution.offset(&observable.observation).is_none()
+    {
+        return between_arrivals(&solution, observable, options);
     }
     let functions = match observable {
         Some(observable) => vec![observed(&solution, &observable, options)?],
@@ -147,6 +155,52 @@ fn observed(
             "evaluate it with `wavestep eval`, or derive its waves".to_owned(),
         )),
     }
+}
+
+/// An observable whose waves arrive apart, from arrival to arrival.
+fn between_arrivals(
+    solution: &Solution,
+    observable: &Observable,
+    options: &Derive,
+) -> Result<String, Failure> {
+    let (first, last) = options.orders();
+    let Observable { name, observation } = observable;
+    let stretches = solution.observed_between_arrivals(observation, first, last);
+    let stretches = stretches.map_err(|error| match error {
+        ObserveError::Solve(error) => Failure::from(error),
+        ObserveError::MixedOffsets => Failure::Computation(
+            format!("the waves in {name} arrive apart, in an order that is not known"),
+            "give values with --set, or evaluate it with `wavestep eval`".to_owned(),
+        ),
+    })?;
+    let statement = solution.recurrence().statement();
+    let local = &statement.local;
+    if options.format == DeriveFormat::Json {
+        let stretch = |stretch: &ObservedStretch| {
+            json!({
+                "from": export::fraction_json(&stretch.from),
+                "to": export::fraction_json(&stretch.to),
+                "terms": export::expression_json(&stretch.value),
+            })
+        };
+        let mut document = header(solution.recurrence());
+        document["form"] = json!("arrivals");
+        document["observable"] = json!(name);
+        document["functions"] = stretches.iter().map(stretch).collect();
+        return Ok(format!("{document}\n"));
+    }
+    let formula = |(i, stretch): (usize, &ObservedStretch)| {
+        let head = Head::Piece { wave: name.clone(), n: i, local: local.clone() };
+        let formula = Formula::new(head, &stretch.value, local);
+        formula.between(&stretch.from, &stretch.to, statement)
+    };
+    let formulas: Vec<Formula> = stretches.iter().enumerate().map(formula).collect();
+    Ok(match (options.format, options.form) {
+        (DeriveFormat::Latex, Form::Piecewise) => {
+            export::latex_cases(name, &statement.time, &formulas, options.width())
+        }
+        _ => formulas_as(&formulas, options),
+    })
 }
 
 /// Refuses what the source's form cannot say.

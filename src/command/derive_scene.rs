@@ -68,7 +68,7 @@ fn refuse_energy(network: &Network, name: &str) -> Result<(), Failure> {
 
 /// What to do where rates are named constants that the derivation cannot go on with.
 pub fn remedy_of_rates(recurrence: &Recurrence) -> Option<String> {
-    let named = |rate: &Fraction| rate.as_constant().is_none();
+    let named = |rate: &Fraction| recurrence.constants().iter().any(|c| rate.contains(&c.symbol));
     let system = recurrence.coupled().iter().find(|system| system.rates.iter().any(named))?;
     let names: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
     let rates = check::rates(recurrence, system).join(", ");

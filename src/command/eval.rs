@@ -56,7 +56,7 @@ fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, Failu
             let offset = offset.as_constant().expect("every symbol has a value");
             vec![offset + time_on_period(n, local, evaluator.period(), side)?]
         }
-        _ => times(options)?,
+        _ => times(options, false)?,
     };
     let progress = progress::counted(times.len());
     let mut rows = Vec::with_capacity(times.len());
@@ -110,9 +110,10 @@ pub fn time_on_period(
 }
 
 /// The scene times asked for.
-pub fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
+pub fn times(options: &Eval, dimensional: bool) -> Result<Vec<BigRational>, Failure> {
     if let (Some(from), Some(to), Some(points)) = (&options.from, &options.to, options.points) {
-        let (from, to) = (input::time("--from", from)?, input::number("--to", to)?);
+        let (from, to) =
+            (input::time("--from", from, dimensional)?, input::time("--to", to, dimensional)?);
         if to < from {
             let message = format!("the window from {from} to {to} is empty");
             return Err(Failure::usage(message, "give --from before --to"));
@@ -129,7 +130,7 @@ pub fn times(options: &Eval) -> Result<Vec<BigRational>, Failure> {
         let remedy = "give --at T, or --from T --to T --points N, or --piece N --local S";
         return Err(Failure::usage("no time is given", remedy));
     }
-    options.at.iter().map(|time| input::time("--at", time)).collect()
+    options.at.iter().map(|time| input::time("--at", time, dimensional)).collect()
 }
 
 /// Lines of text, with the units of time and value.

@@ -4,6 +4,7 @@ use wavestep::evaluate::EvaluateError;
 use wavestep::expression::NotInvertible;
 use wavestep::language::{Diagnostic, Style};
 use wavestep::network::NetworkError;
+use wavestep::recurrence::Fault;
 use wavestep::solution::{SolveError, Unsolvable};
 
 /// Exit code: could not compute, or not as locked.
@@ -102,6 +103,17 @@ impl From<SolveError> for Failure {
 
 impl From<NetworkError> for Failure {
     fn from(error: NetworkError) -> Failure {
+        if let NetworkError::Recurrence(invalid) = &error
+            && let Fault::Rates { waves, .. } = &invalid.fault
+        {
+            let waves = waves.join(" and ");
+            return Failure::Computation(
+                format!("the rates at which {waves} decay together are not known exactly"),
+                "give values with --set; or state the elements by their rates a and b, such that \
+                 the discriminant is the square (a - b)^2"
+                    .to_owned(),
+            );
+        }
         let remedy = match &error {
             NetworkError::Incommensurate => {
                 "ask for echoes in order of their arrival, with --form echo, or for values"

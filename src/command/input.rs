@@ -10,6 +10,7 @@ use wavestep::evaluate::MAX_DIGITS;
 use wavestep::language::{self, MAX_SOURCE_BYTES, Source};
 use wavestep::network::Network;
 use wavestep::recurrence::Recurrence;
+use wavestep::scene::Dimension;
 use wavestep::scenes;
 
 /// What a text states: equations between periods, or a line of bars and what they are joined by.
@@ -119,9 +120,12 @@ pub fn values(settings: &[String]) -> Result<BTreeMap<String, BigRational>, Fail
     Ok(values)
 }
 
-/// Reads a scene time given as this argument.
-pub fn time(argument: &str, text: &str) -> Result<BigRational, Failure> {
-    let time = number(argument, text)?;
+/// Reads a scene time given as this argument; in seconds for scenes with units.
+pub fn time(argument: &str, text: &str, dimensional: bool) -> Result<BigRational, Failure> {
+    let time = match dimensional {
+        true => language::read_quantity(&Source::new(argument, text)?, Dimension::TIME)?,
+        false => number(argument, text)?,
+    };
     if time.is_negative() {
         let message = format!("the time {time} lies before the start");
         return Err(Failure::usage(message, "give times from 0 on"));

@@ -17,7 +17,15 @@ use wavestep::solution::Solution;
 /// Locks a scene.
 pub fn run(options: &Options) -> Result<String, Failure> {
     let recurrence = input::recurrence(&options.scene)?;
-    let times = options.at.iter().map(|time| input::time("--at", time));
+    if let Some(constant) = recurrence.constants().first().filter(|_| !options.at.is_empty()) {
+        let message =
+            format!("values are not locked in scenes with constants such as {}", constant.symbol);
+        return Err(Failure::usage(
+            message,
+            "leave out --at: pieces are locked with their symbols",
+        ));
+    }
+    let times = options.at.iter().map(|time| input::time("--at", time, false));
     let request = Request {
         through: options.through,
         times: times.collect::<Result<_, _>>()?,

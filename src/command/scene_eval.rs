@@ -22,7 +22,7 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
     };
     let times = match (options.piece, &options.local) {
         (Some(n), Some(local)) => vec![time_on_piece(network, &observed, n, local, side)?],
-        _ => times(options)?,
+        _ => times(options, network.scene().dimensional)?,
     };
     let scaled: Vec<Fraction> = times.iter().map(|time| network.scaled_time(time)).collect();
     let last = times.iter().zip(&scaled).max().map(|(_, scaled)| scaled.clone());

@@ -98,6 +98,15 @@ pub enum Head {
     Written(String, String),
 }
 
+/// `t - start`, with brackets around a sum.
+fn since(t: &str, start: &str) -> String {
+    match start {
+        "0" => t.to_owned(),
+        sum if sum.contains(['+', '-']) => format!("{t} - ({sum})"),
+        start => format!("{t} - {start}"),
+    }
+}
+
 /// Counts as an index: `2,1`.
 fn listed(counts: &[usize]) -> String {
     counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
@@ -209,20 +218,20 @@ impl Formula {
 
     /// The formula with the interval on which a piece holds as its remark: with periods that
     /// begin at `o`, `o + nD <= t < o + (n+1)D, s = t - (o + nD)`.
-    pub fn on_period(mut self, n: usize, offset: &Fraction, statement: &Statement) -> Formula {
-        let Statement { period, local, time, .. } = statement;
+    pub fn on_period(self, n: usize, offset: &Fraction, statement: &Statement) -> Formula {
+        let bound = |n: usize| offset + &statement.period.scale(&Rational::from_integer(n.into()));
+        self.between(&bound(n), &bound(n + 1), statement)
+    }
+
+    /// The formula with the interval on which it holds as its remark: `from <= t < to, s = t - from`.
+    pub fn between(mut self, from: &Fraction, to: &Fraction, statement: &Statement) -> Formula {
+        let Statement { local, time, .. } = statement;
         let written = |notation: &dyn Notation, at_most: &str| {
-            let bound = |n: usize| {
-                let bound = offset + &period.scale(&Rational::from_integer(n.into()));
-                write_flat(&arrange(&bound.into(), None), notation)
-            };
-            let (t, s, start) = (notation.symbol(time), notation.symbol(local), bound(n));
-            let shift = match &start[..] {
-                "0" => t.clone(),
-                sum if sum.contains(['+', '-']) => format!("{t} - ({sum})"),
-                start => format!("{t} - {start}"),
-            };
-            (format!("{start} {at_most} {t} < {}", bound(n + 1)), format!("{s} = {shift}"))
+            let bound =
+                |bound: &Fraction| write_flat(&arrange(&bound.clone().into(), None), notation);
+            let (t, s, start) = (notation.symbol(time), notation.symbol(local), bound(from));
+            let interval = format!("{start} {at_most} {t} < {}", bound(to));
+            (interval, format!("{s} = {}", since(&t, &start)))
         };
         let (interval, local) = written(&Text, "<=");
         let text = format!("{interval}, {local}");
@@ -250,12 +259,7 @@ impl Formula {
         let told = |notation: &dyn Notation, from: &str| {
             let delay = write_flat(&arrange(&delay.clone().into(), None), notation);
             let (t, s) = (notation.symbol(time), notation.symbol(local));
-            let shift = match &delay[..] {
-                "0" => t.clone(),
-                sum if sum.contains(['+', '-']) => format!("{t} - ({sum})"),
-                delay => format!("{t} - {delay}"),
-            };
-            (format!("{t} {from} {delay}"), format!("{s} = {shift}"))
+            (format!("{t} {from} {delay}"), format!("{s} = {}", since(&t, &delay)))
         };
         let ((text, shift), (latex, latex_shift)) = (told(&Text, ">="), told(&Latex, "\\ge"));
         let remark = Some((format!("{text}, {shift}"), format!("{latex},\\ {latex_shift}")));

@@ -169,6 +169,47 @@ pub fn read_number(source: &Source) -> Result<BigRational, Diagnostic> {
     constant::constant(&parser::number(source)?, source)
 }
 
+/// Reads a number with a unit of the dimension that is needed, in SI units: `120 us` is
+/// `3/25000`. A number without a unit is taken to be in SI units.
+///
+/// # Errors
+/// As [`read_number`]; also unknown units, and units of another dimension.
+///
+/// ```
+/// use wavestep::language::{Source, parse_number, read_quantity};
+/// use wavestep::scene::Dimension;
+///
+/// let read = |text| read_quantity(&Source::new("--at", text)?, Dimension::TIME);
+/// assert_eq!(read("120 us")?, parse_number("120e-6")?);
+/// assert_eq!(read("1/3")?, parse_number("1/3")?);
+/// assert!(read("3 mm").unwrap_err().message().contains("a length"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn read_quantity(
+    source: &Source,
+    needed: physics::Dimension,
+) -> Result<BigRational, Diagnostic> {
+    let (tree, unit) = parser::quantity(source)?;
+    let number = constant::constant(&tree, source)?;
+    let Some(unit) = unit else { return Ok(number) };
+    let scope = scope::Scope::new(source);
+    let scene::units::Worth { value, dimension } = scene::units::worth(&scope, &unit)?;
+    match dimension == needed {
+        true => Ok(number * value),
+        false => Err(scope
+            .error(
+                format!(
+                    "{} is needed; this is {}",
+                    scene::units::described(needed),
+                    scene::units::described(dimension)
+                ),
+                unit.span,
+                "another dimension",
+            )
+            .with_remedy(format!("give it in {}", unit_of(needed)))),
+    }
+}
+
 /// The name as it is kept: Greek letters spelt out, `μ` as `mu`.
 ///
 /// ```

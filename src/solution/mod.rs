@@ -23,7 +23,7 @@ pub use echo::EchoByEcho;
 pub use error::{SolveError, Unsolvable};
 pub use general::{GeneralForm, Proof, Unknown};
 pub use geometric::{Geometric, GeometricTerm};
-pub use observed::{ObserveError, ObservedPieces};
+pub use observed::{ObserveError, ObservedPieces, ObservedStretch};
 pub use period::{KeptEnds, PeriodByPeriod};
 pub use solved::Solution;
 pub use table::{EchoRow, EchoTable, ExpandedTerm, OrdinaryTable, OrdinaryTerm};

@@ -1,10 +1,11 @@
 //! Observables as pieces: what is seen of waves that arrive together.
 
 use crate::expression::{Expression, Fraction};
-use crate::recurrence::Observation;
+use crate::recurrence::{Observation, WaveIndex};
 use crate::solution::error::SolveError;
 use crate::solution::solved::Solution;
 use num_traits::ToPrimitive;
+use std::collections::BTreeMap;
 use std::fmt;
 use wavestep_polynomial::Rational;
 
@@ -38,6 +39,26 @@ pub struct ObservedPieces {
     pub offset: Fraction,
     /// The pieces asked for, in the local variable.
     pub pieces: Vec<Expression>,
+}
+
+/// An observable between two of its arrivals: `q(from + s) = value(s)`, `0 ≤ s < to − from`.
+///
+/// ```
+/// use wavestep::expression::{Expression, Fraction};
+/// use wavestep::solution::ObservedStretch;
+///
+/// let (from, to) = (Fraction::zero(), Fraction::one());
+/// let at_rest = ObservedStretch { from, to, value: Expression::zero() };
+/// assert!(at_rest.value.is_zero());
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ObservedStretch {
+    /// When it begins.
+    pub from: Fraction,
+    /// When it ends.
+    pub to: Fraction,
+    /// The observable, in the local variable.
+    pub value: Expression,
 }
 
 /// Why an observable has no pieces.
@@ -114,6 +135,93 @@ impl Solution {
         let delays: Vec<&Fraction> = observation.waves.iter().map(|term| &term.delay).collect();
         let common = common_offset(&delays, &self.recurrence().statement().period);
         common.filter(|(offset, _)| observation.forcing.is_zero() || offset.is_zero())
+    }
+
+    /// An observable whose waves arrive apart, between its arrivals on the periods `first … last` of
+    /// the waves.
+    ///
+    /// # Errors
+    /// [`ObserveError`] where the order of arrivals is not known, because delays and period are not in
+    /// rational proportions, or a piece cannot be given exactly.
+    ///
+    /// # Cost
+    /// That of the pieces of the waves, and a shift of them for each term and arrival.
+    ///
+    /// ```
+    /// use wavestep::language::{Source, read_expression, read_recurrence};
+    /// use wavestep::solution::Solution;
+    ///
+    /// let scene = wavestep::scenes::find("constant-force").unwrap().text;
+    /// let source = Source::new("middle", format!("{scene}observe middle = f(t - 1/2) + f(t - 3/2)"))?;
+    /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
+    /// let middle = solution.recurrence().observation("middle").unwrap();
+    /// let stretches = solution.observed_between_arrivals(&middle, 0, 0).unwrap();
+    /// let told: Vec<_> = stretches.iter().map(|s| (s.from.to_string(), s.value.as_constant())).collect();
+    /// let number = |value: i64| Some(wavestep_polynomial::Rational::from_integer(value.into()));
+    /// assert_eq!(told, [("1/2".to_owned(), number(1)), ("3/2".to_owned(), number(2))]);
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn observed_between_arrivals(
+        &self,
+        observation: &Observation,
+        first: usize,
+        last: usize,
+    ) -> Result<Vec<ObservedStretch>, ObserveError> {
+        let statement = self.recurrence().statement();
+        let period = &statement.period;
+        let share = |delay: &Fraction| -> Result<Rational, ObserveError> {
+            match delay.is_zero() {
+                true => Ok(Rational::default()),
+                false => Expression::from(delay.clone())
+                    .proportion(&period.clone().into())
+                    .ok_or(ObserveError::MixedOffsets),
+            }
+        };
+        let shares = observation.waves.iter().map(|seen| share(&seen.delay));
+        let shares: Vec<Rational> = shares.collect::<Result<_, _>>()?;
+        let mut offsets: Vec<Rational> = shares.iter().map(|share| share - share.floor()).collect();
+        if !observation.forcing.is_zero() {
+            offsets.push(Rational::default());
+        }
+        offsets.sort();
+        offsets.dedup();
+        let whole = |value: &Rational| value.floor().to_integer().to_i64();
+        let mut known = BTreeMap::<(WaveIndex, usize), Expression>::new();
+        let mut stretches = Vec::new();
+        for n in first..=last {
+            for (j, offset) in offsets.iter().enumerate() {
+                let n_and_offset = Rational::from_integer(n.into()) + offset;
+                let next = match offsets.get(j + 1) {
+                    Some(next) => Rational::from_integer(n.into()) + next,
+                    None => Rational::from_integer((n + 1).into()) + &offsets[0],
+                };
+                let from = period.scale(&n_and_offset);
+                let mut value = Expression::zero();
+                for (seen, share) in observation.waves.iter().zip(&shares) {
+                    let since = &n_and_offset - share;
+                    let order = whole(&since).and_then(|order| usize::try_from(order).ok());
+                    let Some(order) = order else { continue };
+                    let later = period.scale(&(&since - since.floor()));
+                    let piece = match known.get(&(seen.wave, order)) {
+                        Some(piece) => piece.clone(),
+                        None => {
+                            let piece = self.pieces(seen.wave, order, order)?.remove(0);
+                            known.insert((seen.wave, order), piece.clone());
+                            piece
+                        }
+                    };
+                    let piece = if seen.slope { piece.derivative(&statement.local) } else { piece };
+                    let moved = piece.shift(&statement.local, &later);
+                    let moved = moved.map_err(|_| ObserveError::MixedOffsets)?;
+                    value.add_scaled(&moved, &seen.coefficient);
+                }
+                let time = &Fraction::symbol(&statement.local) + &from;
+                let forcing = observation.forcing.substitute(&statement.time, &time);
+                value += &forcing.expect("forcing has no time in denominators");
+                stretches.push(ObservedStretch { from, to: period.scale(&next), value });
+            }
+        }
+        Ok(stretches)
     }
 
     /// The pieces `first … last` of an observable.

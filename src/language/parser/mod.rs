@@ -18,7 +18,7 @@ use super::MAX_MISTAKES;
 use super::diagnostic::Diagnostic;
 use super::layout;
 use super::source::Source;
-use super::syntax::{Expression, Listing, Recurrence, Scene, Span, Spanned};
+use super::syntax::{Expression, Listing, Recurrence, Scene, Span, Spanned, Unit};
 
 /// The rest of a text, aware of its place in the whole.
 type Input<'a> = LocatedSpan<&'a str, Context<'a>>;
@@ -194,6 +194,19 @@ pub(super) fn expression(source: &Source) -> Result<Expression, Diagnostic> {
 /// See [`parse_number`](super::parse_number).
 pub(super) fn number(source: &Source) -> Result<Expression, Diagnostic> {
     alone(source, "number")
+}
+
+/// A text that is one number with a unit, or without.
+pub(super) fn quantity(source: &Source) -> Result<(Expression, Option<Unit>), Diagnostic> {
+    let input = whole(source, "quantity");
+    if lexical::skip_blank(input).fragment().is_empty() {
+        return Err(complaint::nothing(source, "quantity"));
+    }
+    let quantity = scene::with_unit(input).and_then(|(rest, value)| {
+        let (rest, ()) = expression::end(rest)?;
+        Ok((rest, value))
+    });
+    finish(source, quantity)
 }
 
 /// A text that is one expression; messages call it `unit`.

@@ -122,7 +122,9 @@ fn property(input: Input<'_>, opener: Span) -> Parsed<'_, Property> {
 }
 
 /// An expression with the unit of the whole, if there is one.
-fn with_unit(mut input: Input<'_>) -> Parsed<'_, (super::super::syntax::Expression, Option<Unit>)> {
+pub(super) fn with_unit(
+    mut input: Input<'_>,
+) -> Parsed<'_, (super::super::syntax::Expression, Option<Unit>)> {
     let outside = input.extra.extent;
     input.extra.extent = Extent::Unit;
     let (mut rest, value) = expression(input)?;

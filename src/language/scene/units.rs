@@ -14,7 +14,7 @@ use crate::scene::Dimension;
 
 /// What a unit is worth in metres, kilograms and seconds, and what it measures.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Worth {
+pub(in crate::language) struct Worth {
     pub value: Rational,
     pub dimension: Dimension,
 }
@@ -77,7 +77,7 @@ fn named(name: &str) -> Option<Worth> {
 ///
 /// # Errors
 /// The first part that is no unit, and powers beyond all bounds.
-pub(super) fn worth(scope: &Scope, unit: &Unit) -> Result<Worth, Diagnostic> {
+pub(in crate::language) fn worth(scope: &Scope, unit: &Unit) -> Result<Worth, Diagnostic> {
     let mut value = Rational::one();
     let mut powers = [0_i32; 3];
     for factor in &unit.value {
@@ -136,7 +136,7 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
 }
 
 /// A dimension as a person would call it, with its unit: `a stiffness, N/m`.
-pub(super) fn described(dimension: Dimension) -> String {
+pub(in crate::language) fn described(dimension: Dimension) -> String {
     match DESCRIBED.iter().find(|(known, _)| *known == dimension) {
         Some((_, text)) => (*text).to_owned(),
         None => format!("a quantity in {}", formula(dimension)),
