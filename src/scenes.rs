@@ -15,23 +15,39 @@ pub struct Scene {
     pub text: &'static str,
 }
 
-/// Every scene, in the order of the source's sections.
+/// Every scene: recurrences in the order of the source's sections, then the same four described by
+/// their parts, then others of bars and what joins them.
 ///
 /// ```
-/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::language::{Kind, Source, kind, read_recurrence, read_scene};
 /// use wavestep::scenes::SCENES;
 ///
 /// assert!(SCENES.map(|scene| scene.name).contains(&"rigid-mass"));
 /// for scene in SCENES {
-///     read_recurrence(&Source::new(scene.name, scene.text)?, &Default::default())?;
+///     let source = Source::new(scene.name, scene.text)?;
+///     match kind(&source) {
+///         Kind::Recurrence => drop(read_recurrence(&source, &Default::default())?),
+///         Kind::Scene => drop(read_scene(&source, &Default::default()).unwrap()),
+///     }
 /// }
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub const SCENES: [Scene; 4] = [
+pub const SCENES: [Scene; 15] = [
     Scene { name: "two-bars", text: include_str!("../scenes/two-bars.wave") },
     Scene { name: "constant-force", text: include_str!("../scenes/constant-force.wave") },
     Scene { name: "pulse-shape", text: include_str!("../scenes/pulse-shape.wave") },
     Scene { name: "rigid-mass", text: include_str!("../scenes/rigid-mass.wave") },
+    Scene { name: "striker-on-long-bar", text: include_str!("../scenes/striker-on-long-bar.wave") },
+    Scene { name: "pushed-bar", text: include_str!("../scenes/pushed-bar.wave") },
+    Scene { name: "cushioned-impact", text: include_str!("../scenes/cushioned-impact.wave") },
+    Scene { name: "mass-on-fixed-bar", text: include_str!("../scenes/mass-on-fixed-bar.wave") },
+    Scene { name: "struck-free-bar", text: include_str!("../scenes/struck-free-bar.wave") },
+    Scene { name: "stepped-striker", text: include_str!("../scenes/stepped-striker.wave") },
+    Scene { name: "mass-between-bars", text: include_str!("../scenes/mass-between-bars.wave") },
+    Scene { name: "hopkinson", text: include_str!("../scenes/hopkinson.wave") },
+    Scene { name: "pile", text: include_str!("../scenes/pile.wave") },
+    Scene { name: "percussive-drill", text: include_str!("../scenes/percussive-drill.wave") },
+    Scene { name: "incommensurate", text: include_str!("../scenes/incommensurate.wave") },
 ];
 
 /// The scene called `name`.

@@ -25,6 +25,8 @@ const COMPARISON_BITS: u64 = 1 << 14;
 /// let numbers = Numbers::new(&constants);
 /// let ball = numbers.enclose(&Fraction::symbol(&r), 60).unwrap();
 /// assert!(ball.to_string().starts_with("1.41421356237309504"));
+/// assert!(numbers.value(&r, 60).is_some());
+/// assert!(numbers.enclose_definition(&constants[0].value, 60).is_ok());
 /// // r < pi/2
 /// let half = Rational::new(1.into(), 2.into());
 /// let quarter_turn = Fraction::symbol(&Symbol::new("pi").unwrap()).scale(&half);
@@ -87,7 +89,7 @@ impl<'a> Numbers<'a> {
     ///
     /// # Errors
     /// As [`Numbers::enclose`]; also where the radicand is not certainly positive.
-    pub fn enclose_root(&self, value: &Root, bits: u64) -> Result<Ball, EnclosureError> {
+    pub(crate) fn enclose_root(&self, value: &Root, bits: u64) -> Result<Ball, EnclosureError> {
         let factor = self.enclose(value.factor(), bits)?;
         if value.radicand().is_one() {
             return Ok(factor);

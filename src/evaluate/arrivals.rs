@@ -45,6 +45,14 @@ pub struct Arrival {
 }
 
 /// Why echoes cannot be listed.
+///
+/// ```
+/// use wavestep::evaluate::ArrivalError;
+/// use wavestep::enclosure::EnclosureError;
+///
+/// let error = ArrivalError::from(EnclosureError::NotReal);
+/// assert!(matches!(error, ArrivalError::Evaluate(_)));
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ArrivalError {
     /// An echo cannot be given exactly.
@@ -80,6 +88,18 @@ impl From<EvaluateError> for ArrivalError {
 ///
 /// # Cost
 /// That of all echoes of so many periods: for `r` periods in the lattice about `through^r/r!` of them.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = wavestep::scenes::find("incommensurate").unwrap().text;
+/// let scene = read_scene(&Source::new("incommensurate", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let echoes = wavestep::evaluate::arrivals(&network, &[0], 4).unwrap();
+/// assert!(echoes.iter().all(|arrival| arrival.counts.iter().sum::<usize>() <= 4));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn arrivals(
     network: &Network,
     waves: &[WaveIndex],

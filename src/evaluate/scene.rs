@@ -21,6 +21,21 @@ use std::rc::Rc;
 use wavestep_polynomial::{Polynomial, Rational};
 
 /// The most echoes of one wave that are worked out.
+///
+/// ```
+/// use wavestep::evaluate::{EvaluateError, MAX_ECHOES, SceneEvaluator};
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = wavestep::scenes::find("pushed-bar").unwrap().text;
+/// let scene = read_scene(&Source::new("pushed-bar", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// // A wave returns every 2.
+/// let late = network.scaled_time(&wavestep::language::parse_number("1e6")?);
+/// let refused = SceneEvaluator::new(&network, &late).err();
+/// assert!(matches!(refused, Some(EvaluateError::TooManyEchoes { limit: MAX_ECHOES, .. })));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub const MAX_ECHOES: usize = 20_000;
 
 /// The largest degree of polynomials that are worked with exactly.
@@ -30,6 +45,35 @@ const MAX_DEGREE: u64 = Polynomial::MAX_EXPONENT as u64;
 pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 
 /// Evaluates observables of a scene, up to a last time.
+///
+/// ```
+/// use wavestep::evaluate::{SceneEvaluator, Side};
+/// use wavestep::language::{Source, parse_number, read_scene};
+/// use wavestep::network::Network;
+///
+/// let source = Source::new("hopkinson.wave", r#"
+///     scene "A steel bar strikes another through a specimen"
+///     material steel { modulus = 210 GPa, density = 7850 kg/m^3 }
+///     bar striker { material = steel, diameter = 20 mm, length = 300 mm, velocity = 10 m/s }
+///     spring specimen { stiffness = 40 kN/mm }
+///     bar output { material = steel, diameter = 20 mm }
+///     line free - striker | specimen - output - endless
+///     observe F = force(specimen)
+///     observe E = energy(line)
+/// "#)?;
+/// let network = Network::new(&read_scene(&source, &Default::default()).unwrap()).unwrap();
+/// let at = network.scaled_time(&parse_number("100e-6")?);
+/// let evaluator = SceneEvaluator::new(&network, &at).unwrap();
+/// let value = |i: usize| {
+///     let observed = &network.observables()[i];
+///     evaluator.value(observed, &at, Side::Right, 9, 1 << 12).unwrap().to_text(9)
+/// };
+/// // In N, and in J: half of 0.74 kg times (10 m/s)², whatever the time.
+/// assert_eq!((value(0).as_str(), value(1).as_str()), ("29714.1576", "36.9922535"));
+/// // Two echoes of each wave can be there: the first, and one from the far end of the striker.
+/// assert!(evaluator.expanded() <= evaluator.needed());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub struct SceneEvaluator<'a> {
     network: &'a Network,
     unfolded: Unfolded,
@@ -101,7 +145,7 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// The numbers of the scene's constants.
-    pub fn numbers(&self) -> Numbers<'_> {
+    pub(crate) fn numbers(&self) -> Numbers<'_> {
         Numbers::new(self.unfolded.recurrence().constants())
     }
 
@@ -113,11 +157,6 @@ impl<'a> SceneEvaluator<'a> {
     /// How many echoes other than zero were worked out last.
     pub fn expanded(&self) -> usize {
         self.expanded.get()
-    }
-
-    /// The scene.
-    pub fn network(&self) -> &Network {
-        self.network
     }
 
     /// The value of an observable in its unit at a time in the scale of the scene, zero before the

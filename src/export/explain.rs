@@ -3,10 +3,10 @@
 use crate::export::arrangement::{Sign, Term, arrange};
 use crate::export::formula::{Formula, Head, Right, latex, text};
 use crate::export::names::{Name, Names};
-use crate::export::notation::Latex;
+use crate::export::notation::{Latex, Text, write_flat};
 use crate::expression::{Constant, Definition, Expression, Fraction, Root};
 use crate::network::{Law, Network, Role, Rule};
-use crate::recurrence::{LinearForm, Recurrence};
+use crate::recurrence::{LinearForm, Recurrence, Statement};
 use crate::scene::ElementIndex;
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
@@ -15,7 +15,8 @@ use wavestep_polynomial::{Rational, Symbol};
 #[derive(Clone, PartialEq, Eq, Debug)]
 enum Part {
     Heading(&'static str),
-    Sentence(String),
+    /// In text, and in LaTeX.
+    Sentence(String, String),
     Equations(Vec<Formula>),
 }
 
@@ -32,7 +33,10 @@ enum Part {
 /// let derivation = Derivation::of(&network, &network.recurrence().unwrap(), &|_| None);
 /// // Equation 6.76: the far end does not move.
 /// assert!(derivation.to_text(100).contains("g[n] = -f[n-1]"));
-/// assert!(derivation.to_latex(84).contains("g_{n} &= - f_{n-1}"));
+/// assert!(derivation.to_latex(84).contains("g_{n} &= -f_{n-1}"));
+/// let mut longer = derivation.clone();
+/// longer.add("The first pieces", Vec::new());
+/// assert!(longer.to_text(100).starts_with(&derivation.to_text(100)));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -68,8 +72,16 @@ impl Derivation {
         self.parts.push(Part::Equations(formulas));
     }
 
-    fn sentence(&mut self, sentence: impl Into<String>) {
-        self.parts.push(Part::Sentence(sentence.into()));
+    fn sentence(&mut self, sentence: impl AsRef<str>) {
+        self.sentence_with(sentence.as_ref(), None);
+    }
+
+    /// A sentence, with a value in place of `{}`.
+    fn sentence_with(&mut self, sentence: &str, value: Option<&Fraction>) {
+        let terms = value.map(|value| arrange(&value.clone().into(), None)).unwrap_or_default();
+        let text = sentence.replace("{}", &write_flat(&terms, &Text));
+        let latex = prose(sentence).replace("{}", &format!("${}$", write_flat(&terms, &Latex)));
+        self.parts.push(Part::Sentence(text, latex));
     }
 
     /// In which units the scene is written, and the constants that got names.
@@ -132,20 +144,14 @@ impl Derivation {
             let mut force = sum(&[data.force.clone().into(), &f * &impedance]);
             force.extend(negated(&(&g * &impedance)));
             let name = &scene.elements[*element].name;
-            let travel = match &data.travel {
-                None => "goes on for ever, and nothing returns from there".to_owned(),
-                Some(travel) => {
-                    let travel = Formula::new(
-                        Head::Written("tau".to_owned(), String::new()),
-                        &travel.clone().into(),
-                        &scene.time,
-                    );
-                    format!("is passed in {}", travel.to_line().replace("tau = ", ""))
-                }
+            let way = match &data.travel {
+                None => "goes on for ever, and nothing returns from there",
+                Some(_) => "is passed in {}",
             };
-            self.sentence(format!(
-                "The bar `{name}` {travel}. Its velocity v and compressive force X are",
-            ));
+            self.sentence_with(
+                &format!("The bar `{name}` {way}. Its velocity v and compressive force X are"),
+                data.travel.as_ref(),
+            );
             let equation = |head: (&str, &str), terms: Vec<Term>| Formula {
                 head: Head::Written(head.0.to_owned(), head.1.to_owned()),
                 right: Right::Terms(terms),
@@ -174,11 +180,11 @@ impl Derivation {
     /// The laws at the nodes.
     fn laws(&mut self, network: &Network, writer: &Writer<'_>) {
         self.parts.push(Part::Heading("Laws at ends and joints"));
-        let period = writer.period();
-        self.sentence(format!(
-            "On the n-th period, n D <= t < (n+1) D with D = {period}, each by the clock of its place; \
-             waves are zero for n < 0.",
-        ));
+        self.sentence_with(
+            "A period lasts D = {}. On the n-th, from n D to (n+1) D by the clock of each place, the laws are, \
+             with waves that are zero for n < 0:",
+            Some(&writer.recurrence.statement().period),
+        );
         for law in network.laws() {
             if matches!(law.rule, Rule::Integral(_)) {
                 continue;
@@ -195,12 +201,22 @@ impl Derivation {
         let shown = network.waves().len();
         let mut equations = Vec::new();
         let mut starts = Vec::new();
+        let mut explicit: Vec<(usize, LinearForm)> = Vec::new();
+        let time = &writer.recurrence.statement().time;
         for step in writer.recurrence.steps() {
             let added = step.wave >= writer.recurrence.statement().waves.len();
             if step.wave >= shown && !added {
                 continue;
             }
-            let (mut left, mut right) = (LinearForm::zero(), -&step.equation);
+            // Waves that are given by others are put in.
+            let mut equation = step.equation.clone();
+            for (wave, solved) in explicit.iter().rev() {
+                let mut put_in = equation.clone();
+                if put_in.replace(*wave, solved, time) {
+                    equation = put_in;
+                }
+            }
+            let (mut left, mut right) = (LinearForm::zero(), -&equation);
             let own = match &step.start {
                 None => vec![(LinearForm::wave(step.wave, 0), Expression::one())],
                 Some(start) => vec![
@@ -211,6 +227,9 @@ impl Derivation {
             for (form, factor) in own {
                 left.add_scaled(&form, &factor, 0);
                 right.add_scaled(&form, &factor, 0);
+            }
+            if step.start.is_none() && !right.operators().any(|(wave, _)| wave == step.wave) {
+                explicit.push((step.wave, right.clone()));
             }
             equations.push(writer.equation(&left, &right));
             if let Some(start) = &step.start {
@@ -236,7 +255,7 @@ impl Derivation {
                     let line = "-".repeat(heading.len());
                     out.push_str(&format!("{gap}{heading}\n{line}\n"));
                 }
-                Part::Sentence(sentence) => out.push_str(&format!("{sentence}\n")),
+                Part::Sentence(text, _) => out.push_str(&wrapped(text, width)),
                 Part::Equations(formulas) => {
                     let lines = text(formulas, width.saturating_sub(4));
                     lines.lines().for_each(|line| out.push_str(&format!("    {line}\n")));
@@ -252,7 +271,7 @@ impl Derivation {
         for part in &self.parts {
             match part {
                 Part::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
-                Part::Sentence(sentence) => out.push_str(&format!("{}\n", prose(sentence))),
+                Part::Sentence(_, latex) => out.push_str(&format!("{latex}\n")),
                 Part::Equations(formulas) => out.push_str(&latex(formulas, width)),
             }
         }
@@ -271,7 +290,9 @@ impl<'a> Writer<'a> {
         let stated = statement.equations.iter();
         let lags = forms.chain(stated).flat_map(|form| form.operators());
         let most = lags.map(|(_, operator)| operator.value().len().max(operator.slope().len()));
-        let most = most.max().unwrap_or(0) + 1;
+        let forced = |form: &LinearForm| form.forcing_terms().len();
+        let loads = statement.equations.iter().map(forced).max().unwrap_or(0);
+        let most = most.max().unwrap_or(0).max(loads) + 1;
         for wave in 0..recurrence.wave_count() {
             for lag in 0..=most {
                 for slope in [false, true] {
@@ -288,17 +309,16 @@ impl<'a> Writer<'a> {
                 }
             }
         }
+        for lag in 1..=most {
+            let written = Name {
+                text: format!("[n>={lag}]"),
+                latex: format!("[n \\ge {lag}]"),
+                compound: false,
+                leads: false,
+            };
+            names.insert(from_period(lag), written);
+        }
         Writer { recurrence, names: Arc::new(names) }
-    }
-
-    fn period(&self) -> String {
-        let period = Expression::from(self.recurrence.statement().period.clone());
-        let formula = Formula::new(
-            Head::Written("D".to_owned(), "D".to_owned()),
-            &period,
-            &self.recurrence.statement().time,
-        );
-        formula.to_line().replace("D = ", "")
     }
 
     /// A form as terms, slopes first and newest first.
@@ -321,12 +341,14 @@ impl<'a> Writer<'a> {
             if function.is_zero() {
                 continue;
             }
-            let time = &self.recurrence.statement().time;
-            let late =
-                self.recurrence.statement().period.scale(&Rational::from_integer(lag.into()));
-            let moved = &Fraction::symbol(time) - &late;
-            let function = function.substitute(time, &moved);
+            let Statement { time, period, .. } = self.recurrence.statement();
+            let late = period.scale(&Rational::from_integer(lag.into()));
+            let function = function.substitute(time, &(&Fraction::symbol(time) - &late));
             let function = function.expect("no denominator of a load holds the time");
+            let function = match lag {
+                0 => function,
+                _ => &function * &Expression::symbol(&from_period(lag)),
+            };
             terms.extend(arrange(&function, Some(time)));
         }
         terms
@@ -352,10 +374,34 @@ impl<'a> Writer<'a> {
     }
 }
 
+/// A sentence in lines of at most `width` characters.
+fn wrapped(sentence: &str, width: usize) -> String {
+    let (mut out, mut used) = (String::new(), 0);
+    for word in sentence.split(' ') {
+        let length = word.chars().count();
+        if used > 0 && used + 1 + length > width {
+            out.push('\n');
+            used = 0;
+        } else if used > 0 {
+            out.push(' ');
+            used += 1;
+        }
+        out.push_str(word);
+        used += length;
+    }
+    out.push('\n');
+    out
+}
+
 /// A symbol in place of a wave at a lag, or of its slope.
 fn stand_in(wave: usize, lag: usize, slope: bool) -> Symbol {
     let name = format!("wave_{wave}_{lag}_{}", u8::from(slope));
     Symbol::new(&name).expect("a name with letters in front")
+}
+
+/// A symbol for what is 1 from a period on, and 0 before.
+fn from_period(lag: usize) -> Symbol {
+    Symbol::new(&format!("from_{lag}")).expect("a name with letters in front")
 }
 
 fn sum(parts: &[Expression]) -> Vec<Term> {

@@ -198,6 +198,11 @@ fn solid(text: &str, notation: &dyn Notation) -> Writing {
 /// let formula = formula.on_period(1, &Fraction::zero(), statement);
 /// let remark = "    # 2*mu <= t < 4*mu, s = t - 2*mu\n";
 /// assert_eq!(formula.to_text(100), format!("{}\n{remark}", formula.to_line()));
+/// let anywhere = formula.between(&Fraction::zero(), &Fraction::one(), statement);
+/// assert_eq!(anywhere.remark.unwrap().0, "0 <= t < 1, s = t");
+/// let (time, delay) = (&statement.time, Fraction::one());
+/// let echo = Formula::of_arrival("f", &[2, 1], &delay, f_1, &statement.local, time);
+/// assert!(echo.to_text(100).starts_with("phi_f[2,1](s) = exp(-s)"));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -16,7 +16,9 @@ use wavestep_polynomial::{Rational, Symbol};
 /// // √8/√2 = 2: a ratio of roots may be rational.
 /// let ratio = Root::of(number(8, 1)).over(&Root::of(number(2, 1))).unwrap();
 /// assert_eq!(ratio.exact(), Some(number(2, 1)));
-/// assert_eq!(Root::of(number(2, 1)).exact(), None);
+/// let root = Root::of(number(2, 1));
+/// assert_eq!(root.exact(), None);
+/// assert_eq!((root.factor(), root.radicand()), (&Fraction::one(), &number(2, 1)));
 /// assert_eq!(Root::from(number(3, 2)).times(&ratio).exact(), Some(number(3, 1)));
 /// ```
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]

@@ -16,6 +16,19 @@ use std::fmt;
 use wavestep_polynomial::Rational;
 
 /// Why a scene gives no recurrence.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+/// use wavestep::network::NetworkError;
+///
+/// let text = wavestep::scenes::find("incommensurate").unwrap().text;
+/// let scene = read_scene(&Source::new("incommensurate", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// // No period suits all its bars.
+/// assert_eq!(network.recurrence(), Err(NetworkError::Incommensurate));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum NetworkError {
@@ -55,6 +68,21 @@ impl From<InvalidRecurrence> for NetworkError {
 }
 
 /// What a wave of a network is.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+/// use wavestep::network::Role;
+///
+/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
+/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let [striker, cushion, long] = network.scene().line.elements[..] else { panic!() };
+/// let roles: Vec<Role> = network.waves().iter().map(|wave| wave.role).collect();
+/// let waves = [Role::Right(striker), Role::Left(striker), Role::Right(long)];
+/// assert_eq!(roles, [&waves[..], &[Role::Compression(cushion)]].concat());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Role {
     /// The velocity wave to the right in a bar.
@@ -72,6 +100,18 @@ pub enum Role {
 }
 
 /// A wave of a network.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
+/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let names: Vec<&str> = network.waves().iter().map(|wave| wave.name.as_str()).collect();
+/// assert_eq!(names, ["f_striker", "g_striker", "f_long", "cushion"]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct WaveRole {
     /// What it is called.
@@ -81,6 +121,28 @@ pub struct WaveRole {
 }
 
 /// A scene as nodes, bars and waves, with the delays between them.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+/// use wavestep_polynomial::Rational;
+///
+/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
+/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// // The striker is passed in mu/2, so that a wave returns after mu.
+/// assert_eq!(network.lattice().periods()[0].to_string(), "mu");
+/// assert_eq!(network.scene().title, "Pulse shape: two equal bars with a contact spring");
+/// assert!(network.model().constants.is_empty() && network.observables()[0].name == "force");
+/// // The contact is where things begin; the clock of the free end is late by one passage.
+/// assert_eq!(network.place_in_words(1), "Between `striker` and `long`");
+/// let late: Vec<String> = network.lateness().map(ToString::to_string).collect();
+/// assert_eq!(late, ["1/2*mu", "0"]);
+/// // Without units times are what they are.
+/// let three = Rational::from_integer(3.into());
+/// assert_eq!(network.scaled_time(&three).as_constant(), Some(three));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Network {
     pub(crate) scene: Scene,

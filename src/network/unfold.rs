@@ -30,6 +30,10 @@ use crate::recurrence::Recurrence;
 /// assert_eq!(unfolded.counts(k), Some(vec![2, 1]));
 /// assert_eq!(unfolded.delay(k).unwrap().to_string(), "4*a + 2*b");
 /// assert_eq!(unfolded.number(&[4, 0]), None);
+/// // 4 · 3 echoes of each of the four waves.
+/// assert_eq!(unfolded.numbers().count(), 12);
+/// assert_eq!(unfolded.recurrence().wave_count(), 4);
+/// assert_eq!(unfolded.lattice(), network.lattice());
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -30,6 +30,9 @@ use wavestep_polynomial::{Polynomial, Symbol};
 /// assert_eq!(order, [recurrence.wave("g").unwrap(), recurrence.wave("f").unwrap()]);
 /// // Waves and observables may be observed; only the latter are observables.
 /// assert!(recurrence.observation("f").is_some() && recurrence.observable("f").is_none());
+/// // Nothing is coupled, no wave had to be added, and no rate had to be named.
+/// assert!(recurrence.coupled().is_empty() && recurrence.constants().is_empty());
+/// assert_eq!((recurrence.wave_count(), recurrence.wave_name(1).as_str()), (2, "g"));
 /// assert_eq!(Recurrence::new(recurrence.statement().clone()), Ok(recurrence));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
