@@ -6,6 +6,7 @@ use super::derive::{formulas_as, of_recurrence};
 use super::failure::Failure;
 use super::progress;
 use serde_json::{Value as Json, json};
+use std::collections::BTreeSet;
 use wavestep::enclosure::Numbers;
 use wavestep::evaluate::{Arrival, ArrivalError, EvaluateError, arrivals};
 use wavestep::export::{self, Derivation, Formula, Head};
@@ -47,8 +48,8 @@ pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
         })?;
     Ok(match options.format {
         DeriveFormat::Json => derived,
-        DeriveFormat::Text => format!("{}{derived}", constants(network, "#")?),
-        DeriveFormat::Latex => format!("{}{derived}", constants(network, "%")?),
+        DeriveFormat::Text => format!("{}{derived}", constants(network, "#", Some(&derived))?),
+        DeriveFormat::Latex => format!("{}{derived}", constants(network, "%", None)?),
     })
 }
 
@@ -87,8 +88,9 @@ fn decimal(constants: &[Constant], value: &Definition) -> Option<String> {
     Some(ball.to_decimal(DIGITS).midpoint().to_string())
 }
 
-/// Lines that say what the constants in formulas are, and in which units.
-fn constants(network: &Network, mark: &str) -> Result<String, Failure> {
+/// Lines that say in which units formulas are, and what the constants in them are; all constants
+/// where no text is given to look for them.
+fn constants(network: &Network, mark: &str, text: Option<&str>) -> Result<String, Failure> {
     let (model, scene) = (network.model(), network.scene());
     let unfolded = network.unfold(&vec![0; network.lattice().periods().len()])?;
     let constants = unfolded.recurrence().constants();
@@ -104,7 +106,12 @@ fn constants(network: &Network, mark: &str) -> Result<String, Failure> {
             "{mark} times in {time}, velocities in {velocity}, forces in {force}\n"
         ));
     }
-    for constant in constants {
+    let part_of_name = |c: char| c.is_alphanumeric() || c == '_';
+    let words = text.map(|text| text.split(|c| !part_of_name(c)).collect::<BTreeSet<&str>>());
+    let occurs = |constant: &&Constant| {
+        words.as_ref().is_none_or(|words| words.contains(constant.symbol.name()))
+    };
+    for constant in constants.iter().filter(occurs) {
         if let Some(number) = decimal(constants, &constant.value) {
             lines.push_str(&format!("{mark} {} = {number}\n", constant.symbol));
         }
@@ -191,7 +198,8 @@ fn on_lattice(network: &Network, options: &Derive) -> Result<String, Failure> {
     };
     let formulas: Vec<Formula> = found.iter().map(formula).collect();
     let mark = if options.format == DeriveFormat::Latex { "%" } else { "#" };
-    Ok(format!("{}{}", constants(network, mark)?, formulas_as(&formulas, options)))
+    let told: String = formulas.iter().map(|formula| formula.to_text(options.width())).collect();
+    Ok(format!("{}{}", constants(network, mark, Some(&told))?, formulas_as(&formulas, options)))
 }
 
 fn json_document(network: &Network, found: &[Arrival]) -> String {

@@ -18,6 +18,9 @@ use wavestep::solution::Solution;
 /// The most times that are evaluated at once.
 const MAX_POINTS: usize = 1_000_000;
 
+/// The most digits of a time in decimals.
+const TIME_DIGITS: usize = 17;
+
 /// More digits than a ball of the highest precision has.
 const ALL_DIGITS: usize = 1 << 30;
 
@@ -133,12 +136,24 @@ pub fn times(options: &Eval, dimensional: bool) -> Result<Vec<BigRational>, Fail
     options.at.iter().map(|time| input::time("--at", time, dimensional)).collect()
 }
 
+/// A time with a unit, in decimals where these are exact.
+fn in_decimals(time: &BigRational) -> String {
+    match Decimal::from_rational(time, TIME_DIGITS) {
+        (decimal, Exactness::Exact) => decimal.to_string(),
+        _ => time.to_string(),
+    }
+}
+
 /// Lines of text, with the units of time and value.
 pub fn text(rows: &[Row], options: &Eval, [second, unit]: [&str; 2]) -> String {
     let limit = if options.side == SideOption::Left { "-" } else { "" };
     let line = |row: &Row| {
         let value = row.value.to_text(options.digits);
-        format!("{}({}{second}{limit}) = {value}{unit}\n", options.quantity, row.time)
+        let time = match second.is_empty() {
+            true => row.time.to_string(),
+            false => in_decimals(&row.time),
+        };
+        format!("{}({time}{second}{limit}) = {value}{unit}\n", options.quantity)
     };
     rows.iter().map(line).collect()
 }
