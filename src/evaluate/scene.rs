@@ -38,6 +38,9 @@ use wavestep_polynomial::{Polynomial, Rational};
 /// ```
 pub const MAX_ECHOES: usize = 20_000;
 
+/// The precision at which a value that may be zero is suspected to be.
+const SUSPICION_BITS: u64 = 192;
+
 /// The largest degree of polynomials that are worked with exactly.
 const MAX_DEGREE: u64 = Polynomial::MAX_EXPONENT as u64;
 
@@ -206,15 +209,14 @@ impl<'a> SceneEvaluator<'a> {
         if let Some(value) = self.rational_value(&arrived, &forced, unit) {
             return Ok(Value::Exact(value));
         }
-        let mut suspicious = true;
+        // What may be zero is looked at exactly.
+        if self.enclose(&numbers, &arrived, &forced, SUSPICION_BITS)?.contains_zero()
+            && self.exact(&arrived, &forced).is_some_and(|sum| sum.is_zero())
+        {
+            return Ok(Value::Exact(Rational::zero()));
+        }
         certified(digits, limit_bits, |bits| {
             let sum = self.enclose(&numbers, &arrived, &forced, bits)?;
-            if suspicious && sum.contains_zero() && bits > 200 {
-                suspicious = false;
-                if self.exact(&arrived, &forced).is_some_and(|sum| sum.is_zero()) {
-                    return Ok(Ball::zero());
-                }
-            }
             Ok(sum.multiply(&numbers.enclose_root(unit, bits)?, bits))
         })
     }

@@ -385,11 +385,25 @@ impl Network {
             let forms = self.force_forms(place, node, run, strides);
             let Some((first, others)) = forms.split_first() else { continue };
             let before_springs = forms.len() - springs.len();
+            // At a free end the waves themselves are equal, whatever the impedance.
+            let end = match (node.left, node.right) {
+                (Side::Bar(bar), Side::Free) | (Side::Free, Side::Bar(bar)) => Some(bar),
+                _ => None,
+            };
+            let compliance = end.and_then(|bar| {
+                let impedance = &self.model.bars[&self.layout.bars[bar]].impedance;
+                let inverse = Fraction::reciprocal(impedance.numerator()).ok()?;
+                Some(&inverse * &Fraction::from(impedance.denominator()))
+            });
+            let bare = |form: &LinearForm| match &compliance {
+                Some(compliance) => scaled(form, compliance),
+                None => form.clone(),
+            };
             for (i, other) in (1_usize..).zip(others) {
                 match i.checked_sub(before_springs) {
                     Some(spring) => add(Rule::Spring(springs[spring]), first, other),
-                    None if free && first.is_zero() => add(Rule::FreeEnd, other, &nothing),
-                    None if free => add(Rule::FreeEnd, first, other),
+                    None if free && first.is_zero() => add(Rule::FreeEnd, &bare(other), &nothing),
+                    None if free => add(Rule::FreeEnd, &bare(first), &bare(other)),
                     None => add(Rule::Force, first, other),
                 }
             }
