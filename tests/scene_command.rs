@@ -130,6 +130,7 @@ fn forms_look_as_recorded() {
         &output(&["derive", "pile", "--wave", "cushion", "--through", "1"]),
     );
     snapshot("check-scene", &output(&["check", file]));
+    snapshot("check-lattice", &output(&["check", "incommensurate"]));
     snapshot("scenes", &output(&["scenes"]));
 }
 
@@ -217,7 +218,6 @@ fn what_scenes_cannot_be_asked_is_refused() {
         "derive incommensurate --general",
         "derive incommensurate --piece 2",
         "derive incommensurate --through 500",
-        "check incommensurate",
         "derive rigid-mass --explain",
         "derive pushed-bar --explain --format json",
         "derive two.wave",

@@ -2,14 +2,16 @@
 //! with what is locked.
 
 use super::arguments::Check;
-use super::derive_scene::remedy_of_rates;
+use super::derive_scene::failure_of_rates;
 use super::failure::Failure;
-use super::input;
+use super::input::{self, Subject};
 use super::lock;
 use wavestep::ball::Ball;
 use wavestep::enclosure::{Numbers, enclose_expression};
+use wavestep::evaluate::{ArrivalError, EvaluateError, arrivals};
 use wavestep::export;
 use wavestep::expression::Fraction;
+use wavestep::network::Network;
 use wavestep::recurrence::{Coupled, Recurrence};
 use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution, SolveError};
 use wavestep_polynomial::Symbol;
@@ -21,18 +23,30 @@ const PERIODS: usize = 6;
 const RATE_BITS: u64 = 64;
 const RATE_DIGITS: usize = 6;
 
+/// How many periods of a lattice are followed in a check.
+const FIRST_ECHOES: usize = 3;
+
 /// Checks a scene and says what was found.
 pub fn run(options: &Check) -> Result<String, Failure> {
     if let Some(file) = &options.locked {
         return lock::check(&options.scene.scene, file);
     }
-    let recurrence = input::recurrence(&options.scene)?;
+    let (recurrence, network) = match input::subject(&options.scene)? {
+        Subject::Recurrence(recurrence) => (recurrence, None),
+        Subject::Scene(network) if network.lattice().periods().len() > 1 => {
+            return on_lattice(&network);
+        }
+        Subject::Scene(network) => (network.recurrence()?, Some(network)),
+    };
+    let shown = network.as_ref().map(|network| network.waves().len());
+    let shown = shown.unwrap_or(recurrence.statement().waves.len());
     let statement = recurrence.statement();
     let mut by_period = PeriodByPeriod::new(&recurrence);
     let mut by_echo = EchoByEcho::new(&recurrence);
-    let told = |error: SolveError| match remedy_of_rates(&recurrence) {
-        Some(remedy) => Failure::from(error).with_remedy(&remedy),
-        None => Failure::from(error),
+    let told = |error: SolveError| {
+        let network = network.as_ref();
+        let of_rates = network.and_then(|network| failure_of_rates(network, &recurrence));
+        of_rates.unwrap_or_else(|| error.into())
     };
     for n in 0..=PERIODS {
         by_period.advance().map_err(told)?;
@@ -57,7 +71,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
     if !factors.is_empty() {
         report.push_str(&format!("  taken to be non-zero: {}\n", factors.join(", ")));
     }
-    for step in recurrence.steps() {
+    for step in recurrence.steps().iter().filter(|step| step.wave < shown) {
         let kind = if step.start.is_some() { "first-order differential" } else { "algebraic" };
         report.push_str(&format!("  wave {}: {kind}\n", recurrence.wave_name(step.wave)));
     }
@@ -72,7 +86,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         report.push_str(&format!("  observables: {}\n", observables.join(", ")));
     }
     report.push_str(&format!("  derived in two ways, equal on periods 0 to {PERIODS}\n"));
-    let names = statement.waves.clone();
+    let names = statement.waves[..shown].to_vec();
     let solution = Solution::new(recurrence);
     for (wave, name) in names.iter().enumerate() {
         let found = match solution.general(wave) {
@@ -82,6 +96,30 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         };
         report.push_str(&format!("  general n of {name}: {found}\n"));
     }
+    Ok(report)
+}
+
+/// Checks a scene whose travel times have no common measure: its laws are solved, and the first echoes
+/// derived.
+fn on_lattice(network: &Network) -> Result<String, Failure> {
+    let waves: Vec<usize> = (0..network.waves().len()).collect();
+    let found = arrivals(network, &waves, FIRST_ECHOES).map_err(|error| match error {
+        ArrivalError::Solve(error) => Failure::from(error),
+        ArrivalError::Evaluate(EvaluateError::Network(error)) => Failure::from(*error),
+        ArrivalError::Evaluate(error) => error.into(),
+    })?;
+    let names: Vec<&str> = network.waves().iter().map(|wave| wave.name.as_str()).collect();
+    let observables: Vec<&str> =
+        network.observables().iter().map(|observed| observed.name.as_str()).collect();
+    let mut report = format!("{}: consistent\n", network.scene().title);
+    report.push_str(&format!("  waves: {}\n", names.join(", ")));
+    if !observables.is_empty() {
+        report.push_str(&format!("  observables: {}\n", observables.join(", ")));
+    }
+    report.push_str(
+        "  the travel times have no common measure: no periods, echoes in order of arrival\n",
+    );
+    report.push_str(&format!("  derived echo by echo: {} echoes\n", found.len()));
     Ok(report)
 }
 

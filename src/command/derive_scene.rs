@@ -40,12 +40,12 @@ pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
         return on_lattice(network, options);
     }
     let recurrence = network.recurrence()?;
-    let remedy = remedy_of_rates(&recurrence);
-    let derived =
-        of_recurrence(recurrence, options).map_err(|failure| match (&failure, remedy) {
-            (Failure::Computation(..), Some(remedy)) => failure.with_remedy(&remedy),
-            _ => failure,
-        })?;
+    let of_rates = failure_of_rates(network, &recurrence);
+    let derived = of_recurrence(recurrence, options);
+    let derived = derived.map_err(|failure| match (&failure, of_rates) {
+        (Failure::Computation(..), Some(of_rates)) => of_rates,
+        _ => failure,
+    })?;
     Ok(match options.format {
         DeriveFormat::Json => derived,
         DeriveFormat::Text => format!("{}{derived}", constants(network, "#", Some(&derived))?),
@@ -67,17 +67,21 @@ fn refuse_energy(network: &Network, name: &str) -> Result<(), Failure> {
     }
 }
 
-/// What to do where rates are named constants that the derivation cannot go on with.
-pub fn remedy_of_rates(recurrence: &Recurrence) -> Option<String> {
+/// What is told where the exact form needs rates that formulas cannot hold.
+pub fn failure_of_rates(network: &Network, recurrence: &Recurrence) -> Option<Failure> {
     let named = |rate: &Fraction| recurrence.constants().iter().any(|c| rate.contains(&c.symbol));
     let system = recurrence.coupled().iter().find(|system| system.rates.iter().any(named))?;
     let names: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
-    let rates = check::rates(recurrence, system).join(", ");
-    Some(format!(
-        "{} decay together at the rates {rates}; formulas hold rates that are rational or roots of \
-         one quadratic in rational numbers: give such values, or evaluate, which works with any \
-         certified rates",
-        names.join(" and ")
+    let (place, rates) = (network.place_of_waves(&names), check::rates(recurrence, system));
+    Some(Failure::Computation(
+        format!(
+            "{place}, {} decay together at the rates {}, which these formulas would have to hold",
+            names.join(" and "),
+            rates.join(", ")
+        ),
+        "evaluate it, which works with any certified rates; or give values for which the rates are \
+         rational, or roots of one quadratic in rational numbers"
+            .to_owned(),
     ))
 }
 

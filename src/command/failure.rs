@@ -4,7 +4,6 @@ use wavestep::evaluate::EvaluateError;
 use wavestep::expression::NotInvertible;
 use wavestep::language::{Diagnostic, Style};
 use wavestep::network::NetworkError;
-use wavestep::recurrence::Fault;
 use wavestep::solution::{SolveError, Unsolvable};
 
 /// Exit code: could not compute, or not as locked.
@@ -103,22 +102,15 @@ impl From<SolveError> for Failure {
 
 impl From<NetworkError> for Failure {
     fn from(error: NetworkError) -> Failure {
-        if let NetworkError::Recurrence(invalid) = &error
-            && let Fault::Rates { waves, .. } = &invalid.fault
-        {
-            let waves = waves.join(" and ");
-            return Failure::Computation(
-                format!("the rates at which {waves} decay together are not known exactly"),
-                "give values with --set; or state the elements by their rates a and b, such that \
-                 the discriminant is the square (a - b)^2"
-                    .to_owned(),
-            );
-        }
         let remedy = match &error {
             NetworkError::Incommensurate => {
                 "ask for echoes in order of their arrival, with --form echo, or for values"
             }
             NetworkError::Unobservable(..) => "observe it at another place",
+            NetworkError::Rates { .. } => {
+                "give values with --set; or state the elements by their rates a and b, or sigma and \
+                 omega, as docs/scene-language.md shows"
+            }
             _ => "give values with --set",
         };
         Failure::Computation(error.to_string(), remedy.to_owned())

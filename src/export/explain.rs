@@ -418,6 +418,7 @@ fn told(network: &Network, law: &Law) -> String {
     let scene = network.scene();
     let name = |element: &ElementIndex| format!("`{}`", scene.elements[*element].name);
     let place = law.node.map_or(String::new(), |node| network.place_in_words(node));
+    let place = capitalised(&place);
     match &law.rule {
         Rule::Velocity => format!("{place}, what is joined moves together:"),
         Rule::Force => format!("{place}, the forces on both sides are equal:"),
@@ -435,6 +436,13 @@ fn told(network: &Network, law: &Law) -> String {
         Rule::Imposed(load) => format!("{place}, {} imposes its velocity:", name(load)),
         Rule::Integral(_) => String::new(),
     }
+}
+
+/// A text that begins with a capital letter.
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
 }
 
 /// A definition as a right side.

@@ -1,6 +1,6 @@
 //! Polynomials localised at irreducible factors.
 
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
@@ -51,7 +51,7 @@ pub struct Fraction {
 }
 
 /// A polynomial that cannot be divided by: zero, or not a product of symbols and at most one
-/// further factor that is linear in some symbol.
+/// further factor that is linear in some symbol, or a sum of the squares of two.
 ///
 /// ```
 /// use wavestep::expression::{Fraction, NotAUnit};
@@ -335,16 +335,26 @@ fn reciprocal_of_power(p: &Polynomial) -> Option<Fraction> {
 }
 
 /// Whether a primitive polynomial is linear in some symbol, with a single term as that symbol's
-/// coefficient, no symbol of which divides the rest: then it has no factors but itself.
+/// coefficient, no symbol of which divides the rest: then it has no factors but itself. So it is with
+/// `a x² + b y²`, `a, b > 0`, which has no real zeros but one: factors would be linear, with real zeros.
 fn is_irreducible(p: &Polynomial) -> bool {
-    p.symbols().iter().any(|x| match &p.coefficients(x)[..] {
-        [(1, slope), (0, rest)] => {
-            let divides = |y: &Symbol| rest.coefficients(y).last().is_none_or(|(e, _)| *e > 0);
-            slope.term_count() == 1 && !slope.symbols().iter().any(divides)
-        }
-        [(1, slope)] => slope.as_constant().is_some(),
-        _ => false,
-    })
+    is_sum_of_squares(p)
+        || p.symbols().iter().any(|x| match &p.coefficients(x)[..] {
+            [(1, slope), (0, rest)] => {
+                let divides = |y: &Symbol| rest.coefficients(y).last().is_none_or(|(e, _)| *e > 0);
+                slope.term_count() == 1 && !slope.symbols().iter().any(divides)
+            }
+            [(1, slope)] => slope.as_constant().is_some(),
+            _ => false,
+        })
+}
+
+/// Whether this is `a x² + b y²` with positive numbers and two symbols.
+fn is_sum_of_squares(p: &Polynomial) -> bool {
+    let square = |(exponents, c): (&[u32], Rational)| {
+        c.is_positive() && exponents.iter().sum::<u32>() == 2 && exponents.contains(&2)
+    };
+    p.symbols().len() == 2 && p.term_count() == 2 && p.terms().all(square)
 }
 
 fn substitute_in(p: &Polynomial, x: &Symbol, value: &Fraction) -> Fraction {

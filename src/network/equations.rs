@@ -9,7 +9,7 @@ use crate::network::delay::Lattice;
 use crate::network::layout::{Layout, Node, Side};
 use crate::network::model::{Model, ModelLump};
 use crate::network::observe::Observed;
-use crate::recurrence::{InvalidRecurrence, LinearForm, WaveIndex};
+use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
 use num_integer::Integer as _;
 use std::fmt;
@@ -38,6 +38,13 @@ pub enum NetworkError {
     Incommensurate,
     /// The laws at the nodes cannot be solved for the waves.
     Recurrence(Box<InvalidRecurrence>),
+    /// Waves decay together at rates that are not known exactly.
+    Rates {
+        /// Where, in words.
+        place: String,
+        /// The waves.
+        waves: Vec<String>,
+    },
     /// What is observed cannot be formed, and why.
     Unobservable(String, &'static str),
 }
@@ -48,6 +55,10 @@ impl fmt::Display for NetworkError {
             NetworkError::Division(reason) => reason.fmt(f),
             NetworkError::Incommensurate => f.write_str("the travel times have no common measure"),
             NetworkError::Recurrence(invalid) => invalid.fmt(f),
+            NetworkError::Rates { place, waves } => {
+                let waves = waves.join(" and ");
+                write!(f, "{place}, {waves} decay together at rates that are not known exactly")
+            }
             NetworkError::Unobservable(name, reason) => write!(f, "{name} {reason}"),
         }
     }
@@ -58,12 +69,6 @@ impl std::error::Error for NetworkError {}
 impl From<NotAUnit> for NetworkError {
     fn from(reason: NotAUnit) -> NetworkError {
         NetworkError::Division(reason)
-    }
-}
-
-impl From<InvalidRecurrence> for NetworkError {
-    fn from(invalid: InvalidRecurrence) -> NetworkError {
-        NetworkError::Recurrence(Box::new(invalid))
     }
 }
 
@@ -135,7 +140,8 @@ pub struct WaveRole {
 /// assert_eq!(network.scene().title, "Pulse shape: two equal bars with a contact spring");
 /// assert!(network.model().constants.is_empty() && network.observables()[0].name == "force");
 /// // The contact is where things begin; the clock of the free end is late by one passage.
-/// assert_eq!(network.place_in_words(1), "Between `striker` and `long`");
+/// assert_eq!(network.place_in_words(1), "between `striker` and `long`");
+/// assert_eq!(network.place_of_waves(&["cushion".to_owned()]), network.place_in_words(1));
 /// let late: Vec<String> = network.lateness().map(ToString::to_string).collect();
 /// assert_eq!(late, ["1/2*mu", "0"]);
 /// // Without units times are what they are.
@@ -217,17 +223,39 @@ impl Network {
         &self.lattice
     }
 
+    /// What a recurrence refuses, at its place.
+    pub(crate) fn refused(&self, invalid: InvalidRecurrence) -> NetworkError {
+        let Fault::Rates { waves, .. } = invalid.fault else {
+            return NetworkError::Recurrence(Box::new(invalid));
+        };
+        let place = self.place_of_waves(&waves);
+        NetworkError::Rates { place, waves }
+    }
+
+    /// Where waves meet that decay together, in words.
+    pub fn place_of_waves(&self, names: &[String]) -> String {
+        let roles = self.waves.iter().filter(|wave| names.contains(&wave.name));
+        let node = roles.into_iter().find_map(|wave| match wave.role {
+            Role::Velocity(node, _) => Some(node),
+            Role::Compression(element) | Role::Displacement(element) => {
+                self.layout.node_of(element)
+            }
+            _ => None,
+        });
+        node.map_or("in this scene".to_owned(), |node| self.place_in_words(node))
+    }
+
     /// Where a node is, in words.
     pub fn place_in_words(&self, node: usize) -> String {
         let name = |bar: usize| format!("`{}`", self.scene.elements[self.layout.bars[bar]].name);
         let Node { left, right, .. } = &self.layout.nodes[node];
         match (left, right) {
             (Side::Bar(left), Side::Bar(right)) => {
-                format!("Between {} and {}", name(*left), name(*right))
+                format!("between {} and {}", name(*left), name(*right))
             }
-            (Side::Bar(left), _) => format!("At the right end of {}", name(*left)),
-            (_, Side::Bar(right)) => format!("At the left end of {}", name(*right)),
-            _ => "Between the ends".to_owned(),
+            (Side::Bar(left), _) => format!("at the right end of {}", name(*left)),
+            (_, Side::Bar(right)) => format!("at the left end of {}", name(*right)),
+            _ => "between the ends".to_owned(),
         }
     }
 

@@ -115,7 +115,7 @@ impl Network {
     /// [`NetworkError::Incommensurate`] where they do not, or what the recurrence refuses.
     pub fn recurrence(&self) -> Result<Recurrence, NetworkError> {
         match self.lattice.periods().len() {
-            1 => Ok(Recurrence::new(self.statement(&[1]))?),
+            1 => Recurrence::new(self.statement(&[1])).map_err(|invalid| self.refused(invalid)),
             _ => Err(NetworkError::Incommensurate),
         }
     }

@@ -63,7 +63,8 @@ impl Network {
             strides.push(stride);
             stride *= bound + lag + 1;
         }
-        let recurrence = Recurrence::new(self.statement(&strides))?;
+        let recurrence = Recurrence::new(self.statement(&strides));
+        let recurrence = recurrence.map_err(|invalid| self.refused(invalid))?;
         let (lattice, bounds) = (self.lattice().clone(), bounds.to_vec());
         Ok(Unfolded { recurrence, lattice, bounds, strides })
     }
