@@ -211,7 +211,7 @@ fn values_agree_with_the_pieces() {
             let local = parse_number(at).unwrap() - Rational::from_integer((2 * n).into());
             let piece = &solution.pieces(0, n, n).unwrap()[0];
             let exact = piece.substitute(&s(), &Fraction::constant(&local)).unwrap();
-            let ball = wavestep::evaluate::enclose_expression(&exact, &|_, _| None, 300).unwrap();
+            let ball = wavestep::enclosure::enclose_expression(&exact, &|_, _| None, 300).unwrap();
             let time = parse_number(at).unwrap();
             let value = evaluator.value(&twice, &time, Side::Right, 40, 2000).unwrap();
             let Value::Certified(value) = value else { panic!("not rational") };

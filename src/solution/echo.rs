@@ -126,7 +126,7 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
     }
 
     /// How many echoes other than zero have been worked out.
-    pub fn expanded(&self) -> usize {
+    pub(crate) fn expanded(&self) -> usize {
         self.expanded
     }
 
