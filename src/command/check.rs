@@ -32,7 +32,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         return lock::check(&options.scene.scene, file);
     }
     let (recurrence, network) = match input::subject(&options.scene)? {
-        Subject::Recurrence(recurrence) => (recurrence, None),
+        Subject::Recurrence(recurrence) => (*recurrence, None),
         Subject::Scene(network) if network.lattice().periods().len() > 1 => {
             return on_lattice(&network);
         }

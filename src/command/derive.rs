@@ -22,7 +22,7 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
             "a recurrence is its own explanation: nothing was derived to get it",
             "ask for --explain with a scene of bars and elements, or leave it out",
         )),
-        Subject::Recurrence(recurrence) => of_recurrence(recurrence, options),
+        Subject::Recurrence(recurrence) => of_recurrence(*recurrence, options),
         Subject::Scene(network) => derive_scene::run(&network, options),
     }
 }

@@ -36,7 +36,7 @@ pub struct Row {
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
     match input::subject(&options.scene)? {
-        Subject::Recurrence(recurrence) => of_recurrence(recurrence, options),
+        Subject::Recurrence(recurrence) => of_recurrence(*recurrence, options),
         Subject::Scene(network) => scene_eval::run(&network, options),
     }
 }

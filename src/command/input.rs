@@ -16,7 +16,7 @@ use wavestep::scenes;
 /// What a text states: equations between periods, or a line of bars and what they are joined by.
 pub enum Subject {
     /// A recurrence.
-    Recurrence(Recurrence),
+    Recurrence(Box<Recurrence>),
     /// A scene, as a network.
     Scene(Box<Network>),
 }
@@ -37,7 +37,7 @@ pub fn recurrence_with(
     values: &BTreeMap<String, BigRational>,
 ) -> Result<Recurrence, Failure> {
     match subject_with(scene, values)? {
-        Subject::Recurrence(recurrence) => Ok(recurrence),
+        Subject::Recurrence(recurrence) => Ok(*recurrence),
         Subject::Scene(network) => Ok(network.recurrence()?),
     }
 }
@@ -46,7 +46,8 @@ fn subject_with(scene: &str, values: &BTreeMap<String, BigRational>) -> Result<S
     let source = source(scene)?;
     match language::kind(&source) {
         language::Kind::Recurrence => {
-            Ok(Subject::Recurrence(language::read_recurrence(&source, values)?))
+            let recurrence = language::read_recurrence(&source, values)?;
+            Ok(Subject::Recurrence(Box::new(recurrence)))
         }
         language::Kind::Scene => {
             let scene = language::read_scene(&source, values).map_err(Failure::Texts)?;

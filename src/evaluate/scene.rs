@@ -4,7 +4,7 @@
 //! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
 //! place that is observed.
 
-use crate::ball::{Ball, ComplexBall};
+use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
@@ -38,8 +38,8 @@ use wavestep_polynomial::{Polynomial, Rational};
 /// ```
 pub const MAX_ECHOES: usize = 20_000;
 
-/// The precision at which a value that may be zero is suspected to be.
-const SUSPICION_BITS: u64 = 192;
+/// A value that is zero but for as many bits is suspected to be zero.
+const SUSPICION_BITS: u64 = 64;
 
 /// The largest degree of polynomials that are worked with exactly.
 const MAX_DEGREE: u64 = Polynomial::MAX_EXPONENT as u64;
@@ -209,8 +209,8 @@ impl<'a> SceneEvaluator<'a> {
         if let Some(value) = self.rational_value(&arrived, &forced, unit) {
             return Ok(Value::Exact(value));
         }
-        // What may be zero is looked at exactly.
-        if self.enclose(&numbers, &arrived, &forced, SUSPICION_BITS)?.contains_zero()
+        let enclosure = |bits| self.enclose(&numbers, &arrived, &forced, bits);
+        if may_be_zero(enclosure, limit_bits)?
             && self.exact(&arrived, &forced).is_some_and(|sum| sum.is_zero())
         {
             return Ok(Value::Exact(Rational::zero()));
@@ -421,6 +421,27 @@ fn evaluate(
         sum = sum.add(&value, bits);
     }
     Ok(sum)
+}
+
+/// Whether a value is zero to [`SUSPICION_BITS`] bits, with precision raised until that can be told.
+fn may_be_zero(
+    enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
+    limit_bits: u64,
+) -> Result<bool, EvaluateError> {
+    let mut bits = 2 * SUSPICION_BITS;
+    loop {
+        let ball = enclosure(bits)?;
+        if !ball.contains_zero() {
+            return Ok(false);
+        }
+        if ball.radius() <= &Magnitude::power_of_two(-(SUSPICION_BITS as i64)) {
+            return Ok(true);
+        }
+        if bits >= limit_bits {
+            return Ok(false);
+        }
+        bits = bits.saturating_mul(2).min(limit_bits);
+    }
 }
 
 /// How many whole periods fit into a time, or one more.

@@ -123,7 +123,7 @@ fn approximate_roots(polynomial: &[Rational]) -> Option<Vec<(f64, f64)>> {
     };
     let radius = 1.0 + coefficients.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
     let start = |k: usize| {
-        let angle = 0.4 + 6.283_185_307_179_586 * k as f64 / degree as f64;
+        let angle = 0.4 + std::f64::consts::TAU * k as f64 / degree as f64;
         let radius = radius.powf(0.5);
         (radius * angle.cos(), radius * angle.sin())
     };
