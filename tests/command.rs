@@ -11,7 +11,23 @@ use serde_json::Value;
 use wavestep::language::{Source, read_listing};
 use wavestep_polynomial::Symbol;
 
-const SCENES: [&str; 4] = ["two-bars", "constant-force", "pulse-shape", "rigid-mass"];
+const SCENES: [&str; 15] = [
+    "two-bars",
+    "constant-force",
+    "pulse-shape",
+    "rigid-mass",
+    "striker-on-long-bar",
+    "pushed-bar",
+    "cushioned-impact",
+    "mass-on-fixed-bar",
+    "struck-free-bar",
+    "stepped-striker",
+    "mass-between-bars",
+    "hopkinson",
+    "pile",
+    "percussive-drill",
+    "incommensurate",
+];
 
 /// A folder of its own for the files of a test, empty.
 fn folder(name: &str) -> PathBuf {
@@ -83,7 +99,8 @@ fn scenes_are_listed_and_correct() {
     let list = output("scenes");
     assert_eq!(list.lines().map(|line| split(line)[0]).collect::<Vec<_>>(), SCENES);
     snapshot("scenes", &list);
-    for scene in SCENES {
+    // In the last one nothing has a common measure.
+    for scene in &SCENES[..SCENES.len() - 1] {
         let report = output(&format!("check {scene}"));
         assert!(report.contains("derived in two ways, equal on periods 0 to 6"));
         snapshot(&format!("check-{scene}"), &report);

@@ -103,7 +103,7 @@ fn shorthand_says_what_the_pieces_say() {
 /// With all ends kept, and put back in, every wave of every scene is what it was.
 #[test]
 fn kept_ends_hold_for_every_scene() {
-    for scene in SCENES {
+    for scene in SCENES.iter().filter(|scene| scene.text.contains("\nrecurrence ")) {
         let solution = solution(scene.name);
         let statement = solution.recurrence().statement();
         let all = (0..statement.waves.len()).collect();

@@ -49,6 +49,11 @@ impl ComplexBall {
         Ball::zero().into()
     }
 
+    /// Whether the imaginary part is exactly zero.
+    fn is_real(&self) -> bool {
+        self.im.is_exact() && self.im.midpoint().is_zero()
+    }
+
     /// The real part.
     #[must_use]
     pub const fn real(&self) -> &Ball {
@@ -64,12 +69,18 @@ impl ComplexBall {
     /// `z + w`.
     #[must_use]
     pub fn add(&self, other: &Self, precision: u64) -> Self {
+        if self.is_real() && other.is_real() {
+            return self.re.add(&other.re, precision).into();
+        }
         Self::new(self.re.add(&other.re, precision), self.im.add(&other.im, precision))
     }
 
     /// `z·w`.
     #[must_use]
     pub fn multiply(&self, other: &Self, precision: u64) -> Self {
+        if self.is_real() && other.is_real() {
+            return self.re.multiply(&other.re, precision).into();
+        }
         let product = |a: &Ball, b: &Ball| a.multiply(b, precision);
         let re = product(&self.re, &other.re).subtract(&product(&self.im, &other.im), precision);
         let im = product(&self.re, &other.im).add(&product(&self.im, &other.re), precision);

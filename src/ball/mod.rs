@@ -33,3 +33,4 @@ pub(crate) use divided::evaluate_divided;
 pub use enclosure::DecimalEnclosure;
 pub use error::BallError;
 pub(crate) use exponential::exp_of_rational;
+pub(crate) use magnitude::Magnitude;

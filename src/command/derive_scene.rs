@@ -177,7 +177,7 @@ fn on_lattice(network: &Network, options: &Derive) -> Result<String, Failure> {
     };
     let periods = network.lattice().periods().len();
     let echoes = (0..periods)
-        .fold(1_u128, |product, _| product * (through as u128 + 1))
+        .fold(1_u128, |product, _| product.saturating_mul(through as u128 + 1))
         .saturating_mul(waves.len() as u128);
     if echoes > MAX_ECHOES {
         let message = format!(

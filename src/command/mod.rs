@@ -78,9 +78,11 @@ fn scenes(options: &Scenes) -> Result<String, Failure> {
         return Ok(input::built_in(name)?.text.to_owned());
     }
     let title = |text: &str| {
-        let line = text.lines().find_map(|line| line.strip_prefix("recurrence "));
-        line.unwrap_or_default().trim_matches('"').to_owned()
+        let keywords = ["recurrence ", "scene "];
+        let line = |line| keywords.iter().find_map(|keyword| str::strip_prefix(line, keyword));
+        text.lines().find_map(line).unwrap_or_default().trim_matches('"').to_owned()
     };
-    let line = |scene: &Scene| format!("{:<16}{}\n", scene.name, title(scene.text));
+    let width = SCENES.iter().map(|scene| scene.name.len()).max().unwrap_or_default() + 2;
+    let line = |scene: &Scene| format!("{:<width$}{}\n", scene.name, title(scene.text));
     Ok(SCENES.iter().map(line).collect())
 }

@@ -10,3 +10,4 @@ mod numbers;
 pub use error::EnclosureError;
 pub use expression::enclose_expression;
 pub use numbers::Numbers;
+pub(crate) use numbers::real_part;

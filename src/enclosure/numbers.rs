@@ -33,15 +33,15 @@ const COMPARISON_BITS: u64 = 1 << 14;
 /// let order = numbers.compare(&Fraction::symbol(&r), &quarter_turn);
 /// assert_eq!(order, Ok(std::cmp::Ordering::Less));
 /// ```
-pub struct Numbers<'a> {
-    constants: &'a [Constant],
+pub struct Numbers {
+    constants: Vec<Constant>,
     known: RefCell<BTreeMap<(Symbol, u64), Ball>>,
 }
 
-impl<'a> Numbers<'a> {
+impl Numbers {
     /// The numbers of these constants.
-    pub fn new(constants: &'a [Constant]) -> Numbers<'a> {
-        Numbers { constants, known: RefCell::default() }
+    pub fn new(constants: &[Constant]) -> Numbers {
+        Numbers { constants: constants.to_vec(), known: RefCell::default() }
     }
 
     /// The value of a symbol with about so many bits; `None` where it has none.
@@ -65,7 +65,7 @@ impl<'a> Numbers<'a> {
     /// # Errors
     /// [`EnclosureError`] where a symbol has no value.
     pub fn enclose(&self, value: &Fraction, bits: u64) -> Result<Ball, EnclosureError> {
-        Ok(self.enclose_complex(&value.clone().into(), bits)?.real().clone())
+        real_part(self.enclose_complex(&value.clone().into(), bits)?)
     }
 
     /// An enclosure of what a named constant is defined to be.
@@ -165,10 +165,21 @@ impl<'a> Numbers<'a> {
     }
 }
 
+/// The real part of a value that is real: zero lies in the enclosure of its imaginary part.
+///
+/// # Errors
+/// [`EnclosureError::NotReal`] where it does not.
+pub(crate) fn real_part(value: ComplexBall) -> Result<Ball, EnclosureError> {
+    match value.imaginary().contains_zero() {
+        true => Ok(value.real().clone()),
+        false => Err(EnclosureError::NotReal),
+    }
+}
+
 /// Coefficients as enclosures.
 #[derive(Clone, Copy)]
 pub(crate) struct Enclosing<'a> {
-    numbers: &'a Numbers<'a>,
+    numbers: &'a Numbers,
     bits: u64,
 }
 

@@ -139,7 +139,7 @@ pub fn arrivals(
 /// Sorts wave by wave, by time where that can be told.
 fn in_order(
     mut found: Vec<Arrival>,
-    numbers: &Numbers<'_>,
+    numbers: &Numbers,
     periods: &[Fraction],
     through: usize,
 ) -> Result<Vec<Arrival>, ArrivalError> {

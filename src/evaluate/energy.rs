@@ -7,7 +7,7 @@
 //! ```
 
 use crate::ball::{Ball, ComplexBall};
-use crate::enclosure::Numbers;
+use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::scene::{Arrived, SceneEvaluator};
 use crate::expression::{Expression, Field as _, Fraction, Transform};
@@ -34,7 +34,7 @@ impl SceneEvaluator<'_> {
     /// The parts of a sum of energies at a time.
     pub(crate) fn energy_parts(
         &self,
-        numbers: &Numbers<'_>,
+        numbers: &Numbers,
         terms: &[EnergyTerm],
         at: &Fraction,
         side: Side,
@@ -60,6 +60,10 @@ impl SceneEvaluator<'_> {
                 parts.push(Part::Before(coefficient(), term.before.clone(), -&start));
             }
             let start = if early { Fraction::zero() } else { start };
+            if numbers.compare(&start, at)? == Ordering::Equal {
+                // At the start itself nothing has entered.
+                continue;
+            }
             let arrived = self.arrived(numbers, &term.of, at, Side::Left)?;
             // The moments at which something arrives after the start, in order.
             let mut moments = vec![start];
@@ -96,7 +100,7 @@ impl SceneEvaluator<'_> {
     /// An enclosure of the sum of the parts.
     pub(crate) fn enclose_energy(
         &self,
-        numbers: &Numbers<'_>,
+        numbers: &Numbers,
         parts: &[Part],
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
@@ -127,7 +131,7 @@ impl SceneEvaluator<'_> {
     /// The sum of what has arrived, as a function of the time from now on.
     fn rows(
         &self,
-        numbers: &Numbers<'_>,
+        numbers: &Numbers,
         arrived: &[Arrived],
         forced: &Expression,
         bits: u64,
@@ -161,7 +165,7 @@ impl SceneEvaluator<'_> {
 fn shifted(
     echo: &Transform<ComplexBall>,
     h: &ComplexBall,
-    numbers: &Numbers<'_>,
+    numbers: &Numbers,
     bits: u64,
 ) -> Result<Rows, EvaluateError> {
     let mut rows = Rows::new();
@@ -184,7 +188,7 @@ fn shifted(
 fn integral_of_square(
     rows: &Rows,
     h: &ComplexBall,
-    numbers: &Numbers<'_>,
+    numbers: &Numbers,
     bits: u64,
 ) -> Result<Ball, EvaluateError> {
     let mut sum = ComplexBall::zero();
@@ -203,7 +207,7 @@ fn integral_of_square(
             }
         }
     }
-    Ok(sum.real().clone())
+    Ok(real_part(sum)?)
 }
 
 /// `∫_0^h e^{νy} y^n/n! dy` for `n < count`.
@@ -211,7 +215,7 @@ fn moments(
     rate: &Fraction,
     count: usize,
     h: &ComplexBall,
-    numbers: &Numbers<'_>,
+    numbers: &Numbers,
     bits: u64,
 ) -> Result<Vec<ComplexBall>, EvaluateError> {
     let field = numbers.field(bits);

@@ -181,6 +181,8 @@ pub enum EvaluateError {
         /// How many are allowed.
         limit: usize,
     },
+    /// A time after the last one that an evaluator was made for.
+    AfterLast,
     /// A value that cannot be divided by.
     Division(NotAUnit),
     /// The scene gives no recurrence.
@@ -214,6 +216,9 @@ impl fmt::Display for EvaluateError {
                 f,
                 "about {echoes} echoes arrive until this time, and at most {limit} are worked out"
             ),
+            EvaluateError::AfterLast => {
+                f.write_str("the time is after the last one that was prepared for")
+            }
             EvaluateError::Division(reason) => reason.fmt(f),
             EvaluateError::Network(error) => error.fmt(f),
             EvaluateError::NotReal => f.write_str("the value is not real"),

@@ -5,7 +5,7 @@
 //! place that is observed.
 
 use crate::ball::{Ball, ComplexBall, Magnitude};
-use crate::enclosure::Numbers;
+use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
 use crate::evaluate::value::Value;
@@ -18,7 +18,7 @@ use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
-use wavestep_polynomial::{Polynomial, Rational};
+use wavestep_polynomial::Rational;
 
 /// The most echoes of one wave that are worked out.
 ///
@@ -41,8 +41,10 @@ pub const MAX_ECHOES: usize = 20_000;
 /// A value that is zero but for as many bits is suspected to be zero.
 const SUSPICION_BITS: u64 = 64;
 
-/// The largest degree of polynomials that are worked with exactly.
-const MAX_DEGREE: u64 = Polynomial::MAX_EXPONENT as u64;
+/// The most echoes that are worked out exactly to see whether a value is zero, and where formulas hold
+/// named constants.
+const MAX_EXACT_ECHOES: usize = 1_000;
+const MAX_EXACT_ECHOES_NAMED: usize = 100;
 
 /// The echoes of all waves, by wave and number.
 pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
@@ -83,6 +85,7 @@ pub struct SceneEvaluator<'a> {
     /// When each echo arrives, by number.
     arrivals: Vec<(usize, Fraction)>,
     last: Fraction,
+    numbers: Numbers,
     demand: RefCell<Demand>,
     known: RefCell<Known>,
     expanded: Cell<usize>,
@@ -116,10 +119,17 @@ impl<'a> SceneEvaluator<'a> {
     pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEvaluator<'a>, EvaluateError> {
         let numbers = Numbers::new(&network.model().constants);
         // A wave is seen at most as long before its own clock as that clock is late.
-        let latest = network.lateness().fold(last.clone(), |sum, late| &sum + late);
+        let mut latest = Fraction::zero();
+        for late in network.lateness() {
+            if numbers.compare(late, &latest)? == Ordering::Greater {
+                latest = late.clone();
+            }
+        }
+        let latest = last + &latest;
         let mut bounds = Vec::new();
-        for period in network.lattice().periods() {
-            bounds.push(whole_periods(&numbers, &latest, period)?);
+        for (period, lag) in network.lattice().periods().iter().zip(network.largest_lags()) {
+            // In a direction without lags nothing arrives but at once.
+            bounds.push(if lag == 0 { 0 } else { whole_periods(&numbers, &latest, period)? });
         }
         let total =
             bounds.iter().fold(1_u128, |product, bound| product.saturating_mul(*bound as u128 + 1));
@@ -140,6 +150,7 @@ impl<'a> SceneEvaluator<'a> {
             network,
             arrivals,
             last: last.clone(),
+            numbers: Numbers::new(unfolded.recurrence().constants()),
             known: RefCell::default(),
             demand,
             expanded: Cell::new(0),
@@ -148,8 +159,8 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// The numbers of the scene's constants.
-    pub(crate) fn numbers(&self) -> Numbers<'_> {
-        Numbers::new(self.unfolded.recurrence().constants())
+    pub(crate) fn numbers(&self) -> &Numbers {
+        &self.numbers
     }
 
     /// How many echoes can reach what was asked for.
@@ -185,6 +196,9 @@ impl<'a> SceneEvaluator<'a> {
         let numbers = self.numbers();
         if numbers.compare(at, &Fraction::zero())? == Ordering::Less {
             return Ok(Value::Exact(Rational::zero()));
+        }
+        if numbers.compare(at, &self.last)? == Ordering::Greater {
+            return Err(EvaluateError::AfterLast);
         }
         let unit = &observed.unit;
         let observation = match &observed.value {
@@ -224,7 +238,7 @@ impl<'a> SceneEvaluator<'a> {
     /// What is seen of the waves at a time.
     pub(crate) fn arrived(
         &self,
-        numbers: &Numbers<'_>,
+        numbers: &Numbers,
         observation: &Observation,
         at: &Fraction,
         side: Side,
@@ -247,7 +261,7 @@ impl<'a> SceneEvaluator<'a> {
     /// What is added to the waves at a time.
     pub(crate) fn forcing(
         &self,
-        numbers: &Numbers<'_>,
+        numbers: &Numbers,
         observation: &Observation,
         at: &Fraction,
         side: Side,
@@ -264,7 +278,7 @@ impl<'a> SceneEvaluator<'a> {
     /// what was worked out without them is dropped.
     pub(crate) fn want_until_last(
         &self,
-        numbers: &Numbers<'_>,
+        numbers: &Numbers,
         observation: &Observation,
     ) -> Result<(), EvaluateError> {
         for Arrived { wave, number, .. } in
@@ -282,7 +296,7 @@ impl<'a> SceneEvaluator<'a> {
 
     pub(crate) fn enclose(
         &self,
-        numbers: &Numbers<'_>,
+        numbers: &Numbers,
         arrived: &[Arrived],
         forced: &Expression,
         bits: u64,
@@ -300,15 +314,11 @@ impl<'a> SceneEvaluator<'a> {
             let value = evaluate(echo, &x, numbers, bits)?;
             sum = sum.add(&value.multiply(&coefficient, bits), bits);
         }
-        Ok(sum.real().clone())
+        Ok(real_part(sum)?)
     }
 
     /// All echoes that are wanted, with so many bits.
-    pub(crate) fn solved(
-        &self,
-        numbers: &Numbers<'_>,
-        bits: u64,
-    ) -> Result<Rc<Echoes>, EvaluateError> {
+    pub(crate) fn solved(&self, numbers: &Numbers, bits: u64) -> Result<Rc<Echoes>, EvaluateError> {
         if let Some(known) = self.known.borrow().enclosed.get(&bits) {
             return Ok(known.clone());
         }
@@ -347,8 +357,9 @@ impl<'a> SceneEvaluator<'a> {
         let echoes = match known {
             Some(known) => known,
             None => {
-                let order = self.demand.borrow().last().unwrap_or(0);
-                let feasible = recurrence.degree_estimate(order) <= MAX_DEGREE;
+                let named = !recurrence.constants().is_empty();
+                let most = if named { MAX_EXACT_ECHOES_NAMED } else { MAX_EXACT_ECHOES };
+                let feasible = self.needed() <= most;
                 let exact = || self.solve_in(Exact::new(&statement.assumptions)).ok();
                 let echoes = feasible.then(exact).flatten().map(Rc::new);
                 self.known.borrow_mut().exact = Some(echoes.clone());
@@ -402,7 +413,7 @@ impl<'a> SceneEvaluator<'a> {
 fn evaluate(
     echo: &Transform<ComplexBall>,
     x: &ComplexBall,
-    numbers: &Numbers<'_>,
+    numbers: &Numbers,
     bits: u64,
 ) -> Result<ComplexBall, EvaluateError> {
     let mut sum = ComplexBall::zero();
@@ -446,7 +457,7 @@ fn may_be_zero(
 
 /// How many whole periods fit into a time, or one more.
 fn whole_periods(
-    numbers: &Numbers<'_>,
+    numbers: &Numbers,
     time: &Fraction,
     period: &Fraction,
 ) -> Result<usize, EvaluateError> {

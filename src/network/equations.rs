@@ -523,6 +523,7 @@ impl Network {
                 let symbols = self.model.assumptions.symbols();
                 symbols.map(|(symbol, _)| symbol.name()).any(|other| other == name)
                     || self.waves.iter().any(|wave| wave.name == name)
+                    || self.scene.observables.iter().any(|observable| observable.name == name)
                     || name == self.scene.time.name()
             };
             while taken(&name) {

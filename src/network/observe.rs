@@ -201,6 +201,10 @@ impl Network {
         };
         let section = match &seen.place {
             Place::Left(bar) => Some((*bar, Fraction::zero())),
+            // An endless bar to the left has one end, from which its sections are counted.
+            Place::Right(bar) if self.model.bars[bar].travel.is_none() => {
+                Some((*bar, Fraction::zero()))
+            }
             Place::Right(bar) => Some((*bar, Fraction::one())),
             Place::At(bar, position) => Some((*bar, self.share(name, *bar, position)?)),
             Place::Element(_) | Place::Line => None,
