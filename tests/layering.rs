@@ -14,7 +14,7 @@ const LAYERS: [(&str, &[&str]); 13] = [
     ("enclosure", &["ball", "expression"]),
     ("scene", &["expression"]),
     ("recurrence", &["enclosure", "expression"]),
-    ("network", &["expression", "recurrence", "scene"]),
+    ("network", &["enclosure", "expression", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
     (
         "evaluate",

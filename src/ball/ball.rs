@@ -100,6 +100,12 @@ impl Ball {
         self.radius.is_zero()
     }
 
+    /// Whether the midpoint is positive.
+    #[must_use]
+    pub(crate) fn midpoint_is_positive(&self) -> bool {
+        !self.midpoint.is_negative() && !self.midpoint.is_zero()
+    }
+
     /// Whether zero is in the ball.
     #[must_use]
     pub(crate) fn contains_zero(&self) -> bool {

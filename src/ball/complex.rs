@@ -6,6 +6,7 @@ use num_rational::BigRational;
 
 use super::ball::Ball;
 use super::error::BallError;
+use super::magnitude::Magnitude;
 
 /// All complex numbers whose real and imaginary parts lie in two balls.
 ///
@@ -47,6 +48,19 @@ impl ComplexBall {
     #[must_use]
     pub(crate) fn zero() -> Self {
         Ball::zero().into()
+    }
+
+    /// The middle of the rectangle.
+    pub(crate) fn centre(&self) -> Self {
+        let middle = |part: &Ball| Ball::new(part.midpoint().clone(), Magnitude::ZERO);
+        Self::new(middle(&self.re), middle(&self.im))
+    }
+
+    /// All points that are no farther from this rectangle than the other one is from zero.
+    pub(crate) fn widened(&self, by: &Self) -> Self {
+        let distance = by.re.magnitude().add(&by.im.magnitude());
+        let widen = |part: &Ball| Ball::new(part.midpoint().clone(), part.radius().add(&distance));
+        Self::new(widen(&self.re), widen(&self.im))
     }
 
     /// Whether the imaginary part is exactly zero.

@@ -21,14 +21,19 @@ pub enum Subject {
     Scene(Box<Network>),
 }
 
+impl Subject {
+    /// The recurrence, stated or derived.
+    pub fn into_recurrence(self) -> Result<Recurrence, Failure> {
+        match self {
+            Subject::Recurrence(recurrence) => Ok(*recurrence),
+            Subject::Scene(network) => Ok(network.recurrence()?),
+        }
+    }
+}
+
 /// Reads the scene that the arguments name, with the values put in.
 pub fn subject(arguments: &Scene) -> Result<Subject, Failure> {
     subject_with(&arguments.scene, &values(&arguments.set)?)
-}
-
-/// Reads the scene that the arguments name as a recurrence.
-pub fn recurrence(arguments: &Scene) -> Result<Recurrence, Failure> {
-    recurrence_with(&arguments.scene, &values(&arguments.set)?)
 }
 
 /// Reads a scene with values put in, as a recurrence.
@@ -36,10 +41,7 @@ pub fn recurrence_with(
     scene: &str,
     values: &BTreeMap<String, BigRational>,
 ) -> Result<Recurrence, Failure> {
-    match subject_with(scene, values)? {
-        Subject::Recurrence(recurrence) => Ok(*recurrence),
-        Subject::Scene(network) => Ok(network.recurrence()?),
-    }
+    subject_with(scene, values)?.into_recurrence()
 }
 
 fn subject_with(scene: &str, values: &BTreeMap<String, BigRational>) -> Result<Subject, Failure> {

@@ -3,7 +3,7 @@
 use super::arguments::Lock as Options;
 use super::bounds;
 use super::failure::Failure;
-use super::input;
+use super::input::{self, Subject};
 use super::progress;
 use std::fs::{self, File};
 use std::io::Write as _;
@@ -16,7 +16,15 @@ use wavestep::solution::Solution;
 
 /// Locks a scene.
 pub fn run(options: &Options) -> Result<String, Failure> {
-    let recurrence = input::recurrence(&options.scene)?;
+    let subject = input::subject(&options.scene)?;
+    if let Subject::Scene(network) = &subject
+        && network.scene().dimensional
+        && !options.at.is_empty()
+    {
+        let message = "values are not locked in scenes with units";
+        return Err(Failure::usage(message, "leave out --at: pieces are locked, without units"));
+    }
+    let recurrence = subject.into_recurrence()?;
     if let Some(constant) = recurrence.constants().first().filter(|_| !options.at.is_empty()) {
         let message =
             format!("values are not locked in scenes with constants such as {}", constant.symbol);

@@ -82,6 +82,10 @@ impl Numbers {
             Definition::Zero { polynomial, between } => {
                 self.enclose_zero(polynomial, between, bits)
             }
+            Definition::Part { polynomial, near, imaginary } => {
+                let zero = self.enclose_complex_zero(polynomial, near, bits)?;
+                Ok(if *imaginary { zero.imaginary().clone() } else { zero.real().clone() })
+            }
         }
     }
 
@@ -126,6 +130,40 @@ impl Numbers {
             }
         }
         Ok(Ball::between(&lower, &upper, bits))
+    }
+
+    /// The complex zero that the method of Newton finds. Within `n |p(z)/p'(z)|` of any point `z`
+    /// there is a zero of a polynomial of degree `n`.
+    fn enclose_complex_zero(
+        &self,
+        polynomial: &[Fraction],
+        (re, im): &(Rational, Rational),
+        bits: u64,
+    ) -> Result<ComplexBall, EnclosureError> {
+        let bits = bits + 32;
+        let coefficients: Vec<ComplexBall> = polynomial
+            .iter()
+            .map(|c| self.enclose_complex(&c.clone().into(), bits))
+            .collect::<Result<_, _>>()?;
+        let ball = |value: &Rational| Ball::from_rational(value, bits);
+        let mut z = ComplexBall::new(ball(re), ball(im)).centre();
+        // |p/p'| as a step, and how far the zero may be.
+        let step = |z: &ComplexBall| -> Result<ComplexBall, EnclosureError> {
+            let (mut value, mut slope) = (ComplexBall::zero(), ComplexBall::zero());
+            for coefficient in &coefficients {
+                slope = slope.multiply(z, bits).add(&value, bits);
+                value = value.multiply(z, bits).add(coefficient, bits);
+            }
+            let inverse = slope.reciprocal(bits).map_err(EnclosureError::Ball)?;
+            Ok(value.multiply(&inverse, bits))
+        };
+        for _ in 0..2 * (64 - bits.leading_zeros()) + 8 {
+            let minus = Rational::from_integer((-1).into());
+            z = z.add(&step(&z)?.multiply_rational(&minus, bits), bits).centre();
+        }
+        let degree = Rational::from_integer((polynomial.len() - 1).into());
+        let distance = step(&z)?.multiply_rational(&degree, bits);
+        Ok(z.widened(&distance))
     }
 
     fn enclose_complex(

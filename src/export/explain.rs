@@ -438,6 +438,15 @@ fn told(network: &Network, law: &Law) -> String {
     }
 }
 
+/// A polynomial in x, as text and in LaTeX.
+fn written_polynomial(coefficients: &[Fraction]) -> (String, String) {
+    let x = Symbol::new("x").expect("a name");
+    let value =
+        coefficients.iter().fold(Fraction::zero(), |sum, c| &(&sum * &Fraction::symbol(&x)) + c);
+    let terms = arrange(&value.into(), Some(&x));
+    (write_flat(&terms, &Text), write_flat(&terms, &Latex))
+}
+
 /// A text that begins with a capital letter.
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
@@ -449,15 +458,16 @@ fn capitalised(text: &str) -> String {
 fn definition(value: &Definition) -> Right {
     match value {
         Definition::Root(value) => root(value),
+        Definition::Part { polynomial, imaginary, .. } => {
+            let part = if *imaginary { "imaginary" } else { "real" };
+            let (text, latex) = written_polynomial(polynomial);
+            Right::Written(
+                format!("the {part} part of an x with {text} = 0"),
+                format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0"),
+            )
+        }
         Definition::Zero { polynomial, between: (lower, upper) } => {
-            let x = Symbol::new("x").expect("a name");
-            let value = polynomial
-                .iter()
-                .fold(Fraction::zero(), |sum, c| &(&sum * &Fraction::symbol(&x)) + c);
-            let head = Head::Written(String::new(), String::new());
-            let formula = Formula::new(head, &value.into(), &x);
-            let text = formula.to_line().replace(" = ", "");
-            let latex = formula.right_latex();
+            let (text, latex) = written_polynomial(polynomial);
             Right::Written(
                 format!("the x between {lower} and {upper} with {text} = 0"),
                 format!("x \\in ({lower}, {upper}),\\ {latex} = 0"),

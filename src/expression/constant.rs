@@ -126,6 +126,16 @@ pub enum Definition {
         /// Where the zero is looked for.
         between: (Rational, Rational),
     },
+    /// The real or imaginary part of a complex zero of a polynomial, coefficients from the highest
+    /// power down: the zero that the method of Newton finds from a starting point.
+    Part {
+        /// The coefficients.
+        polynomial: Vec<Fraction>,
+        /// The starting point, as real and imaginary part.
+        near: (Rational, Rational),
+        /// Whether the imaginary part is meant.
+        imaginary: bool,
+    },
 }
 
 impl From<Root> for Definition {

@@ -2,11 +2,11 @@
 
 use crate::expression::{Expression, Fraction};
 use num_integer::Integer as _;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive};
 use wavestep_polynomial::{Integer, Rational};
 
 /// The times at which waves can arrive: all `Σ_c k_c D_c` with whole numbers `k_c`, where no two of
-/// the `D_c` have a rational ratio. One `D` alone is a grid.
+/// the `D_c` have a rational ratio, or only a very fine common measure. One `D` alone is a grid.
 ///
 /// Whether two times are commensurate is decided exactly: their quotient is a rational number, or
 /// it is not.
@@ -36,27 +36,27 @@ impl Lattice {
     /// Where a time is zero.
     pub fn spanned_by(times: &[Fraction]) -> (Lattice, Vec<Vec<i64>>) {
         // The class of each time, and its ratio to the first of the class.
-        let mut classes: Vec<(Fraction, Rational)> = Vec::new();
+        let mut classes: Vec<Class> = Vec::new();
         let mut places = Vec::new();
         for time in times {
-            let ratio =
-                |of: &Fraction| Expression::from(time.clone()).proportion(&of.clone().into());
-            let known = classes.iter().enumerate().find_map(|(c, (of, _))| Some((c, ratio(of)?)));
-            let (class, ratio) = known.unwrap_or_else(|| {
-                classes.push((time.clone(), Rational::zero()));
-                (classes.len() - 1, Rational::one())
+            let joined = classes.iter_mut().enumerate().find_map(|(c, class)| {
+                let ratio = Expression::from(time.clone()).proportion(&class.of.clone().into())?;
+                class.join(&ratio).then_some((c, ratio))
             });
-            classes[class].1 = gcd(&classes[class].1, &ratio);
-            places.push((class, ratio));
+            places.push(joined.unwrap_or_else(|| {
+                let (of, one) = (time.clone(), Rational::one());
+                classes.push(Class { of, step: one.clone(), largest: one.clone() });
+                (classes.len() - 1, one)
+            }));
         }
         let count = |(class, ratio): (usize, Rational)| {
             let mut counts = vec![0; classes.len()];
-            let steps: Rational = ratio / &classes[class].1;
-            counts[class] = steps.to_integer().to_i64().expect("a small multiple");
+            let steps: Rational = ratio / &classes[class].step;
+            counts[class] = steps.to_integer().to_i64().expect("at most the largest count");
             counts
         };
         let counts = places.into_iter().map(count).collect();
-        let periods = classes.iter().map(|(of, step)| of.scale(step)).collect();
+        let periods = classes.iter().map(|class| class.of.scale(&class.step)).collect();
         (Lattice { periods }, counts)
     }
 
@@ -80,6 +80,29 @@ impl Lattice {
         };
         let parts = self.periods.iter().zip(counts).map(part);
         parts.fold(Fraction::zero(), |sum, part| &sum + &part)
+    }
+}
+
+/// The most steps of a common measure in one time: finer measures count as none.
+const MAX_COUNT: i64 = 1_000;
+
+/// Times in rational proportions, by the first of them: their common measure, and the largest.
+struct Class {
+    of: Fraction,
+    step: Rational,
+    largest: Rational,
+}
+
+impl Class {
+    /// Takes one more in, where the common measure does not become too fine.
+    fn join(&mut self, ratio: &Rational) -> bool {
+        let step = gcd(&self.step, ratio);
+        let largest = ratio.max(&self.largest).clone();
+        let coarse = &largest / &step <= Rational::from_integer(MAX_COUNT.into());
+        if coarse {
+            (self.step, self.largest) = (step, largest);
+        }
+        coarse
     }
 }
 

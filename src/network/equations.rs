@@ -34,7 +34,7 @@ use wavestep_polynomial::Rational;
 pub enum NetworkError {
     /// A value that cannot be divided by.
     Division(NotAUnit),
-    /// The travel times have no common measure, so that no period suits all of them.
+    /// The travel times have no common measure, or too fine a one, so that no period suits them all.
     Incommensurate,
     /// The laws at the nodes cannot be solved for the waves.
     Recurrence(Box<InvalidRecurrence>),
@@ -53,7 +53,9 @@ impl fmt::Display for NetworkError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             NetworkError::Division(reason) => reason.fmt(f),
-            NetworkError::Incommensurate => f.write_str("the travel times have no common measure"),
+            NetworkError::Incommensurate => {
+                f.write_str("the travel times have no common measure, or too fine a one")
+            }
             NetworkError::Recurrence(invalid) => invalid.fmt(f),
             NetworkError::Rates { place, waves } => {
                 let waves = waves.join(" and ");

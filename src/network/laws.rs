@@ -338,6 +338,12 @@ impl Network {
                     (None, false) => add(Rule::Velocity, &forms[0], other),
                 }
             }
+            for element in elements {
+                if let Some(wave) = self.wave(Role::Displacement(*element)) {
+                    add(Rule::Displacement(*element), &LinearForm::slope(wave, 0), &forms[0]);
+                    starts.push(LinearForm::wave(wave, 0));
+                }
+            }
             if run.first == run.last || imposing.is_some() || held {
                 continue;
             }
@@ -358,9 +364,6 @@ impl Network {
                         if let Some(wave) = self.wave(Role::Displacement(*element)) {
                             let own = LinearForm::wave(wave, 0);
                             resisting.add_scaled(&own, &stiffness.clone().into(), 0);
-                            let slope = LinearForm::slope(wave, 0);
-                            add(Rule::Displacement(*element), &slope, velocity);
-                            starts.push(own);
                         }
                     }
                     ModelLump::Load(..) => {
@@ -371,10 +374,9 @@ impl Network {
             }
             if !mass.is_zero() {
                 resisting.add_scaled(&velocity.derivative(time), &mass.clone().into(), 0);
-                let inverse = Fraction::reciprocal(mass.numerator());
-                let inverse = inverse.expect("a mass that can be divided by");
-                let start = &(&momentum * &inverse) * &Fraction::from(mass.denominator());
-                starts.push(difference(velocity, &self.constant(place, &start, strides)));
+                // M v − Σ m v_0, so that nothing is divided by.
+                let start = self.constant(place, &momentum, strides);
+                starts.push(difference(&scaled(velocity, &mass), &start));
             }
             add(Rule::Balance(elements.to_vec()), &resisting, &acting);
         }

@@ -4,12 +4,14 @@
 //! velocities in the first one that is not zero. What is then rational is put in as a number; what
 //! is not gets a name, such as `kappa_specimen = k τ/Z`, and keeps its definition.
 
+use crate::enclosure::Numbers;
 use crate::expression::{
     Assumptions, Condition, Constant, Definition, Expression, Fraction, Relation, Root,
 };
 use crate::network::equations::NetworkError;
-use crate::scene::{Body, Drive, ElementIndex, Kind, Scene};
+use crate::scene::{Body, Drive, ElementIndex, Kind, PI, Scene};
 use num_traits::{Signed, Zero};
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -283,32 +285,49 @@ impl Model {
     /// The value as a number where it is one, or a fraction of symbols; else as a constant, which is
     /// named.
     pub(crate) fn number(&mut self, name: &str, value: Root) -> Fraction {
-        let pi = Symbol::new("pi").expect("a name");
+        let pi = Symbol::new(PI).expect("a name");
         if let Some(exact) = value.exact().filter(|exact| !exact.contains(&pi)) {
             return exact;
         }
-        let negative = value.factor().numerator().leading_coefficient().is_negative();
-        let minus = Root::from(-&Fraction::one());
-        let value = if negative { value.times(&minus) } else { value };
-        let definition = Definition::from(value);
-        let known = self.constants.iter().find(|constant| constant.value == definition);
-        let symbol = match known {
-            Some(constant) => constant.symbol.clone(),
-            None => self.name(name, definition),
-        };
-        let symbol = Fraction::symbol(&symbol);
-        if negative { -&symbol } else { symbol }
+        // A rational multiple of what has a name needs none.
+        let multiple = self.constants.iter().find_map(|constant| {
+            let Definition::Root(root) = &constant.value else { return None };
+            let ratio = value.over(root).ok()?.exact()?.as_constant()?;
+            Some(Fraction::symbol(&constant.symbol).scale(&ratio))
+        });
+        multiple.unwrap_or_else(|| {
+            let positive = self.is_positive(value.factor());
+            let negative = positive.is_none() && self.is_positive(&-value.factor()).is_some();
+            let value = match negative {
+                true => value.times(&Root::from(-&Fraction::one())),
+                false => value,
+            };
+            let condition = positive.is_some() || negative;
+            let symbol = Fraction::symbol(&self.name(name, value.into(), condition));
+            if negative { -&symbol } else { symbol }
+        })
     }
 
-    /// Names a positive constant.
-    fn name(&mut self, name: &str, value: Definition) -> Symbol {
+    /// Says so where a value is certainly positive.
+    fn is_positive(&self, value: &Fraction) -> Option<()> {
+        let order = Numbers::new(&self.constants).compare(value, &Fraction::zero());
+        let by_number = order == Ok(Ordering::Greater);
+        let mut known = self.assumptions.clone();
+        let three = Rational::from_integer(3.into());
+        let above = Condition { relation: Relation::Greater, bound: three };
+        known.declare_symbol(Symbol::new(PI).expect("a name"), Some(above));
+        (by_number || known.is_positive(value)).then_some(())
+    }
+
+    /// Names a constant, and declares it positive where it is known to be.
+    fn name(&mut self, name: &str, value: Definition, is_positive: bool) -> Symbol {
         let mut name = name.to_owned();
         while self.assumptions.symbols().any(|(symbol, _)| symbol.name() == name) {
             name.push('_');
         }
         let symbol = Symbol::new(&name).expect("a name with letters in front");
         let positive = Condition { relation: Relation::Greater, bound: Rational::zero() };
-        self.assumptions.declare_symbol(symbol.clone(), Some(positive));
+        self.assumptions.declare_symbol(symbol.clone(), is_positive.then_some(positive));
         self.constants.push(Constant { symbol: symbol.clone(), value });
         symbol
     }

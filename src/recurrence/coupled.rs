@@ -1,11 +1,16 @@
 //! Waves whose differential equations are coupled, uncoupled one by one.
 //!
-//! `x' + A x + R = 0`, with everything known in `R`, has a left eigenvector `l` for each rate `a`:
-//! `l A = a l`. So `z = l x` stands alone, `z' + a z + l R = 0`; with `z` known one of the `x` leaves
-//! the system, and the rest goes on in the same way. Only first-order equations are ever solved.
+//! `x' + A x + R = 0`, with everything known in `R` and the rates `a_1 … a_m`, the roots of the
+//! characteristic polynomial of `A`. With a row `r_0` and `r_k = r_{k−1} (a_k − A)` the waves
+//! `y_k = r_k x` follow from one another,
 //!
-//! The rates are the roots of the characteristic polynomial, which comes with the adjugate of
-//! `λ − A`, the source of the eigenvectors, from the method of Faddeev and LeVerrier.
+//! ```text
+//! y_k' + a_{k+1} y_k = y_{k+1} − r_k R,        y_m = 0 by the theorem of Cayley and Hamilton,
+//! ```
+//!
+//! so that only first-order equations are ever solved, whatever the rates are, equal ones included.
+//! The rows are those of Krylov, `r_0 A^k`, up to multiples of earlier ones: whether `x` can be had
+//! back from `y` depends on a determinant without rates in it.
 
 use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::WaveIndex;
@@ -33,62 +38,130 @@ pub(crate) struct Uncoupled {
 
 type Matrix = Vec<Vec<Fraction>>;
 
-/// Uncouples as many forms as waves, each with slopes of the waves at lag 0. Added waves are
-/// numbered from `hidden` on.
+/// The most waves that are uncoupled together.
+const MAX_SIZE: usize = 8;
+
+/// Uncouples as many forms as waves. Added waves are numbered from `hidden` on.
 pub(crate) fn uncouple(
     mut forms: Vec<LinearForm>,
     mut waves: Vec<WaveIndex>,
     hidden: WaveIndex,
     naming: &mut Naming,
 ) -> Result<Uncoupled, Stuck> {
+    let tail = take_values(&mut forms, &mut waves, naming.assumptions())?;
     solve_for_slopes(&mut forms, &waves, naming.assumptions())?;
-    let mut matrix = rates(&forms, &waves).ok_or(Stuck::Degenerate)?;
-    let (polynomial, _) = characteristic(&matrix);
-    let mut roots = roots::of(&polynomial, naming).ok_or(Stuck::Roots(polynomial))?;
-    let rates_found = roots.clone();
-    let (mut steps, mut algebraic) = (Vec::new(), Vec::new());
-    let mut added = 0;
-    while waves.len() > 1 {
-        let rate = roots.pop().expect("as many roots as waves");
-        let (place, vector) =
-            left_eigenvector(&matrix, &rate, naming.assumptions()).ok_or(Stuck::Degenerate)?;
-        let auxiliary = hidden + added;
-        added += 1;
-        // z' + a z + l R = 0
-        let mut equation = LinearForm::slope(auxiliary, 0);
-        equation.add_scaled(&LinearForm::wave(auxiliary, 0), &rate.clone().into(), 0);
-        for (form, weight) in forms.iter().zip(&vector) {
-            equation.add_scaled(&without(form, &waves), &weight.clone().into(), 0);
-        }
-        steps.push((auxiliary, equation));
-        // x_k = z − Σ l_j x_j
-        let (wave, form) = (waves.remove(place), LinearForm::wave(auxiliary, 0));
-        forms.remove(place);
-        let mut solved = form;
-        let others = vector.iter().enumerate().filter(|(j, _)| *j != place).map(|(_, l)| l);
-        for (other, weight) in waves.iter().zip(others) {
-            let term = LinearForm::wave(*other, 0);
-            solved.add_scaled(&term, &-&Expression::from(weight.clone()), 0);
-        }
-        for form in &mut forms {
-            let value = form.operator(wave).value_now();
-            form.add_scaled(&LinearForm::wave(wave, 0), &-&value, 0);
-            form.add_scaled(&solved, &value, 0);
-        }
-        let mut own = LinearForm::wave(wave, 0);
-        own.add_scaled(&solved, &-&Expression::one(), 0);
-        algebraic.push((wave, own));
-        matrix = rates(&forms, &waves).ok_or(Stuck::Degenerate)?;
+    let matrix = rates(&forms, &waves).ok_or(Stuck::Degenerate)?;
+    let size = waves.len();
+    if size > MAX_SIZE {
+        return Err(Stuck::Degenerate);
     }
-    // The last rate is the root that is left.
-    let (wave, form) = (waves[0], &forms[0]);
-    let mut equation = without(form, &waves);
-    equation.add_scaled(&LinearForm::slope(wave, 0), &Expression::one(), 0);
-    let rate = roots.pop().expect("as many roots as waves");
-    equation.add_scaled(&LinearForm::wave(wave, 0), &rate.into(), 0);
-    steps.push((wave, equation));
-    steps.extend(algebraic.into_iter().rev());
-    Ok(Uncoupled { steps, hidden: added, rates: rates_found })
+    let polynomial = characteristic(&matrix);
+    let rates = roots::of(&polynomial, naming).ok_or(Stuck::Roots(polynomial))?;
+    let first = (0..size).find_map(|j| {
+        let rows = rows(&matrix, j, &rates);
+        let determinant = naming.assumptions().invert(&determinant(&rows).into()).ok()?;
+        Some((j, rows, determinant.as_fraction()?))
+    });
+    let (j, rows, inverse) = first.ok_or(Stuck::Degenerate)?;
+    let wave_of = |k: usize| if k == 0 { waves[j] } else { hidden + k - 1 };
+    let rests: Vec<LinearForm> = forms.iter().map(|form| without(form, &waves)).collect();
+    let mut steps = Vec::new();
+    for k in (0..size).rev() {
+        let mut equation = LinearForm::slope(wave_of(k), 0);
+        equation.add_scaled(&LinearForm::wave(wave_of(k), 0), &rates[k].clone().into(), 0);
+        if k + 1 < size {
+            equation.add_scaled(&LinearForm::wave(wave_of(k + 1), 0), &-&Expression::one(), 0);
+        }
+        for (rest, weight) in rests.iter().zip(&rows[k]) {
+            equation.add_scaled(rest, &weight.clone().into(), 0);
+        }
+        steps.push((wave_of(k), equation));
+    }
+    for i in (0..size).filter(|i| *i != j) {
+        // x_i = Σ_k (T^{−1})_{ik} y_k, with T the rows; its entries are cofactors.
+        let mut own = LinearForm::wave(waves[i], 0);
+        for k in 0..size {
+            let sign = if (i + k) % 2 == 0 { Fraction::one() } else { -&Fraction::one() };
+            let cofactor = &(&determinant(&minor(&rows, k, i)) * &inverse) * &sign;
+            own.add_scaled(&LinearForm::wave(wave_of(k), 0), &-&Expression::from(cofactor), 0);
+        }
+        steps.push((waves[i], own));
+    }
+    steps.extend(tail);
+    Ok(Uncoupled { steps, hidden: size - 1, rates })
+}
+
+/// Waves without a derivative are given by one of the forms each, and leave the others.
+fn take_values(
+    forms: &mut Vec<LinearForm>,
+    waves: &mut Vec<WaveIndex>,
+    assumptions: &Assumptions,
+) -> Result<Vec<(WaveIndex, LinearForm)>, Stuck> {
+    let mut taken = Vec::new();
+    let slopeless = |forms: &[LinearForm], wave: &WaveIndex| {
+        forms.iter().all(|form| form.operator(*wave).slope_now().is_zero())
+    };
+    while let Some(place) = waves.iter().position(|wave| slopeless(forms, wave)) {
+        let wave = waves.remove(place);
+        let value = |form: &LinearForm| form.operator(wave).value_now();
+        let pivot = forms
+            .iter()
+            .enumerate()
+            .find_map(|(row, form)| Some((row, assumptions.invert(&value(form)).ok()?)));
+        let (row, inverse) = pivot.ok_or(Stuck::Degenerate)?;
+        let own = forms.remove(row).scaled(&inverse);
+        for form in forms.iter_mut() {
+            let factor = -&value(form);
+            form.add_scaled(&own, &factor, 0);
+        }
+        taken.push((wave, own));
+    }
+    if waves.is_empty() {
+        return Err(Stuck::Degenerate);
+    }
+    taken.reverse();
+    Ok(taken)
+}
+
+/// The rows `r_0 = e_j`, `r_k = r_{k−1} (a_k − A)`.
+fn rows(matrix: &Matrix, j: usize, rates: &[Fraction]) -> Matrix {
+    let size = matrix.len();
+    let unit = |i| if i == j { Fraction::one() } else { Fraction::zero() };
+    let mut rows: Matrix = vec![(0..size).map(unit).collect()];
+    for rate in &rates[..size - 1] {
+        let last = rows.last().expect("one at least");
+        let next = (0..size).map(|column| {
+            let product =
+                (0..size).fold(Fraction::zero(), |sum, k| &sum + &(&last[k] * &matrix[k][column]));
+            &(&last[column] * rate) - &product
+        });
+        let next = next.collect();
+        rows.push(next);
+    }
+    rows
+}
+
+/// The determinant, by expansion along the first row: for a few rows.
+fn determinant(rows: &[Vec<Fraction>]) -> Fraction {
+    if rows.is_empty() {
+        return Fraction::one();
+    }
+    let mut sum = Fraction::zero();
+    for (column, entry) in rows[0].iter().enumerate().filter(|(_, entry)| !entry.is_zero()) {
+        let term = entry * &determinant(&minor(rows, 0, column));
+        sum = if column % 2 == 0 { &sum + &term } else { &sum - &term };
+    }
+    sum
+}
+
+/// The rows without one of them and without a column.
+fn minor(rows: &[Vec<Fraction>], row: usize, column: usize) -> Matrix {
+    let rest = rows.iter().enumerate().filter(|(i, _)| *i != row);
+    rest.map(|(_, entries)| {
+        let kept = entries.iter().enumerate().filter(|(j, _)| *j != column);
+        kept.map(|(_, entry)| entry.clone()).collect()
+    })
+    .collect()
 }
 
 /// Turns the forms into `x_i' + … = 0`, one slope each.
@@ -136,29 +209,21 @@ fn without(form: &LinearForm, waves: &[WaveIndex]) -> LinearForm {
     rest
 }
 
-/// The characteristic polynomial `det(λ − A)`, highest power first, and the matrices `M_k` of the
-/// adjugate `Σ_k λ^{m−k} M_k`.
-fn characteristic(matrix: &Matrix) -> (Vec<Fraction>, Vec<Matrix>) {
+/// The characteristic polynomial `det(λ − A)`, highest power first, by the method of Faddeev and
+/// LeVerrier.
+fn characteristic(matrix: &Matrix) -> Vec<Fraction> {
     let size = matrix.len();
-    let identity = |value: &Fraction| -> Matrix {
-        let entry = |i, j| if i == j { value.clone() } else { Fraction::zero() };
-        (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
-    };
     let mut polynomial = vec![Fraction::one()];
-    let mut matrices = vec![identity(&Fraction::one())];
+    let mut power: Matrix = vec![vec![Fraction::zero(); size]; size];
+    (0..size).for_each(|i| power[i][i] = Fraction::one());
     for k in 1..=size {
-        let product = multiply(matrix, matrices.last().expect("one at least"));
-        let trace = (0..size).fold(Fraction::zero(), |sum, i| &sum + &product[i][i]);
+        power = multiply(matrix, &power);
+        let trace = (0..size).fold(Fraction::zero(), |sum, i| &sum + &power[i][i]);
         let coefficient = trace.scale(&Rational::new((-1).into(), k.into()));
-        let shift = identity(&coefficient);
-        let add = |(a, b): (Vec<Fraction>, Vec<Fraction>)| -> Vec<Fraction> {
-            a.iter().zip(&b).map(|(a, b)| a + b).collect()
-        };
-        matrices.push(product.into_iter().zip(shift).map(add).collect());
+        (0..size).for_each(|i| power[i][i] = &power[i][i] + &coefficient);
         polynomial.push(coefficient);
     }
-    matrices.truncate(size);
-    (polynomial, matrices)
+    polynomial
 }
 
 fn multiply(left: &Matrix, right: &Matrix) -> Matrix {
@@ -167,27 +232,4 @@ fn multiply(left: &Matrix, right: &Matrix) -> Matrix {
         (0..size).fold(Fraction::zero(), |sum, k| &sum + &(&left[i][k] * &right[k][j]))
     };
     (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect()
-}
-
-/// A left eigenvector for `rate`, scaled to 1 at the place that is told: a row of the adjugate of
-/// `rate − A`, whose product with `rate − A` is the characteristic polynomial there, zero.
-fn left_eigenvector(
-    matrix: &Matrix,
-    rate: &Fraction,
-    assumptions: &Assumptions,
-) -> Option<(usize, Vec<Fraction>)> {
-    let (_, matrices) = characteristic(matrix);
-    let size = matrix.len();
-    (0..size).find_map(|i| {
-        let entry = |j: usize| {
-            // Horner in the rate.
-            let terms = matrices.iter().map(|matrix| &matrix[i][j]);
-            terms.fold(Fraction::zero(), |value, term| &(&value * rate) + term)
-        };
-        let row: Vec<Fraction> = (0..size).map(entry).collect();
-        row.iter().enumerate().rev().find_map(|(place, entry)| {
-            let inverse = assumptions.invert(&entry.clone().into()).ok()?.as_fraction()?;
-            Some((place, row.iter().map(|entry| entry * &inverse).collect()))
-        })
-    })
 }

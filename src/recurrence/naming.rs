@@ -2,9 +2,14 @@
 
 use crate::enclosure::Numbers;
 use crate::expression::{Assumptions, Condition, Constant, Definition, Fraction, Relation, Root};
+use crate::recurrence::roots::approximate_roots;
 use crate::recurrence::statement::Statement;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};
+
+/// The precision and the digits of a first guess.
+const GUESS_BITS: u64 = 64;
+const GUESS_DIGITS: usize = 17;
 
 /// Into how many stretches a line is cut in search of a sign change.
 const STRETCHES: i64 = 64;
@@ -79,6 +84,36 @@ impl Naming {
             before = Some((x, sign));
         }
         None
+    }
+
+    /// The parts `σ, ω` of a pair of complex zeros `σ ± iω` of a polynomial as named constants; `None`
+    /// where there is no symbol-free one.
+    pub fn complex_zero(&mut self, polynomial: &[Fraction]) -> Option<(Fraction, Fraction)> {
+        let numbers = Numbers::new(&self.constants);
+        let decimal = |c: &Fraction| {
+            let ball = numbers.enclose(c, GUESS_BITS).ok()?;
+            Some(ball.to_decimal(GUESS_DIGITS).midpoint().to_rational())
+        };
+        let coefficients: Vec<Rational> = polynomial.iter().map(decimal).collect::<Option<_>>()?;
+        let guesses = approximate_roots(&coefficients)?;
+        let (re, im) = guesses.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let near = (Rational::from_float(re)?, Rational::from_float(im)?);
+        let part = |imaginary| Definition::Part {
+            polynomial: polynomial.to_vec(),
+            near: near.clone(),
+            imaginary,
+        };
+        let (sigma, omega) = (part(false), part(true));
+        let positive = |definition: &Definition| {
+            let ball = numbers.enclose_definition(definition, GUESS_BITS).ok()?;
+            (!ball.contains_zero() && ball.midpoint_is_positive()).then_some(())
+        };
+        positive(&omega)?;
+        let growing = positive(&sigma).is_none();
+        let sigma =
+            self.name("sigma", sigma, if growing { Relation::Unequal } else { Relation::Greater });
+        let omega = self.name("omega", omega, Relation::Greater);
+        Some((Fraction::symbol(&sigma), Fraction::symbol(&omega)))
     }
 
     /// All zeros are smaller in size than this number: `1 + max |c_i|`, for a monic polynomial.

@@ -348,7 +348,13 @@ fn assign_starts(
         }
         let holds =
             |(row, _): &(Row, Expression)| !row.form.operator(step.wave).value_now().is_zero();
-        let Some(i) = rules.iter().position(holds) else {
+        // Rather a rule that can be divided by the wave's coefficient.
+        let usable = |rule: &(Row, Expression)| {
+            let leading = rule.0.form.operator(step.wave).value_now();
+            holds(rule) && statement.assumptions.invert(&leading).is_ok()
+        };
+        let chosen = rules.iter().position(usable).or_else(|| rules.iter().position(holds));
+        let Some(i) = chosen else {
             let wave = without_start(statement, step.wave);
             return refuse(Part::Wave(wave), Fault::NoStart(statement.waves[wave].clone()));
         };
@@ -365,6 +371,8 @@ fn assign_starts(
         }
         found.push((place, form, initial, row.part));
     }
+    // What follows from the other rules is no rule of its own.
+    rules.retain(|(row, start)| !(row.form.is_zero() && start.is_zero()));
     if let Some((row, _)) = rules.first() {
         return refuse(row.part, Fault::StartsNothing);
     }

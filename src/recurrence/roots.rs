@@ -7,7 +7,7 @@
 use crate::expression::Fraction;
 use crate::recurrence::naming::Naming;
 use num_traits::{FromPrimitive, One, ToPrimitive, Zero};
-use wavestep_polynomial::{Integer, Rational};
+use wavestep_polynomial::{Integer, Rational, Symbol};
 
 /// All roots of a monic polynomial, given by its coefficients, highest power first; `None` where
 /// they are not found.
@@ -30,11 +30,21 @@ pub(crate) fn of(polynomial: &[Fraction], naming: &mut Naming) -> Option<Vec<Fra
                     roots.extend(of(&factor, naming)?);
                     rest = quotient;
                 }
-                None => {
-                    let root = naming.real_zero(&rest)?;
-                    rest = deflated(&rest, &root);
-                    roots.push(root);
-                }
+                None => match naming.real_zero(&rest) {
+                    Some(root) => {
+                        rest = deflated(&rest, &root);
+                        roots.push(root);
+                    }
+                    None => {
+                        let (sigma, omega) = naming.complex_zero(&rest)?;
+                        let i = Symbol::square_root(-1).expect("the imaginary unit");
+                        let swing = &omega * &Fraction::symbol(&i);
+                        for root in [&sigma + &swing, &sigma - &swing] {
+                            rest = deflated(&rest, &root);
+                            roots.push(root);
+                        }
+                    }
+                },
             },
         }
     }
@@ -112,7 +122,7 @@ fn divide(polynomial: &[Rational], factor: &[Rational]) -> Option<Vec<Rational>>
 }
 
 /// Roots to about ten digits, by the simultaneous iteration of Weierstrass.
-fn approximate_roots(polynomial: &[Rational]) -> Option<Vec<(f64, f64)>> {
+pub(crate) fn approximate_roots(polynomial: &[Rational]) -> Option<Vec<(f64, f64)>> {
     let coefficients: Vec<f64> = polynomial.iter().map(Rational::to_f64).collect::<Option<_>>()?;
     let degree = coefficients.len() - 1;
     let times = |a: (f64, f64), b: (f64, f64)| (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0);

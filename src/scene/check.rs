@@ -331,7 +331,9 @@ impl Check<'_> {
                     self.fault(mistake, parts);
                 }
                 let first = &seen.terms[0];
-                if scene.dimensional && part.measure.dimension() != first.measure.dimension() {
+                let energy = |seen: &Seen| seen.measure == Measure::Energy;
+                let differ = part.measure.dimension() != first.measure.dimension();
+                if (scene.dimensional && differ) || energy(part) != energy(first) {
                     let parts = [here, Part::Term { observable, term: 0 }];
                     self.fault(Mistake::MixedDimensions, parts);
                 }
@@ -406,8 +408,8 @@ impl Check<'_> {
 
 /// Whether an endless bar holds infinitely much of it from the start.
 fn is_infinite(measure: Measure, bar: &Bar) -> bool {
-    let is_strained = measure == Measure::Energy && !bar.strain.is_zero();
-    !bar.velocity.is_zero() || is_strained
+    matches!(measure, Measure::Energy | Measure::Momentum)
+        && !(bar.velocity.is_zero() && bar.strain.is_zero())
 }
 
 /// Whether an element as a whole, or a section of it, has a measure.
@@ -420,6 +422,6 @@ fn is_measurable(measure: Measure, kind: &Kind, whole: bool) -> bool {
         (Kind::Mass(_), true) => matches!(measure, Velocity | Displacement | Energy | Momentum),
         (Kind::Spring(_), true) => matches!(measure, Force | Compression | Energy),
         (Kind::Support(_), true) => matches!(measure, Force | Energy),
-        (Kind::Load(_), true) => measure == Force,
+        (Kind::Load(_), true) => false,
     }
 }
