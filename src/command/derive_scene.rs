@@ -46,11 +46,31 @@ pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
         (Failure::Computation(..), Some(of_rates)) => of_rates,
         _ => failure,
     })?;
+    let unit = |mark: &str| match unit_of_observable(network, options) {
+        Some(unit) => format!("{mark} {unit}\n"),
+        None => String::new(),
+    };
     Ok(match options.format {
         DeriveFormat::Json => derived,
-        DeriveFormat::Text => format!("{}{derived}", constants(network, "#", Some(&derived))?),
-        DeriveFormat::Latex => format!("{}{derived}", constants(network, "%", None)?),
+        DeriveFormat::Text => {
+            format!("{}{}{derived}", constants(network, "#", Some(&derived))?, unit("#"))
+        }
+        DeriveFormat::Latex => {
+            format!("{}{}{derived}", constants(network, "%", None)?, unit("%"))
+        }
     })
+}
+
+/// In which unit the observable is that is derived, in scenes with units.
+fn unit_of_observable(network: &Network, options: &Derive) -> Option<String> {
+    let name = language::normalise_name(options.observable.as_deref()?);
+    let observed = network.observables().iter().find(|observed| observed.name == name)?;
+    if !network.scene().dimensional {
+        return None;
+    }
+    let number = decimal(&network.model().constants, &observed.unit.clone().into())?;
+    let unit = language::unit_of(observed.dimension);
+    Some(format!("{name} in {number} {unit}").trim_end().to_owned())
 }
 
 fn refuse_energy(network: &Network, name: &str) -> Result<(), Failure> {

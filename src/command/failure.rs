@@ -111,6 +111,10 @@ impl From<NetworkError> for Failure {
                 "give values with --set; or state the elements by their rates a and b, or sigma and \
                  omega, as docs/scene-language.md shows"
             }
+            NetworkError::Recurrence(_) => {
+                "what has no mass cannot be forced or held against a spring or a moving bar: put a \
+                 mass there"
+            }
             _ => "give values with --set",
         };
         Failure::Computation(error.to_string(), remedy.to_owned())
@@ -132,6 +136,7 @@ impl From<EvaluateError> for Failure {
                 Failure::Computation(message, remedy.to_owned())
             }
             EvaluateError::Solve(error) => error.into(),
+            EvaluateError::Network(error) => (*error).into(),
             EvaluateError::AccuracyNotReached { .. } => {
                 Failure::Accuracy(message, "raise --max-bits, or ask for fewer digits".to_owned())
             }

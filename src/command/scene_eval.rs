@@ -5,7 +5,7 @@ use super::eval::{Row, csv, json_document, text, time_on_period, times, unknown}
 use super::failure::Failure;
 use super::progress;
 use num_rational::BigRational;
-use wavestep::evaluate::{SceneEvaluator, Side};
+use wavestep::evaluate::{Evaluator, SceneEvaluator, Side};
 use wavestep::expression::{Expression, Fraction, Root};
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
@@ -24,6 +24,9 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
         (Some(n), Some(local)) => vec![time_on_piece(network, &observed, n, local, side)?],
         _ => times(options, network.scene().dimensional)?,
     };
+    if let Some(solution) = closed_form(network, &observed)?.filter(|_| !options.stats) {
+        return told_by_closed_form(&solution, &observed, times, side, options);
+    }
     let scaled: Vec<Fraction> = times.iter().map(|time| network.scaled_time(time)).collect();
     let last = times.iter().zip(&scaled).max().map(|(_, scaled)| scaled.clone());
     let last = last.expect("times without any are refused");
@@ -46,11 +49,52 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
         true => (" s", format!(" {unit}")),
         false => ("", String::new()),
     };
-    Ok(match options.format {
-        EvalFormat::Text => text(&rows, options, [second, &spaced]),
-        EvalFormat::Csv => csv(&rows, options.digits),
-        EvalFormat::Json => json_document(&network.scene().title, &rows, options, &unit),
-    })
+    Ok(written(&rows, &network.scene().title, [second, &spaced, &unit], options))
+}
+
+/// The solution of a scene in which echoes of all that is observed have a closed form, without units
+/// and named constants: then any of them is had without those before.
+fn closed_form(network: &Network, observed: &Observed) -> Result<Option<Solution>, Failure> {
+    let ObservedValue::Linear(observation) = &observed.value else { return Ok(None) };
+    if network.scene().dimensional || network.lattice().periods().len() > 1 {
+        return Ok(None);
+    }
+    let recurrence = network.recurrence()?;
+    let is_number = recurrence.symbols().next().is_none() && recurrence.constants().is_empty();
+    let solution = Solution::new(recurrence);
+    let known = observation.waves.iter().all(|seen| solution.general(seen.wave).is_ok());
+    Ok((is_number && known).then_some(solution))
+}
+
+fn told_by_closed_form(
+    solution: &Solution,
+    observed: &Observed,
+    times: Vec<BigRational>,
+    side: Side,
+    options: &Eval,
+) -> Result<String, Failure> {
+    let ObservedValue::Linear(observation) = &observed.value else {
+        unreachable!("energies have no closed form")
+    };
+    let evaluator = Evaluator::new(solution)?;
+    let progress = progress::counted(times.len());
+    let mut rows = Vec::with_capacity(times.len());
+    for time in times {
+        let value = evaluator.value(observation, &time, side, options.digits, options.max_bits)?;
+        rows.push(Row { time, value });
+        progress.inc(1);
+    }
+    drop(progress);
+    Ok(written(&rows, &solution.recurrence().statement().title, ["", "", ""], options))
+}
+
+/// Rows in the format asked for, with the unit of time, the unit after a space, and the unit.
+fn written(rows: &[Row], title: &str, [second, spaced, unit]: [&str; 3], options: &Eval) -> String {
+    match options.format {
+        EvalFormat::Text => text(rows, options, [second, spaced]),
+        EvalFormat::Csv => csv(rows, options.digits),
+        EvalFormat::Json => json_document(title, rows, options, unit),
+    }
 }
 
 /// The time on a period of the observable, in scenes on one grid and without units.

@@ -128,6 +128,30 @@ impl SceneEvaluator<'_> {
         Ok(sum)
     }
 
+    /// The sum of the parts as an exact expression; `None` where one cannot be given.
+    pub(crate) fn exact_energy(&self, parts: &[Part]) -> Option<Expression> {
+        let statement = self.recurrence().statement();
+        let local = &statement.local;
+        let mut sum = Expression::zero();
+        for part in parts {
+            let (coefficient, value) = match part {
+                Part::Now(coefficient, arrived, forced) => {
+                    (coefficient, self.exact(arrived, forced)?.pow(2))
+                }
+                Part::Before(coefficient, before, length) => {
+                    (coefficient, Expression::from(&before.pow(2) * length))
+                }
+                Part::Between(coefficient, arrived, forced, length) => {
+                    let q = self.exact_later(arrived, forced, &Fraction::symbol(local))?;
+                    let integral = q.pow(2).antiderivative(local, &statement.assumptions).ok()?;
+                    (coefficient, integral.substitute(local, length).ok()?)
+                }
+            };
+            sum.add_scaled(&value, &coefficient.clone().into());
+        }
+        Some(sum)
+    }
+
     /// The sum of what has arrived, as a function of the time from now on.
     fn rows(
         &self,

@@ -11,7 +11,7 @@ use crate::evaluate::modular::{self, Modular, Residue};
 use crate::evaluate::value::Value;
 use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
 use crate::network::{Network, NetworkError, Observed, ObservedValue, Unfolded};
-use crate::recurrence::{Observation, WaveIndex};
+use crate::recurrence::{Observation, Recurrence, WaveIndex};
 use crate::solution::{Demand, EchoByEcho};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cell::{Cell, RefCell};
@@ -40,6 +40,9 @@ pub const MAX_ECHOES: usize = 20_000;
 
 /// A value that is zero but for as many bits is suspected to be zero.
 const SUSPICION_BITS: u64 = 64;
+
+/// A value that so many bits do not round is suspected to be half-way between two decimals.
+const TIE_BITS: u64 = 1 << 12;
 
 /// The most echoes that are worked out exactly to see whether a value is zero, and where formulas hold
 /// named constants.
@@ -163,6 +166,11 @@ impl<'a> SceneEvaluator<'a> {
         &self.numbers
     }
 
+    /// The recurrence of the scene, with lags on its lattice.
+    pub(crate) fn recurrence(&self) -> &Recurrence {
+        self.unfolded.recurrence()
+    }
+
     /// How many echoes can reach what was asked for.
     pub fn needed(&self) -> usize {
         self.demand.borrow().count()
@@ -204,35 +212,59 @@ impl<'a> SceneEvaluator<'a> {
         let observation = match &observed.value {
             ObservedValue::Linear(observation) => observation,
             ObservedValue::Energy(terms) => {
-                let parts = self.energy_parts(&numbers, terms, at, side)?;
+                let parts = self.energy_parts(numbers, terms, at, side)?;
                 if parts.is_empty() {
                     return Ok(Value::Exact(Rational::zero()));
                 }
-                return certified(digits, limit_bits, |bits| {
-                    let sum = self.enclose_energy(&numbers, &parts, bits)?;
-                    Ok(sum.multiply(&numbers.enclose_root(unit, bits)?, bits))
-                });
+                let enclosure = |bits| self.enclose_energy(numbers, &parts, bits);
+                return self.told(
+                    enclosure,
+                    || self.exact_energy(&parts),
+                    unit,
+                    digits,
+                    limit_bits,
+                );
             }
         };
-        let arrived = self.arrived(&numbers, observation, at, side)?;
-        let forced = self.forcing(&numbers, observation, at, side)?;
+        let arrived = self.arrived(numbers, observation, at, side)?;
+        let forced = self.forcing(numbers, observation, at, side)?;
         if arrived.is_empty() && forced.is_zero() {
             return Ok(Value::Exact(Rational::zero()));
         }
-        self.want_until_last(&numbers, observation)?;
+        self.want_until_last(numbers, observation)?;
         if let Some(value) = self.rational_value(&arrived, &forced, unit) {
             return Ok(Value::Exact(value));
         }
-        let enclosure = |bits| self.enclose(&numbers, &arrived, &forced, bits);
-        if may_be_zero(enclosure, limit_bits)?
-            && self.exact(&arrived, &forced).is_some_and(|sum| sum.is_zero())
-        {
+        let enclosure = |bits| self.enclose(numbers, &arrived, &forced, bits);
+        self.told(enclosure, || self.exact(&arrived, &forced), unit, digits, limit_bits)
+    }
+
+    /// A value by its enclosures. What may be zero, or half-way between two decimals, is looked at
+    /// exactly.
+    fn told(
+        &self,
+        enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
+        exact: impl Fn() -> Option<Expression>,
+        unit: &Root,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Value, EvaluateError> {
+        if may_be_zero(&enclosure, limit_bits)? && exact().is_some_and(|sum| sum.is_zero()) {
             return Ok(Value::Exact(Rational::zero()));
         }
-        certified(digits, limit_bits, |bits| {
-            let sum = self.enclose(&numbers, &arrived, &forced, bits)?;
-            Ok(sum.multiply(&numbers.enclose_root(unit, bits)?, bits))
-        })
+        let numbers = self.numbers();
+        let in_unit =
+            |bits| Ok(enclosure(bits)?.multiply(&numbers.enclose_root(unit, bits)?, bits));
+        let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
+        match certified(digits, tie_bits, in_unit) {
+            Err(EvaluateError::AccuracyNotReached { .. }) => {}
+            told => return told,
+        }
+        let unit = unit.exact().and_then(|unit| unit.as_constant());
+        match exact().and_then(|sum| sum.as_constant()).zip(unit) {
+            Some((value, unit)) => Ok(Value::Exact(value * unit)),
+            None => certified(digits, limit_bits, in_unit),
+        }
     }
 
     /// What is seen of the waves at a time.
@@ -350,7 +382,17 @@ impl<'a> SceneEvaluator<'a> {
     }
 
     /// The sum as one exact expression; `None` where an echo cannot be given exactly.
-    fn exact(&self, arrived: &[Arrived], forced: &Expression) -> Option<Expression> {
+    pub(crate) fn exact(&self, arrived: &[Arrived], forced: &Expression) -> Option<Expression> {
+        self.exact_later(arrived, forced, &Fraction::zero())
+    }
+
+    /// The sum as an exact expression, so much later than now.
+    pub(crate) fn exact_later(
+        &self,
+        arrived: &[Arrived],
+        forced: &Expression,
+        later: &Fraction,
+    ) -> Option<Expression> {
         let recurrence = self.unfolded.recurrence();
         let statement = recurrence.statement();
         let known = self.known.borrow().exact.clone();
@@ -369,7 +411,8 @@ impl<'a> SceneEvaluator<'a> {
         let mut sum = forced.clone();
         for Arrived { wave, number, coefficient, since } in arrived {
             let echo = echoes[*wave][*number].function(&statement.local);
-            sum.add_scaled(&echo.substitute(&statement.local, since).ok()?, coefficient);
+            let since = since + later;
+            sum.add_scaled(&echo.substitute(&statement.local, &since).ok()?, coefficient);
         }
         Some(sum)
     }

@@ -56,7 +56,9 @@ impl fmt::Display for NetworkError {
             NetworkError::Incommensurate => {
                 f.write_str("the travel times have no common measure, or too fine a one")
             }
-            NetworkError::Recurrence(invalid) => invalid.fmt(f),
+            NetworkError::Recurrence(invalid) => {
+                write!(f, "the laws of this scene cannot be solved for its waves: {invalid}")
+            }
             NetworkError::Rates { place, waves } => {
                 let waves = waves.join(" and ");
                 write!(f, "{place}, {waves} decay together at rates that are not known exactly")

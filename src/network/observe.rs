@@ -173,6 +173,12 @@ impl Network {
         for (i, seen) in terms.iter().enumerate() {
             let (observation, unit, dimension) = self.measured(name, seen)?;
             let mut coefficient = seen.coefficient.clone();
+            if !self.scene.dimensional {
+                // Without units a value is what it is.
+                let unit = self.model.number(&format!("q_{name}_{i}"), unit);
+                add(&mut sum, &observation, &(&coefficient * &unit));
+                continue;
+            }
             match &first {
                 None => first = Some((unit, dimension)),
                 Some((own, _)) => {
@@ -277,11 +283,7 @@ impl Network {
             }
             _ => return refuse("is measured at no such place"),
         };
-        let dimension = match self.scene.dimensional {
-            true => dimension_of(seen.measure),
-            false => Dimension::NONE,
-        };
-        Ok((observation, unit, dimension))
+        Ok((observation, unit, seen.measure.dimension()))
     }
 
     /// The time from the left end to a section, as a share of the travel time; for an endless bar,
@@ -527,6 +529,9 @@ impl Network {
         let refuse = |reason| Err(NetworkError::Unobservable(name.to_owned(), reason));
         let mut parts = Vec::new();
         for term in terms {
+            if term.measure != Measure::Energy {
+                return refuse("adds an energy to something else");
+            }
             let elements = match &term.place {
                 Place::Element(element) => vec![*element],
                 Place::Line => self.scene.line.elements.clone(),
@@ -603,18 +608,6 @@ impl Network {
             Some(EnergyTerm { coefficient: data.impedance.clone(), of, before, window })
         });
         Some(parts.collect())
-    }
-}
-
-fn dimension_of(measure: Measure) -> Dimension {
-    match measure {
-        Measure::Velocity => Dimension::VELOCITY,
-        Measure::Force => Dimension::FORCE,
-        Measure::Strain => Dimension::NONE,
-        Measure::Stress => Dimension::PRESSURE,
-        Measure::Displacement | Measure::Compression => Dimension::LENGTH,
-        Measure::Energy => Dimension::ENERGY,
-        Measure::Momentum => Dimension::MOMENTUM,
     }
 }
 
