@@ -22,14 +22,21 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
             "a recurrence is its own explanation: nothing was derived to get it",
             "ask for --explain with a scene of bars and elements, or leave it out",
         )),
-        Subject::Recurrence(recurrence) => of_recurrence(*recurrence, options),
+        Subject::Recurrence(recurrence) => {
+            let shown = recurrence.statement().waves.len();
+            of_recurrence(*recurrence, shown, options)
+        }
         Subject::Scene(network) => derive_scene::run(&network, options),
     }
 }
 
 /// Derives what is asked for from a recurrence.
-pub fn of_recurrence(recurrence: Recurrence, options: &Derive) -> Result<String, Failure> {
-    let waves = waves(&recurrence, options.wave.as_deref())?;
+pub fn of_recurrence(
+    recurrence: Recurrence,
+    shown: usize,
+    options: &Derive,
+) -> Result<String, Failure> {
+    let waves = waves(&recurrence, shown, options.wave.as_deref())?;
     if options.source_form {
         refuse_source_form(&recurrence, options)?;
     }
@@ -67,13 +74,18 @@ pub fn of_recurrence(recurrence: Recurrence, options: &Derive) -> Result<String,
     Ok(written(&solution, &functions, options))
 }
 
-fn waves(recurrence: &Recurrence, name: Option<&str>) -> Result<Vec<WaveIndex>, Failure> {
+/// The wave asked for, or all that are shown: those after them only serve what is observed.
+fn waves(
+    recurrence: &Recurrence,
+    shown: usize,
+    name: Option<&str>,
+) -> Result<Vec<WaveIndex>, Failure> {
     let names = &recurrence.statement().waves;
-    let Some(name) = name else { return Ok((0..names.len()).collect()) };
+    let Some(name) = name else { return Ok((0..shown).collect()) };
     match recurrence.wave(&language::normalise_name(name)) {
         Some(wave) => Ok(vec![wave]),
         None => {
-            let mut remedy = format!("the waves of this scene are {}", names.join(", "));
+            let mut remedy = format!("the waves of this scene are {}", names[..shown].join(", "));
             if recurrence.observable(&language::normalise_name(name)).is_some() {
                 remedy = format!("it is an observable: ask for --observable {name}");
             }

@@ -41,7 +41,7 @@ pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
     }
     let recurrence = network.recurrence()?;
     let of_rates = failure_of_rates(network, &recurrence);
-    let derived = of_recurrence(recurrence, options);
+    let derived = of_recurrence(recurrence, network.waves().len(), options);
     let derived = derived.map_err(|failure| match (&failure, of_rates) {
         (Failure::Computation(..), Some(of_rates)) => of_rates,
         _ => failure,

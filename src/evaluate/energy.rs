@@ -27,6 +27,19 @@ pub(crate) enum Part {
     Between(Fraction, Vec<Arrived>, Expression, Fraction),
 }
 
+/// The most echoes that are shifted from arrival to arrival for one energy.
+const MAX_SHIFTED_ECHOES: usize = 50_000;
+
+impl Part {
+    /// How many echoes are looked at.
+    fn echoes(&self) -> usize {
+        match self {
+            Part::Now(_, arrived, _) | Part::Between(_, arrived, ..) => arrived.len(),
+            Part::Before(..) => 0,
+        }
+    }
+}
+
 /// Coefficients by pole: `Σ_λ e^{λy} Σ_j c_j y^j/j!`.
 type Rows = BTreeMap<Fraction, Vec<ComplexBall>>;
 
@@ -94,7 +107,14 @@ impl SceneEvaluator<'_> {
                 }
             }
         }
-        Ok(parts)
+        let echoes: usize = parts.iter().map(Part::echoes).sum();
+        match echoes <= MAX_SHIFTED_ECHOES {
+            true => Ok(parts),
+            false => Err(EvaluateError::TooManyEchoes {
+                echoes: echoes as u128,
+                limit: MAX_SHIFTED_ECHOES,
+            }),
+        }
     }
 
     /// An enclosure of the sum of the parts.

@@ -249,8 +249,14 @@ impl<'a> SceneEvaluator<'a> {
         digits: usize,
         limit_bits: u64,
     ) -> Result<Value, EvaluateError> {
-        if may_be_zero(&enclosure, limit_bits)? && exact().is_some_and(|sum| sum.is_zero()) {
-            return Ok(Value::Exact(Rational::zero()));
+        let mut limit_bits = limit_bits;
+        if may_be_zero(&enclosure, limit_bits)? {
+            match exact() {
+                Some(sum) if sum.is_zero() => return Ok(Value::Exact(Rational::zero())),
+                Some(_) => {}
+                // No precision tells that a value is zero.
+                None => limit_bits = limit_bits.min(TIE_BITS),
+            }
         }
         let numbers = self.numbers();
         let in_unit =
@@ -401,7 +407,15 @@ impl<'a> SceneEvaluator<'a> {
             None => {
                 let named = !recurrence.constants().is_empty();
                 let most = if named { MAX_EXACT_ECHOES_NAMED } else { MAX_EXACT_ECHOES };
-                let feasible = self.needed() <= most;
+                // Rates with names are taken for independent, which hides what cancels.
+                let holds = |rate: &Fraction| {
+                    recurrence.constants().iter().any(|c| rate.contains(&c.symbol))
+                };
+                let systems = recurrence.coupled();
+                let named_rates = systems
+                    .iter()
+                    .any(|system| system.rates.len() > 2 && system.rates.iter().any(holds));
+                let feasible = self.needed() <= most && !named_rates;
                 let exact = || self.solve_in(Exact::new(&statement.assumptions)).ok();
                 let echoes = feasible.then(exact).flatten().map(Rc::new);
                 self.known.borrow_mut().exact = Some(echoes.clone());

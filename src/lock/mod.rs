@@ -225,7 +225,12 @@ fn observed(observation: &Observation, statement: &Statement) -> String {
         let (wave, prime) = (&statement.waves[seen.wave], if seen.slope { "'" } else { "" });
         let since = match seen.delay.is_zero() {
             true => time.to_string(),
-            false => format!("{time} - {}", grouped(expression_text(&seen.delay.clone().into()))),
+            false => match expression_text(&(-&seen.delay).into()) {
+                early if !early.contains(' ') && !early.starts_with('-') => {
+                    format!("{time} + {early}")
+                }
+                _ => format!("{time} - {}", grouped(expression_text(&seen.delay.clone().into()))),
+            },
         };
         terms.push(format!("{factor}{wave}{prime}({since})"));
     }

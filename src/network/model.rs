@@ -289,8 +289,9 @@ impl Model {
         if let Some(exact) = value.exact().filter(|exact| !exact.contains(&pi)) {
             return exact;
         }
-        // A rational multiple of what has a name needs none.
-        let multiple = self.constants.iter().find_map(|constant| {
+        // A rational multiple of what has a name, and is of its kind, needs none.
+        let of_kind = self.constants.iter().filter(|c| kind(c.symbol.name()) == kind(name));
+        let multiple = of_kind.into_iter().find_map(|constant| {
             let Definition::Root(root) = &constant.value else { return None };
             let ratio = value.over(root).ok()?.exact()?.as_constant()?;
             Some(Fraction::symbol(&constant.symbol).scale(&ratio))
@@ -330,6 +331,15 @@ impl Model {
         self.assumptions.declare_symbol(symbol.clone(), is_positive.then_some(positive));
         self.constants.push(Constant { symbol: symbol.clone(), value });
         symbol
+    }
+}
+
+/// What a constant is, by the first part of its name; all times are of one kind, so that whether they
+/// have a common measure shows.
+fn kind(name: &str) -> &str {
+    match name.split('_').next().unwrap_or(name) {
+        "tau" | "nu" | "from" | "until" | "x" => "time",
+        other => other,
     }
 }
 

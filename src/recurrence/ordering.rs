@@ -9,7 +9,7 @@ use crate::recurrence::WaveIndex;
 use crate::recurrence::coupled::{Stuck, Uncoupled, uncouple};
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::naming::Naming;
-use crate::recurrence::statement::{Fault, InvalidRecurrence, Part, Statement};
+use crate::recurrence::statement::{Continuity, Fault, InvalidRecurrence, Part, Statement};
 use std::collections::BTreeSet;
 
 /// The equation of one wave on the n-th period.
@@ -371,8 +371,15 @@ fn assign_starts(
         }
         found.push((place, form, initial, row.part));
     }
-    // What follows from the other rules is no rule of its own.
-    rules.retain(|(row, start)| !(row.form.is_zero() && start.is_zero()));
+    // What follows from the other rules, and is not stated twice, may stand.
+    let stated_once = |part: Part| match part {
+        Part::Continuity(i) => {
+            let same = |rule: &&Continuity| rule.form == statement.continuity[i].form;
+            statement.continuity.iter().filter(same).count() == 1
+        }
+        _ => false,
+    };
+    rules.retain(|(row, start)| !(row.form.is_zero() && start.is_zero() && stated_once(row.part)));
     if let Some((row, _)) = rules.first() {
         return refuse(row.part, Fault::StartsNothing);
     }

@@ -270,8 +270,9 @@ fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         for row in 0..size {
             if row != i {
                 let factor = matrix[row][i] / matrix[i][i];
-                for column in i..size {
-                    matrix[row][column] -= factor * matrix[i][column];
+                let pivot = matrix[i].clone();
+                for (entry, above) in matrix[row].iter_mut().zip(&pivot).skip(i) {
+                    *entry -= factor * above;
                 }
                 right[row] -= factor * right[i];
             }
