@@ -2,26 +2,17 @@
 //! with what is locked.
 
 use super::arguments::Check;
-use super::derive_scene::failure_of_rates;
 use super::failure::Failure;
 use super::input::{self, Subject};
 use super::lock;
-use wavestep::ball::Ball;
-use wavestep::enclosure::{Numbers, enclose_expression};
+use super::rates::{failure_of_rates, rates};
 use wavestep::evaluate::{ArrivalError, EvaluateError, arrivals};
 use wavestep::export;
-use wavestep::expression::Fraction;
 use wavestep::network::Network;
-use wavestep::recurrence::{Coupled, Recurrence};
 use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution, SolveError};
-use wavestep_polynomial::Symbol;
 
 /// The periods for which both derivations are compared.
 const PERIODS: usize = 6;
-
-/// The precision of rates, and their digits.
-const RATE_BITS: u64 = 64;
-const RATE_DIGITS: usize = 6;
 
 /// How many periods of a lattice are followed in a check.
 const FIRST_ECHOES: usize = 3;
@@ -121,25 +112,4 @@ fn on_lattice(network: &Network) -> Result<String, Failure> {
     );
     report.push_str(&format!("  derived echo by echo: {} echoes\n", found.len()));
     Ok(report)
-}
-
-/// The rates of a system: exactly, or as decimals where they are named or complex.
-pub fn rates(recurrence: &Recurrence, coupled: &Coupled) -> Vec<String> {
-    let numbers = Numbers::new(recurrence.constants());
-    let decimal = |rate: &Fraction| {
-        let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
-        let ball = enclose_expression(&rate.clone().into(), &values, RATE_BITS).ok()?;
-        let part = |ball: &Ball| ball.to_decimal(RATE_DIGITS).midpoint().to_string();
-        let imaginary = part(ball.imaginary());
-        Some(match imaginary.trim_start_matches('-') {
-            zero if zero.trim_matches(['0', '.']).is_empty() => part(ball.real()),
-            size if imaginary.starts_with('-') => format!("{} - {size}i", part(ball.real())),
-            size => format!("{} + {size}i", part(ball.real())),
-        })
-    };
-    let told = |rate: &Fraction| match rate.as_constant() {
-        Some(number) => number.to_string(),
-        None => decimal(rate).unwrap_or_else(|| rate.to_string()),
-    };
-    coupled.rates.iter().map(told).collect()
 }

@@ -1,19 +1,19 @@
 //! `derive` for scenes: explained, on lattices, with the constants that were named.
 
 use super::arguments::{Derive, DeriveFormat, Form};
-use super::check;
-use super::derive::{formulas_as, of_recurrence};
+use super::derive_recurrence::{formulas_as, of_recurrence};
 use super::failure::Failure;
 use super::progress;
+use super::rates::failure_of_rates;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeSet;
 use wavestep::enclosure::Numbers;
 use wavestep::evaluate::{Arrival, ArrivalError, EvaluateError, arrivals};
 use wavestep::export::{self, Derivation, Formula, Head};
-use wavestep::expression::{Constant, Definition, Fraction, Root};
+use wavestep::expression::{Constant, Definition, Root};
 use wavestep::language;
 use wavestep::network::{Network, ObservedValue};
-use wavestep::recurrence::{Recurrence, WaveIndex};
+use wavestep::recurrence::WaveIndex;
 use wavestep::solution::Solution;
 
 /// The last echo of a lattice that is derived where nothing else is asked for.
@@ -85,24 +85,6 @@ fn refuse_energy(network: &Network, name: &str) -> Result<(), Failure> {
             format!("evaluate it: wavestep eval SCENE --quantity {name} --at T"),
         )),
     }
-}
-
-/// What is told where the exact form needs rates that formulas cannot hold.
-pub fn failure_of_rates(network: &Network, recurrence: &Recurrence) -> Option<Failure> {
-    let named = |rate: &Fraction| recurrence.constants().iter().any(|c| rate.contains(&c.symbol));
-    let system = recurrence.coupled().iter().find(|system| system.rates.iter().any(named))?;
-    let names: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
-    let (place, rates) = (network.place_of_waves(&names), check::rates(recurrence, system));
-    Some(Failure::Computation(
-        format!(
-            "{place}, {} decay together at the rates {}, which these formulas would have to hold",
-            names.join(" and "),
-            rates.join(", ")
-        ),
-        "evaluate it, which works with any certified rates; or give values for which the rates are \
-         rational, or roots of one quadratic in rational numbers"
-            .to_owned(),
-    ))
 }
 
 /// A definition as a decimal number, where all in it is known.

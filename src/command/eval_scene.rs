@@ -1,9 +1,9 @@
 //! `eval` for scenes: in their units, with constants, on lattices, and energies.
 
-use super::arguments::{Eval, EvalFormat, SideOption};
-use super::eval::{Row, csv, json_document, text, time_on_period, times, unknown};
+use super::arguments::{Eval, SideOption};
 use super::failure::Failure;
 use super::progress;
+use super::rows::{Row, time_on_period, times, unknown, written};
 use num_rational::BigRational;
 use wavestep::evaluate::{Evaluator, SceneEvaluator, Side};
 use wavestep::expression::{Expression, Fraction, Root};
@@ -86,15 +86,6 @@ fn told_by_closed_form(
     }
     drop(progress);
     Ok(written(&rows, &solution.recurrence().statement().title, ["", "", ""], options))
-}
-
-/// Rows in the format asked for, with the unit of time, the unit after a space, and the unit.
-fn written(rows: &[Row], title: &str, [second, spaced, unit]: [&str; 3], options: &Eval) -> String {
-    match options.format {
-        EvalFormat::Text => text(rows, options, [second, spaced]),
-        EvalFormat::Csv => csv(rows, options.digits),
-        EvalFormat::Json => json_document(title, rows, options, unit),
-    }
 }
 
 /// The time on a period of the observable, in scenes on one grid and without units.

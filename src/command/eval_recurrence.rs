@@ -1,0 +1,48 @@
+//! `eval` of recurrences.
+
+use super::arguments::{Eval, SideOption};
+use super::failure::Failure;
+use super::progress;
+use super::rows::{Row, time_on_period, times, unknown, written};
+use wavestep::evaluate::{Evaluator, Side};
+use wavestep::language;
+use wavestep::recurrence::Recurrence;
+use wavestep::solution::Solution;
+
+/// Evaluates a wave or an observable of a recurrence.
+pub fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, Failure> {
+    let observation = recurrence.observation(&language::normalise_name(&options.quantity));
+    let Some(observation) = observation else { return Err(unknown_quantity(&recurrence, options)) };
+    let solution = Solution::new(recurrence);
+    let evaluator = Evaluator::new(&solution)?;
+    let side = match options.side {
+        SideOption::Left => Side::Left,
+        SideOption::Right => Side::Right,
+    };
+    let times = match (options.piece, &options.local) {
+        (Some(n), Some(local)) => {
+            let Some(offset) = solution.offset(&observation) else {
+                let message = format!("{} has no periods of its own", options.quantity);
+                return Err(Failure::usage(message, "its waves arrive apart: give --at T"));
+            };
+            let offset = offset.as_constant().expect("every symbol has a value");
+            vec![offset + time_on_period(n, local, evaluator.period(), side)?]
+        }
+        _ => times(options, false)?,
+    };
+    let progress = progress::counted(times.len());
+    let mut rows = Vec::with_capacity(times.len());
+    for time in times {
+        let value = evaluator.value(&observation, &time, side, options.digits, options.max_bits)?;
+        rows.push(Row { time, value });
+        progress.inc(1);
+    }
+    drop(progress);
+    Ok(written(&rows, &solution.recurrence().statement().title, ["", "", ""], options))
+}
+
+fn unknown_quantity(recurrence: &Recurrence, options: &Eval) -> Failure {
+    let statement = recurrence.statement();
+    let observables = statement.observables.iter().map(|observable| observable.name.as_str());
+    unknown(statement.waves.iter().map(String::as_str).chain(observables).collect(), options)
+}
