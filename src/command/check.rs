@@ -5,14 +5,19 @@ use super::arguments::Check;
 use super::failure::Failure;
 use super::input::{self, Subject};
 use super::lock;
+use super::progress;
 use super::rates::{failure_of_rates, rates};
 use wavestep::evaluate::{ArrivalError, EvaluateError, arrivals};
 use wavestep::export;
 use wavestep::network::Network;
 use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution, SolveError};
+use wavestep_polynomial::Symbol;
 
 /// The periods for which both derivations are compared.
 const PERIODS: usize = 6;
+
+/// The same where formulas hold several named constants.
+const PERIODS_WITH_CONSTANTS: usize = 2;
 
 /// How many periods of a lattice are followed in a check.
 const FIRST_ECHOES: usize = 3;
@@ -39,9 +44,16 @@ pub fn run(options: &Check) -> Result<String, Failure> {
         let of_rates = network.and_then(|network| failure_of_rates(network, &recurrence));
         of_rates.unwrap_or_else(|| error.into())
     };
-    for n in 0..=PERIODS {
-        by_period.advance().map_err(told)?;
+    let twice = !recurrence.has_named_rates();
+    // Each further constant in the formulas multiplies their length.
+    let periods = if recurrence.constants().len() > 1 { PERIODS_WITH_CONSTANTS } else { PERIODS };
+    let progress = progress::spinner("deriving in two ways");
+    for n in 0..=periods {
         by_echo.advance().map_err(told)?;
+        if !twice {
+            continue;
+        }
+        by_period.advance().map_err(told)?;
         for (wave, name) in statement.waves.iter().enumerate() {
             let piece = by_echo.sum(wave).piece(n).ok();
             let other = &by_period.waves()[wave].pieces()[n];
@@ -53,8 +65,11 @@ pub fn run(options: &Check) -> Result<String, Failure> {
             }
         }
     }
+    drop(progress);
     let mut report = format!("{}: consistent\n", statement.title);
-    for (symbol, condition) in statement.assumptions.symbols() {
+    let symbols = statement.assumptions.symbols();
+    let is_constant = |symbol: &Symbol| recurrence.constants().iter().any(|c| c.symbol == *symbol);
+    for (symbol, condition) in symbols.filter(|(symbol, _)| !is_constant(symbol)) {
         let condition = condition.map_or_else(String::new, |condition| format!(" {condition}"));
         report.push_str(&format!("  symbol {symbol}{condition}\n"));
     }
@@ -76,7 +91,10 @@ pub fn run(options: &Check) -> Result<String, Failure> {
     if !observables.is_empty() {
         report.push_str(&format!("  observables: {}\n", observables.join(", ")));
     }
-    report.push_str(&format!("  derived in two ways, equal on periods 0 to {PERIODS}\n"));
+    report.push_str(&match twice {
+        true => format!("  derived in two ways, equal on periods 0 to {periods}\n"),
+        false => format!("  derived echo by echo, with names for rates, to echo {periods}\n"),
+    });
     let names = statement.waves[..shown].to_vec();
     let solution = Solution::new(recurrence);
     for (wave, name) in names.iter().enumerate() {

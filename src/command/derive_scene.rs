@@ -34,6 +34,14 @@ pub fn run(network: &Network, options: &Derive) -> Result<String, Failure> {
         refuse_energy(network, name)?;
     }
     if options.explain {
+        if network.lattice().periods().len() > 1 {
+            return Err(Failure::Computation(
+                "the travel times have no common measure, or too fine a one: there are no periods \
+                 to explain this scene by"
+                    .to_owned(),
+                "derive its echoes: leave out --explain".to_owned(),
+            ));
+        }
         return explain(network, options);
     }
     if network.lattice().periods().len() > 1 {
@@ -137,12 +145,16 @@ fn explain(network: &Network, options: &Derive) -> Result<String, Failure> {
     let local = solution.recurrence().statement().local.clone();
     let mut formulas = Vec::new();
     for (wave, named) in network.waves().iter().enumerate() {
-        for (n, piece) in solution.pieces(wave, 0, FIRST_PIECES)?.iter().enumerate() {
+        // What has no exact form is left out; a derivation of this wave says why.
+        let pieces = solution.pieces(wave, 0, FIRST_PIECES).unwrap_or_default();
+        for (n, piece) in pieces.iter().enumerate() {
             let head = Head::Piece { wave: named.name.clone(), n, local: local.clone() };
             formulas.push(Formula::new(head, piece, &local));
         }
     }
-    derivation.add("The first pieces", formulas);
+    if !formulas.is_empty() {
+        derivation.add("The first pieces", formulas);
+    }
     Ok(match options.format {
         DeriveFormat::Latex => derivation.to_latex(options.width()),
         _ => derivation.to_text(options.width()),
@@ -153,7 +165,8 @@ fn explain(network: &Network, options: &Derive) -> Result<String, Failure> {
 fn on_lattice(network: &Network, options: &Derive) -> Result<String, Failure> {
     let refuse = |what: &str| {
         let message = format!("the travel times have no common measure, so there {what}");
-        Err(Failure::usage(message, "derive the echoes: leave out the option, or evaluate"))
+        let remedy = "ask for the echoes of waves, with --wave NAME and --through N, or evaluate";
+        Err(Failure::usage(message, remedy))
     };
     if options.general {
         return refuse("is no form for every period");
@@ -203,6 +216,10 @@ fn on_lattice(network: &Network, options: &Derive) -> Result<String, Failure> {
         Formula::of_arrival(&network.waves()[*wave].name, counts, delay, echo, &local, time)
     };
     let formulas: Vec<Formula> = found.iter().map(formula).collect();
+    if formulas.is_empty() {
+        let message = format!("nothing arrives within {through} periods of the lattice");
+        return Err(Failure::Computation(message, "ask for a larger --through".to_owned()));
+    }
     let mark = if options.format == DeriveFormat::Latex { "%" } else { "#" };
     let told: String = formulas.iter().map(|formula| formula.to_text(options.width())).collect();
     Ok(format!("{}{}", constants(network, mark, Some(&told))?, formulas_as(&formulas, options)))

@@ -12,6 +12,9 @@ use wavestep_polynomial::{Rational, Symbol};
 /// The most bits that are spent on telling two numbers apart.
 const COMPARISON_BITS: u64 = 1 << 14;
 
+/// The precision of bounds.
+const BOUND_BITS: u64 = 64;
+
 /// Named constants with their definitions, and `pi`.
 ///
 /// ```
@@ -87,6 +90,13 @@ impl Numbers {
                 Ok(if *imaginary { zero.imaginary().clone() } else { zero.real().clone() })
             }
         }
+    }
+
+    /// Positive rational bounds of a symbol, where its enclosure has some.
+    pub(crate) fn bounds(&self, symbol: &Symbol) -> Option<(Rational, Rational)> {
+        let (lower, upper) = self.value(symbol, BOUND_BITS)?.endpoints();
+        let (lower, upper) = (Rational::from(&lower), Rational::from(&upper));
+        (lower > Rational::default()).then_some((lower, upper))
     }
 
     /// An enclosure of a factor times a root.
@@ -249,5 +259,33 @@ impl Field for Enclosing<'_> {
 
     fn product(&self, left: &ComplexBall, right: &ComplexBall) -> ComplexBall {
         left.multiply(right, self.bits)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `x⁴ + x + 1` has no real zeros; the enclosed one is a zero, and fifty digits of it are known.
+    #[test]
+    fn complex_zeros_are_zeros() {
+        let number = |value: i64| Fraction::constant(&Rational::from_integer(value.into()));
+        let polynomial: Vec<Fraction> = [1, 0, 0, 1, 1].map(number).into();
+        let near = (Rational::new(7.into(), 10.into()), Rational::new(9.into(), 10.into()));
+        let part = |imaginary| Definition::Part {
+            polynomial: polynomial.clone(),
+            near: near.clone(),
+            imaginary,
+        };
+        let numbers = Numbers::new(&[]);
+        let [re, im] = [false, true]
+            .map(|imaginary| numbers.enclose_definition(&part(imaginary), 200).unwrap());
+        let z = ComplexBall::new(re.clone(), im.clone());
+        let one = ComplexBall::from(Ball::from_rational(&Rational::from_integer(1.into()), 200));
+        let square = z.multiply(&z, 200);
+        let value = square.multiply(&square, 200).add(&z, 200).add(&one, 200);
+        assert!(value.real().contains_zero() && value.imaginary().contains_zero());
+        let small = crate::ball::Magnitude::power_of_two(-166);
+        assert!(re.radius() <= &small && im.radius() <= &small, "{re} {im}");
     }
 }

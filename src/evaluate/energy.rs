@@ -78,6 +78,7 @@ impl SceneEvaluator<'_> {
                 continue;
             }
             let arrived = self.arrived(numbers, &term.of, at, Side::Left)?;
+            let arrived = self.audible(numbers, arrived)?;
             // The moments at which something arrives after the start, in order.
             let mut moments = vec![start];
             for echo in &arrived {
@@ -101,6 +102,7 @@ impl SceneEvaluator<'_> {
             for pair in moments.windows(2) {
                 let (from, to) = (&pair[0], &pair[1]);
                 let by_then = self.arrived(numbers, &term.of, from, Side::Right)?;
+                let by_then = self.audible(numbers, by_then)?;
                 let forced = term.of.forcing.clone();
                 if !(by_then.is_empty() && forced.is_zero()) {
                     parts.push(Part::Between(coefficient(), by_then, forced, to - from));

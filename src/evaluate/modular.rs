@@ -141,6 +141,14 @@ mod tests {
     }
 
     #[test]
+    fn rows_have_the_values_of_polynomials() {
+        let x = Residue::of_rational(&Rational::new(22.into(), 7.into())).unwrap();
+        let p = Univariate::new((0..30).map(|j| BigInt::from(7 - 5 * j)), 1.into());
+        let row: Vec<Residue> = (0..30).map(|j| Residue::of_integer(&(7 - 5 * j).into())).collect();
+        assert_eq!(evaluate_row(&row, x), evaluate_divided(p.coefficients(), x));
+    }
+
+    #[test]
     fn inverses_multiply_to_one() {
         assert_eq!(Residue(0).inverse(), None);
         for value in [1, 2, 3, PRIME - 1, 1 << 60] {

@@ -4,7 +4,7 @@
 //! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
 //! place that is observed.
 
-use crate::ball::{Ball, ComplexBall, Magnitude};
+use crate::ball::{Ball, Certified, ComplexBall, Decimal, Magnitude};
 use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
@@ -37,6 +37,9 @@ use wavestep_polynomial::Rational;
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub const MAX_ECHOES: usize = 20_000;
+
+/// The precision at which echoes are first worked out.
+const FIRST_BITS: u64 = 128;
 
 /// A value that is zero but for as many bits is suspected to be zero.
 const SUSPICION_BITS: u64 = 64;
@@ -121,6 +124,10 @@ impl<'a> SceneEvaluator<'a> {
     /// where more echoes arrive until then than are worked out.
     pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEvaluator<'a>, EvaluateError> {
         let numbers = Numbers::new(&network.model().constants);
+        let mut symbols = network.model().assumptions.symbols().map(|(symbol, _)| symbol);
+        if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
+            return Err(EvaluateError::MissingValue(symbol.clone()));
+        }
         // A wave is seen at most as long before its own clock as that clock is late.
         let mut latest = Fraction::zero();
         for late in network.lateness() {
@@ -263,7 +270,25 @@ impl<'a> SceneEvaluator<'a> {
             |bits| Ok(enclosure(bits)?.multiply(&numbers.enclose_root(unit, bits)?, bits));
         let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
         match certified(digits, tie_bits, in_unit) {
-            Err(EvaluateError::AccuracyNotReached { .. }) => {}
+            Err(EvaluateError::AccuracyNotReached { best, bits }) => {
+                if tie_bits == limit_bits && best.contains_zero() && best.radius() <= &negligible()
+                {
+                    // Zero as far as can be told: the enclosure says how far.
+                    let decimal = Decimal::from_rational(&Rational::zero(), digits).0;
+                    return Ok(Value::Certified(Certified {
+                        decimal,
+                        ball: *best,
+                        bits,
+                        attempts: 1,
+                    }));
+                }
+            }
+            Ok(Value::Certified(certified)) if certified.ball.is_exact() => {
+                return Ok(match certified.decimal.is_zero() {
+                    true => Value::Exact(Rational::zero()),
+                    false => Value::Certified(certified),
+                });
+            }
             told => return told,
         }
         let unit = unit.exact().and_then(|unit| unit.as_constant());
@@ -310,6 +335,17 @@ impl<'a> SceneEvaluator<'a> {
             true => Ok(observation.forcing.substitute(&self.network.scene().time, at)?),
             false => Ok(Expression::zero()),
         }
+    }
+
+    /// Those of some echoes that are not zero.
+    pub(crate) fn audible(
+        &self,
+        numbers: &Numbers,
+        arrived: Vec<Arrived>,
+    ) -> Result<Vec<Arrived>, EvaluateError> {
+        let echoes = self.solved(numbers, FIRST_BITS)?;
+        let sounds = |echo: &Arrived| !echoes[echo.wave][echo.number].is_zero();
+        Ok(arrived.into_iter().filter(sounds).collect())
     }
 
     /// Notes that all echoes are needed that are seen until the last time, once for all times before;
@@ -407,15 +443,7 @@ impl<'a> SceneEvaluator<'a> {
             None => {
                 let named = !recurrence.constants().is_empty();
                 let most = if named { MAX_EXACT_ECHOES_NAMED } else { MAX_EXACT_ECHOES };
-                // Rates with names are taken for independent, which hides what cancels.
-                let holds = |rate: &Fraction| {
-                    recurrence.constants().iter().any(|c| rate.contains(&c.symbol))
-                };
-                let systems = recurrence.coupled();
-                let named_rates = systems
-                    .iter()
-                    .any(|system| system.rates.len() > 2 && system.rates.iter().any(holds));
-                let feasible = self.needed() <= most && !named_rates;
+                let feasible = self.needed() <= most && !recurrence.has_named_rates();
                 let exact = || self.solve_in(Exact::new(&statement.assumptions)).ok();
                 let echoes = feasible.then(exact).flatten().map(Rc::new);
                 self.known.borrow_mut().exact = Some(echoes.clone());
@@ -510,6 +538,11 @@ fn may_be_zero(
         }
         bits = bits.saturating_mul(2).min(limit_bits);
     }
+}
+
+/// A size that is nothing beside any value of a scene.
+fn negligible() -> Magnitude {
+    Magnitude::power_of_two(-(TIE_BITS as i64) / 4)
 }
 
 /// How many whole periods fit into a time, or one more.

@@ -58,6 +58,9 @@ impl Value {
                 fraction if fraction.len() <= MAX_FRACTION => format!("{decimal} = {fraction}"),
                 _ => decimal.to_string(),
             },
+            (Value::Certified(certified), (decimal, _)) if decimal.is_zero() => {
+                format!("0 ± {:e}", certified.ball.to_decimal(1).radius())
+            }
             (_, (decimal, _)) => decimal.to_string(),
         }
     }

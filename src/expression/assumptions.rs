@@ -120,6 +120,8 @@ impl fmt::Display for Condition {
 pub struct Assumptions {
     conditions: BTreeMap<Symbol, Option<Condition>>,
     factors: BTreeSet<Polynomial>,
+    /// Numbers between which the values of symbols lie.
+    bounds: BTreeMap<Symbol, (Rational, Rational)>,
     /// What the squares of symbols are.
     squares: BTreeMap<Symbol, Fraction>,
 }
@@ -178,6 +180,41 @@ impl Assumptions {
     /// Declares the factors of the denominator of `unit` to be non-zero.
     pub fn declare_factors(&mut self, unit: &Fraction) {
         self.factors.extend(unit.factors().map(|(factor, _)| factor.clone()));
+    }
+
+    /// Declares positive numbers between which the value of a symbol lies.
+    ///
+    /// ```
+    /// use wavestep::expression::{Assumptions, Fraction};
+    /// use wavestep_polynomial::{Polynomial, Rational, Symbol};
+    ///
+    /// let number = |value: i64| Rational::from_integer(value.into());
+    /// let mut known = Assumptions::default();
+    /// known.declare_bounds(Symbol::new("k").unwrap(), number(3), number(4));
+    /// let value = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
+    /// assert!(known.is_positive(&value("k*k - 2*k")) && !known.is_positive(&value("k*k - 4*k")));
+    /// ```
+    ///
+    /// # Panics
+    /// Where the lower bound is not positive, or above the upper one.
+    pub fn declare_bounds(&mut self, symbol: Symbol, lower: Rational, upper: Rational) {
+        assert!(lower.is_positive() && lower <= upper, "bounds in order, and positive");
+        self.bounds.insert(symbol, (lower, upper));
+    }
+
+    /// Whether a polynomial is positive between the bounds of its symbols: terms with positive
+    /// coefficients at the lower ones, and others at the upper ones, have a positive sum.
+    fn is_positive_within_bounds(&self, p: &Polynomial) -> bool {
+        let bounds = p.symbols().iter().map(|symbol| self.bounds.get(symbol));
+        let Some(bounds) = bounds.collect::<Option<Vec<_>>>() else { return false };
+        let least = p.terms().map(|(exponents, coefficient)| {
+            let factors = bounds.iter().zip(exponents).map(|((lower, upper), power)| {
+                let bound = if coefficient.is_positive() { lower } else { upper };
+                bound.pow(i32::try_from(*power).expect("powers are small"))
+            });
+            factors.fold(coefficient.clone(), |product, factor| product * factor)
+        });
+        least.sum::<Rational>().is_positive()
     }
 
     /// Declares the square of a symbol, free of the symbol itself.
@@ -350,6 +387,9 @@ impl Assumptions {
     }
 
     fn is_positive_polynomial(&self, p: &Polynomial) -> bool {
+        if !p.symbols().is_empty() && self.is_positive_within_bounds(p) {
+            return true;
+        }
         let mut in_distances = p.clone();
         for symbol in p.symbols() {
             let condition = self.conditions.get(symbol).and_then(Option::as_ref);

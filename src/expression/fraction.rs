@@ -4,7 +4,7 @@ use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 
 /// A polynomial over a product of irreducible factors,
 ///
@@ -51,16 +51,16 @@ pub struct Fraction {
 }
 
 /// A polynomial that cannot be divided by: zero, or not a product of symbols and at most one
-/// further factor that is linear in some symbol, or a sum of the squares of two.
+/// further factor that is linear in some symbol, or a quadratic that has no factors.
 ///
 /// ```
 /// use wavestep::expression::{Fraction, NotAUnit};
 /// use wavestep_polynomial::Polynomial;
 ///
-/// let p: Polynomial = "r*r + 1".parse().unwrap();
+/// let p: Polynomial = "r*r*r + 1".parse().unwrap();
 /// let error = Fraction::reciprocal(&p).unwrap_err();
 /// assert_eq!(error, NotAUnit(p));
-/// assert_eq!(error.to_string(), "cannot divide by r^2 + 1: it is not linear in any symbol");
+/// assert_eq!(error.to_string(), "cannot divide by r^3 + 1: it is not linear in any symbol");
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct NotAUnit(pub Polynomial);
@@ -336,9 +336,9 @@ fn reciprocal_of_power(p: &Polynomial) -> Option<Fraction> {
 
 /// Whether a primitive polynomial is linear in some symbol, with a single term as that symbol's
 /// coefficient, no symbol of which divides the rest: then it has no factors but itself. So it is with
-/// `a x² + b y²`, `a, b > 0`, which has no real zeros but one: factors would be linear, with real zeros.
+/// quadratics whose discriminant is no square.
 fn is_irreducible(p: &Polynomial) -> bool {
-    is_sum_of_squares(p)
+    is_irreducible_quadratic(p)
         || p.symbols().iter().any(|x| match &p.coefficients(x)[..] {
             [(1, slope), (0, rest)] => {
                 let divides = |y: &Symbol| rest.coefficients(y).last().is_none_or(|(e, _)| *e > 0);
@@ -349,12 +349,29 @@ fn is_irreducible(p: &Polynomial) -> bool {
         })
 }
 
-/// Whether this is `a x² + b y²` with positive numbers and two symbols.
-fn is_sum_of_squares(p: &Polynomial) -> bool {
-    let square = |(exponents, c): (&[u32], Rational)| {
-        c.is_positive() && exponents.iter().sum::<u32>() == 2 && exponents.contains(&2)
-    };
-    p.symbols().len() == 2 && p.term_count() == 2 && p.terms().all(square)
+/// Whether a primitive polynomial is a quadratic in some symbol, led by a number, whose discriminant is
+/// no square: its factors would be linear in the symbol, and their zeros hold the root.
+fn is_irreducible_quadratic(p: &Polynomial) -> bool {
+    p.symbols().iter().any(|x| {
+        let powers = p.coefficients(x);
+        let coefficient = |power: u32| {
+            let found = powers.iter().find(|(own, _)| *own == power);
+            found.map_or_else(Polynomial::zero, |(_, coefficient)| coefficient.clone())
+        };
+        let leads = p.degree(x) == 2 && coefficient(2).as_constant().is_some();
+        leads && {
+            let four = Rational::from_integer(4.into());
+            let product = &(&coefficient(2) * &coefficient(0)) * &four;
+            let discriminant = &(&coefficient(1) * &coefficient(1)) - &product;
+            match discriminant.square_root() {
+                None => !discriminant.is_zero(),
+                Some((c, _)) => {
+                    let is_square = |n: &Integer| n.sqrt().pow(2) == *n;
+                    c.is_negative() || !is_square(c.numer()) || !is_square(c.denom())
+                }
+            }
+        }
+    })
 }
 
 fn substitute_in(p: &Polynomial, x: &Symbol, value: &Fraction) -> Fraction {

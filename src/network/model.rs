@@ -330,6 +330,9 @@ impl Model {
         let positive = Condition { relation: Relation::Greater, bound: Rational::zero() };
         self.assumptions.declare_symbol(symbol.clone(), is_positive.then_some(positive));
         self.constants.push(Constant { symbol: symbol.clone(), value });
+        if let Some((lower, upper)) = Numbers::new(&self.constants).bounds(&symbol) {
+            self.assumptions.declare_bounds(symbol.clone(), lower, upper);
+        }
         symbol
     }
 }

@@ -153,6 +153,9 @@ impl Naming {
         let condition = Condition { relation, bound: Rational::default() };
         self.assumptions.declare_symbol(symbol.clone(), Some(condition));
         self.constants.push(Constant { symbol: symbol.clone(), value });
+        if let Some((lower, upper)) = Numbers::new(&self.constants).bounds(&symbol) {
+            self.assumptions.declare_bounds(symbol.clone(), lower, upper);
+        }
         symbol
     }
 }

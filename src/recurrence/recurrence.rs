@@ -32,6 +32,7 @@ use wavestep_polynomial::{Polynomial, Symbol};
 /// assert!(recurrence.observation("f").is_some() && recurrence.observable("f").is_none());
 /// // Nothing is coupled, no wave had to be added, and no rate had to be named.
 /// assert!(recurrence.coupled().is_empty() && recurrence.constants().is_empty());
+/// assert!(!recurrence.has_named_rates());
 /// assert_eq!((recurrence.wave_count(), recurrence.wave_name(1).as_str()), (2, "g"));
 /// assert_eq!(Recurrence::new(recurrence.statement().clone()), Ok(recurrence));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -82,6 +83,14 @@ impl Recurrence {
     /// The systems of waves whose differential equations are coupled.
     pub fn coupled(&self) -> &[Coupled] {
         &self.coupled
+    }
+
+    /// Whether more than two waves decay together at rates that have names: formulas then take the
+    /// rates for independent, which hides what cancels between them.
+    pub fn has_named_rates(&self) -> bool {
+        let holds = |rate: &Fraction| self.constants().iter().any(|c| rate.contains(&c.symbol));
+        let mut systems = self.coupled.iter();
+        systems.any(|system| system.rates.len() > 2 && system.rates.iter().any(holds))
     }
 
     /// The number of waves, those that were added to uncouple equations included.
