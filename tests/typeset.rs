@@ -28,6 +28,11 @@ fn displays() -> BTreeMap<String, String> {
     for observable in ["velocity", "strain_impact", "strain_fixed"] {
         asked.push(format!("rigid-mass --observable {observable}"));
     }
+    for scene in ["pile --wave cushion --through 1", "incommensurate --wave g_striker"] {
+        asked.push(scene.to_owned());
+    }
+    asked.push("mass-on-fixed-bar --observable momentum".to_owned());
+    asked.push("hopkinson --wave specimen --piece 6".to_owned());
     let latex = |asked: String| {
         let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
             .args(["derive", "--format", "latex"])
@@ -97,6 +102,26 @@ fn tex_typesets_every_display() {
     // The check itself can fail.
     let bad = "\\begin{align*} x &= \\frac{1} \\end{align*}";
     assert!(typeset(&directory, "bad", margins, bad).is_err());
+}
+
+/// Derivations are documents of sections, sentences and displays.
+#[test]
+fn tex_typesets_every_derivation() {
+    if !installed("pdflatex") {
+        return skip("TeX is not installed (Debian package texlive-latex-base)");
+    }
+    let directory = directory("tex-derivations");
+    let margins = "\\usepackage[a4paper,margin=2cm]{geometry}";
+    for scene in ["mass-on-fixed-bar", "cushioned-impact", "pile", "hopkinson", "percussive-drill"]
+    {
+        let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
+            .args(["derive", scene, "--explain", "--format", "latex"])
+            .output()
+            .expect("the command runs");
+        assert!(output.status.success(), "{scene}");
+        let text = String::from_utf8(output.stdout).expect("text");
+        typeset(&directory, scene, margins, &text).unwrap_or_else(|log| panic!("{log}"));
+    }
 }
 
 const KATEX: &str = "

@@ -230,10 +230,11 @@ impl Assumptions {
     /// known.declare_symbol(symbol("k"), Some(positive.clone()));
     /// known.declare_symbol(symbol("w"), Some(positive));
     /// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-    /// // k² + k + w² is not known to have an inverse, until w² is known to be k − k².
-    /// assert!(known.invert(&read("k^2 + k + w^2")).is_err());
+    /// // This is not known to have an inverse, until w² is known to be k − k².
+    /// let value = read("w^3 + w*k^2 + k^3");
+    /// assert!(known.invert(&value).is_err());
     /// known.declare_square(symbol("w"), read("k - k^2").as_fraction().unwrap());
-    /// assert_eq!(known.invert(&read("k^2 + k + w^2")), Ok(read("1/2/k")));
+    /// assert_eq!(known.invert(&value), Ok(read("1/(k*(w + k^2))")));
     /// assert_eq!(known.reduced(&read("w^3")), read("(k - k^2)*w"));
     /// ```
     pub fn declare_square(&mut self, symbol: Symbol, square: Fraction) {

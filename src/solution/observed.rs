@@ -159,6 +159,7 @@ impl Solution {
     /// let told: Vec<_> = stretches.iter().map(|s| (s.from.to_string(), s.value.as_constant())).collect();
     /// let number = |value: i64| Some(wavestep_polynomial::Rational::from_integer(value.into()));
     /// assert_eq!(told, [("1/2".to_owned(), number(1)), ("3/2".to_owned(), number(2))]);
+    /// assert_eq!(stretches[1].to.to_string(), "5/2");
     /// # Ok::<(), wavestep::language::Diagnostic>(())
     /// ```
     pub fn observed_between_arrivals(
