@@ -130,7 +130,7 @@ impl<'a> SceneEvaluator<'a> {
         }
         // A wave is seen at most as long before its own clock as that clock is late.
         let mut latest = Fraction::zero();
-        for late in network.lateness() {
+        for late in network.leads() {
             if numbers.compare(late, &latest)? == Ordering::Greater {
                 latest = late.clone();
             }

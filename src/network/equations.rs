@@ -1,6 +1,6 @@
 //! The laws at the nodes as equations between waves.
 //!
-//! Each node has a clock of its own, late by the travel time from a node where something happens at
+//! Each node has a clock of its own, ahead by the travel time from a node where something happens at
 //! the start. So of the two waves in a bar one is seen at both ends at once, and the other a round
 //! trip later: the wave functions of successive periods, as textbooks have them.
 
@@ -143,10 +143,10 @@ pub struct WaveRole {
 /// assert_eq!(network.lattice().periods()[0].to_string(), "mu");
 /// assert_eq!(network.scene().title, "Pulse shape: two equal bars with a contact spring");
 /// assert!(network.model().constants.is_empty() && network.observables()[0].name == "force");
-/// // The contact is where things begin; the clock of the free end is late by one passage.
+/// // The contact is where things begin; the clock of the free end is ahead by one passage.
 /// assert_eq!(network.place_in_words(1), "between `striker` and `long`");
 /// assert_eq!(network.place_of_waves(&["cushion".to_owned()]), network.place_in_words(1));
-/// let late: Vec<String> = network.lateness().map(ToString::to_string).collect();
+/// let late: Vec<String> = network.leads().map(ToString::to_string).collect();
 /// assert_eq!(late, ["1/2*mu", "0"]);
 /// // Without units times are what they are.
 /// let three = Rational::from_integer(3.into());
@@ -162,13 +162,13 @@ pub struct Network {
     pub(crate) lattice: Lattice,
     /// The round trip in each bar, counted on the lattice.
     round_trips: Vec<Option<Vec<i64>>>,
-    /// The node whose clock is not late.
+    /// The node whose clock is not ahead.
     reference: usize,
-    /// How late the clock of each node is, counted on the lattice; `None` where nothing starts there
+    /// How far the clock of each node is ahead, counted on the lattice; `None` where nothing starts there
     /// and the count is not needed.
     clocks: Vec<Option<Vec<i64>>>,
     /// The same as a time.
-    pub(crate) lateness: Vec<Fraction>,
+    pub(crate) leads: Vec<Fraction>,
     /// Waves whose integrals are observed; these follow after `waves`.
     pub(crate) integrals: Vec<WaveIndex>,
     pub(crate) observables: Vec<Observed>,
@@ -202,7 +202,7 @@ impl Network {
             integrals: Vec::new(),
             observables: Vec::new(),
             clocks: vec![None; layout.nodes.len()],
-            lateness: Vec::new(),
+            leads: Vec::new(),
             loads: Vec::new(),
             layout,
         };
@@ -273,9 +273,9 @@ impl Network {
         self.model.slowness.scale(time)
     }
 
-    /// How late the clock of each node is.
-    pub fn lateness(&self) -> impl Iterator<Item = &Fraction> + '_ {
-        self.lateness.iter()
+    /// How far the clock of each node is ahead: what happens at a time shows later by so much.
+    pub fn leads(&self) -> impl Iterator<Item = &Fraction> + '_ {
+        self.leads.iter()
     }
 
     /// The observables of the scene.
@@ -457,7 +457,7 @@ impl Network {
             counts.iter().zip(&steps).map(|(count, step)| count / step).collect()
         };
         self.reference = reference;
-        self.lateness = late.iter().map(|counts| lattice.delay(counts)).collect();
+        self.leads = late.iter().map(|counts| lattice.delay(counts)).collect();
         self.lattice = lattice.coarsened(&steps);
         self.round_trips = round_trips.into_iter().map(|trip| trip.map(&coarser)).collect();
         self.clocks = clocks.into_iter().map(|clock| clock.map(&coarser)).collect();

@@ -341,7 +341,7 @@ impl Network {
             _ => (time(share, false), time(&rest, false)),
         };
         let seen = |role, node: Option<usize>, later: Fraction| {
-            Some((self.wave(role)?, &later - &self.lateness[node?]))
+            Some((self.wave(role)?, &later - &self.leads[node?]))
         };
         [seen(Role::Right(bar), left, from_left), seen(Role::Left(bar), right, from_right)]
     }
@@ -413,7 +413,7 @@ impl Network {
             let common = self.initial_velocities(node, run).into_iter().next();
             velocity = constant(&common.unwrap_or_else(Fraction::zero));
         }
-        let delay = -&self.lateness[place];
+        let delay = -&self.leads[place];
         velocity.waves.push(seen(wave, delay, &Fraction::one()));
         velocity
     }
@@ -473,7 +473,7 @@ impl Network {
     fn own_wave(&self, role: Role, element: ElementIndex) -> Option<Observation> {
         let wave = self.wave(role)?;
         let place = self.layout.node_of(element)?;
-        let waves = vec![seen(wave, -&self.lateness[place], &Fraction::one())];
+        let waves = vec![seen(wave, -&self.leads[place], &Fraction::one())];
         Some(Observation { waves, forcing: Expression::zero() })
     }
 
@@ -515,7 +515,7 @@ impl Network {
         for (role, node) in [(Role::Right(element), left), (Role::Left(element), right)] {
             let (Some(wave), Some(node)) = (self.wave(role), node) else { continue };
             let integral = self.integral(wave);
-            let entered = -&self.lateness[node];
+            let entered = -&self.leads[node];
             momentum.waves.push(seen(integral, entered.clone(), &data.impedance));
             if let Some(travel) = &data.travel {
                 momentum.waves.push(seen(integral, &entered + travel, &-&data.impedance));
@@ -603,7 +603,7 @@ impl Network {
         ];
         let parts = ways.into_iter().filter_map(|(role, node, before)| {
             let mut of = constant(&before);
-            of.waves.push(seen(self.wave(role)?, -&self.lateness[node?], &Fraction::one()));
+            of.waves.push(seen(self.wave(role)?, -&self.leads[node?], &Fraction::one()));
             let window = data.travel.clone().map_or(Window::Always, Window::Last);
             Some(EnergyTerm { coefficient: data.impedance.clone(), of, before, window })
         });

@@ -62,7 +62,8 @@ pub struct Seen {
 pub enum Measure {
     /// Of a section or a mass.
     Velocity,
-    /// The compressive force in a section or a spring, that of a support or a load on the line.
+    /// The compressive force in a section or a spring; of a support that of the line on it,
+    /// `d v + k u`, positive to the right.
     Force,
     /// Positive where it pulls.
     Strain,
