@@ -592,7 +592,7 @@ impl Network {
         waves
     }
 
-    /// Whether the clock of one node is less late than that of its neighbour.
+    /// Whether the clock of one node is less ahead than that of its neighbour.
     pub(crate) fn is_nearer(&self, node: usize, other: usize) -> bool {
         node.abs_diff(self.reference) < other.abs_diff(self.reference)
     }

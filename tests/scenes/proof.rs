@@ -72,14 +72,14 @@ impl<'a> Proof<'a> {
             _ => Vec::new(),
         });
         let mut times = vec![statement.period.clone()];
-        times.extend(network.lateness().cloned().chain(delays).chain(travels).chain(moments));
+        times.extend(network.leads().cloned().chain(delays).chain(travels).chain(moments));
         times.retain(|time| !time.is_zero());
         let (lattice, counts) = Lattice::spanned_by(&times);
         assert_eq!(lattice.periods().len(), 1, "a grid");
         let length = lattice.periods()[0].clone();
         let each = counts[0][0].unsigned_abs() as usize;
         // A node is late by so many cells; its waves are needed that much further.
-        let late = network.lateness().map(|late| Proof::count(&length, late)).max().unwrap_or(0);
+        let late = network.leads().map(|late| Proof::count(&length, late)).max().unwrap_or(0);
         let periods = (cells + late.unsigned_abs() as usize).div_ceil(each) + 1;
         let mut solver = PeriodByPeriod::new(&recurrence);
         (0..periods).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
@@ -120,7 +120,7 @@ impl<'a> Proof<'a> {
     /// The wave with a role, by the clock of the scene.
     fn role(&self, role: Role, node: usize) -> Option<Cells> {
         let wave = self.network.waves().iter().position(|wave| wave.role == role)?;
-        let late = self.network.lateness().nth(node).expect("a node");
+        let late = self.network.leads().nth(node).expect("a node");
         Some(self.delayed(wave, &-late))
     }
 
