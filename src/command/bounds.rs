@@ -2,20 +2,41 @@
 
 use super::failure::Failure;
 use wavestep::recurrence::Recurrence;
+use wavestep_polynomial::Symbol;
 
 /// The most terms that are derived at once.
 const MAX_TERMS: u128 = 2_000_000;
 
-/// About how many terms the n-th piece has: of a wave with one pole n³/6. A sequence in symbols has
-/// n, and takes the work of n².
+/// The most constants that are counted.
+const MAX_FURTHER: usize = 10;
+
+/// About how many terms the n-th piece has: of a wave with one pole n³/6, n times as many for each
+/// further constant with a name. A sequence in symbols has n, and takes the work of n².
 pub fn terms_of_piece(recurrence: &Recurrence, n: usize) -> u128 {
     let n = n as u128 + 1;
     let differential = recurrence.steps().iter().any(|step| step.start.is_some());
     match (differential, recurrence.symbols().next()) {
-        (true, _) => n.saturating_pow(3) / 6 + 1,
+        (true, _) => {
+            let further = constants_in_equations(recurrence).saturating_sub(1).min(MAX_FURTHER);
+            (n.saturating_pow(3) / 6 + 1).saturating_mul(n.saturating_pow(further as u32))
+        }
         (false, Some(_)) => n.saturating_pow(2),
         (false, None) => n,
     }
+}
+
+/// How many constants with names the equations hold.
+fn constants_in_equations(recurrence: &Recurrence) -> usize {
+    let holds = |symbol: &Symbol| {
+        recurrence.steps().iter().any(|step| {
+            let mut rows = step
+                .equation
+                .operators()
+                .flat_map(|(_, operator)| operator.value().iter().chain(operator.slope()));
+            rows.any(|value| value.contains(symbol))
+        })
+    };
+    recurrence.constants().iter().filter(|constant| holds(&constant.symbol)).count()
 }
 
 /// About how many terms there are in `parts` waves with all pieces to the n-th, where that has

@@ -141,7 +141,7 @@ pub struct WaveRole {
 /// let network = Network::new(&scene).unwrap();
 /// // The striker is passed in mu/2, so that a wave returns after mu.
 /// assert_eq!(network.lattice().periods()[0].to_string(), "mu");
-/// assert_eq!(network.scene().title, "Pulse shape: two equal bars with a contact spring");
+/// assert_eq!(network.scene().title, "Pulse shape: two equal bars with a contact spring, from its parts");
 /// assert!(network.model().constants.is_empty() && network.observables()[0].name == "force");
 /// // The contact is where things begin; the clock of the free end is ahead by one passage.
 /// assert_eq!(network.place_in_words(1), "between `striker` and `long`");
