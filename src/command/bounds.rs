@@ -10,7 +10,7 @@ const MAX_TERMS: u128 = 2_000_000;
 /// The most constants that are counted.
 const MAX_FURTHER: usize = 10;
 
-/// About how many terms the n-th piece has: of a wave with one pole n³/6, n times as many for each
+/// About how many terms the n-th piece has: of a wave with one pole n³/6, n² times as many for each
 /// further constant with a name. A sequence in symbols has n, and takes the work of n².
 pub fn terms_of_piece(recurrence: &Recurrence, n: usize) -> u128 {
     let n = n as u128 + 1;
@@ -18,7 +18,7 @@ pub fn terms_of_piece(recurrence: &Recurrence, n: usize) -> u128 {
     match (differential, recurrence.symbols().next()) {
         (true, _) => {
             let further = constants_in_equations(recurrence).saturating_sub(1).min(MAX_FURTHER);
-            (n.saturating_pow(3) / 6 + 1).saturating_mul(n.saturating_pow(further as u32))
+            (n.saturating_pow(3) / 6 + 1).saturating_mul(n.saturating_pow(2 * further as u32))
         }
         (false, Some(_)) => n.saturating_pow(2),
         (false, None) => n,
