@@ -25,6 +25,7 @@ mod samples;
 mod trigonometry;
 
 pub use ball::Ball;
+pub(crate) use binary::Binary;
 pub use certify::Certified;
 pub(crate) use certify::{CertifyError, certify};
 pub use complex::ComplexBall;

@@ -9,7 +9,7 @@
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side};
-use crate::evaluate::scene::{Arrived, SceneEvaluator};
+use crate::evaluate::scene::{Arrived, SceneEvaluator, in_divided_powers};
 use crate::expression::{Expression, Field as _, Fraction, Transform};
 use crate::network::{EnergyTerm, Window};
 use std::cmp::Ordering;
@@ -219,11 +219,7 @@ fn shifted(
         let rate = numbers.field(bits).embed(&pole.clone().into())?;
         let factor = rate.multiply(h, bits).exp(bits).map_err(EvaluateError::Ball)?;
         let row = (0..coefficients.len()).map(|i| {
-            let mut value = ComplexBall::zero();
-            for (j, c) in coefficients[i..].iter().enumerate().rev() {
-                let share = Rational::new(1.into(), (j + 1).into());
-                value = value.multiply(h, bits).multiply_rational(&share, bits).add(c, bits);
-            }
+            let value = in_divided_powers(&coefficients[i..], h, bits);
             value.multiply(&factor, bits)
         });
         rows.insert(pole.clone(), row.collect());

@@ -4,7 +4,7 @@
 //! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
 //! place that is observed.
 
-use crate::ball::{Ball, Certified, ComplexBall, Decimal, Magnitude};
+use crate::ball::{Ball, BallError, Binary, Certified, ComplexBall, Decimal, Magnitude};
 use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
@@ -46,6 +46,9 @@ const SUSPICION_BITS: u64 = 64;
 
 /// A value that so many bits do not round is suspected to be half-way between two decimals.
 const TIE_BITS: u64 = 1 << 12;
+
+/// A radius as a power of two that tells nothing.
+const WIDE: i64 = 1 << 20;
 
 /// The most echoes that are worked out exactly to see whether a value is zero, and where formulas hold
 /// named constants.
@@ -92,6 +95,8 @@ pub struct SceneEvaluator<'a> {
     arrivals: Vec<(usize, Fraction)>,
     last: Fraction,
     numbers: Numbers,
+    /// What was asked for before.
+    wanted: RefCell<Vec<Observation>>,
     demand: RefCell<Demand>,
     known: RefCell<Known>,
     expanded: Cell<usize>,
@@ -161,6 +166,7 @@ impl<'a> SceneEvaluator<'a> {
             arrivals,
             last: last.clone(),
             numbers: Numbers::new(unfolded.recurrence().constants()),
+            wanted: RefCell::default(),
             known: RefCell::default(),
             demand,
             expanded: Cell::new(0),
@@ -257,7 +263,8 @@ impl<'a> SceneEvaluator<'a> {
         limit_bits: u64,
     ) -> Result<Value, EvaluateError> {
         let mut limit_bits = limit_bits;
-        if may_be_zero(&enclosure, limit_bits)? {
+        let enclosure = |bits| patient(enclosure(bits), bits);
+        if may_be_zero(enclosure, limit_bits)? {
             match exact() {
                 Some(sum) if sum.is_zero() => return Ok(Value::Exact(Rational::zero())),
                 Some(_) => {}
@@ -355,6 +362,10 @@ impl<'a> SceneEvaluator<'a> {
         numbers: &Numbers,
         observation: &Observation,
     ) -> Result<(), EvaluateError> {
+        if self.wanted.borrow().contains(observation) {
+            return Ok(());
+        }
+        self.wanted.borrow_mut().push(observation.clone());
         for Arrived { wave, number, .. } in
             self.arrived(numbers, observation, &self.last, Side::Right)?
         {
@@ -494,7 +505,21 @@ impl<'a> SceneEvaluator<'a> {
     }
 }
 
-/// `Σ_λ e^{λx} Σ_j c_{λ,j} x^j/j!`, by Horner's rule.
+/// `Σ_j c_j x^j/j!`, by Horner's rule.
+pub(crate) fn in_divided_powers(
+    coefficients: &[ComplexBall],
+    x: &ComplexBall,
+    bits: u64,
+) -> ComplexBall {
+    let mut value = ComplexBall::zero();
+    for (j, coefficient) in coefficients.iter().enumerate().rev() {
+        let share = Rational::new(1.into(), (j + 1).into());
+        value = value.multiply(x, bits).multiply_rational(&share, bits).add(coefficient, bits);
+    }
+    value
+}
+
+/// `Σ_λ e^{λx} Σ_j c_{λ,j} x^j/j!`.
 fn evaluate(
     echo: &Transform<ComplexBall>,
     x: &ComplexBall,
@@ -503,11 +528,7 @@ fn evaluate(
 ) -> Result<ComplexBall, EvaluateError> {
     let mut sum = ComplexBall::zero();
     for (pole, coefficients) in echo.poles() {
-        let mut value = ComplexBall::zero();
-        for (j, coefficient) in coefficients.iter().enumerate().rev() {
-            let share = Rational::new(1.into(), (j + 1).into());
-            value = value.multiply(x, bits).multiply_rational(&share, bits).add(coefficient, bits);
-        }
+        let mut value = in_divided_powers(coefficients, x, bits);
         if !pole.is_zero() {
             let field = numbers.field(bits);
             let rate = field.embed(&pole.clone().into())?;
@@ -537,6 +558,16 @@ fn may_be_zero(
             return Ok(false);
         }
         bits = bits.saturating_mul(2).min(limit_bits);
+    }
+}
+
+/// What a divisor that may be zero stands in the way of is not told yet: more bits may tell it.
+fn patient(found: Result<Ball, EvaluateError>, bits: u64) -> Result<Ball, EvaluateError> {
+    match found {
+        Err(EvaluateError::Ball(BallError::DivisorMayBeZero)) if bits < TIE_BITS => {
+            Ok(Ball::new(Binary::zero(), Magnitude::power_of_two(WIDE)))
+        }
+        found => found,
     }
 }
 
