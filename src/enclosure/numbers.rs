@@ -207,6 +207,27 @@ impl Numbers {
         }
     }
 
+    /// Where a value stands among ascending ones, or where it would.
+    ///
+    /// # Errors
+    /// As [`Numbers::compare`].
+    pub(crate) fn search(
+        &self,
+        ascending: &[Fraction],
+        value: &Fraction,
+    ) -> Result<Result<usize, usize>, EnclosureError> {
+        let (mut low, mut high) = (0, ascending.len());
+        while low < high {
+            let middle = low.midpoint(high);
+            match self.compare(&ascending[middle], value)? {
+                Ordering::Less => low = middle + 1,
+                Ordering::Equal => return Ok(Ok(middle)),
+                Ordering::Greater => high = middle,
+            }
+        }
+        Ok(Err(low))
+    }
+
     /// The field of enclosures with so many bits.
     pub(crate) fn field(&self, bits: u64) -> Enclosing<'_> {
         Enclosing { numbers: self, bits }
@@ -265,6 +286,20 @@ impl Field for Enclosing<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_are_found_among_ascending_ones() {
+        let number = |value: i64| Fraction::constant(&Rational::from_integer(value.into()));
+        let pi = Fraction::symbol(&Symbol::new("pi").unwrap());
+        let numbers = Numbers::new(&[]);
+        let ascending = [number(1), number(3), pi.clone(), number(4)];
+        let place = |value: &Fraction| numbers.search(&ascending, value).unwrap();
+        assert_eq!((place(&pi), place(&number(4))), (Ok(2), Ok(3)));
+        assert_eq!(
+            (place(&number(0)), place(&number(2)), place(&number(5))),
+            (Err(0), Err(1), Err(4))
+        );
+    }
 
     /// `x⁴ + x + 1` has no real zeros; the enclosed one is a zero, and fifty digits of it are known.
     #[test]

@@ -158,18 +158,18 @@ fn in_order(
     }
     let limit = shortest.scale(&wavestep_polynomial::Rational::from_integer((through + 1).into()));
     let mut kept: Vec<Arrival> = Vec::new();
+    // The delays of the wave at hand, the last in what is kept.
+    let mut delays: Vec<Fraction> = Vec::new();
     for arrival in found {
         if numbers.compare(&arrival.delay, &limit)? != Ordering::Less {
             continue;
         }
-        let mut place = kept.len();
-        while place > 0 && kept[place - 1].wave == arrival.wave {
-            if numbers.compare(&kept[place - 1].delay, &arrival.delay)? != Ordering::Greater {
-                break;
-            }
-            place -= 1;
+        if kept.last().is_some_and(|last| last.wave != arrival.wave) {
+            delays.clear();
         }
-        kept.insert(place, arrival);
+        let (Ok(place) | Err(place)) = numbers.search(&delays, &arrival.delay)?;
+        delays.insert(place, arrival.delay.clone());
+        kept.insert(kept.len() + 1 + place - delays.len(), arrival);
     }
     Ok(kept)
 }

@@ -83,18 +83,8 @@ impl SceneEvaluator<'_> {
             let mut moments = vec![start];
             for echo in &arrived {
                 let moment = at - &echo.since;
-                let mut place = moments.len();
-                while place > 0 {
-                    match numbers.compare(&moments[place - 1], &moment)? {
-                        Ordering::Less => break,
-                        Ordering::Equal => {
-                            place = usize::MAX;
-                            break;
-                        }
-                        Ordering::Greater => place -= 1,
-                    }
-                }
-                if place > 0 && place != usize::MAX {
+                // What was there at the start, or comes with another, is no moment of its own.
+                if let Err(place @ 1..) = numbers.search(&moments, &moment)? {
                     moments.insert(place, moment);
                 }
             }

@@ -6,7 +6,7 @@
 
 use crate::expression::{Expression, Fraction, NotAUnit};
 use crate::network::delay::Lattice;
-use crate::network::layout::{Layout, Node, Side};
+use crate::network::layout::{Layout, Node, Run, Side};
 use crate::network::model::{Model, ModelLump};
 use crate::network::observe::Observed;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, WaveIndex};
@@ -176,14 +176,6 @@ pub struct Network {
     pub(crate) loads: Vec<(ElementIndex, Vec<i64>, Option<Vec<i64>>)>,
 }
 
-/// A run of places in a node that move together, or that pass the same force on: from the first
-/// place to the last. Place `i` is left of the i-th element.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Run {
-    pub first: usize,
-    pub last: usize,
-}
-
 impl Network {
     /// The network of a scene.
     ///
@@ -331,18 +323,12 @@ impl Network {
 
     /// The velocities at the start of all that moves together.
     pub(crate) fn initial_velocities(&self, node: &Node, run: Run) -> Vec<Fraction> {
-        let mut all = Vec::new();
-        let mut side = |side: Side| match side {
-            Side::Bar(bar) => all.push(self.model.bars[&self.layout.bars[bar]].velocity.clone()),
-            Side::Fixed => all.push(Fraction::zero()),
-            Side::Free => {}
+        let of_side = |side: Side| match side {
+            Side::Bar(bar) => Some(self.model.bars[&self.layout.bars[bar]].velocity.clone()),
+            Side::Fixed => Some(Fraction::zero()),
+            Side::Free => None,
         };
-        if run.first == 0 {
-            side(node.left);
-        }
-        if run.last == node.elements.len() {
-            side(node.right);
-        }
+        let mut all: Vec<Fraction> = node.sides(run).filter_map(of_side).collect();
         for element in &node.elements[run.first..run.last] {
             if let ModelLump::Mass(_, velocity) = &self.model.lumps[element] {
                 all.push(velocity.clone());
@@ -470,10 +456,7 @@ impl Network {
 
     /// Whether nothing beside a run of places gives its velocity.
     fn is_unknown(&self, node: &Node, run: Run) -> bool {
-        let known = |side: Side| !matches!(side, Side::Free);
-        let left = run.first == 0 && known(node.left);
-        let right = run.last == node.elements.len() && known(node.right);
-        !(left || right)
+        node.sides(run).all(|side| side == Side::Free)
     }
 
     fn name_waves(&mut self) {

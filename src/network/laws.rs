@@ -1,8 +1,8 @@
 //! The equations of a network.
 
 use crate::expression::{Expression, Fraction};
-use crate::network::equations::{Network, NetworkError, Role, Run, lag};
-use crate::network::layout::{Node, Side};
+use crate::network::equations::{Network, NetworkError, Role, lag};
+use crate::network::layout::{Node, Run, Side};
 use crate::network::model::ModelLump;
 use crate::network::observe::{Observed, ObservedValue};
 use crate::recurrence::{
@@ -203,17 +203,11 @@ impl Network {
                 forms.push(self.load(*element, strides));
             }
         }
-        let mut side = |side: Side| match side {
-            Side::Bar(bar) => forms.push(self.bar_forms(place, bar, strides)[0].clone()),
-            Side::Fixed => forms.push(LinearForm::zero()),
-            Side::Free => {}
-        };
-        if run.first == 0 {
-            side(node.left);
-        }
-        if run.last == node.elements.len() {
-            side(node.right);
-        }
+        forms.extend(node.sides(run).filter_map(|side| match side {
+            Side::Bar(bar) => Some(self.bar_forms(place, bar, strides)[0].clone()),
+            Side::Fixed => Some(LinearForm::zero()),
+            Side::Free => None,
+        }));
         if let Some(wave) = self.wave(Role::Velocity(place, run.first)) {
             forms.push(LinearForm::wave(wave, 0));
         }
@@ -272,18 +266,12 @@ impl Network {
         run: Run,
         strides: &[usize],
     ) -> Vec<LinearForm> {
-        let mut forms = Vec::new();
-        let mut side = |side: Side| match side {
-            Side::Bar(bar) => forms.push(self.bar_forms(place, bar, strides)[1].clone()),
-            Side::Free => forms.push(LinearForm::zero()),
-            Side::Fixed => {}
+        let of_side = |side| match side {
+            Side::Bar(bar) => Some(self.bar_forms(place, bar, strides)[1].clone()),
+            Side::Free => Some(LinearForm::zero()),
+            Side::Fixed => None,
         };
-        if run.first == 0 {
-            side(node.left);
-        }
-        if run.last == node.elements.len() {
-            side(node.right);
-        }
+        let mut forms: Vec<LinearForm> = node.sides(run).filter_map(of_side).collect();
         forms.extend((run.first..run.last).map(|i| self.spring_force(place, node, i, strides)));
         forms
     }
@@ -328,8 +316,7 @@ impl Network {
             let imposing = elements.iter().find(|element| {
                 matches!(self.model.lumps[element], ModelLump::Load(Drive::Velocity, ..))
             });
-            let held = (run.first == 0 && node.left == Side::Fixed)
-                || (run.last == node.elements.len() && node.right == Side::Fixed);
+            let held = node.sides(run).any(|side| side == Side::Fixed);
             for other in &forms[1..] {
                 match (imposing, held) {
                     (Some(load), _) => add(Rule::Imposed(*load), other, &forms[0]),
@@ -382,8 +369,7 @@ impl Network {
         }
         for run in forces {
             let springs = &node.elements[run.first..run.last];
-            let free = (run.first == 0 && node.left == Side::Free)
-                || (run.last == node.elements.len() && node.right == Side::Free);
+            let free = node.sides(run).any(|side| side == Side::Free);
             let forms = self.force_forms(place, node, run, strides);
             let Some((first, others)) = forms.split_first() else { continue };
             let before_springs = forms.len() - springs.len();

@@ -22,6 +22,23 @@ pub(crate) struct Node {
     pub right: Side,
 }
 
+/// A run of places in a node that move together, or that pass the same force on: from the first
+/// place to the last. Place `i` is left of the i-th element.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Run {
+    pub first: usize,
+    pub last: usize,
+}
+
+impl Node {
+    /// What a run of places has at its ends: the sides of the node that it reaches.
+    pub fn sides(&self, run: Run) -> impl Iterator<Item = Side> {
+        let left = (run.first == 0).then_some(self.left);
+        let right = (run.last == self.elements.len()).then_some(self.right);
+        left.into_iter().chain(right)
+    }
+}
+
 /// A line as nodes and bars in turn.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Layout {

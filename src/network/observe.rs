@@ -4,8 +4,8 @@
 //! left the right end at `t − (1−ξ)τ`; the clocks of the two nodes turn these into wave functions.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::equations::{Network, NetworkError, Role, Run};
-use crate::network::layout::{Node, Side};
+use crate::network::equations::{Network, NetworkError, Role};
+use crate::network::layout::{Node, Run, Side};
 use crate::network::model::{ModelLump, bar_roots};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
 use crate::scene::{Body, Dimension, ElementIndex, Kind, Measure, Place, Position, Seen};
