@@ -158,6 +158,12 @@ impl Ball {
         Self::new(midpoint, self.radius.add(&error))
     }
 
+    /// All points within `by` of this ball.
+    #[must_use]
+    pub(crate) fn widened(&self, by: &Magnitude) -> Self {
+        Self::new(self.midpoint.clone(), self.radius.add(by))
+    }
+
     /// `−x`, exactly.
     #[must_use]
     pub(crate) fn negate(self) -> Self {

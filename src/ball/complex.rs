@@ -50,6 +50,27 @@ impl ComplexBall {
         Ball::zero().into()
     }
 
+    /// The point 1.
+    #[must_use]
+    pub(crate) fn one() -> Self {
+        Ball::from_integer(&1.into()).into()
+    }
+
+    /// `−z`, exactly.
+    #[must_use]
+    pub(crate) fn negate(self) -> Self {
+        Self::new(self.re.negate(), self.im.negate())
+    }
+
+    /// An upper bound of `|z|` over the rectangle.
+    #[must_use]
+    pub(crate) fn magnitude(&self) -> Magnitude {
+        match self.is_real() {
+            true => self.re.magnitude(),
+            false => self.re.magnitude().add(&self.im.magnitude()),
+        }
+    }
+
     /// The middle of the rectangle.
     pub(crate) fn centre(&self) -> Self {
         let middle = |part: &Ball| Ball::new(part.midpoint().clone(), Magnitude::ZERO);

@@ -9,7 +9,8 @@
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side};
-use crate::evaluate::scene::{Arrived, SceneEvaluator, in_divided_powers};
+use crate::evaluate::scene::{Arrived, SceneEvaluator};
+use crate::evaluate::transforms::in_divided_powers;
 use crate::expression::{Expression, Field as _, Fraction, Transform};
 use crate::network::{EnergyTerm, Window};
 use std::cmp::Ordering;

@@ -187,6 +187,8 @@ pub enum EvaluateError {
     Division(NotAUnit),
     /// The scene gives no recurrence.
     Network(Box<NetworkError>),
+    /// An energy, where only what is linear in the waves can be expanded.
+    NotLinear(String),
     /// The value is a complex number that is not real: waves with one pole of a complex pair each.
     NotReal,
 }
@@ -221,6 +223,9 @@ impl fmt::Display for EvaluateError {
             }
             EvaluateError::Division(reason) => reason.fmt(f),
             EvaluateError::Network(error) => error.fmt(f),
+            EvaluateError::NotLinear(name) => {
+                write!(f, "{name} is an energy, quadratic in the waves: it has no pieces to expand")
+            }
             EvaluateError::NotReal => f.write_str("the value is not real"),
         }
     }
@@ -245,6 +250,15 @@ impl From<EnclosureError> for EvaluateError {
 impl From<NotAUnit> for EvaluateError {
     fn from(reason: NotAUnit) -> EvaluateError {
         EvaluateError::Division(reason)
+    }
+}
+
+impl From<NetworkError> for EvaluateError {
+    fn from(error: NetworkError) -> EvaluateError {
+        match error {
+            NetworkError::Division(reason) => EvaluateError::Division(reason),
+            other => EvaluateError::Network(Box::new(other)),
+        }
     }
 }
 

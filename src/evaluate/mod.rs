@@ -9,7 +9,11 @@ mod contribution;
 mod energy;
 mod evaluator;
 mod modular;
+mod periods;
 mod scene;
+mod signal;
+mod taylor;
+mod transforms;
 mod value;
 
 pub use arrivals::{Arrival, ArrivalError, arrivals};
@@ -18,4 +22,5 @@ pub use evaluator::{
     Side,
 };
 pub use scene::{MAX_ECHOES, SceneEvaluator};
+pub use signal::{Signal, Stretch};
 pub use value::Value;

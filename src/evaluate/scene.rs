@@ -8,9 +8,10 @@ use crate::ball::{Ball, BallError, Binary, Certified, ComplexBall, Decimal, Magn
 use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
+use crate::evaluate::transforms::value_at;
 use crate::evaluate::value::Value;
 use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
-use crate::network::{Network, NetworkError, Observed, ObservedValue, Unfolded};
+use crate::network::{Network, Observed, ObservedValue, Unfolded};
 use crate::recurrence::{Observation, Recurrence, WaveIndex};
 use crate::solution::{Demand, EchoByEcho};
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -151,10 +152,7 @@ impl<'a> SceneEvaluator<'a> {
         if total > MAX_ECHOES as u128 {
             return Err(EvaluateError::TooManyEchoes { echoes: total, limit: MAX_ECHOES });
         }
-        let unfolded = network.unfold(&bounds).map_err(|error| match error {
-            NetworkError::Division(reason) => EvaluateError::Division(reason),
-            other => EvaluateError::Network(Box::new(other)),
-        })?;
+        let unfolded = network.unfold(&bounds)?;
         if let Some(symbol) = unfolded.recurrence().symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
@@ -172,6 +170,11 @@ impl<'a> SceneEvaluator<'a> {
             expanded: Cell::new(0),
             unfolded,
         })
+    }
+
+    /// The recurrence with lags on the lattice, and the echoes that can arrive, with their delays.
+    pub(crate) fn into_parts(self) -> (Unfolded, Vec<(usize, Fraction)>) {
+        (self.unfolded, self.arrivals)
     }
 
     /// The numbers of the scene's constants.
@@ -396,7 +399,7 @@ impl<'a> SceneEvaluator<'a> {
             }
             let x = field.embed(&since.clone().into())?;
             let coefficient = field.embed(coefficient)?;
-            let value = evaluate(echo, &x, numbers, bits)?;
+            let value = value_at(echo, &x, numbers, bits)?;
             sum = sum.add(&value.multiply(&coefficient, bits), bits);
         }
         Ok(real_part(sum)?)
@@ -415,14 +418,9 @@ impl<'a> SceneEvaluator<'a> {
     /// All echoes that are wanted, with coefficients in a field.
     fn solve_in<F: Field>(&self, field: F) -> Result<Echoes<F::Value>, F::Error> {
         let demand = self.demand.borrow().clone();
-        let recurrence = self.unfolded.recurrence();
-        let last = demand.last();
-        let mut solver = EchoByEcho::in_field(recurrence, field)?.wanting(demand);
-        for _ in 0..last.map_or(0, |last| last + 1) {
-            solver.expand().map_err(|failed| failed.reason)?;
-        }
-        self.expanded.set(solver.expanded());
-        Ok(solver.into_transforms())
+        let (echoes, expanded) = solve_in(self.unfolded.recurrence(), field, demand)?;
+        self.expanded.set(expanded);
+        Ok(echoes)
     }
 
     fn residues(&self) -> Option<Rc<Echoes<Residue>>> {
@@ -505,39 +503,19 @@ impl<'a> SceneEvaluator<'a> {
     }
 }
 
-/// `Σ_j c_j x^j/j!`, by Horner's rule.
-pub(crate) fn in_divided_powers(
-    coefficients: &[ComplexBall],
-    x: &ComplexBall,
-    bits: u64,
-) -> ComplexBall {
-    let mut value = ComplexBall::zero();
-    for (j, coefficient) in coefficients.iter().enumerate().rev() {
-        let share = Rational::new(1.into(), (j + 1).into());
-        value = value.multiply(x, bits).multiply_rational(&share, bits).add(coefficient, bits);
+/// The echoes that are wanted, with coefficients in a field, and how many of them are not zero.
+pub(crate) fn solve_in<F: Field>(
+    recurrence: &Recurrence,
+    field: F,
+    demand: Demand,
+) -> Result<(Echoes<F::Value>, usize), F::Error> {
+    let last = demand.last();
+    let mut solver = EchoByEcho::in_field(recurrence, field)?.wanting(demand);
+    for _ in 0..last.map_or(0, |last| last + 1) {
+        solver.expand().map_err(|failed| failed.reason)?;
     }
-    value
-}
-
-/// `Σ_λ e^{λx} Σ_j c_{λ,j} x^j/j!`.
-fn evaluate(
-    echo: &Transform<ComplexBall>,
-    x: &ComplexBall,
-    numbers: &Numbers,
-    bits: u64,
-) -> Result<ComplexBall, EvaluateError> {
-    let mut sum = ComplexBall::zero();
-    for (pole, coefficients) in echo.poles() {
-        let mut value = in_divided_powers(coefficients, x, bits);
-        if !pole.is_zero() {
-            let field = numbers.field(bits);
-            let rate = field.embed(&pole.clone().into())?;
-            let exponential = rate.multiply(x, bits).exp(bits).map_err(EvaluateError::Ball)?;
-            value = value.multiply(&exponential, bits);
-        }
-        sum = sum.add(&value, bits);
-    }
-    Ok(sum)
+    let expanded = solver.expanded();
+    Ok((solver.into_transforms(), expanded))
 }
 
 /// Whether a value is zero to [`SUSPICION_BITS`] bits, with precision raised until that can be told.
@@ -577,7 +555,7 @@ fn negligible() -> Magnitude {
 }
 
 /// How many whole periods fit into a time, or one more.
-fn whole_periods(
+pub(crate) fn whole_periods(
     numbers: &Numbers,
     time: &Fraction,
     period: &Fraction,

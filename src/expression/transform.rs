@@ -191,7 +191,7 @@ impl<V: Clone> Transform<V> {
         Transform::normal(field, BTreeMap::from([(pole, vec![value])]))
     }
 
-    fn normal<F: Field<Value = V>>(
+    pub(crate) fn normal<F: Field<Value = V>>(
         field: &F,
         mut poles: BTreeMap<Fraction, Vec<V>>,
     ) -> Transform<V> {

@@ -8,10 +8,11 @@
 //! The coefficients are exact, or enclosures in any other [`Field`]. Of all echoes only those are
 //! worked out that a [`Demand`] names.
 
-use crate::expression::{EchoSum, Exact, Expression, Field, Fraction, Transform};
-use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
+use crate::expression::{EchoSum, Exact, Field, Transform};
+use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::demand::Demand;
 use crate::solution::error::{SolveError, check_degree};
+use crate::solution::step::{FieldForm, FieldStep};
 
 /// The solution of a recurrence, echo by echo.
 ///
@@ -40,22 +41,6 @@ pub struct EchoByEcho<'a, F: Field = Exact<'a>> {
     /// `echoes[wave][k]`: the transform of the k-th echo, zero where it is not wanted.
     echoes: Vec<Vec<Transform<F::Value>>>,
     expanded: usize,
-}
-
-/// A step with its coefficients in a field.
-struct FieldStep<V> {
-    wave: WaveIndex,
-    equation: FieldForm<V>,
-    /// The pole `−a`, the continuous form and its start.
-    start: Option<(Fraction, FieldForm<V>, V)>,
-}
-
-/// Minus a form, without its own wave at lag 0.
-struct FieldForm<V> {
-    /// Wave, lag, and the coefficients of value and slope.
-    terms: Vec<(WaveIndex, usize, Option<V>, Option<V>)>,
-    /// Forcing by lag.
-    forcing: Vec<Transform<V>>,
 }
 
 /// An echo that could not be worked out, and why.
@@ -103,8 +88,7 @@ impl<'a> EchoByEcho<'a> {
 impl<'a, F: Field> EchoByEcho<'a, F> {
     /// No echo solved yet; coefficients will be in `field`.
     pub(crate) fn in_field(recurrence: &'a Recurrence, field: F) -> Result<Self, F::Error> {
-        let steps = recurrence.steps().iter().map(|step| FieldStep::of(step, recurrence, &field));
-        let steps = steps.collect::<Result<_, _>>()?;
+        let steps = FieldStep::all(recurrence, &field)?;
         let echoes = (0..recurrence.wave_count()).map(|_| Vec::new()).collect();
         Ok(EchoByEcho { recurrence, field, steps, demand: None, echoes, expanded: 0 })
     }
@@ -185,60 +169,9 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
         k: usize,
     ) -> impl Iterator<Item = (&'s Transform<F::Value>, Option<&'s F::Value>, Option<&'s F::Value>)> + 's
     {
-        form.terms.iter().filter_map(move |(wave, lag, value, slope)| {
-            let echo = self.echoes[*wave].get(k.checked_sub(*lag)?)?;
-            (!echo.is_zero()).then_some((echo, value.as_ref(), slope.as_ref()))
+        form.terms.iter().filter_map(move |term| {
+            let echo = self.echoes[term.wave].get(k.checked_sub(term.lag)?)?;
+            (!echo.is_zero()).then_some((echo, term.value.as_ref(), term.slope.as_ref()))
         })
-    }
-}
-
-impl<V: Clone> FieldStep<V> {
-    fn of<F: Field<Value = V>>(
-        step: &Step,
-        recurrence: &Recurrence,
-        field: &F,
-    ) -> Result<FieldStep<V>, F::Error> {
-        let form = |form: &LinearForm| FieldForm::of(form, step.wave, recurrence, field);
-        let start = match &step.start {
-            None => None,
-            Some(start) => {
-                let initial = field.embed(&start.initial)?;
-                Some((-&start.rate, form(&start.continuous)?, initial))
-            }
-        };
-        Ok(FieldStep { wave: step.wave, equation: form(&step.equation)?, start })
-    }
-}
-
-impl<V: Clone> FieldForm<V> {
-    fn of<F: Field<Value = V>>(
-        form: &LinearForm,
-        own: WaveIndex,
-        recurrence: &Recurrence,
-        field: &F,
-    ) -> Result<FieldForm<V>, F::Error> {
-        let statement = recurrence.statement();
-        let coefficient = |row: &[Expression], lag: usize| {
-            let value = row.get(lag).filter(|value| !value.is_zero());
-            value.map(|value| field.embed(&-value)).transpose()
-        };
-        let mut terms = Vec::new();
-        for (wave, operator) in form.operators() {
-            for lag in usize::from(wave == own)..operator.reach() {
-                let value = coefficient(operator.value(), lag)?;
-                let slope = coefficient(operator.slope(), lag)?;
-                if value.is_some() || slope.is_some() {
-                    terms.push((wave, lag, value, slope));
-                }
-            }
-        }
-        let mut forcing = Vec::new();
-        for function in form.forcing_terms() {
-            let local = Fraction::symbol(&statement.local);
-            let function = (-function).substitute(&statement.time, &local)?;
-            let exact = Transform::of(&function, &statement.local);
-            forcing.push(Transform::<V>::embedded(&exact, field)?);
-        }
-        Ok(FieldForm { terms, forcing })
     }
 }

@@ -15,6 +15,7 @@ mod geometric;
 mod observed;
 mod period;
 mod solved;
+mod step;
 mod table;
 mod template;
 
@@ -26,5 +27,6 @@ pub use geometric::{Geometric, GeometricTerm};
 pub use observed::{ObserveError, ObservedPieces, ObservedStretch};
 pub use period::{KeptEnds, PeriodByPeriod};
 pub use solved::Solution;
+pub(crate) use step::{FieldForm, FieldStep};
 pub use table::{EchoRow, EchoTable, ExpandedTerm, OrdinaryTable, OrdinaryTerm};
 pub use template::{EchoTemplate, Family};

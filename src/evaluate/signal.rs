@@ -1,0 +1,556 @@
+//! Observables as functions of time: where they are smooth, and enclosures there.
+//!
+//! Between two arrivals an observable is one exponential polynomial. On a grid it is made of one piece
+//! of each wave that is seen; on a lattice of all echoes that have arrived. Either way it can be
+//! enclosed at a time, and expanded about a time with a proven remainder: what tables of polynomials,
+//! roots and largest values are made from.
+
+use crate::ball::{Ball, ComplexBall};
+use crate::enclosure::{EnclosureError, Numbers, real_part};
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::periods::Periods;
+use crate::evaluate::scene::{Echoes, MAX_ECHOES, SceneEvaluator, solve_in, whole_periods};
+use crate::evaluate::taylor::Taylor;
+use crate::evaluate::transforms::value_at;
+use crate::expression::{Field as _, Fraction, Root, Transform};
+use crate::network::{Network, Observed, ObservedValue, Unfolded};
+use crate::recurrence::{Observation, ObservedWave, Recurrence};
+use crate::solution::Demand;
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// The most stretches between arrivals of one window.
+const MAX_STRETCHES: usize = 200_000;
+
+/// An observable with numbers in place of all symbols, as a function of the user's time.
+pub struct Signal {
+    recurrence: Recurrence,
+    observation: Observation,
+    /// What 1 in the scale of the waves is.
+    unit: Root,
+    /// Time in the scale of the waves for one unit of the user's.
+    slowness: Fraction,
+    numbers: Rc<Numbers>,
+    /// The echoes, where arrivals lie on no grid.
+    lattice: Option<Scattered>,
+    /// The waves, by bits.
+    solved: RefCell<BTreeMap<u64, Rc<RefCell<Solved>>>>,
+}
+
+/// Echoes on a lattice of several periods.
+struct Scattered {
+    unfolded: Unfolded,
+    /// By number, with their delays.
+    arrivals: Vec<(usize, Fraction)>,
+    /// Until when they are known.
+    last: Fraction,
+}
+
+/// The waves, in balls.
+enum Solved {
+    Periods(Periods),
+    Echoes(Rc<Echoes>),
+}
+
+/// A part of a signal: a piece of a wave, or an echo.
+#[derive(Clone, Debug)]
+struct Part {
+    /// Which of the waves that are seen.
+    seen: usize,
+    /// The period, or the number of the echo.
+    number: usize,
+    /// When it began, in the scale of the waves.
+    origin: Fraction,
+}
+
+/// A time between arrivals, on which a signal is one exponential polynomial.
+#[derive(Clone, Debug)]
+pub struct Stretch {
+    /// Its first time, in the scale of the waves.
+    from: Fraction,
+    /// Its end: the next arrival, or the end of the window.
+    to: Fraction,
+    parts: Vec<Part>,
+    /// Whether time has begun.
+    begun: bool,
+}
+
+/// An arrival: which of the waves seen, the number of the piece or echo, and when.
+type Break = (Option<usize>, usize, Fraction);
+
+impl Signal {
+    /// A wave or observable of a recurrence without symbols.
+    ///
+    /// # Errors
+    /// [`EvaluateError::MissingValue`] where a symbol is left.
+    pub fn of_recurrence(
+        recurrence: &Recurrence,
+        observation: &Observation,
+    ) -> Result<Signal, EvaluateError> {
+        Signal::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
+    }
+
+    /// An observable of a scene, for times up to `last`; on a grid this may be any.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where a symbol has no value or too many echoes arrive;
+    /// [`EvaluateError::NotLinear`] for energies.
+    pub fn of_scene(
+        network: &Network,
+        observed: &Observed,
+        last: &Rational,
+    ) -> Result<Signal, EvaluateError> {
+        let ObservedValue::Linear(observation) = &observed.value else {
+            return Err(EvaluateError::NotLinear(observed.name.clone()));
+        };
+        let (unit, slowness) = (observed.unit.clone(), network.model().slowness.clone());
+        if network.lattice().periods().len() == 1 {
+            let recurrence = network.recurrence()?;
+            return Signal::on_grid(&recurrence, observation, unit, slowness);
+        }
+        let last = slowness.scale(last);
+        let evaluator = SceneEvaluator::new(network, &last)?;
+        let (unfolded, arrivals) = evaluator.into_parts();
+        let signal = Signal::on_grid(unfolded.recurrence(), observation, unit, slowness)?;
+        Ok(Signal { lattice: Some(Scattered { unfolded, arrivals, last }), ..signal })
+    }
+
+    fn on_grid(
+        recurrence: &Recurrence,
+        observation: &Observation,
+        unit: Root,
+        slowness: Fraction,
+    ) -> Result<Signal, EvaluateError> {
+        if let Some(symbol) = recurrence.symbols().next() {
+            return Err(EvaluateError::MissingValue(symbol.clone()));
+        }
+        Ok(Signal {
+            numbers: Rc::new(Numbers::new(recurrence.constants())),
+            recurrence: recurrence.clone(),
+            observation: observation.clone(),
+            unit,
+            slowness,
+            lattice: None,
+            solved: RefCell::default(),
+        })
+    }
+
+    /// The recurrence of the waves that are seen.
+    pub fn recurrence(&self) -> &Recurrence {
+        &self.recurrence
+    }
+
+    /// What is seen of them.
+    pub fn observation(&self) -> &Observation {
+        &self.observation
+    }
+
+    /// The numbers of its constants.
+    pub(crate) fn numbers(&self) -> &Numbers {
+        &self.numbers
+    }
+
+    /// What 1 in the scale of the waves is.
+    pub(crate) fn unit(&self) -> &Root {
+        &self.unit
+    }
+
+    /// Time in the scale of the waves for one unit of the user's.
+    pub fn slowness(&self) -> &Fraction {
+        &self.slowness
+    }
+
+    /// Whether arrivals lie on one grid, so that pieces follow from earlier ones.
+    pub fn is_on_grid(&self) -> bool {
+        self.lattice.is_none()
+    }
+
+    /// How many periods have begun at a time, or one more; on a lattice, how many echoes can have
+    /// arrived.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyEchoes`] beyond [`MAX_ECHOES`].
+    pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
+        let at = self.slowness.scale(at);
+        match &self.lattice {
+            None => whole_periods(&self.numbers, &at, &self.recurrence.statement().period),
+            Some(lattice) => Ok(lattice.arrivals.len()),
+        }
+    }
+
+    /// The arrivals after `from`, up to `to`, ascending, and those that are there at `from`.
+    fn breaks(
+        &self,
+        from: &Fraction,
+        to: &Fraction,
+    ) -> Result<(Vec<Break>, Vec<Break>), EvaluateError> {
+        let mut before = Vec::new();
+        let mut after = Vec::new();
+        let mut place = |found: Break| -> Result<bool, EvaluateError> {
+            if self.numbers.compare(&found.2, to)? == Ordering::Greater {
+                return Ok(false);
+            }
+            match self.numbers.compare(&found.2, from)? {
+                Ordering::Greater => after.push(found),
+                _ => before.push(found),
+            }
+            Ok(true)
+        };
+        place((None, 0, Fraction::zero()))?;
+        let period = &self.recurrence.statement().period;
+        for (seen, wave) in self.observation.waves.iter().enumerate() {
+            match &self.lattice {
+                None => {
+                    // The last piece that is there at `from` is the only one that still counts.
+                    let first =
+                        whole_periods(&self.numbers, &(from - &wave.delay), period)?.max(1) - 1;
+                    for n in first.. {
+                        let delay = period.scale(&Rational::from_integer(n.into()));
+                        if n > MAX_ECHOES {
+                            let (echoes, limit) = (n as u128, MAX_ECHOES);
+                            return Err(EvaluateError::TooManyEchoes { echoes, limit });
+                        }
+                        if !place((Some(seen), n, &delay + &wave.delay))? {
+                            break;
+                        }
+                    }
+                }
+                Some(lattice) => {
+                    for (number, delay) in &lattice.arrivals {
+                        place((Some(seen), *number, delay + &wave.delay))?;
+                    }
+                }
+            }
+        }
+        if after.len() > MAX_STRETCHES {
+            let (echoes, limit) = (after.len() as u128, MAX_STRETCHES);
+            return Err(EvaluateError::TooManyEchoes { echoes, limit });
+        }
+        Ok((before, sorted(after, &self.numbers)?))
+    }
+
+    /// The stretches of a window in the user's time, in order.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where the order of two arrivals cannot be told, or there are too many.
+    pub fn stretches(&self, from: &Rational, to: &Rational) -> Result<Vec<Stretch>, EvaluateError> {
+        let (from, to) = (self.slowness.scale(from), self.slowness.scale(to));
+        if let Some(lattice) = &self.lattice
+            && self.numbers.compare(&to, &lattice.last)? == Ordering::Greater
+        {
+            return Err(EvaluateError::AfterLast);
+        }
+        let (before, after) = self.breaks(&from, &to)?;
+        let mut now = Stretch { from, to: to.clone(), parts: Vec::new(), begun: false };
+        before.into_iter().for_each(|found| self.arrive(&mut now, found));
+        let mut stretches = Vec::new();
+        for found in after {
+            if self.numbers.compare(&found.2, &now.from)? == Ordering::Greater {
+                stretches.push(Stretch { to: found.2.clone(), ..now.clone() });
+                now.from = found.2.clone();
+            }
+            self.arrive(&mut now, found);
+        }
+        stretches.push(now);
+        Ok(stretches)
+    }
+
+    /// What has arrived is seen from now on: on a grid in place of the piece before it.
+    fn arrive(&self, stretch: &mut Stretch, (seen, number, origin): Break) {
+        let Some(seen) = seen else {
+            stretch.begun = true;
+            return;
+        };
+        let part = Part { seen, number, origin };
+        match stretch.parts.iter_mut().find(|known| self.is_on_grid() && known.seen == seen) {
+            Some(known) => *known = part,
+            None => stretch.parts.push(part),
+        }
+    }
+
+    fn solved(&self, bits: u64) -> Result<Rc<RefCell<Solved>>, EvaluateError> {
+        if let Some(known) = self.solved.borrow().get(&bits) {
+            return Ok(known.clone());
+        }
+        let solved = match &self.lattice {
+            None => Solved::Periods(Periods::new(&self.recurrence, self.numbers.clone(), bits)?),
+            Some(lattice) => {
+                let mut demand = Demand::none(&self.recurrence);
+                let exists = |k| lattice.unfolded.counts(k).is_some();
+                for seen in &self.observation.waves {
+                    for (number, _) in &lattice.arrivals {
+                        demand.add_where(&self.recurrence, seen.wave, *number, exists);
+                    }
+                }
+                let (echoes, _) = solve_in(&self.recurrence, self.numbers.field(bits), demand)?;
+                Solved::Echoes(Rc::new(echoes))
+            }
+        };
+        let solved = Rc::new(RefCell::new(solved));
+        self.solved.borrow_mut().insert(bits, solved.clone());
+        Ok(solved)
+    }
+
+    /// The function of a part, in the time since its origin.
+    fn function(
+        &self,
+        part: &Part,
+        bits: u64,
+    ) -> Result<Rc<Transform<ComplexBall>>, EvaluateError> {
+        let solved = self.solved(bits)?;
+        let wave = self.observation.waves[part.seen].wave;
+        match &mut *solved.borrow_mut() {
+            Solved::Periods(periods) => {
+                periods.advance_to(part.number)?;
+                Ok(periods.piece(wave, part.number).clone())
+            }
+            Solved::Echoes(echoes) => Ok(Rc::new(echoes[wave][part.number].clone())),
+        }
+    }
+
+    /// Calls `add` with the functions that make up the signal on a stretch: each with its coefficient,
+    /// in the time since an origin, differentiated so many times.
+    fn for_each_function(
+        &self,
+        stretch: &Stretch,
+        derivative: usize,
+        bits: u64,
+        mut add: impl FnMut(
+            &Transform<ComplexBall>,
+            &Fraction,
+            &ComplexBall,
+        ) -> Result<(), EvaluateError>,
+    ) -> Result<(), EvaluateError> {
+        let field = self.numbers.field(bits);
+        let unit = ComplexBall::from(self.numbers.enclose_root(&self.unit, bits)?);
+        for part in &stretch.parts {
+            let ObservedWave { coefficient, slope, .. } = &self.observation.waves[part.seen];
+            let coefficient = field.embed(coefficient)?.multiply(&unit, bits);
+            let function = self.function(part, bits)?;
+            if function.is_zero() {
+                continue;
+            }
+            match derivative + usize::from(*slope) {
+                0 => add(&function, &part.origin, &coefficient)?,
+                times => {
+                    let mut slope = function.differentiated(&field)?;
+                    for _ in 1..times {
+                        slope = slope.differentiated(&field)?;
+                    }
+                    add(&slope, &part.origin, &coefficient)?;
+                }
+            }
+        }
+        let forcing = &self.observation.forcing;
+        if stretch.begun && !forcing.is_zero() {
+            let exact = Transform::of(forcing, &self.recurrence.statement().time);
+            let mut function = Transform::<ComplexBall>::embedded(&exact, &field)?;
+            for _ in 0..derivative {
+                function = function.differentiated(&field)?;
+            }
+            add(&function, &Fraction::zero(), &unit)?;
+        }
+        Ok(())
+    }
+
+    /// An enclosure of the signal, or of a derivative with respect to the user's time, at a time of a
+    /// stretch or at one of its ends.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where a constant cannot be enclosed.
+    pub fn enclose(
+        &self,
+        stretch: &Stretch,
+        derivative: usize,
+        at: &Fraction,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let field = self.numbers.field(bits);
+        let mut sum = ComplexBall::zero();
+        self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
+            let x = field.embed(&(at - origin).into())?;
+            let value = value_at(function, &x, &self.numbers, bits)?;
+            sum = sum.add(&value.multiply(coefficient, bits), bits);
+            Ok(())
+        })?;
+        let value = real_part(sum)?;
+        self.times_slowness(value, derivative, bits)
+    }
+
+    fn times_slowness(
+        &self,
+        mut value: Ball,
+        times: usize,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        for _ in 0..times {
+            value = value.multiply(&self.numbers.enclose(&self.slowness, bits)?, bits);
+        }
+        Ok(value)
+    }
+
+    /// The signal, or a derivative with respect to the user's time, about `centre`, in
+    /// `u = (t − centre)/half`: what it is on the stretch, and beyond that what it would be without
+    /// further arrivals.
+    pub(crate) fn taylor(
+        &self,
+        stretch: &Stretch,
+        derivative: usize,
+        (centre, half): (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        let field = self.numbers.field(bits);
+        let h = field.embed(&self.slowness.scale(half).into())?;
+        let at = self.slowness.scale(centre);
+        let mut sum = Taylor::<ComplexBall>::zero(terms);
+        self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
+            let x = field.embed(&(&at - origin).into())?;
+            let part = Taylor::of(function, &x, &h, terms, &self.numbers, bits)?;
+            sum.add_scaled(&part, coefficient, bits);
+            Ok(())
+        })?;
+        let sum = sum.real()?;
+        match derivative {
+            0 => Ok(sum),
+            times => {
+                let one = Ball::from_integer(&1.into());
+                Ok(sum.scaled(&self.times_slowness(one, times, bits)?, bits))
+            }
+        }
+    }
+
+    /// The last of the stretches whose first time is at or before a time; on the left side, before it.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where two times cannot be told apart.
+    pub fn stretch_at(
+        &self,
+        stretches: &[Stretch],
+        at: &Rational,
+        side: Side,
+    ) -> Result<usize, EvaluateError> {
+        let at = self.slowness.scale(at);
+        let (mut low, mut high) = (0, stretches.len());
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            let order = self.numbers.compare(&stretches[middle].from, &at)?;
+            match order == Ordering::Less || (order == Ordering::Equal && side == Side::Right) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        Ok(low)
+    }
+}
+
+impl Stretch {
+    /// Its first time, in the scale of the waves.
+    pub fn from(&self) -> &Fraction {
+        &self.from
+    }
+
+    /// Its end, in the scale of the waves: the next arrival, or the end of the window.
+    pub fn to(&self) -> &Fraction {
+        &self.to
+    }
+
+    /// Whether nothing is seen on it.
+    pub fn is_silent(&self) -> bool {
+        self.parts.is_empty() && !self.begun
+    }
+}
+
+/// Arrivals in order.
+fn sorted(mut breaks: Vec<Break>, numbers: &Numbers) -> Result<Vec<Break>, EvaluateError> {
+    let mut failed: Option<EnclosureError> = None;
+    breaks.sort_by(|left, right| {
+        numbers.compare(&left.2, &right.2).unwrap_or_else(|error| {
+            failed = Some(error);
+            Ordering::Equal
+        })
+    });
+    match failed {
+        Some(error) => Err(error.into()),
+        None => Ok(breaks),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evaluate::Value;
+    use crate::language::{Source, parse_number, read_scene};
+    use crate::scenes::SCENES;
+
+    /// The shipped scenes with numbers for their symbols.
+    fn networks() -> impl Iterator<Item = (&'static str, Network)> {
+        let scenes =
+            SCENES.iter().filter(|scene| scene.text.lines().any(|l| l.starts_with("scene ")));
+        scenes.map(|scene| {
+            let third = parse_number("4/3").unwrap();
+            let values = ["mu", "r", "m"].map(|name| (name.to_owned(), third.clone()));
+            let named = |name: &str| scene.text.contains(&format!("symbol {name} "));
+            let values = values.into_iter().filter(|(name, _)| named(name)).collect();
+            let source = Source::new(scene.name, scene.text).unwrap();
+            (scene.name, Network::new(&read_scene(&source, &values).unwrap()).unwrap())
+        })
+    }
+
+    /// Pieces in balls, Taylor polynomials, and echoes summed one by one enclose the same numbers.
+    #[test]
+    fn pieces_and_echoes_agree() {
+        let mut compared = 0;
+        for (name, network) in networks() {
+            let unit =
+                Rational::new(1.into(), if network.scene().dimensional { 5000 } else { 1 }.into());
+            let last = &unit * Rational::from_integer(7.into());
+            let evaluator = SceneEvaluator::new(&network, &network.scaled_time(&last)).unwrap();
+            for observed in network.observables() {
+                let Ok(signal) = Signal::of_scene(&network, observed, &last) else { continue };
+                let stretches = signal.stretches(&Rational::default(), &last).unwrap();
+                for i in 0..12 {
+                    let at = &last * Rational::new((7 * i + 1).into(), 80.into());
+                    let stretch =
+                        &stretches[signal.stretch_at(&stretches, &at, Side::Right).unwrap()];
+                    let value =
+                        signal.enclose(stretch, 0, &signal.slowness.scale(&at), 200).unwrap();
+                    let told = evaluator
+                        .value(observed, &network.scaled_time(&at), Side::Right, 30, 1 << 12)
+                        .unwrap();
+                    let told = match told {
+                        Value::Exact(exact) => Ball::from_rational(&exact, 300),
+                        Value::Certified(certified) => certified.ball,
+                    };
+                    assert!(
+                        value.subtract(&told, 200).contains_zero(),
+                        "{name} {} {at}",
+                        observed.name
+                    );
+                    let half = &unit * Rational::new(1.into(), 8.into());
+                    let centre = &at - &half * Rational::new(1.into(), 3.into());
+                    let taylor = signal.taylor(stretch, 0, (&centre, &half), 24, 200).unwrap();
+                    let u = Ball::from_rational(&Rational::new(1.into(), 3.into()), 200);
+                    let expanded = taylor.value(&u, 200);
+                    assert!(
+                        expanded.subtract(&told, 200).contains_zero(),
+                        "{name} {}",
+                        observed.name
+                    );
+                    let small = crate::ball::Magnitude::power_of_two(-30);
+                    let size = told.magnitude().max(crate::ball::Magnitude::power_of_two(-20));
+                    assert!(
+                        expanded.radius() <= &size.multiply(&small),
+                        "{name} {} {expanded} {told}",
+                        observed.name
+                    );
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 300, "{compared}");
+    }
+}
