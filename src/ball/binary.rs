@@ -73,6 +73,11 @@ impl Binary {
         self.mantissa.is_negative()
     }
 
+    /// The odd mantissa and the exponent.
+    pub(crate) fn parts(&self) -> (&BigInt, i64) {
+        (&self.mantissa, self.exponent)
+    }
+
     /// The `t` with `2^(t−1) ≤ |self| < 2^t`, or `None` for zero.
     #[must_use]
     pub fn top(&self) -> Option<i64> {

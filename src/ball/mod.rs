@@ -15,6 +15,7 @@ mod certify;
 mod complex;
 mod decimal;
 mod divided;
+mod double;
 mod enclosure;
 mod error;
 mod exponential;

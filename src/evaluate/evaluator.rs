@@ -187,6 +187,13 @@ pub enum EvaluateError {
     Division(NotAUnit),
     /// The scene gives no recurrence.
     Network(Box<NetworkError>),
+    /// A window that would be cut into more cells than are made.
+    TooManyCells {
+        /// How many are allowed.
+        limit: usize,
+    },
+    /// A function that no polynomial of the degree allowed follows, however short the cell.
+    TooSteep,
     /// An energy, where only what is linear in the waves can be expanded.
     NotLinear(String),
     /// The value is a complex number that is not real: waves with one pole of a complex pair each.
@@ -223,6 +230,12 @@ impl fmt::Display for EvaluateError {
             }
             EvaluateError::Division(reason) => reason.fmt(f),
             EvaluateError::Network(error) => error.fmt(f),
+            EvaluateError::TooManyCells { limit } => {
+                write!(f, "the window needs more than {limit} polynomials: ask for a shorter one")
+            }
+            EvaluateError::TooSteep => f.write_str(
+                "the function is too steep for polynomials between neighbouring doubles",
+            ),
             EvaluateError::NotLinear(name) => {
                 write!(f, "{name} is an energy, quadratic in the waves: it has no pieces to expand")
             }

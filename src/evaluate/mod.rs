@@ -5,6 +5,7 @@
 //! precision enclose it until the digits asked for are certain.
 
 mod arrivals;
+mod cells;
 mod contribution;
 mod energy;
 mod evaluator;
@@ -12,6 +13,7 @@ mod modular;
 mod periods;
 mod scene;
 mod signal;
+mod taps;
 mod taylor;
 mod transforms;
 mod value;
@@ -23,4 +25,5 @@ pub use evaluator::{
 };
 pub use scene::{MAX_ECHOES, SceneEvaluator};
 pub use signal::{Signal, Stretch};
+pub use taps::{Extra, NoTaps, Tap, Taps};
 pub use value::Value;

@@ -100,6 +100,11 @@ impl EchoTemplate {
         &self.terms
     }
 
+    /// `T_k(x)`.
+    pub(crate) fn function(&self, k: usize, x: &Symbol) -> Fraction {
+        self.family.function(k, x)
+    }
+
     /// The echoes before the sum holds, in the local variable.
     pub fn first(&self) -> &[Expression] {
         &self.first

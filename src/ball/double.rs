@@ -1,0 +1,171 @@
+//! Balls and doubles: the nearest one with its distance, and correct rounding.
+
+use crate::ball::{Ball, Binary, Magnitude};
+use num_bigint::BigInt;
+use num_traits::{ToPrimitive as _, Zero as _};
+
+impl Ball {
+    /// A double near the midpoint, and a bound on its distance from every point of the ball.
+    /// Infinite where the midpoint is beyond all doubles.
+    ///
+    pub(crate) fn to_double(&self) -> (f64, Magnitude) {
+        let (double, rest) = self.split();
+        (double, rest.magnitude())
+    }
+
+    /// A double near the midpoint, and what the ball is without it.
+    pub(crate) fn split(&self) -> (f64, Ball) {
+        let double = self.midpoint().to_double();
+        let exact = Binary::from_double(double);
+        let rest = match exact {
+            Some(exact) => self.midpoint().add(&exact.negate()),
+            None => return (double, Ball::new(Binary::zero(), Magnitude::power_of_two(1 << 20))),
+        };
+        (double, Ball::new(rest, *self.radius()))
+    }
+
+    /// The double that all points of the ball round to, ties to even; `None` where there is no one.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let third = Rational::new(1.into(), 3.into());
+    /// assert_eq!(Ball::from_rational(&third, 100).rounded(), Some(1.0 / 3.0));
+    /// assert_eq!(Ball::from_rational(&third, 40).rounded(), None);
+    /// ```
+    pub fn rounded(&self) -> Option<f64> {
+        let (lower, upper) = self.endpoints();
+        let (lower, upper) = (lower.to_double(), upper.to_double());
+        // 0 and −0 are equal and told apart: a value that may be either is not decided.
+        (lower.to_bits() == upper.to_bits()).then_some(lower)
+    }
+}
+
+impl Binary {
+    /// The nearest double, ties to even; infinite beyond all doubles.
+    pub(crate) fn to_double(&self) -> f64 {
+        let Some(top) = self.top() else { return 0.0 };
+        if top > 1024 {
+            return if self.is_negative() { f64::NEG_INFINITY } else { f64::INFINITY };
+        }
+        // The exponent of the last bit: 53 bits, fewer below the normal numbers.
+        let last = (top - 53).max(-1074);
+        if top < last {
+            return if self.is_negative() { -0.0 } else { 0.0 };
+        }
+        let (mantissa, exponent) = self.parts();
+        let magnitude = mantissa.magnitude();
+        let units = match u64::try_from(last - exponent) {
+            // All bits fit.
+            Err(_) | Ok(0) => (magnitude << (exponent - last) as u64).to_u64(),
+            Ok(below) => {
+                let kept = (magnitude >> below).to_u64();
+                let half = magnitude.bit(below - 1);
+                let more = magnitude.trailing_zeros().is_some_and(|zeros| zeros < below - 1);
+                kept.map(|kept| kept + u64::from(half && (more || kept & 1 == 1)))
+            }
+        };
+        let units = units.expect("at most 54 bits");
+        // Adding a carry to the exponent field is what rounding up to the next power of two is.
+        let bits = match units >> 52 {
+            0 => units,
+            _ => ((last + 1074) as u64).wrapping_shl(52) + units,
+        };
+        let double = f64::from_bits(bits);
+        if self.is_negative() { -double } else { double }
+    }
+
+    /// A double exactly; `None` where it is no number.
+    pub(crate) fn from_double(value: f64) -> Option<Binary> {
+        if value.is_zero() {
+            return Some(Binary::zero());
+        }
+        if !value.is_finite() {
+            return None;
+        }
+        let bits = value.to_bits();
+        let exponent = ((bits >> 52) & 0x7ff) as i64;
+        let fraction = (bits & ((1 << 52) - 1)) as i64;
+        let (mantissa, exponent) = match exponent {
+            0 => (fraction, -1074),
+            _ => (fraction | (1 << 52), exponent - 1075),
+        };
+        let mantissa = if value.is_sign_negative() { -mantissa } else { mantissa };
+        Some(Binary::new(BigInt::from(mantissa), exponent))
+    }
+}
+
+impl Magnitude {
+    /// The least double that is at least as large, or infinity.
+    ///
+    pub(crate) fn to_double(self) -> f64 {
+        match self.top() {
+            None => 0.0,
+            Some(top) if top > 1023 => f64::INFINITY,
+            Some(top) if top < -1000 => 2f64.powi(-1000),
+            // The mantissa has 32 bits: nothing is rounded.
+            Some(_) => self.to_binary().to_double(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+    use num_traits::{FromPrimitive as _, One as _, Signed as _};
+    use proptest::prelude::*;
+
+    fn exact(value: f64) -> BigRational {
+        BigRational::from_f64(value).expect("a finite number")
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        /// No neighbour is nearer, and of two that are as near the result is even.
+        #[test]
+        fn rounding_is_correct(
+            high in any::<i64>(), low in any::<u64>(), tie in any::<bool>(), exponent in -1250_i64..900,
+        ) {
+            let low = if tie { 1 << 63 } else { low };
+            let mantissa = (BigInt::from(high >> 9) << 64) + low;
+            let value = Binary::new(mantissa << 8, exponent);
+            let number = BigRational::from(&value);
+            let double = value.to_double();
+            let distance = (exact(double) - &number).abs();
+            for neighbour in [double.next_up(), double.next_down()] {
+                let other = (exact(neighbour) - &number).abs();
+                prop_assert!(distance <= other);
+                prop_assert!(distance < other || double.to_bits() & 1 == 0);
+            }
+            let (split, rest) = Ball::new(value.clone(), Magnitude::ZERO).split();
+            prop_assert_eq!(BigRational::from(rest.midpoint()) + exact(split), number);
+        }
+
+        #[test]
+        fn doubles_come_back(bits in any::<u64>()) {
+            let double = f64::from_bits(bits);
+            match Binary::from_double(double) {
+                None => prop_assert!(!double.is_finite()),
+                Some(binary) => {
+                    prop_assert_eq!(BigRational::from(&binary), exact(double));
+                    prop_assert_eq!(binary.to_double(), double);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn ends_that_round_differently_decide_nothing() {
+        let around =
+            |radius| Ball::new(Binary::from_double(1.0).unwrap(), Magnitude::power_of_two(radius));
+        assert_eq!(around(-60).rounded(), Some(1.0));
+        assert_eq!(around(-54).rounded(), Some(1.0)); // 1 − 2^−54 is a tie, and goes to the even one
+        assert_eq!(around(-53).rounded(), None);
+        assert!(Magnitude::power_of_two(1 << 20).to_double().is_infinite());
+        assert!(Magnitude::power_of_two(-(1 << 20)).to_double() > 0.0);
+        assert_eq!(BigRational::one(), exact(Magnitude::power_of_two(0).to_double()));
+    }
+}
