@@ -20,7 +20,7 @@ const LAYERS: [(&str, &[&str]); 13] = [
         "evaluate",
         &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"],
     ),
-    ("export", &["expression", "network", "recurrence", "scene", "solution"]),
+    ("export", &["evaluate", "expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
     ("scenes", &[]),

@@ -97,6 +97,15 @@ impl Binary {
 }
 
 impl Magnitude {
+    /// The least magnitude of at least the absolute value of a double; nothing is known of those that
+    /// are no numbers.
+    pub(crate) fn from_double(value: f64) -> Magnitude {
+        match Binary::from_double(value) {
+            Some(binary) => binary.magnitude(),
+            None => Magnitude::power_of_two(1 << 20),
+        }
+    }
+
     /// The least double that is at least as large, or infinity.
     ///
     pub(crate) fn to_double(self) -> f64 {

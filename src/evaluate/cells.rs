@@ -1,12 +1,12 @@
 //! A window of time cut into cells on which an observable is a short Taylor polynomial.
 //!
-//! Cells are dyadic: `2^w` wide, from a multiple of `2^w` on, so that their middles and half widths are
-//! exact doubles, and `u = (t − middle)/half` is exact for doubles beside it. A cell in which an echo
-//! arrives is cut there, and both parts keep its middle. Where the polynomial is too long a cell is
-//! halved.
+//! A stretch between arrivals is halved until a polynomial of the degree asked for follows the
+//! observable on each part. Cells begin and end at doubles. Their middles are doubles and their scales
+//! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
 
-use crate::ball::{Binary, Magnitude};
+use crate::ball::{Ball, Binary, Magnitude};
 use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{Signal, Stretch};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::Fraction;
@@ -16,14 +16,17 @@ use wavestep_polynomial::Rational;
 /// The most cells of one window.
 const MAX_CELLS: usize = 400_000;
 
-/// Where widths end: halving a cell further means that nothing converges.
-const MIN_EXPONENT: i64 = -900;
+/// How often a stretch is halved at most: beyond that nothing converges.
+const MAX_DEPTH: u32 = 40;
 
 /// Bits beyond those of the error aimed at, to begin with.
 const SPARE_BITS: u64 = 40;
 
 /// The most bits of balls.
 const MAX_BITS: u64 = 1 << 15;
+
+/// The bits of balls around fixed-point numbers.
+const MARCHED_BITS: u64 = 128;
 
 /// How long polynomials may be, and how exact they shall be.
 #[derive(Clone, Copy, Debug)]
@@ -34,19 +37,20 @@ pub(crate) struct Fit {
     pub error: Magnitude,
 }
 
-/// A part of a window on which a signal is one polynomial in `u = (t − middle)/half`.
+/// A part of a window on which a signal is one polynomial in `u = (t − middle)/scale`.
 pub(crate) struct Cell {
     /// The smallest double that belongs to it.
     pub first: f64,
     /// The largest one.
     pub last: f64,
-    /// The middle of the dyadic cell.
+    /// A double near its middle.
     pub middle: f64,
-    /// Its half width, a power of two.
-    pub half: f64,
+    /// A power of two, such that `|u| ≤ 1` on the cell.
+    pub scale: f64,
     /// The stretch that it lies in.
     pub stretch: usize,
-    /// The polynomial, of the degree asked for, with what its terms of higher degree can be.
+    /// The polynomial, of the degree asked for, with what its terms of higher degree can be on the
+    /// cell.
     pub taylor: Taylor,
 }
 
@@ -54,10 +58,12 @@ pub(crate) struct Cell {
 pub(crate) struct Window<'a> {
     pub signal: &'a Signal,
     pub stretches: Vec<Stretch>,
-    /// The smallest doubles of the stretches, and one after the last of them all.
+    /// The smallest doubles of the stretches.
     firsts: Vec<f64>,
     from: Rational,
     to: Rational,
+    /// A march that knows all pieces of the signal, where there is one.
+    marched: Option<MarchedPieces>,
 }
 
 impl<'a> Window<'a> {
@@ -75,7 +81,15 @@ impl<'a> Window<'a> {
                 _ => first_double(signal, stretch.from())?,
             });
         }
-        Ok(Window { signal, stretches, firsts, from: from.clone(), to: to.clone() })
+        let (from, to) = (from.clone(), to.clone());
+        Ok(Window { signal, stretches, firsts, from, to, marched: None })
+    }
+
+    /// Takes pieces from a march in fixed-point numbers, where the signal has one pole and one lag and
+    /// all its constants are rational numbers.
+    pub(crate) fn marching(mut self) -> Window<'a> {
+        self.marched = MarchedPieces::of(self.signal, &self.from, &self.to);
+        self
     }
 
     /// The doubles of a stretch, the first and the last; `None` where there are none.
@@ -149,73 +163,68 @@ impl<'a> Window<'a> {
     /// # Errors
     /// [`EvaluateError::TooManyCells`], and what stands in the way of enclosures.
     pub(crate) fn cells(&self, fit: Fit) -> Result<Vec<Cell>, EvaluateError> {
-        let bits = self.bits(fit.error)?;
+        let bits = match &self.marched {
+            Some(marched) if marched.serves(fit.error) => MARCHED_BITS,
+            _ => self.bits(fit.error)?,
+        };
         let mut cells = Vec::new();
-        let mut widest: Option<i64> = None;
+        // Stretches are much alike: each is first cut as often as its predecessor at least was.
+        let mut depth = 0;
         for stretch in 0..self.stretches.len() {
-            let Some((first, last)) = self.doubles(stretch) else { continue };
-            // A cell that holds the stretch, or so wide as the widest of the stretch before, twice.
-            let length = (last - first).max(f64::MIN_POSITIVE);
-            let covering = exponent_of(length) + 1;
-            let mut width = widest.map_or(covering, |widest| covering.min(widest + 1));
-            // The middle of a cell beside such a time has to be a double.
-            let coarse = exponent_of(last.abs().max(first.abs()).max(f64::MIN_POSITIVE)) - 50;
-            width = width.max(coarse);
-            widest = None;
-            let mut at = first;
-            while at <= last {
-                let (cell, cell_width) =
-                    self.fitting(stretch, (at, last), (width, coarse), at == first, (fit, bits))?;
-                widest = Some(widest.map_or(cell_width, |widest| widest.max(cell_width)));
-                at = cell.last.next_up();
-                // The next cell may be as wide as its place on the grid allows.
-                width = (cell_width + 1).min(covering);
-                cells.push(cell);
-                if cells.len() > MAX_CELLS {
+            let Some(doubles) = self.doubles(stretch) else { continue };
+            let mut least = MAX_DEPTH;
+            let spans = match &self.marched {
+                Some(marched) if marched.serves(fit.error) => marched.spans(doubles),
+                _ => vec![doubles],
+            };
+            let mut open: Vec<_> = spans.into_iter().rev().map(|span| (span, 0)).collect();
+            while let Some(((first, last), halvings)) = open.pop() {
+                let cell = match halvings < depth && first < last {
+                    true => None,
+                    false => self.fitting(stretch, (first, last), (fit, bits))?,
+                };
+                if let Some(cell) = cell {
+                    least = least.min(halvings);
+                    cells.push(cell);
+                } else if halvings >= MAX_DEPTH || first >= last {
+                    return Err(EvaluateError::TooSteep);
+                } else {
+                    let middle = first + (last - first) / 2.0;
+                    let middle = middle.clamp(first, last.next_down());
+                    open.push(((middle.next_up(), last), halvings + 1));
+                    open.push(((first, middle), halvings + 1));
+                }
+                if cells.len() + open.len() > MAX_CELLS {
                     return Err(EvaluateError::TooManyCells { limit: MAX_CELLS });
                 }
             }
+            depth = least.saturating_sub(1);
         }
         Ok(cells)
     }
 
-    /// The widest cell from `first` on that is at most `2^width` wide and fits.
+    /// The cell from `first` to `last`, where a polynomial fits.
     fn fitting(
         &self,
         stretch: usize,
         (first, last): (f64, f64),
-        (width, coarse): (i64, i64),
-        opens: bool,
         (fit, bits): (Fit, u64),
-    ) -> Result<(Cell, i64), EvaluateError> {
-        let mut width = width;
-        loop {
-            let scale = power(width);
-            let index = (first / scale).floor();
-            let (start, end) = (index * scale, (index + 1.0) * scale);
-            // But for the first of a stretch, cells begin where the one before ends.
-            if start < first && !opens && width > coarse {
-                width -= 1;
-                continue;
-            }
-            let half = scale / 2.0;
-            let middle = start + half;
-            let taylor = self.expand(stretch, (middle, half), (fit, bits))?;
-            if taylor.remainder <= fit.error || width <= coarse {
-                if taylor.remainder > fit.error {
-                    return Err(EvaluateError::TooSteep);
-                }
-                let last = last.min(end.next_down());
-                return Ok((Cell { first, last, middle, half, stretch, taylor }, width));
-            }
-            width -= 1;
-            if width < MIN_EXPONENT {
-                return Err(EvaluateError::TooSteep);
-            }
+    ) -> Result<Option<Cell>, EvaluateError> {
+        let middle = first + (last - first) / 2.0;
+        // The difference of two doubles may be rounded: the next one is large enough. A cell of one
+        // double is as wide as its distance to the next one.
+        let half = (last - middle).max(middle - first).next_up();
+        let half = half.max(middle.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
+        let mut taylor = self.expand(stretch, (middle, half), (fit, bits))?;
+        if taylor.remainder > fit.error {
+            return Ok(None);
         }
+        let scale = power_of_two_above(half);
+        taylor.stretch(&(rational(scale) / rational(half)), bits);
+        Ok(Some(Cell { first, last, middle, scale, stretch, taylor }))
     }
 
-    /// The polynomial about a middle, its terms beyond the degree in the remainder.
+    /// The polynomial in `(t − middle)/half`, its terms beyond the degree in the remainder.
     pub(crate) fn expand(
         &self,
         stretch: usize,
@@ -223,10 +232,15 @@ impl<'a> Window<'a> {
         (fit, bits): (Fit, u64),
     ) -> Result<Taylor, EvaluateError> {
         let (middle, half) = (rational(middle), rational(half));
-        // Twice as many terms tell what those beyond the degree are.
-        let terms = 2 * fit.degree + 6;
         let place = (&middle, &half);
-        let mut taylor = self.signal.taylor(&self.stretches[stretch], 0, place, terms, bits)?;
+        let mut taylor = match &self.marched {
+            Some(marched) if marched.serves(fit.error) => marched.taylor(place, bits)?,
+            _ => {
+                // Twice as many terms tell what those beyond the degree are.
+                let terms = 2 * fit.degree + 6;
+                self.signal.taylor(&self.stretches[stretch], 0, place, terms, bits)?
+            }
+        };
         taylor.remainder = taylor.tail(fit.degree + 1);
         taylor.coefficients.truncate(fit.degree + 1);
         Ok(taylor)
@@ -238,20 +252,22 @@ pub(crate) fn rational(value: f64) -> Rational {
     Rational::from(&Binary::from_double(value).expect("a finite number"))
 }
 
-/// `2^exponent`.
-fn power(exponent: i64) -> f64 {
-    2f64.powi(i32::try_from(exponent).expect("an exponent of doubles"))
-}
-
-/// The largest `w` with `2^w ≤ value`.
-fn exponent_of(value: f64) -> i64 {
-    let exponent = Binary::from_double(value).and_then(|value| value.top());
-    exponent.map_or(MIN_EXPONENT, |top| top - 1)
+/// The least power of two that is at least as large as a positive double.
+fn power_of_two_above(value: f64) -> f64 {
+    let bits = value.to_bits();
+    let fraction = bits & ((1 << 52) - 1);
+    let below = f64::from_bits(bits - fraction);
+    match (value.is_normal(), fraction) {
+        (true, 0) => value,
+        (true, _) => 2.0 * below,
+        // Among the smallest numbers any power of two will do.
+        (false, _) => f64::MIN_POSITIVE,
+    }
 }
 
 /// The smallest double that is at least as large.
 pub(crate) fn at_or_after(value: &Rational) -> f64 {
-    let ball = crate::ball::Ball::from_rational(value, 80);
+    let ball = Ball::from_rational(value, 80);
     let double = ball.midpoint().to_double();
     match rational(double) < *value {
         true => double.next_up(),

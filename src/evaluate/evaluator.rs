@@ -378,6 +378,23 @@ impl<'a> Evaluator<'a> {
         certified(digits, limit_bits, enclosure)
     }
 
+    /// The value where it is a rational number, decided exactly.
+    ///
+    /// # Errors
+    /// As [`Evaluator::value`].
+    pub fn rational(
+        &self,
+        observation: &Observation,
+        at: &Rational,
+        side: Side,
+    ) -> Result<Option<Rational>, EvaluateError> {
+        let parts = self.parts(observation, at, side)?;
+        match parts.algebraic.is_zero() {
+            true => Ok(rational_value(&parts.rational)),
+            false => Ok(parts.into_expression().as_constant()),
+        }
+    }
+
     fn parts(
         &self,
         observation: &Observation,

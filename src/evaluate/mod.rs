@@ -9,6 +9,8 @@ mod cells;
 mod contribution;
 mod energy;
 mod evaluator;
+mod marched_pieces;
+mod method;
 mod modular;
 mod periods;
 mod scene;
@@ -22,6 +24,10 @@ pub use arrivals::{Arrival, ArrivalError, arrivals};
 pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
     Side,
+};
+pub use method::{
+    Certified, Compiled, Expanded, Marched, Method, MethodError, Recogniser, Stable,
+    StablePrecision,
 };
 pub use scene::{MAX_ECHOES, SceneEvaluator};
 pub use signal::{Signal, Stretch};

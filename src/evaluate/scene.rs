@@ -255,6 +255,28 @@ impl<'a> SceneEvaluator<'a> {
         self.told(enclosure, || self.exact(&arrived, &forced), unit, digits, limit_bits)
     }
 
+    /// The value of what is linear in the waves where it is a rational number and the scene is one of
+    /// rational numbers, decided exactly.
+    ///
+    /// # Errors
+    /// As [`SceneEvaluator::value`].
+    pub fn rational(
+        &self,
+        observed: &Observed,
+        at: &Fraction,
+        side: Side,
+    ) -> Result<Option<Rational>, EvaluateError> {
+        let ObservedValue::Linear(observation) = &observed.value else { return Ok(None) };
+        let numbers = self.numbers();
+        let arrived = self.arrived(numbers, observation, at, side)?;
+        let forced = self.forcing(numbers, observation, at, side)?;
+        if arrived.is_empty() && forced.is_zero() {
+            return Ok(Some(Rational::zero()));
+        }
+        self.want_until_last(numbers, observation)?;
+        Ok(self.rational_value(&arrived, &forced, &observed.unit))
+    }
+
     /// A value by its enclosures. What may be zero, or half-way between two decimals, is looked at
     /// exactly.
     fn told(

@@ -161,6 +161,16 @@ fn tail(coefficients: &[ComplexBall], x: &Magnitude, h: &Magnitude, terms: usize
 }
 
 impl Taylor {
+    /// Adds another one.
+    pub(crate) fn add(&mut self, other: Taylor, bits: u64) {
+        let length = self.coefficients.len().max(other.coefficients.len());
+        self.coefficients.resize(length, Ball::zero());
+        for (sum, coefficient) in self.coefficients.iter_mut().zip(&other.coefficients) {
+            *sum = sum.add(coefficient, bits);
+        }
+        self.remainder = self.remainder.add(&other.remainder);
+    }
+
     /// Times a number.
     pub(crate) fn scaled(mut self, factor: &Ball, bits: u64) -> Taylor {
         for coefficient in &mut self.coefficients {
@@ -187,6 +197,16 @@ impl Taylor {
     pub(crate) fn radius(&self) -> Magnitude {
         let radii = self.coefficients.iter().map(|c| *c.radius());
         radii.max().unwrap_or(Magnitude::ZERO).max(self.remainder)
+    }
+
+    /// In units `by` times as long: `c_m ← c_m by^m`. The remainder holds where it did, for
+    /// `|u| ≤ 1/by`.
+    pub(crate) fn stretch(&mut self, by: &Rational, bits: u64) {
+        let mut power = Ball::from_integer(&1.into());
+        for coefficient in &mut self.coefficients {
+            *coefficient = coefficient.multiply(&power, bits);
+            power = power.multiply_rational(by, bits);
+        }
     }
 
     /// `p(a + bu)` for numbers `|a| + |b| ≤ 1`, exactly those points: the function on a part of where

@@ -1,4 +1,4 @@
-//! Exact results as text, LaTeX and JSON.
+//! Exact results as text, LaTeX and JSON, and numbers as C.
 //!
 //! A [`Formula`] holds an expression in the order a person would write it; one walk with two
 //! notations then writes plain text or LaTeX. The language reads back the text of pieces and echoes
@@ -6,6 +6,7 @@
 //! rationals, term by term.
 
 mod arrangement;
+mod c;
 mod explain;
 mod formula;
 mod general;
@@ -16,6 +17,7 @@ mod notation;
 mod oscillation;
 mod source;
 
+pub use c::{CHeading, to_c};
 pub use explain::Derivation;
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,

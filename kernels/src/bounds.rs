@@ -1,0 +1,138 @@
+//! Proven bounds on the rounding errors of Horner's scheme on one piece.
+//!
+//! All bounds hold for every argument with `|u| ≤ 1`, with and without fused multiply-adds. They are
+//! sums of magnitudes, computed in doubles and then widened by more than their own roundings.
+//!
+//! Notation: `ε = 2⁻⁵³`, `n` the degree, `T_k = Σ_{j≥k} |c_j|`, `û` the rounded argument. Scaling by
+//! powers of two is exact, so `û` is `u` rounded once: `|û − u| ≤ ε |u|`, and `|û| ≤ 1` as well.
+//!
+//! # Doubles
+//! `r_n = c_n`, `r_k = RN(r_{k+1} û + c_k)`, and `|r_k| ≤ T_k` but for factors `1 + ε`. Fused, a step
+//! adds an error of `ε |r_k|` at most, and multiplies the errors before it by `|û| ≤ 1`:
+//! `ε Σ_{k<n} T_k` together. Unfused, the product is rounded too, by at most
+//! `ε |r_{k+1} û| ≤ ε T_{k+1}`: `ε (Σ_{k<n} T_k + Σ_{1≤k≤n} T_k)`. The larger one, the second, is taken.
+//! The polynomial itself changes from `û` to `u` by at most `ε Σ k |c_k|`.
+//!
+//! # Pairs of doubles
+//! A step from `(h, l)` is `p + e = h û` and `s + d = c_k + p` exactly, then the new pair `s` and
+//! `RN(RN(RN(RN(l û) + e) + low_k) + d)`: all errors are in the second sum. With `λ` a bound on `|l|`,
+//! `|e| ≤ ε T_{k+1}` and `|d| ≤ ε T_k`, the sum is at most `λ' = λ + ε T_{k+1} + |low_k| + ε T_k`, and
+//! its four roundings (three when fused) are off by `4 ε λ'` at most; `λ'` is the next `λ`. Before the
+//! first pair, Horner's scheme runs in doubles on the coefficients from `split` on.
+//!
+//! Where the argument is not exact, `u = û + δ` with `|δ| ≤ ε` known: `δ p'(û)` is added, with `p'` in
+//! doubles. Each of the terms `k c_k û^{k−1}` of `p'` meets at most `2n` roundings, so with
+//! `D = Σ k (|c_k| + |low_k|)`, `D₂ = Σ k (k−1) (|c_k| + |low_k|)` the error is at most
+//! `ε (2nε D + Σ k |low_k|)` for that, `2 ε (λ + ε D)` for product and sum, and `ε² D₂ / 2` for the rest of
+//! Taylor's series.
+//!
+//! # Widening
+//! Factors `1 + ε` were dropped, fewer than 600 of them on any term, and fewer than 300 additions of
+//! non-negative doubles compute a bound: together a factor below `(1 + ε)^1000 < 1 + 2⁻⁴⁰`. A product
+//! that underflows is off by `2⁻¹⁰⁷⁴` or so instead, ten of them a step at most, and the argument
+//! likewise, which moves the polynomial by `D · 2⁻¹⁰⁷⁴`.
+
+use crate::double_double::UNIT;
+
+/// Covers the roundings of the bounds themselves and the factors `1 + ε` that they drop.
+const WIDENING: f64 = 1.0 + 1.0 / (1_u64 << 40) as f64;
+
+/// More than anything lost to underflow in one step: `2⁻¹⁰⁶⁰`.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE / (1_u64 << 38) as f64;
+
+/// Magnitudes of the coefficients of a piece, all rows padded to one degree.
+pub(crate) struct Magnitudes<'a> {
+    low: &'a [f64],
+    /// `T_k` for `k = 0 … n`.
+    tails: Vec<f64>,
+    /// `Σ k (|c_k| + |low_k|)`.
+    derivative: f64,
+    /// `Σ k (k−1) (|c_k| + |low_k|)`.
+    second_derivative: f64,
+    /// Whether `u` is exact for every double of the piece.
+    exact_argument: bool,
+}
+
+/// `Σ_k factor(k) |a_k|`.
+fn weighted(values: &[f64], factor: impl Fn(f64) -> f64) -> f64 {
+    values.iter().enumerate().map(|(k, value)| factor(k as f64) * value.abs()).sum()
+}
+
+/// `Σ_{k<n} T_k + Σ_{1≤k≤n} T_k` of a polynomial with the given tails, 0 of a constant.
+fn horner_roundings(tails: &[f64]) -> f64 {
+    match tails {
+        [] | [_] => 0.0,
+        [_, middle @ .., last] => tails[0] + 2.0 * middle.iter().sum::<f64>() + last,
+    }
+}
+
+impl<'a> Magnitudes<'a> {
+    /// Of coefficients `c_0 … c_n` (at least one) with low parts of the first ones.
+    pub(crate) fn new(coefficients: &[f64], low: &'a [f64], exact_argument: bool) -> Self {
+        let mut tails: Vec<f64> = coefficients.iter().map(|c| c.abs()).collect();
+        for k in (1..tails.len()).rev() {
+            tails[k - 1] += tails[k];
+        }
+        let derivative = weighted(coefficients, |k| k) + weighted(low, |k| k);
+        let twice = |k: f64| k * (k - 1.0);
+        let second_derivative = weighted(coefficients, twice) + weighted(low, twice);
+        Self { low, tails, derivative, second_derivative, exact_argument }
+    }
+
+    /// `T_0 ≥ |p|`.
+    pub(crate) fn total(&self) -> f64 {
+        self.tails[0]
+    }
+
+    /// Whether the polynomial is 0, and computed as 0.
+    fn is_zero(&self) -> bool {
+        self.total() == 0.0 && self.low.iter().all(|&low| low == 0.0)
+    }
+
+    fn underflow(&self) -> f64 {
+        UNDERFLOW * (self.tails.len() as f64 + 1.0 + self.derivative)
+    }
+
+    /// `|computed − f|` in doubles, for `|p − f| ≤ error`.
+    pub(crate) fn of_doubles(&self, error: f64) -> f64 {
+        if self.is_zero() {
+            return error;
+        }
+        let argument = if self.exact_argument { 0.0 } else { self.derivative };
+        let rounding = UNIT * (horner_roundings(&self.tails) + argument);
+        (error + weighted(self.low, |_| 1.0) + rounding + self.underflow()) * WIDENING
+    }
+
+    /// The least number of pairs of doubles, `low.len()` at least, such that the doubles before them
+    /// cost `allowed` at most.
+    pub(crate) fn split(&self, allowed: f64) -> usize {
+        let enough = |&k: &usize| UNIT * horner_roundings(&self.tails[k..]) <= allowed;
+        let length = self.tails.len();
+        // A constant before the first pair is exact, so the search ends at n at the latest.
+        (self.low.len().min(length)..length).find(enough).unwrap_or(length)
+    }
+
+    /// `|computed − f|` in pairs of doubles from `split` on downwards, for `|p − f| ≤ error`, and
+    /// `2 ε² (T_0 + λ)` more, which is what the rounding test `high + (low ± bound)` rounds away.
+    pub(crate) fn of_pairs(&self, split: usize, error: f64) -> f64 {
+        if self.is_zero() {
+            return error;
+        }
+        let low = |k: usize| self.low.get(k).map_or(0.0, |low| low.abs());
+        let degree = self.tails.len() - 1;
+        // With pairs for all coefficients, the first pair is (c_n, low_n).
+        let (first, mut size) = if split > degree { (degree, low(degree)) } else { (split, 0.0) };
+        let mut rounding = UNIT * horner_roundings(&self.tails[first..]);
+        for k in (0..first).rev() {
+            size += UNIT * (self.tails[k + 1] + self.tails[k]) + low(k);
+            rounding += 4.0 * UNIT * size;
+        }
+        if !self.exact_argument {
+            let steps = 2.0 * degree as f64 + 2.0;
+            rounding += UNIT * weighted(self.low, |k| k) + 2.0 * UNIT * size;
+            rounding += UNIT * UNIT * (steps * self.derivative + self.second_derivative);
+        }
+        let test = 2.0 * UNIT * UNIT * (self.total() + size);
+        (error + rounding + test + self.underflow()) * WIDENING
+    }
+}

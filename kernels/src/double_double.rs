@@ -1,0 +1,180 @@
+//! Sums and products of doubles without loss, and numbers of about 106 bits made of two doubles.
+//!
+//! A rounded sum or product has an error that is a double itself; the functions here return both.
+//! Throughout, `ε` is [`UNIT`] and roundings go to nearest, ties to even.
+
+/// The unit roundoff `ε = 2⁻⁵³`: a rounded result `r` is off by at most `ε |r|`, and by at most
+/// `ε |x|` where `x` is the exact result, unless it underflows.
+///
+/// ```
+/// use wavestep_kernels::double_double::UNIT;
+/// assert_eq!(1.0 + UNIT, 1.0);
+/// assert_eq!(1.0 + 2.0 * UNIT, 1.0_f64.next_up());
+/// ```
+pub const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// `(s, e)` with `s` the rounded sum and `s + e = a + b` exactly, `|e| ≤ ε |s|`: Knuth's 2Sum.
+///
+/// Exact for all finite arguments whose sum does not overflow, underflow included; the arguments may
+/// have any order. Six additions.
+///
+/// ```
+/// use wavestep_kernels::double_double::two_sum;
+/// assert_eq!(two_sum(2.0_f64.powi(-60), 1.0), (1.0, 2.0_f64.powi(-60)));
+/// ```
+#[inline(always)]
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let from_a = sum - b;
+    let from_b = sum - from_a;
+    (sum, (a - from_a) + (b - from_b))
+}
+
+/// `(s, e)` as of [`two_sum`], if `|a| ≥ |b|` or `a = 0`: Dekker's Fast2Sum. Three additions.
+///
+/// ```
+/// use wavestep_kernels::double_double::{fast_two_sum, two_sum};
+/// assert_eq!(fast_two_sum(1.0, 1e-17), two_sum(1.0, 1e-17));
+/// ```
+#[inline(always)]
+pub fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    (sum, b - (sum - a))
+}
+
+/// The factor of Veltkamp's splitting, `2²⁷ + 1`.
+pub(crate) const SPLITTER: f64 = 134_217_729.0;
+
+/// `(h, l)` with `h + l = a`, each of at most 26 bits: Veltkamp's splitting, `|a| < 2⁹⁹⁶`.
+#[inline(always)]
+fn split(a: f64) -> (f64, f64) {
+    let scaled = SPLITTER * a;
+    let high = scaled - (scaled - a);
+    (high, a - high)
+}
+
+/// `(p, e)` with `p` the rounded product and `p + e = a b` exactly, `|e| ≤ ε |p|`: Dekker's product.
+///
+/// Exact if `|a|, |b| < 2⁹⁹⁵`, `|a b| < 2¹⁰²⁰`, and `a b` is a multiple of `2⁻¹⁰⁷⁴`; the last holds
+/// wherever `|a b| ≥ 2⁻⁹⁶⁸`, and where one factor is an integer. 17 operations, none of them fused.
+///
+/// ```
+/// use wavestep_kernels::double_double::two_product;
+/// let a = 1.0 + 2.0_f64.powi(-40);
+/// assert_eq!(two_product(a, a), (1.0 + 2.0_f64.powi(-39), 2.0_f64.powi(-80)));
+/// ```
+#[inline(always)]
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    (product, error)
+}
+
+/// The sum `a + b` rounded to odd: the exact sum if it is a double, else that one of its two
+/// neighbours whose last bit is 1.
+#[inline(always)]
+fn sum_rounded_to_odd(a: f64, b: f64) -> f64 {
+    let (sum, error) = two_sum(a, b);
+    if error == 0.0 || sum.to_bits() & 1 == 1 {
+        return sum;
+    }
+    // The sum is not 0, since its error is less. Bits count away from 0.
+    let outwards = (error > 0.0) == (sum > 0.0);
+    f64::from_bits(if outwards { sum.to_bits() + 1 } else { sum.to_bits() - 1 })
+}
+
+/// `a b + c` rounded once, without an instruction for it.
+///
+/// The algorithm and its proof: S. Boldo and G. Melquiond, *Emulation of a FMA and correctly rounded
+/// sums: proved algorithms using rounding to odd*, IEEE Transactions on Computers 57 (2008). It needs
+/// the product's error to be a double, so the conditions of [`two_product`] hold here, too; a product
+/// out of range gives a NaN or an infinity. About 40 operations.
+///
+/// ```
+/// use wavestep_kernels::double_double::fused_multiply_add;
+/// let third = 1.0 / 3.0;
+/// assert_eq!(fused_multiply_add(third, 3.0, -1.0), f64::mul_add(third, 3.0, -1.0));
+/// assert_ne!(fused_multiply_add(third, 3.0, -1.0), third * 3.0 - 1.0);
+/// ```
+#[inline(always)]
+pub fn fused_multiply_add(a: f64, b: f64, c: f64) -> f64 {
+    let (product, product_error) = two_product(a, b);
+    let (small, small_error) = two_sum(c, product_error);
+    let (sum, sum_error) = two_sum(product, small);
+    sum + sum_rounded_to_odd(small_error, sum_error)
+}
+
+/// A number of about 106 bits: the sum of two doubles.
+///
+/// # Invariants
+/// `high` is `high + low` rounded to nearest, so `|low| ≤ ε |high|`, and both are finite.
+///
+/// ```
+/// use wavestep_kernels::double_double::DoubleDouble;
+/// let third = DoubleDouble::from_sum(1.0 / 3.0, 2.0_f64.powi(-54) / 3.0).unwrap();
+/// let one = third * DoubleDouble::from(3.0);
+/// assert!((one + DoubleDouble::from(-1.0)).high().abs() < 1e-32);
+/// assert_eq!((one.high(), one.low().abs() < 1e-31), (1.0, true));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DoubleDouble {
+    high: f64,
+    low: f64,
+}
+
+impl DoubleDouble {
+    /// The relative error of a sum, at most `3 ε² + 13 ε³ < 3.0001 · 2⁻¹⁰⁶`: theorem 3.1 (for
+    /// `AccurateDWPlusDW`) of M. Joldes, J.-M. Muller and V. Popescu, *Tight and rigorous error
+    /// bounds for basic building blocks of double-word arithmetic*, ACM TOMS 44 (2017).
+    pub const SUM_ERROR: f64 = 3.0001 * UNIT * UNIT;
+
+    /// The relative error of a product, at most `7 ε²`, if nothing under- or overflows: theorem 5.1
+    /// (for `DWTimesDW1`) of the same paper.
+    pub const PRODUCT_ERROR: f64 = 7.0 * UNIT * UNIT;
+
+    /// The sum of any two doubles, exactly; none if it is not finite.
+    pub fn from_sum(a: f64, b: f64) -> Option<Self> {
+        let (high, low) = two_sum(a, b);
+        (high.is_finite() && low.is_finite()).then_some(Self { high, low })
+    }
+
+    /// The nearest double.
+    pub fn high(self) -> f64 {
+        self.high
+    }
+
+    /// What the nearest double leaves.
+    pub fn low(self) -> f64 {
+        self.low
+    }
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(value: f64) -> Self {
+        Self { high: value, low: 0.0 }
+    }
+}
+
+impl std::ops::Add for DoubleDouble {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let (high, high_error) = two_sum(self.high, other.high);
+        let (low, low_error) = two_sum(self.low, other.low);
+        let (high, error) = fast_two_sum(high, high_error + low);
+        let (high, low) = fast_two_sum(high, low_error + error);
+        Self { high, low }
+    }
+}
+
+impl std::ops::Mul for DoubleDouble {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let (product, error) = two_product(self.high, other.high);
+        let mixed = self.high * other.low + self.low * other.high;
+        let (high, low) = fast_two_sum(product, error + mixed);
+        Self { high, low }
+    }
+}

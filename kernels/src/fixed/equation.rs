@@ -1,0 +1,94 @@
+//! The delay equation that is marched: one delay, one real pole.
+
+use num_rational::BigRational;
+use num_traits::{One, Signed};
+
+use super::error::FixedError;
+
+/// The equation `(d/dT + b) Y = ρ q (d/dT − a) Y + δ(T)`, in which `q` delays by the period D and
+/// `Y = 0` before the start; all four parameters are exact.
+///
+/// Its solution is its own impulse response, `Y(T) = Σ_k ρ^k e^(−b x_k) L_k((a + b) x_k)` over all
+/// `x_k = T − kD ≥ 0`, with the Laguerre polynomials `L_k`. It jumps by `ρ^n` at `T = nD`.
+///
+/// # Invariants
+/// - `D > 0`, `b > 0`, `−1 ≤ ρ ≤ 1`; a is any rational.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep_kernels::fixed::{DelayEquation, MarchOptions, March, Position};
+/// let one = BigRational::from(num_bigint::BigInt::from(1));
+/// let half = BigRational::new(1.into(), 2.into());
+/// let equation = DelayEquation::new(&one, &one, &one, &half).unwrap();
+/// assert_eq!(equation.period(), &one);
+/// assert_eq!(equation.reflection(), &half);
+/// // The second period begins with the end of the first, e^(−1), and half a jump.
+/// let march = March::new(&equation, 2, &MarchOptions::default()).unwrap();
+/// let value = march.value(&Position::exact(1, 0).unwrap()).unwrap();
+/// assert!((value.to_f64() - (0.5 + (-1f64).exp())).abs() < 1e-15);
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct DelayEquation {
+    period: BigRational,
+    rate: BigRational,
+    zero: BigRational,
+    reflection: BigRational,
+}
+
+impl DelayEquation {
+    /// The equation with the period D, the rate b of the pole, the zero a and the reflection ρ.
+    /// D is a time, a and b are reciprocals of times, ρ is a pure number.
+    ///
+    /// # Errors
+    /// [`FixedError::PeriodNotPositive`], [`FixedError::RateNotPositive`] or
+    /// [`FixedError::ReflectionTooLarge`] for parameters outside the invariants.
+    pub fn new(
+        period: &BigRational,
+        rate: &BigRational,
+        zero: &BigRational,
+        reflection: &BigRational,
+    ) -> Result<Self, FixedError> {
+        if !period.is_positive() {
+            return Err(FixedError::PeriodNotPositive);
+        }
+        if !rate.is_positive() {
+            return Err(FixedError::RateNotPositive);
+        }
+        if reflection.abs() > BigRational::one() {
+            return Err(FixedError::ReflectionTooLarge);
+        }
+        Ok(Self {
+            period: period.clone(),
+            rate: rate.clone(),
+            zero: zero.clone(),
+            reflection: reflection.clone(),
+        })
+    }
+
+    /// The period D.
+    #[must_use]
+    pub fn period(&self) -> &BigRational {
+        &self.period
+    }
+
+    /// The reflection ρ.
+    #[must_use]
+    pub fn reflection(&self) -> &BigRational {
+        &self.reflection
+    }
+
+    /// The decay of a period, `B = bD`.
+    pub(super) fn decay(&self) -> BigRational {
+        &self.rate * &self.period
+    }
+
+    /// The strength of the forcing by the period before, `G = ρ(A + B)`, with `A = aD`.
+    pub(super) fn forcing(&self) -> BigRational {
+        &self.reflection * self.chirp()
+    }
+
+    /// The local frequency scale `A + B` of the echoes.
+    pub(super) fn chirp(&self) -> BigRational {
+        (&self.zero + &self.rate) * &self.period
+    }
+}

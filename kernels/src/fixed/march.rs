@@ -1,0 +1,258 @@
+//! The march: the solution as polynomials on pieces, with a proven bound of their error.
+
+use super::certificate::Certificate;
+use super::equation::DelayEquation;
+use super::error::FixedError;
+use super::multiplier::{MULTIPLIER_BITS, Multiplier};
+use super::position::{POSITION_BITS, Position};
+use super::scheme::{MarchOptions, Scheme};
+use super::step::Stepper;
+use super::value::FixedValue;
+
+/// Fraction bits of coefficients and values: their unit is `2^−112`.
+///
+/// ```
+/// use wavestep_kernels::fixed::{FRACTION_BITS, FixedValue};
+/// let half = FixedValue { midpoint: 1 << (FRACTION_BITS - 1), radius: 0 };
+/// assert_eq!(half.to_f64(), 0.5);
+/// ```
+pub const FRACTION_BITS: u32 = 112;
+
+/// The solution Y of a [`DelayEquation`] on its first periods: on every piece a polynomial in
+/// `u ∈ [−1, 1]` whose coefficients are integers, in units of `2^−112`.
+///
+/// # Invariants
+/// - On every piece of period n, `|p − Y| ≤ bound_of(n)`; at both ends, p is compared with the
+///   limits of Y from inside the period.
+/// - The sizes of the coefficients of a piece add up to at most 64.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep_kernels::fixed::{DelayEquation, FRACTION_BITS, March, MarchOptions, Position};
+/// // A rigid mass that strikes a fixed bar, mu = 1: D = 2, a = b = rho = 1.
+/// let [one, two] = [1, 2].map(|value| BigRational::from(num_bigint::BigInt::from(value)));
+/// let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
+/// let march = March::new(&equation, 200, &MarchOptions::default()).unwrap();
+/// assert!(march.bound() < 1e-27);
+/// assert_eq!((march.periods(), march.pieces_per_period()), (200, 16));
+/// assert!(march.bound_of(0).unwrap() < 1e-2 * march.bound());
+///
+/// // The first piece of the first period is exp(-x), x = (1 + u)/16: its slope is -1/16 of it.
+/// let unit = (FRACTION_BITS as f64).exp2();
+/// let piece = march.piece(0, 0).unwrap();
+/// assert!((piece[0] as f64 / unit - (-0.0625f64).exp()).abs() < 1e-15);
+/// assert!((piece[1] + piece[0] / 16).abs() < 100);
+///
+/// // In the middle of the second period, Y = e^(-3) + e^(-1) L_1(2).
+/// let middle = Position::exact(1, 1 << 119).unwrap();
+/// let value = march.value(&middle).unwrap();
+/// assert!((value.to_f64() - ((-3f64).exp() - (-1f64).exp())).abs() < 1e-15);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct March {
+    scheme: Scheme,
+    /// Period by period, piece by piece; every piece has room for the most terms.
+    coefficients: Vec<i128>,
+    /// Terms and bound of every period.
+    proofs: Vec<Proof>,
+}
+
+/// What is proven of a period.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Proof {
+    /// Coefficients from here on are zero.
+    terms: usize,
+    /// The bound, in units; not less than those of the periods before.
+    bound: u128,
+}
+
+impl March {
+    /// Marches through `periods` periods and proves the bound.
+    ///
+    /// # Errors
+    /// [`FixedError::NoPeriods`], [`FixedError::InvalidPieces`], [`FixedError::InvalidTerms`] or
+    /// [`FixedError::TooFewPieces`] for counts that cannot be; [`FixedError::TooLarge`] for more
+    /// than `2^26` coefficients; [`FixedError::Overflow`] if the solution, or what cancels in it,
+    /// leaves the range of fixed-point numbers; [`FixedError::NotProven`] if the bound is of no
+    /// use.
+    ///
+    /// # Cost
+    /// About three products of 128 bits a coefficient: for the rigid mass with μ = 1, some 500
+    /// coefficients a period.
+    pub fn new(
+        equation: &DelayEquation,
+        periods: u32,
+        options: &MarchOptions,
+    ) -> Result<Self, FixedError> {
+        let scheme = Scheme::new(equation, periods, options)?;
+        let size = scheme.size();
+        let start = vec![0; size];
+        let mut coefficients = vec![0; size * periods as usize];
+        let mut proofs = Vec::with_capacity(periods as usize);
+        let mut stepper = Stepper::new(scheme);
+        let mut certificate = Certificate::new(scheme);
+        for period in 0..periods {
+            let (done, rest) = coefficients.split_at_mut(size * period as usize);
+            let before = done.rchunks_exact(size).next().unwrap_or(&start);
+            let current = &mut rest[..size];
+            let terms = stepper.advance(before, current, period)?;
+            let bound = certificate.extend(before, current, terms)?;
+            proofs.push(Proof { terms, bound });
+        }
+        Ok(Self { scheme, coefficients, proofs })
+    }
+
+    /// How many periods there are.
+    #[must_use]
+    pub fn periods(&self) -> u32 {
+        self.proofs.len() as u32
+    }
+
+    /// How many pieces a period is cut into: S, a power of two.
+    #[must_use]
+    pub fn pieces_per_period(&self) -> u32 {
+        self.scheme.pieces
+    }
+
+    /// The absolute bound of the error on all periods, rounded upwards.
+    #[must_use]
+    pub fn bound(&self) -> f64 {
+        self.proofs.last().map_or(0.0, |proof| units_upwards(proof.bound))
+    }
+
+    /// The absolute bound of the error up to the end of a period, rounded upwards; none after the
+    /// last period.
+    #[must_use]
+    pub fn bound_of(&self, period: u32) -> Option<f64> {
+        self.proofs.get(period as usize).map(|proof| units_upwards(proof.bound))
+    }
+
+    /// The coefficients `c_m` of piece q of period n in units of `2^−112`: there `p = Σ c_m u^m`,
+    /// with the place `x = (2q + 1 + u)/(2S)` in parts of the period. None if there is no such
+    /// piece.
+    #[must_use]
+    pub fn piece(&self, period: u32, piece: u32) -> Option<&[i128]> {
+        let proof = self.proofs.get(period as usize)?;
+        if piece >= self.scheme.pieces {
+            return None;
+        }
+        let index = period as usize * self.scheme.pieces as usize + piece as usize;
+        let from = index * self.scheme.terms as usize;
+        self.coefficients.get(from..from + proof.terms)
+    }
+
+    /// The value at a position, with a radius that holds everything: the bound of the march, the
+    /// rounding of the sum and that of the position.
+    ///
+    /// The sum by Horner's rule is off by at most half a unit a product, because `|u| ≤ 1`. A
+    /// position that is rounded is off by less than `2^−120` in x and stays in its piece, so u is
+    /// off by less than `2S·2^−120`, and `|dp/du| ≤ (M − 1) Σ|c_m| ≤ 63·64`.
+    ///
+    /// # Errors
+    /// [`FixedError::BeyondMarch`] for a later period.
+    ///
+    /// # Cost
+    /// A product of 128 bits a term, some forty.
+    pub fn value(&self, position: &Position) -> Result<FixedValue, FixedError> {
+        let (period, fraction) = (position.period(), position.fraction());
+        let beyond = || FixedError::BeyondMarch { period, periods: self.periods() };
+        let proof = self.proofs.get(period as usize).ok_or_else(beyond)?;
+        let shift = POSITION_BITS - self.scheme.pieces.trailing_zeros();
+        let piece = (fraction >> shift).min(u128::from(self.scheme.pieces) - 1);
+        // The distance from the centre of the piece, from −2^(shift−1) to 2^(shift−1).
+        let distance = (fraction - (piece << shift)) as i128 - (1 << (shift - 1));
+        let place = Multiplier::from_mantissa(distance << (MULTIPLIER_BITS - shift + 1))
+            .ok_or(FixedError::PositionOutside)?;
+        let coefficients = self.piece(period, piece as u32).ok_or_else(beyond)?;
+        let midpoint =
+            coefficients.iter().rev().fold(0, |sum, coefficient| place.times(sum) + coefficient);
+        let rounding = proof.terms as u128;
+        // 63·64·2^112 · 2S·2^−120 units, rounded upwards.
+        let slope = if position.is_exact() { 0 } else { 32 * u128::from(self.scheme.pieces) };
+        Ok(FixedValue { midpoint, radius: proof.bound + rounding + slope })
+    }
+}
+
+/// A count of units of `2^−112`, as a double that is not less.
+fn units_upwards(units: u128) -> f64 {
+    let double = units as f64;
+    let upwards = if double as u128 >= units { double } else { double.next_up() };
+    upwards * (-f64::from(FRACTION_BITS)).exp2()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+
+    fn march(periods: u32) -> March {
+        let [one, two] =
+            [1, 2].map(|value: u32| BigRational::from(num_bigint::BigInt::from(value)));
+        let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
+        March::new(&equation, periods, &MarchOptions::default()).unwrap()
+    }
+
+    /// The bounds, in units, proven from the coefficients alone.
+    fn bounds(march: &March) -> Result<Vec<u128>, FixedError> {
+        let size = march.scheme.size();
+        let start = vec![0; size];
+        let mut certificate = Certificate::new(march.scheme);
+        let mut before = &start[..];
+        let periods = march.coefficients.chunks_exact(size);
+        periods
+            .map(|current| {
+                let bound = certificate.extend(before, current, march.scheme.terms as usize);
+                before = current;
+                bound
+            })
+            .collect()
+    }
+
+    /// Any perturbed coefficient, in any piece and power, makes a bound that covers it, from its
+    /// period on.
+    #[test]
+    fn bounds_cover_perturbed_coefficients() {
+        let honest = march(12);
+        let size = honest.scheme.size();
+        let proven = bounds(&honest).unwrap();
+        for (place, perturbation) in (0..).zip([1i128 << 30, -(1 << 40), 1 << 60, -(1 << 80)]) {
+            for power in 0..20 {
+                for period in [0, 4, 11] {
+                    let mut false_march = honest.clone();
+                    let piece = (5 * place + 3 * power + 1) % honest.scheme.pieces as usize;
+                    let index = period * size + piece * honest.scheme.terms as usize + power;
+                    false_march.coefficients[index] += perturbation;
+                    let bounds = bounds(&false_march).unwrap();
+                    assert!(bounds[period] >= perturbation.unsigned_abs(), "{period} {power}");
+                    assert!(bounds[period] < 1000 * perturbation.unsigned_abs());
+                    let earlier = proven[..period].iter().zip(&bounds);
+                    assert!(earlier.into_iter().all(|(proven, bound)| proven == bound));
+                    assert!(bounds[period..].is_sorted());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn large_coefficients_are_refused() {
+        for (perturbation, refused) in [
+            (i128::MIN, FixedError::Overflow { period: 2 }),
+            (i128::MAX, FixedError::Overflow { period: 2 }),
+            (1 << 119, FixedError::Overflow { period: 2 }),
+            (1 << 117, FixedError::NotProven { period: 2 }),
+            (1 << 101, FixedError::NotProven { period: 2 }),
+        ] {
+            let mut false_march = march(3);
+            let size = false_march.scheme.size();
+            false_march.coefficients[2 * size + 3] = perturbation;
+            assert_eq!(bounds(&false_march), Err(refused));
+        }
+    }
+
+    #[test]
+    fn doubles_of_bounds_are_not_less() {
+        assert_eq!(units_upwards(1 << FRACTION_BITS), 1.0);
+        assert_eq!(units_upwards((1 << FRACTION_BITS) + 1), 1f64.next_up());
+        assert_eq!(units_upwards((1 << FRACTION_BITS) - 1), 1.0);
+    }
+}

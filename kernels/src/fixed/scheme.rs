@@ -1,0 +1,227 @@
+//! The equation on pieces: how a period is cut, and the constants of one piece.
+
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive};
+
+use super::equation::DelayEquation;
+use super::error::FixedError;
+use super::multiplier::Multiplier;
+
+/// The most terms of a piece.
+pub(super) const MOST_TERMS: u32 = 64;
+/// The fewest pieces of a period: so many are worked on at once.
+pub(super) const FEWEST_PIECES: u32 = 4;
+/// The most pieces of a period.
+const MOST_PIECES: u32 = 1 << 20;
+/// The most coefficients of a march.
+const MOST_NUMBERS: u64 = 1 << 26;
+/// The largest multiple `|k|` in `G = kB` that is exact.
+const MOST_MULTIPLE: i64 = 4;
+/// The largest chirp `n|A + B|h` of a piece. Half of it costs twice the pieces with fewer terms; a
+/// larger one makes coefficients that cancel.
+const LARGEST_CHIRP: f64 = 25.0;
+/// Terms are dropped below about this size, `2^−116`.
+const SMALLEST_TERM_LOGARITHM: f64 = -80.5;
+
+/// How a march cuts its periods. What is left open is chosen from the equation and the count of
+/// periods; the choice affects cost and bound, never the truth of the bound.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep_kernels::fixed::{DelayEquation, FixedError, March, MarchOptions};
+/// let one = BigRational::from(num_bigint::BigInt::from(1));
+/// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
+/// let few = MarchOptions { terms: Some(12), ..MarchOptions::default() };
+/// let coarse = March::new(&equation, 3, &few).unwrap();
+/// let fine = March::new(&equation, 3, &MarchOptions::default()).unwrap();
+/// assert!(fine.bound() < 1e-6 * coarse.bound() && coarse.bound() < 1e-12);
+/// let odd = MarchOptions { pieces: Some(3), ..MarchOptions::default() };
+/// assert_eq!(March::new(&equation, 3, &odd).unwrap_err(), FixedError::InvalidPieces(3));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct MarchOptions {
+    /// Pieces of a period: a power of two from 4 to `2^20`.
+    pub pieces: Option<u32>,
+    /// Terms of a piece, at most: 2 to 64.
+    pub terms: Option<u32>,
+}
+
+/// The factor `G = ρ(A + B)` of the forcing, as it is multiplied with.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Forcing {
+    /// `G = kB` with a small integer k: one product serves both.
+    Multiple(i128),
+    /// The nearest multiplier to `hG`.
+    Separate(Multiplier),
+}
+
+/// The reflection ρ, as it is multiplied with.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Reflection {
+    /// 1 or −1, which need no rounding.
+    Sign(i128),
+    /// The nearest multiplier.
+    Factor(Multiplier),
+}
+
+impl Reflection {
+    /// `ρ·value`, off by at most [`slack`](Self::slack) units.
+    #[inline]
+    pub(super) fn times(self, value: i128) -> i128 {
+        match self {
+            Reflection::Sign(sign) => sign * value,
+            Reflection::Factor(factor) => factor.times(value),
+        }
+    }
+
+    /// The most units by which a product is off.
+    pub(super) fn slack(self) -> u128 {
+        match self {
+            Reflection::Sign(_) => 0,
+            Reflection::Factor(_) => 1,
+        }
+    }
+}
+
+/// The constants of a march: with pieces of half width `h = 1/(2S)` in parts of a period and
+/// `u ∈ [−1, 1]` on each, `dv/du + hB v = −hG y₋`, where `y₋` is the period before and
+/// `v = y − ρ y₋`.
+///
+/// # Invariants
+/// - `pieces` is a power of two from 4 to `2^20`, `terms` is from 2 to 64.
+/// - `hB ≤ 1/2` and `|hG| ≤ 1`; the multipliers are the nearest to them. A multiple is at most 4
+///   in size.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Scheme {
+    pub(super) pieces: u32,
+    pub(super) terms: u32,
+    pub(super) decay: Multiplier,
+    pub(super) forcing: Forcing,
+    pub(super) reflection: Reflection,
+}
+
+impl Scheme {
+    /// The constants of an equation for a count of periods.
+    pub(super) fn new(
+        equation: &DelayEquation,
+        periods: u32,
+        options: &MarchOptions,
+    ) -> Result<Self, FixedError> {
+        if periods == 0 {
+            return Err(FixedError::NoPeriods);
+        }
+        let (decay, forcing) = (equation.decay(), equation.forcing());
+        let chirp = f64::from(periods) * equation.chirp().abs().to_f64().unwrap_or(f64::INFINITY);
+        let pieces = match options.pieces {
+            Some(pieces) if is_piece_count(pieces) => pieces,
+            Some(pieces) => return Err(FixedError::InvalidPieces(pieces)),
+            None => choose_pieces(&decay, &forcing, chirp).ok_or(FixedError::TooLarge)?,
+        };
+        let terms = match options.terms {
+            Some(terms) if (2..=MOST_TERMS).contains(&terms) => terms,
+            Some(terms) => return Err(FixedError::InvalidTerms(terms)),
+            None => choose_terms(chirp / f64::from(2 * pieces)),
+        };
+        if u64::from(periods) * u64::from(pieces) * u64::from(terms) > MOST_NUMBERS {
+            return Err(FixedError::TooLarge);
+        }
+        let half_width = BigRational::new(1.into(), (2 * pieces).into());
+        if !fits(&decay, &forcing, pieces) {
+            return Err(FixedError::TooFewPieces(pieces));
+        }
+        let nearest = |value: &BigRational| {
+            Multiplier::nearest(&(value * &half_width)).ok_or(FixedError::TooFewPieces(pieces))
+        };
+        let multiple = &forcing / &decay;
+        let small = |value: i64| value.abs() <= MOST_MULTIPLE;
+        let reflection = equation.reflection();
+        Ok(Self {
+            pieces,
+            terms,
+            decay: nearest(&decay)?,
+            forcing: match multiple.to_integer().to_i64() {
+                Some(value) if multiple.is_integer() && small(value) => {
+                    Forcing::Multiple(i128::from(value))
+                }
+                _ => Forcing::Separate(nearest(&forcing)?),
+            },
+            reflection: match Multiplier::nearest(reflection) {
+                Some(factor) if !reflection.abs().is_one() => Reflection::Factor(factor),
+                _ => Reflection::Sign(if reflection.is_negative() { -1 } else { 1 }),
+            },
+        })
+    }
+
+    /// The count of coefficients of a period.
+    pub(super) fn size(&self) -> usize {
+        self.pieces as usize * self.terms as usize
+    }
+}
+
+/// Whether a period can be cut into so many pieces.
+fn is_piece_count(pieces: u32) -> bool {
+    pieces.is_power_of_two() && (FEWEST_PIECES..=MOST_PIECES).contains(&pieces)
+}
+
+/// Whether `hB ≤ 1/2` and `|hG| ≤ 1`.
+fn fits(decay: &BigRational, forcing: &BigRational, pieces: u32) -> bool {
+    let pieces = BigRational::from(num_bigint::BigInt::from(pieces));
+    *decay <= pieces && forcing.abs() <= &pieces + &pieces
+}
+
+/// The smallest count of pieces that the constants and the chirp allow.
+fn choose_pieces(decay: &BigRational, forcing: &BigRational, chirp: f64) -> Option<u32> {
+    std::iter::successors(Some(FEWEST_PIECES), |pieces| Some(pieces * 2))
+        .take_while(|&pieces| is_piece_count(pieces))
+        .find(|&pieces| {
+            fits(decay, forcing, pieces) && chirp / f64::from(2 * pieces) <= LARGEST_CHIRP
+        })
+}
+
+/// The least M with `z^M/M!² ≤ 2^−116`, `z = n|A + B|h` the chirp of a piece and at least 4.
+///
+/// The n-th echo behaves as `J₀(2√(n(A + B)x))`, whose Taylor coefficients about any centre are, in
+/// units of the half width, at most `z^m/m!²`; the exponential factors are smaller.
+fn choose_terms(chirp: f64) -> u32 {
+    let logarithm = chirp.max(4.0).ln();
+    let mut size = 0.0;
+    (1..MOST_TERMS)
+        .find(|&terms| {
+            size += logarithm - 2.0 * f64::from(terms).ln();
+            size <= SMALLEST_TERM_LOGARITHM
+        })
+        .unwrap_or(MOST_TERMS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rational(numerator: i64, denominator: i64) -> BigRational {
+        BigRational::new(numerator.into(), denominator.into())
+    }
+
+    #[test]
+    fn constants_follow_the_equation() {
+        let [one, two] = [rational(1, 1), rational(2, 1)];
+        let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
+        let scheme = Scheme::new(&equation, 200, &MarchOptions::default()).unwrap();
+        assert_eq!(scheme.forcing, Forcing::Multiple(2));
+        assert_eq!(scheme.reflection, Reflection::Sign(1));
+        assert_eq!(scheme.decay.mantissa() * i128::from(scheme.pieces), 1 << 126);
+        let skew = DelayEquation::new(&two, &one, &rational(-1, 3), &rational(-1, 2)).unwrap();
+        let scheme = Scheme::new(&skew, 10, &MarchOptions::default()).unwrap();
+        assert!(matches!(scheme.forcing, Forcing::Separate(_)));
+        assert_eq!(scheme.reflection.slack(), 1);
+        assert_eq!(scheme.reflection.times(-6), 3);
+    }
+
+    #[test]
+    fn long_pieces_are_refused() {
+        let equation =
+            DelayEquation::new(&rational(20, 1), &rational(1, 1), &rational(1, 1), &rational(1, 1));
+        let few = MarchOptions { pieces: Some(16), terms: None };
+        let refused = Scheme::new(&equation.unwrap(), 10, &few).unwrap_err();
+        assert_eq!(refused, FixedError::TooFewPieces(16));
+    }
+}

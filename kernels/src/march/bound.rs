@@ -1,0 +1,424 @@
+//! The proof that computed polynomials are near the true wave.
+//!
+//! The doubles that a march computes are exact numbers: polynomials `p_n` and `u_n`, meant to be `y_n` and
+//! `v_n = y_n − ρ y_{n−1}`. A certificate takes them as they are, whoever made them, measures by how much
+//! they miss the equations, and bounds by how much they miss the wave.
+//!
+//! # What is measured
+//!
+//! Write `Δ_n = p_n − y_n`, `g = p_{n−1}`, `e = p_n − ρ g − u_n`, `w = u_n + e = p_n − ρ p_{n−1}`, `C = ρ (A + B)`. Let
+//! `G_n` be the antiderivative of `−(B w + C g)` whose constant coefficient is that of `u_n`, and
+//! `R_n = w − G_n`. On coefficients, with the constant one counted twice in the row `k = 1`,
+//!
+//! `k R_k = k w_k + (B/4)(w_{k−1} − w_{k+1}) + (C/4)(g_{k−1} − g_{k+1})`, `k ≥ 1`, `R_0 = e_0`.
+//!
+//! `d̃ = G_n − v_n` then satisfies `d̃' + B d̃ = −C Δ_{n−1} − B R_n`, and `Δ_n = ρ Δ_{n−1} + d̃ + R_n`. Two more
+//! numbers are measured at the joint of periods `n − 1` and `n`: `j_n = G_n(0) − G_{n−1}(1)` and
+//! `J_n = p_n(0) − p_{n−1}(1) − ρⁿ = Δ_n(0) − Δ_{n−1}(1)`; on the first period `j_0 = G_0(0) − 1`,
+//! `J_0 = p_0(0) − 1`.
+//!
+//! # A passive reflection: the energy
+//!
+//! **Lemma.** Let `|ρ| ≤ 1`, `|ρA| ≤ B`, `s = ρ²A + B > 0`, `κ = 1/(s + √(s² − C²))`. For `v' + B v = −C g` on
+//! `[0, 1]` and `y = ρ g + v`: `‖y‖² + κ v(1)² ≤ ‖g‖² + κ v(0)²`, norms in L².
+//! *Proof.* `κ (v²)' = 2κ v (−B v − C g)`, so it suffices that
+//! `g² − (ρg + v)² + 2κ v (B v + C g) = (1 − ρ²) g² + 2 (κC − ρ) g v + (2κB − 1) v² ≥ 0`. The determinant of this
+//! form is `(1 − ρ²)(2κB − 1) − (κC − ρ)² = −(κ²C² − 2κs + 1)`, which is zero for this `κ`; `s ≥ |C|` because
+//! `s ∓ C = (1 ∓ ρ)(B ∓ ρA) ≥ 0`. With determinant zero the form has one sign, that of its diagonal:
+//! `1 − ρ² ≥ 0`, and `2κB ≥ 1` is `√(s² − C²) ≤ 2B − s`, which holds because `2B − s = B − ρ²A ≥ 0` and
+//! `(B − ρ²A)² − (s² − C²) = C² − 4Bρ²A = ρ²(A − B)² ≥ 0`. ∎
+//!
+//! So the state `(Δ_n, d̃_n(1))` has the norm `E² = ‖Δ‖² + κ d̃(1)²`, and a step without residual does not
+//! enlarge it. By linearity the residual adds the answer to `−B R` from rest: `h(x) = −∫_0^x e^{−B(x−t)} B R dt`.
+//! Its output `R + h` is `R` through the filter `p/(p + B)`, which is causal and at most 1 on the imaginary
+//! axis: `‖R + h‖ ≤ ‖R‖`; and `h(1)² ≤ B² ‖R‖²/(2B)`. With `Γ = √(1 + κB/2)`
+//!
+//! `E_n ≤ E_{n−1} + Γ ‖R_n‖ + √κ |j_n|`.
+//!
+//! The derivatives obey the same equations: with `ζ = d̃' = −B (d̃ + R_n) − C Δ_{n−1}`,
+//! `ζ' + Bζ = −C Δ_{n−1}' − B R_n'`, `Δ_n' = ρ Δ_{n−1}' + ζ + R_n'`. At the joint `d̃ + R` jumps by `J_n − ρ J_{n−1}`, so
+//! `ζ` jumps by `−B (J_n − ρ J_{n−1}) − C J_{n−1}`, and with `F` the energy of the derivatives
+//!
+//! `F_n ≤ F_{n−1} + Γ ‖R_n'‖ + √κ (B |J_n| + (B|ρ| + |C|) |J_{n−1}|)`.
+//!
+//! On an interval of length 1, `f(x)² = f(y)² + 2∫ f f'` averaged over `y` gives
+//! `max |Δ_n|² ≤ ‖Δ_n‖² + 2 ‖Δ_n‖ ‖Δ_n'‖ ≤ E² + 2 E F`.
+//!
+//! # Any reflection: the wave is its own impulse response
+//!
+//! The computed wave `P` satisfies `(d/dT + B) P = ρ q (d/dT − A) P + δ(T) + μ` with the measure `μ` that has the
+//! density `R_n'` on the periods and the weight `J_n − ρ J_{n−1}` at the joints. Hence `Δ = Y * μ` and
+//! `|Δ| ≤ sup|Y| · m`, `m = ∫ |dμ|`, up to the time looked at. As `sup|Y| ≤ sup|P| + sup|Y| m`, and a sum of
+//! absolute coefficients bounds a polynomial, `|Δ| ≤ m M/(1 − m)` with `M = max_n Σ|c_k|`, where `m < 1`.
+//!
+//! # Norms of R from its coefficients
+//!
+//! With `t = cos θ`, `b_k = k |R_k|`, `dx = dt/2`:
+//! - `‖R‖² ≤ ½ ∫ R² dt/√(1 − t²) = (π/4)(2 R_0² + Σ R_k²)`;
+//! - `∫|R'| dx = ∫_0^π |Σ k R_k sin kθ| dθ ≤ √π √((π/2) Σ b_k²) = (π/√2) √(Σ b_k²)`;
+//! - `‖R'‖² = 2 ∫_{−1}^{1} (dR/dt)² dt = 2 ∫_0^π S²/sin θ dθ`, `S = Σ k R_k sin kθ`. Let
+//!   `η² = Σ b_k²/Σ k² b_k² ≤ 1`. Between `η` and `π − η` the integral is at most `(π/2) Σ b_k²/sin η`. Near the
+//!   ends `S(θ)² ≤ θ ∫_0^θ S'²`, so both parts are at most `(η²/sin η) (π/2) Σ k² b_k²`. Together, as
+//!   `sin η ≥ η sin 1`: `‖R'‖² ≤ (2π/sin 1) √(Σ b_k² · Σ k² b_k²)`.
+//!
+//! # Rounding in the measurement
+//!
+//! `ε = 2⁻⁵³`. Each coefficient of `R` is bounded by its computed value plus what the evaluation can have
+//! lost, a few `ε` times the computed terms, plus what a parameter within its radius can change; the
+//! formulas stand at the code. What remains are sums, products and roots of non-negative numbers:
+//! fewer than 2³⁰ operations in a chain each add a relative error of at most `ε`, together less than
+//! `2⁻²²`, and the result is multiplied by `1 + 2⁻²⁰`. Below the normal doubles an operation loses at most
+//! `2⁻¹⁰⁷⁴`: [`UNDERFLOW`] covers a period's, weights included.
+
+use super::compensated::{Ends, Pair, ends};
+use super::reflection::{Parameter, Reflection};
+
+/// Half the distance from 1 to the next double: the relative error of one operation.
+const UNIT: f64 = f64::EPSILON / 2.0;
+/// More than all relative errors of sums of non-negative numbers.
+const SLACK: f64 = 1.0 + 1.0 / (1 << 20) as f64;
+/// More than all that a period's measurement loses below the normal doubles.
+const UNDERFLOW: f64 = 1e-280;
+/// More coefficients than this make sums longer than the proof allows.
+const MOST_COEFFICIENTS: usize = 1 << 20;
+/// Beyond this many periods the chains of operations are longer than the proof allows.
+const LAST_PERIOD: usize = 1 << 28;
+/// Rows measured side by side.
+const LANES: usize = 4;
+
+/// A proof in progress: how far recorded polynomials can be from the wave of a [`Reflection`].
+///
+/// It knows nothing of how the polynomials were made. A wrong coefficient is seen on the period where
+/// it is recorded, and the bound covers it.
+///
+/// # Invariants
+/// The bounds never decrease from period to period.
+///
+/// ```
+/// use wavestep_kernels::march::{Bounds, Certificate, March, MarchOptions, Reflection};
+///
+/// let wave = Reflection::exact(2.0, 2.0, 1.0)?;
+/// let options = MarchOptions { bounds: Bounds::None, ..Default::default() };
+/// let mut march = March::new(&wave, options)?;
+/// let mut honest = Certificate::new(&wave);
+/// let mut perturbed = Certificate::new(&wave);
+/// for period in 0..10 {
+///     let mut wrong = march.coefficients().to_vec();
+///     wrong[3] += if period == 5 { 1e-9 } else { 0.0 };
+///     honest.record(march.increment(), march.coefficients());
+///     perturbed.record(march.increment(), &wrong);
+///     march.advance()?;
+/// }
+/// assert!(honest.bound().unwrap() < 1e-13);
+/// assert!(perturbed.bound().unwrap() > 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Certificate {
+    ratio: Parameter,
+    /// `B/4` and `C/4`, middles and radii.
+    beta: Parameter,
+    gamma: Parameter,
+    /// `√κ` and `Γ`, upper bounds; `None` where the lemma does not hold.
+    energy_weights: Option<(f64, f64)>,
+    /// What was recorded last, padded: the wave, and the measured ends.
+    before: Vec<f64>,
+    last: Option<Joint>,
+    /// `ρⁿ` of the next period, and upper bounds of `|ρ|ⁿ` and of `n |ρ|^{n−1}`.
+    power: Pair,
+    magnitude: f64,
+    slope: f64,
+    periods: usize,
+    energy: f64,
+    slope_energy: f64,
+    mass: f64,
+    supremum: f64,
+    /// Scratch: the padded increment and `|e_k|`.
+    increment: Vec<f64>,
+    mismatch: Vec<f64>,
+}
+
+/// What a period leaves for the joint with the next one.
+struct Joint {
+    wave: Ends,
+    increment: Ends,
+    /// A bound of `|u − G|` at either end.
+    smooth: f64,
+    /// `|J_n|`.
+    jump: f64,
+}
+
+/// Sums over the coefficients of a period's residual.
+#[derive(Default)]
+struct Residual {
+    /// `Σ R_k²`, `Σ k² R_k²`, `Σ k⁴ R_k²` over `k ≥ 1`.
+    squares: [f64; 3],
+    /// `Σ |u_k − G_k|` over `k ≥ 1`.
+    smooth: f64,
+    /// `|e_0|`.
+    constant: f64,
+}
+
+impl Certificate {
+    /// The certificate before the first period. O(1).
+    pub fn new(reflection: &Reflection) -> Certificate {
+        let (rate, zero, ratio) = (reflection.rate(), reflection.zero(), reflection.ratio());
+        // C = ρ (A + B): two roundings, and what radii change.
+        let sum = zero.value() + rate.value();
+        let coupling = ratio.value() * sum;
+        let spread = zero.radius() + rate.radius();
+        let moved = ratio.magnitude() * spread + ratio.radius() * sum.abs();
+        let radius = (moved + 2.01 * UNIT * coupling.abs()) * SLACK + UNDERFLOW;
+        Certificate {
+            ratio,
+            beta: quarter(rate.value(), rate.radius()),
+            gamma: quarter(coupling, radius),
+            energy_weights: energy_weights(reflection),
+            before: Vec::new(),
+            last: None,
+            power: Pair::new(1.0),
+            magnitude: 1.0,
+            slope: 0.0,
+            periods: 0,
+            energy: 0.0,
+            slope_energy: 0.0,
+            mass: 0.0,
+            supremum: 0.0,
+            increment: Vec::new(),
+            mismatch: Vec::new(),
+        }
+    }
+
+    /// The number of periods recorded. O(1).
+    pub fn periods(&self) -> usize {
+        self.periods
+    }
+
+    /// Takes the next period: the Chebyshev coefficients on `[0, 1]` of `y_n − ρ y_{n−1}` and of `y_n`, as
+    /// somebody computed them. More than 2²⁰ coefficients, infinities and not-a-numbers end the proof:
+    /// from there on there is no bound. O(N).
+    pub fn record(&mut self, increment: &[f64], wave: &[f64]) {
+        let residual = self.measure(increment, wave);
+        let here = Joint {
+            wave: ends(wave),
+            increment: ends(increment),
+            smooth: residual.smooth,
+            jump: 0.0,
+        };
+        self.join(&residual, here);
+        if increment.len().max(wave.len()) > MOST_COEFFICIENTS {
+            (self.energy, self.mass) = (f64::INFINITY, f64::INFINITY);
+        }
+        self.before.clear();
+        self.before.extend_from_slice(wave);
+        self.periods += 1;
+        self.power = self.power.times(self.ratio.value());
+        self.slope = self.slope * self.ratio.magnitude() + self.magnitude;
+        self.magnitude *= self.ratio.magnitude();
+    }
+
+    /// The coefficients of `R_n`, row by row.
+    ///
+    /// `e_k = p_k − ρ g_k − u_k`. With `t = fl(fl(ρ g_k) + u_k)`: `|e_k| ≤ |p_k − t| + ε|t| + ε|ρ g_k| + r_ρ|g_k|`, and
+    /// the third term is absent where `ρ = ±1`.
+    ///
+    /// `k R_k` is evaluated as `(k u_k + β (u_{k−1} − u_{k+1})) + γ (g_{k−1} − g_{k+1})`: 3, 4 and 3 roundings touch
+    /// the terms, so at most `4.01 ε` times the sum of the terms' sizes is lost. The radii of `β` and `γ`
+    /// add their multiple of the differences, and `e` adds `k|e_k| + β (|e_{k−1}| + |e_{k+1}|)`. Without `k|e_k|`
+    /// the same is a bound of `k |u_k − G_k|`.
+    fn measure(&mut self, increment: &[f64], wave: &[f64]) -> Residual {
+        let most = increment.len().max(wave.len()).max(self.before.len()).max(1);
+        let rows = most.div_ceil(LANES);
+        let length = LANES * rows + 2;
+        let (u, g, e) = (&mut self.increment, &mut self.before, &mut self.mismatch);
+        u.clear();
+        u.extend_from_slice(increment);
+        u.resize(length, 0.0);
+        g.resize(length, 0.0);
+        e.clear();
+        e.resize(length, 0.0);
+        let ratio = self.ratio.value();
+        let product = if self.ratio.is_exact_unit() { 0.0 } else { UNIT * ratio.abs() };
+        let product = product + self.ratio.radius();
+        let missing = |p: f64, g: f64, u: f64| {
+            let sum = ratio * g + u;
+            (p - sum).abs() + UNIT * sum.abs() + product * g.abs()
+        };
+        let (head, tail) = e.split_at_mut(wave.len());
+        for (((to, p), g), u) in head.iter_mut().zip(wave).zip(&*g).zip(&*u) {
+            *to = missing(*p, *g, *u);
+        }
+        for ((to, g), u) in tail.iter_mut().zip(&g[wave.len()..]).zip(&u[wave.len()..]) {
+            *to = missing(0.0, *g, *u);
+        }
+        let constant = e[0];
+        // The constant coefficient counts twice in the row k = 1, and in no other.
+        u[0] *= 2.0;
+        g[0] *= 2.0;
+        e[0] *= 2.0;
+        let mut sums = Sums::new(self.beta, self.gamma);
+        for row in 0..rows {
+            let k = LANES * row;
+            sums.add(k, &u[k..k + LANES + 2], &g[k..k + LANES + 2], &e[k..k + LANES + 2]);
+        }
+        Residual { squares: sums.squares(), smooth: sums.smooth.iter().sum(), constant }
+    }
+
+    /// Adds a period to the energies and to the mass.
+    fn join(&mut self, residual: &Residual, mut here: Joint) {
+        let [plain, first, second] = residual.squares.map(|s| s + UNDERFLOW);
+        // (π/4)(2R_0² + ΣR_k²), (2π/sin 1) √(…), (π/√2) √(…), constants rounded up.
+        let norm = (0.785399 * (2.0 * residual.constant * residual.constant + plain)).sqrt();
+        let slope = (7.46701 * (first * second).sqrt()).sqrt();
+        let variation = 2.22145 * first.sqrt();
+        let (expected, error) = (self.power, self.power_error());
+        let (kink, jump, jump_before) = match &self.last {
+            None => {
+                let one = Pair::new(1.0);
+                let kink = distance(here.increment, one, 0.0) + here.smooth;
+                (kink, distance(here.wave, one, 0.0), 0.0)
+            }
+            Some(last) => {
+                let kink = distance(here.increment, last.increment.right, last.increment.radius);
+                let target = last.wave.right.plus(expected);
+                // Joining the pairs rounds their low parts: 3ε of at most ε of the sums.
+                let joined = 8.0 * UNIT * UNIT * (last.wave.absolute + self.magnitude);
+                let radius = last.wave.radius + joined + error;
+                (kink + here.smooth + last.smooth, distance(here.wave, target, radius), last.jump)
+            }
+        };
+        let (rate, ratio) = (4.0 * self.beta.magnitude(), self.ratio.magnitude());
+        let coupling = 4.0 * self.gamma.magnitude();
+        if let Some((root, gain)) = self.energy_weights {
+            self.energy += gain * norm + root * kink;
+            let joint = rate * jump + (rate * ratio + coupling) * jump_before;
+            self.slope_energy += gain * slope + root * joint;
+        }
+        self.mass += variation + jump + ratio * jump_before;
+        self.supremum = self.supremum.max(here.wave.absolute);
+        here.jump = jump;
+        self.last = Some(here);
+    }
+
+    /// How far `ρⁿ` can be from the two doubles of `power`: `n` roundings of `2⁻¹⁰³`, and
+    /// `|ρⁿ − ρ'ⁿ| ≤ n |ρ|^{n−1} |ρ − ρ'|` with the larger ratio.
+    fn power_error(&self) -> f64 {
+        let rounding = if self.ratio.is_exact_unit() { 0.0 } else { 2f64.powi(-102) };
+        self.periods as f64 * rounding * self.magnitude
+            + self.slope * self.ratio.radius()
+            + UNDERFLOW
+    }
+
+    /// A bound of `|p_n(x) − y_n(x)|` for all `x` in `[0, 1]` on the period recorded last, for every wave whose
+    /// parameters lie within their radii; `None` where nothing is proven. O(1).
+    pub fn bound(&self) -> Option<f64> {
+        if self.periods == 0 || self.periods > LAST_PERIOD {
+            return None;
+        }
+        let finite = |bound: f64| bound.is_finite().then_some(bound);
+        match (self.energy_bound().and_then(finite), self.mass_bound().and_then(finite)) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        }
+    }
+
+    /// `√(E² + 2EF)`.
+    fn energy_bound(&self) -> Option<f64> {
+        self.energy_weights?;
+        Some((self.energy * (self.energy + 2.0 * self.slope_energy)).sqrt() * SLACK)
+    }
+
+    /// `m M/(1 − m)`. Not a number fails both comparisons.
+    fn mass_bound(&self) -> Option<f64> {
+        let mass = self.mass * SLACK;
+        (mass < 1.0).then(|| mass * self.supremum * SLACK / (1.0 - mass).next_down())
+    }
+}
+
+/// A quarter of a number with its radius: exact, but for underflow.
+fn quarter(value: f64, radius: f64) -> Parameter {
+    // A product of finite parameters may have outgrown the doubles: then nothing is ever proven.
+    Parameter::within(value / 4.0, radius / 4.0 + UNDERFLOW)
+        .or_else(|_| Parameter::within(0.0, f64::MAX))
+        .expect("finite numbers")
+}
+
+/// Upper bounds of `√κ` and of `Γ = √(1 + κB/2)` for all parameters within the radii, from `κ ≤ 1/s`,
+/// `s = ρ²A + B`; `None` where the reflection may not be passive or `s` may not be positive.
+fn energy_weights(reflection: &Reflection) -> Option<(f64, f64)> {
+    if !reflection.is_passive() {
+        return None;
+    }
+    let (rate, zero, ratio) = (reflection.rate(), reflection.zero(), reflection.ratio());
+    // The least ρ²A: A at its lowest, ρ² at its largest where that is negative and least otherwise.
+    let least = zero.lower();
+    let ratio = if least < 0.0 {
+        ratio.magnitude()
+    } else {
+        (ratio.value().abs() - ratio.radius()).next_down().max(0.0)
+    };
+    let product = ratio * ratio * least;
+    // Three roundings of the product, one of the sum.
+    let lower = (product + rate.lower()) - 4.0 * UNIT * (product.abs() + rate.lower());
+    if lower <= 0.0 {
+        return None;
+    }
+    let kappa = SLACK / lower;
+    Some((kappa.sqrt() * SLACK, (1.0 + kappa * rate.magnitude() / 2.0).sqrt() * SLACK))
+}
+
+/// An upper bound of the distance of a left end from `target`, which is known within `radius`.
+fn distance(end: Ends, target: Pair, radius: f64) -> f64 {
+    let rest = end.left.minus(target);
+    let joined = 8.0 * UNIT * UNIT * (end.absolute + target.high.abs());
+    rest.value().abs() * (1.0 + 2.0 * UNIT) + end.radius + radius + joined
+}
+
+/// The sums over rows, four rows side by side.
+struct Sums {
+    beta: Parameter,
+    gamma: Parameter,
+    largest_beta: f64,
+    plain: [f64; LANES],
+    first: [f64; LANES],
+    second: [f64; LANES],
+    smooth: [f64; LANES],
+}
+
+impl Sums {
+    fn new(beta: Parameter, gamma: Parameter) -> Sums {
+        let zero = [0.0; LANES];
+        let largest_beta = beta.magnitude();
+        Sums { beta, gamma, largest_beta, plain: zero, first: zero, second: zero, smooth: zero }
+    }
+
+    /// The rows `k + 1 ..= k + 4`, from the coefficients `k ..= k + 5`.
+    #[inline(always)]
+    fn add(&mut self, k: usize, u: &[f64], g: &[f64], e: &[f64]) {
+        let near: &[f64; LANES + 2] = u.try_into().expect("four rows and their neighbours");
+        let old: &[f64; LANES + 2] = g.try_into().expect("four rows and their neighbours");
+        let mismatch: &[f64; LANES + 2] = e.try_into().expect("four rows and their neighbours");
+        let (beta, gamma) = (self.beta.value(), self.gamma.value());
+        for lane in 0..LANES {
+            let row = (k + lane + 1) as f64;
+            let (du, dg) = (near[lane] - near[lane + 2], old[lane] - old[lane + 2]);
+            let (a, b, c) = (row * near[lane + 1], beta * du, gamma * dg);
+            let sizes = a.abs() + b.abs() + c.abs();
+            let radii = self.beta.radius() * du.abs() + self.gamma.radius() * dg.abs();
+            let around = self.largest_beta * (mismatch[lane] + mismatch[lane + 2]);
+            let smooth = ((a + b) + c).abs() + 4.01 * UNIT * sizes + radii + around;
+            let whole = smooth + row * mismatch[lane + 1];
+            let inverse = 1.0 / row;
+            let plain = whole * inverse;
+            let second = whole * row;
+            self.plain[lane] += plain * plain;
+            self.first[lane] += whole * whole;
+            self.second[lane] += second * second;
+            self.smooth[lane] += smooth * inverse;
+        }
+    }
+
+    /// `Σ R_k²`, `Σ k² R_k²`, `Σ k⁴ R_k²`.
+    fn squares(&self) -> [f64; 3] {
+        [self.plain, self.first, self.second].map(|lanes| lanes.iter().sum())
+    }
+}

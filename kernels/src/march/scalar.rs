@@ -1,0 +1,340 @@
+//! One wave, period by period.
+//!
+//! With `v_n = y_n − ρ y_{n−1}` the recurrence `y_n' + B y_n = ρ (y_{n−1}' − A y_{n−1})` becomes
+//! `v_n' + B v_n = −C y_{n−1}`, `C = ρ (A + B)`: the derivative of the older wave cancels. The jump of `Y` at
+//! the time `n` is `ρⁿ`, so `V = Y − ρ q Y` jumps at the time 0 only, by 1: `v_0(0) = 1` and
+//! `v_n(0) = v_{n−1}(1)`.
+//!
+//! Every front carries a chirp like `J_0(2√(2nBx))`, so the number of coefficients has to grow with `n`:
+//! with a fixed one the answer becomes wrong without a sign. Here a period takes as many coefficients
+//! as lie above a threshold. High coefficients are computed from their neighbours, which are as
+//! small, so their relative errors stay small and no level of noise hides the decay.
+
+use super::bound::Certificate;
+use super::chebyshev;
+use super::reflection::Reflection;
+use super::relaxation::Relaxation;
+use std::fmt;
+
+/// Whether a march proves bounds as it goes, at some three times the cost.
+///
+/// ```
+/// use wavestep_kernels::march::{Bounds, March, MarchOptions, Reflection};
+///
+/// let wave = Reflection::exact(2.0, 2.0, 1.0)?;
+/// let plain = March::new(&wave, MarchOptions { bounds: Bounds::None, ..Default::default() })?;
+/// assert_eq!(plain.bound(), None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bounds {
+    /// No bounds: values only.
+    None,
+    /// A [`Certificate`] follows the march.
+    #[default]
+    Proven,
+}
+
+/// The share of a wrong jump that the next period takes back. The rounding of the ends would let the
+/// jumps drift from `ρⁿ`, by `2·10⁻¹²` after 10⁵ periods. A small share averages over what the jump itself
+/// is measured with.
+const RESTORE: f64 = 1.0 / 64.0;
+
+/// How a march is run.
+///
+/// ```
+/// use wavestep_kernels::march::MarchOptions;
+///
+/// let options = MarchOptions::default();
+/// assert!(options.threshold < 1e-18 && options.limit >= 1000);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarchOptions {
+    /// Whether bounds are proven.
+    pub bounds: Bounds,
+    /// Trailing coefficients at most this large are dropped; relative to the largest coefficient
+    /// where that is above 1. What is dropped is part of the proven bound.
+    pub threshold: f64,
+    /// The most coefficients that a period may take, below 2²⁰.
+    pub limit: usize,
+}
+
+impl Default for MarchOptions {
+    /// Proven bounds, a threshold of `2⁻⁶⁶`, at most 65536 coefficients.
+    fn default() -> MarchOptions {
+        MarchOptions { bounds: Bounds::Proven, threshold: 2f64.powi(-66), limit: 1 << 16 }
+    }
+}
+
+/// The wave of a [`Reflection`] on the current period, as Chebyshev coefficients on `[0, 1]`.
+///
+/// # Invariants
+/// At least one coefficient and at most the limit; all of them finite.
+///
+/// ```
+/// use wavestep_kernels::march::{March, MarchOptions, Reflection};
+///
+/// // A rigid mass: y_0 = e^{−2x}, and y_1 = e^{−2(x+1)} + e^{−2x} (1 − 4x).
+/// let mut march = March::new(&Reflection::exact(2.0, 2.0, 1.0)?, MarchOptions::default())?;
+/// assert!((march.value(0.5) - (-1f64).exp()).abs() <= march.bound().unwrap());
+/// march.advance()?;
+/// let exact = (-3f64).exp() - (-1f64).exp();
+/// assert!((march.value(0.5) - exact).abs() <= march.bound().unwrap());
+/// assert!(march.bound().unwrap() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct March {
+    ratio: f64,
+    options: MarchOptions,
+    period: usize,
+    /// `y_n`.
+    wave: Vec<f64>,
+    /// `v_n = y_n − ρ y_{n−1}`.
+    increment: Vec<f64>,
+    /// `v_n(1)`.
+    end: f64,
+    /// `e^{−B}`.
+    decay_end: f64,
+    /// `y_n(1)`, the jump `ρⁿ` that `Y` has at `n`, and what the computed jump has beyond it.
+    wave_end: f64,
+    front: f64,
+    drift: f64,
+    largest: f64,
+    step: Relaxation,
+    certificate: Option<Certificate>,
+    failed: Option<MarchError>,
+}
+
+impl March {
+    /// The march on its first period, 0, where `y_0 = e^{−Bx}`. O(B).
+    ///
+    /// # Errors
+    /// [`MarchError::Options`] where the threshold is not positive and finite or the limit is not
+    /// between 1 and 2²⁰ − 1; [`MarchError::TooManyCoefficients`] where the first period needs more.
+    pub fn new(reflection: &Reflection, options: MarchOptions) -> Result<March, MarchError> {
+        let threshold = options.threshold;
+        if !(threshold.is_finite() && threshold > 0.0 && (1..1 << 20).contains(&options.limit)) {
+            return Err(MarchError::Options);
+        }
+        let (rate, ratio) = (reflection.rate().value(), reflection.ratio().value());
+        // e^{−Bx} takes more than √B coefficients: refused before the factors are made.
+        if rate.sqrt() > options.limit as f64 {
+            return Err(MarchError::TooManyCoefficients { period: 0, limit: options.limit });
+        }
+        let coupling = ratio * (reflection.zero().value() + rate);
+        let step = Relaxation::new(rate, coupling);
+        let mut increment = step.decay().to_vec();
+        trim(&mut increment, threshold);
+        let mut march = March {
+            ratio,
+            options,
+            period: 0,
+            wave: increment.clone(),
+            end: 0.0,
+            decay_end: sums(step.decay()).1,
+            wave_end: sums(&increment).1,
+            front: 1.0,
+            drift: 0.0,
+            increment,
+            largest: 1.0,
+            step,
+            certificate: (options.bounds == Bounds::Proven).then(|| Certificate::new(reflection)),
+            failed: None,
+        };
+        march.end = march.wave_end;
+        march.check()?;
+        Ok(march)
+    }
+
+    /// The number of the current period. O(1).
+    pub fn period(&self) -> usize {
+        self.period
+    }
+
+    /// The Chebyshev coefficients of `y_n` on the current period. O(1).
+    pub fn coefficients(&self) -> &[f64] {
+        &self.wave
+    }
+
+    /// The Chebyshev coefficients of `v_n = y_n − ρ y_{n−1}`, the part without jumps. O(1).
+    pub fn increment(&self) -> &[f64] {
+        &self.increment
+    }
+
+    /// Moves on by one period. O(N), N the number of coefficients, about
+    /// `z + 4 z^{1/3} + 40`, `z = √(2nB)`, for the rigid mass.
+    ///
+    /// # Errors
+    /// [`MarchError::TooManyCoefficients`] where the period needs more than the limit,
+    /// [`MarchError::NotFinite`] where the wave outgrows the doubles. Every later call then fails in the same way, and nothing is
+    /// proven any more.
+    pub fn advance(&mut self) -> Result<(), MarchError> {
+        if let Some(error) = self.failed {
+            return Err(error);
+        }
+        self.period += 1;
+        let before = self.end - RESTORE * self.ratio * self.drift;
+        let March { wave, increment, step, .. } = self;
+        step.particular(wave, increment);
+        // v = particular + (v(0) − particular(0)) e^{−Bx}.
+        let (left, right) = sums(increment);
+        let start = before - left;
+        let mut end = right + start * self.decay_end;
+        // The particular solution behind its last place, where it has no right side.
+        for k in increment.len()..step.decay().len() {
+            let next = -step.ratio(k) * increment[k - 1];
+            increment.push(next);
+            end += next;
+        }
+        for (to, decay) in increment.iter_mut().zip(step.decay()) {
+            *to += start * decay;
+        }
+        let threshold = self.options.threshold * self.largest;
+        for k in increment.len()..=self.options.limit {
+            let last = increment[k - 1];
+            // Not-a-number ends the loop as well, and is reported below.
+            if last.abs() <= 0.125 * threshold || last.is_nan() {
+                break;
+            }
+            let next = -step.ratio(k) * last;
+            increment.push(next);
+            end += next;
+        }
+        self.end = end;
+        wave.resize(increment.len().max(wave.len()), 0.0);
+        let largest = advance_wave(self.ratio, wave, increment);
+        trim(wave, threshold);
+        let (left, right) = sums(wave);
+        self.front *= self.ratio;
+        self.drift = left - self.wave_end - self.front;
+        self.wave_end = right;
+        self.largest = if largest < 1.0 { 1.0 } else { largest };
+        self.check().inspect_err(|error| self.failed = Some(*error))
+    }
+
+    /// The checks at the end of a step, and its proof.
+    fn check(&mut self) -> Result<(), MarchError> {
+        let (period, limit) = (self.period, self.options.limit);
+        if !(self.largest.is_finite() && self.end.is_finite()) {
+            return Err(MarchError::NotFinite { period });
+        }
+        if self.wave.len() > limit {
+            return Err(MarchError::TooManyCoefficients { period, limit });
+        }
+        if let Some(certificate) = &mut self.certificate {
+            certificate.record(&self.increment, &self.wave);
+        }
+        Ok(())
+    }
+
+    /// `y_n(x)`, `x` in `[0, 1]` the time since the period's beginning, in periods. O(N).
+    pub fn value(&self, x: f64) -> f64 {
+        chebyshev::value(&self.wave, x)
+    }
+
+    /// `y_n` at all `points` of `[0, 1]` into `values`; faster than one by one. O(N · points).
+    ///
+    /// # Panics
+    /// Where `points` and `values` differ in length.
+    pub fn values(&self, points: &[f64], values: &mut [f64]) {
+        chebyshev::values(&self.wave, points, values);
+    }
+
+    /// How far [`March::value`] can be from the true wave anywhere on this period, the rounding of the
+    /// evaluation included; `None` where nothing is proven. O(N).
+    pub fn bound(&self) -> Option<f64> {
+        if self.failed.is_some() {
+            return None;
+        }
+        let bound = self.certificate.as_ref()?.bound()?;
+        Some((bound + chebyshev::evaluation_error(&self.wave)).next_up())
+    }
+}
+
+/// Drops trailing coefficients up to the threshold; one always stays.
+fn trim(coefficients: &mut Vec<f64>, threshold: f64) {
+    let kept = coefficients.iter().rposition(|c| c.abs() > threshold || c.is_nan()).unwrap_or(0);
+    coefficients.truncate(kept + 1);
+}
+
+/// The values at both ends, summed in four lanes.
+fn sums(coefficients: &[f64]) -> (f64, f64) {
+    let mut lanes = [0.0; 4];
+    let (groups, rest) = coefficients.as_chunks::<4>();
+    for group in groups {
+        (0..4).for_each(|lane| lanes[lane] += group[lane]);
+    }
+    rest.iter().enumerate().for_each(|(lane, c)| lanes[lane] += c);
+    let (even, odd) = (lanes[0] + lanes[2], lanes[1] + lanes[3]);
+    (even - odd, even + odd)
+}
+
+/// `w ← ρ w + u` on the places of `u`, behind which `w` is zero or multiplied by ρ; gives the largest
+/// absolute value, or not-a-number if one of them is none.
+fn advance_wave(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f64 {
+    let mut lanes = [0.0; 4];
+    let larger = |a: f64, b: f64| if b <= a { a } else { b };
+    let (groups, rest) = wave.as_chunks_mut::<4>();
+    let (added, last) = increment.as_chunks::<4>();
+    for (group, added) in groups.iter_mut().zip(added) {
+        for lane in 0..4 {
+            group[lane] = ratio * group[lane] + added[lane];
+            lanes[lane] = larger(lanes[lane], group[lane].abs());
+        }
+    }
+    for (w, u) in rest.iter_mut().zip(last) {
+        *w = ratio * *w + u;
+        lanes[0] = larger(lanes[0], w.abs());
+    }
+    lanes.into_iter().fold(0.0, larger)
+}
+
+/// Why a march cannot go on.
+///
+/// ```
+/// use wavestep_kernels::march::{March, MarchError, MarchOptions, Reflection};
+///
+/// let options = MarchOptions { limit: 20, ..Default::default() };
+/// let mut march = March::new(&Reflection::exact(2.0, 2.0, 1.0)?, options)?;
+/// let stopped = (0..20).find_map(|_| march.advance().err()).unwrap();
+/// assert!(matches!(stopped, MarchError::TooManyCoefficients { limit: 20, .. }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MarchError {
+    /// The threshold or the limit of [`MarchOptions`] is out of range.
+    Options,
+    /// A period needs more coefficients than allowed.
+    TooManyCoefficients {
+        /// The period that needs them.
+        period: usize,
+        /// The limit that was set.
+        limit: usize,
+    },
+    /// The wave has grown beyond the range of doubles.
+    NotFinite {
+        /// The period on which it did.
+        period: usize,
+    },
+}
+
+impl fmt::Display for MarchError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Options => write!(
+                f,
+                "the options are out of range: give a positive threshold and a limit from 1 to 1048575"
+            ),
+            Self::TooManyCoefficients { period, limit } => write!(
+                f,
+                "period {period} needs more than {limit} coefficients: raise the limit or stop earlier"
+            ),
+            Self::NotFinite { period } => {
+                write!(f, "the wave outgrows the doubles on period {period}: stop earlier")
+            }
+        }
+    }
+}
+
+impl std::error::Error for MarchError {}

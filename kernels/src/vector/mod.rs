@@ -1,0 +1,94 @@
+//! Evaluation with vectors of doubles.
+//!
+//! One generic program serves all levels: it is written in the operations of [`Simd`], of which there
+//! is one implementation a level. Instructions, and all unsafe code, are in `instructions`.
+
+mod blocks;
+mod horner;
+mod instructions;
+mod points;
+mod scalar;
+mod tasks;
+
+pub(crate) use blocks::Evaluate;
+pub(crate) use horner::{Certified, Plain};
+pub(crate) use instructions::{dispatch, dispatch_scalar};
+pub(crate) use points::{Grid, Times};
+pub(crate) use tasks::{Many, Single};
+
+/// The operations of a vector of doubles.
+///
+/// A value of an implementing type is a witness that the machine has the instructions. All methods
+/// are inlined into a function that enables them.
+pub(crate) trait Simd: Copy {
+    /// A vector of doubles.
+    type Values: Copy;
+    /// A truth value for every lane.
+    type Mask: Copy;
+    /// Checked indices.
+    type Offsets: Copy;
+    /// Doubles a vector, at most 8.
+    const LANES: usize;
+    /// Whether there are 32 vector registers, not 16.
+    const MANY_REGISTERS: bool;
+
+    /// The same double in all lanes.
+    fn splat(self, value: f64) -> Self::Values;
+    /// The first doubles of a slice that has `LANES` at least.
+    fn load(self, values: &[f64]) -> Self::Values;
+    /// Writes the first doubles of a slice that has `LANES` at least.
+    fn store(self, values: Self::Values, out: &mut [f64]);
+    /// Like [`store`](Self::store), past the caches where `out` is aligned to a vector.
+    fn stream(self, values: Self::Values, out: &mut [f64]);
+    /// Makes streamed doubles visible to other threads. Due before a function that streams returns.
+    fn fence(self);
+    fn add(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn subtract(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn multiply(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    /// `a b + c`, rounded once above the baseline, else twice.
+    fn multiply_add(self, a: Self::Values, b: Self::Values, c: Self::Values) -> Self::Values;
+    /// `a ≥ b`, false with NaN.
+    fn at_least(self, a: Self::Values, b: Self::Values) -> Self::Mask;
+    /// `a < b`, false with NaN.
+    fn less(self, a: Self::Values, b: Self::Values) -> Self::Mask;
+    /// `a = b`, false with NaN.
+    fn equal(self, a: Self::Values, b: Self::Values) -> Self::Mask;
+    fn both(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// `a` where the mask is set, else `b`.
+    fn select(self, mask: Self::Mask, a: Self::Values, b: Self::Values) -> Self::Values;
+    /// One bit a lane, the first lane lowest.
+    fn bits(self, mask: Self::Mask) -> u32;
+    /// Truncated to integers within `0 … limit − 1`, clamped; NaN becomes 0. `1 ≤ limit < 2³¹`.
+    fn offsets(self, values: Self::Values, limit: usize) -> Self::Offsets;
+    /// The doubles at offsets whose limit is the length of the slice at most.
+    fn gather(self, values: &[f64], offsets: Self::Offsets) -> Self::Values;
+    /// `RN(from + i step)` for `i = first, first + 1, …`, one a lane.
+    fn grid(self, first: usize, from: f64, step: f64) -> Self::Values;
+
+    /// Whether the mask is set in all lanes.
+    #[inline(always)]
+    fn all(self, mask: Self::Mask) -> bool {
+        self.bits(mask) == (1 << Self::LANES) - 1
+    }
+
+    /// `(s, e)` with `s + e = a + b` exactly, as [`two_sum`](crate::double_double::two_sum).
+    #[inline(always)]
+    fn two_sum(self, a: Self::Values, b: Self::Values) -> (Self::Values, Self::Values) {
+        let sum = self.add(a, b);
+        let from_a = self.subtract(sum, b);
+        let from_b = self.subtract(sum, from_a);
+        (sum, self.add(self.subtract(a, from_a), self.subtract(b, from_b)))
+    }
+
+    /// `(p, e)` with `p + e = a b` exactly, as [`two_product`](crate::double_double::two_product).
+    fn two_product(self, a: Self::Values, b: Self::Values) -> (Self::Values, Self::Values);
+}
+
+/// A computation for whatever vectors there are.
+pub(crate) trait Task {
+    /// What it returns.
+    type Output;
+
+    /// Runs it. Implementations are inlined.
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}

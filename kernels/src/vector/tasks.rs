@@ -1,0 +1,53 @@
+//! The evaluation of many points, or of one, as tasks for whatever vectors there are.
+
+use super::blocks::{Evaluate, Job};
+use super::points::{Points, Times};
+use super::{Simd, Task};
+use crate::table::Table;
+
+/// Many points, as many as `out` has places. The output is the indices of those in doubt.
+pub(crate) struct Many<'a, P, E> {
+    pub(crate) table: &'a Table,
+    pub(crate) points: P,
+    pub(crate) evaluate: E,
+    /// Whether neighbouring points are expected in one piece.
+    pub(crate) sorted: bool,
+    pub(crate) out: &'a mut [f64],
+}
+
+impl<P: Points, E: Evaluate> Task for Many<'_, P, E> {
+    type Output = Vec<usize>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Vec<usize> {
+        let Self { table, points, evaluate, sorted, out } = self;
+        let job = Job { simd, table, points, evaluate, sorted };
+        let mut undecided = Vec::new();
+        match if S::MANY_REGISTERS { E::MANY_IN_FLIGHT } else { E::FEW_IN_FLIGHT } {
+            8.. => job.run::<8>(out, &mut undecided),
+            4.. => job.run::<4>(out, &mut undecided),
+            _ => job.run::<2>(out, &mut undecided),
+        }
+        undecided
+    }
+}
+
+/// One point. The output is the value and whether it is in doubt.
+pub(crate) struct Single<'a, E> {
+    pub(crate) table: &'a Table,
+    pub(crate) time: f64,
+    pub(crate) evaluate: E,
+}
+
+impl<E: Evaluate> Task for Single<'_, E> {
+    type Output = (f64, bool);
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> (f64, bool) {
+        let Self { table, time, evaluate } = self;
+        let (mut out, mut undecided) = ([0.0], Vec::new());
+        let job = Job { simd, table, points: Times(&[time]), evaluate, sorted: false };
+        job.partial(0, &mut out, &mut undecided);
+        (out[0], !undecided.is_empty())
+    }
+}

@@ -1,0 +1,171 @@
+//! Pieces of a signal from a march in fixed-point numbers.
+//!
+//! Where a signal is a sum of taps of one impulse response, and all its constants are rational numbers,
+//! the march of [`wavestep_kernels::fixed`] gives Taylor polynomials of the response on equal pieces of
+//! all periods, with one proven bound, in a fraction of the time that balls take.
+
+use crate::ball::{Ball, Binary, ComplexBall, Magnitude};
+use crate::enclosure::Numbers;
+use crate::evaluate::cells::{at_or_after, rational};
+use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::signal::Signal;
+use crate::evaluate::taps::{Extra, Taps};
+use crate::evaluate::taylor::Taylor;
+use crate::expression::{Field as _, Transform};
+use num_traits::{Signed as _, ToPrimitive as _};
+use wavestep_kernels::fixed::{DelayEquation, March, MarchOptions};
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The bits below the point of the march.
+const FRACTION_BITS: i64 = 112;
+
+/// The most periods that are marched through: some hundred kilobytes each hundred.
+const MAX_PERIODS: u32 = 4_000;
+
+/// The most taps.
+const MAX_TAPS: usize = 8;
+
+/// A signal on a window, from a march.
+pub(crate) struct MarchedPieces {
+    march: March,
+    taps: Vec<RationalTap>,
+    extras: Vec<Extra>,
+    local: Symbol,
+    period: Rational,
+    /// What times are multiplied with to be in the scale of the waves.
+    slowness: Rational,
+    unit: Rational,
+}
+
+/// `weight · Y(T − delay)` in rational numbers.
+struct RationalTap {
+    weight: Rational,
+    delay: Rational,
+    since: Rational,
+}
+
+impl MarchedPieces {
+    /// The pieces of a signal, where it has some.
+    pub(crate) fn of(signal: &Signal, from: &Rational, to: &Rational) -> Option<MarchedPieces> {
+        let slowness = signal.slowness().as_constant()?;
+        let unit = signal.unit().exact()?.as_constant()?;
+        if from.is_negative() {
+            return None;
+        }
+        let Taps { rate, zero, ratio, period, taps, extras } = Taps::of(signal).ok()?;
+        let period = period.as_constant()?;
+        let (rate, zero, ratio) = (rate.as_constant()?, zero.as_constant()?, ratio.as_constant()?);
+        let tap = |tap: &crate::evaluate::taps::Tap| {
+            let [weight, delay, since] =
+                [&tap.weight, &tap.delay, &tap.since].map(|value| value.as_constant());
+            Some(RationalTap { weight: weight?, delay: delay?, since: since? })
+        };
+        let taps: Vec<RationalTap> = taps.iter().map(tap).collect::<Option<_>>()?;
+        if taps.is_empty() || taps.len() > MAX_TAPS {
+            return None;
+        }
+        let last = taps.iter().map(|tap| (to * &slowness - &tap.delay) / &period).max()?;
+        let periods = last.floor().to_integer().to_u32()?.checked_add(1)?;
+        if periods > MAX_PERIODS {
+            return None;
+        }
+        let equation = DelayEquation::new(&period, &rate, &zero, &ratio).ok()?;
+        let march = March::new(&equation, periods, &MarchOptions::default()).ok()?;
+        let local = signal.recurrence().statement().local.clone();
+        Some(MarchedPieces { march, taps, extras, local, period, slowness, unit })
+    }
+
+    /// Whether the proven bound is good enough for polynomials with such an error.
+    pub(crate) fn serves(&self, error: Magnitude) -> bool {
+        self.bound().scale(3) <= error
+    }
+
+    fn bound(&self) -> Magnitude {
+        let weights = self.taps.iter().map(|tap| Magnitude::from_rational(&tap.weight));
+        let sum = weights.fold(Magnitude::ZERO, |sum, weight| sum.add(&weight));
+        let unit = Magnitude::from_rational(&self.unit);
+        sum.multiply(&unit).multiply(&Magnitude::from_double(self.march.bound()))
+    }
+
+    /// A range of doubles cut where pieces of the march meet.
+    pub(crate) fn spans(&self, (first, last): (f64, f64)) -> Vec<(f64, f64)> {
+        let pieces = Rational::from_integer(self.march.pieces_per_period().into());
+        let length = &self.period / pieces;
+        let (from, to) = (rational(first) * &self.slowness, rational(last) * &self.slowness);
+        let mut starts = vec![first];
+        for tap in &self.taps {
+            let mut number =
+                ((&from - &tap.delay) / &length).floor() + Rational::from_integer(1.into());
+            loop {
+                let joint = &tap.delay + &length * &number;
+                if joint > to {
+                    break;
+                }
+                starts.push(at_or_after(&(joint / &self.slowness)));
+                number += Rational::from_integer(1.into());
+            }
+        }
+        starts.retain(|start| (first..=last).contains(start));
+        starts.sort_by(f64::total_cmp);
+        starts.dedup();
+        let ends = starts.iter().skip(1).map(|start| start.next_down()).chain([last]);
+        starts.iter().copied().zip(ends).collect()
+    }
+
+    /// The polynomial in `(t − middle)/half`, on a cell that lies in one span.
+    pub(crate) fn taylor(
+        &self,
+        (middle, half): (&Rational, &Rational),
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        let (middle, half) = (middle * &self.slowness, half * &self.slowness);
+        let pieces = self.march.pieces_per_period();
+        let doubled = Rational::from_integer((2 * pieces).into());
+        let mut sum = Taylor { coefficients: Vec::new(), remainder: Magnitude::ZERO };
+        for tap in &self.taps {
+            let since = &middle - &tap.delay;
+            if since.is_negative() || middle < tap.since {
+                continue;
+            }
+            let periods = &since / &self.period;
+            let period = periods.floor();
+            let x = &periods - &period;
+            let piece = (&x * Rational::from_integer(pieces.into())).floor().to_integer();
+            let piece = piece.to_u32().expect("a piece of a period");
+            let period = period.to_integer().to_u32().expect("a period of the march");
+            let Some(coefficients) = self.march.piece(period, piece) else {
+                return Err(EvaluateError::AfterLast);
+            };
+            // u of the piece is 2Sx − (2q + 1).
+            let a = &x * &doubled - Rational::from_integer((2 * i64::from(piece) + 1).into());
+            let b = &half * &doubled / &self.period;
+            let ball = |value: &i128| {
+                Ball::new(Binary::new((*value).into(), -FRACTION_BITS), Magnitude::ZERO)
+            };
+            let coefficients = coefficients.iter().map(ball).collect();
+            let bound = self.march.bound_of(period).unwrap_or(f64::INFINITY);
+            let part = Taylor { coefficients, remainder: Magnitude::from_double(bound) };
+            let weight = Ball::from_rational(&(&tap.weight * &self.unit), bits);
+            sum.add(part.part(&a, &b, bits).scaled(&weight, bits), bits);
+        }
+        let numbers = Numbers::new(&[]);
+        let field = numbers.field(bits);
+        for Extra { function, origin } in &self.extras {
+            let since = &middle - origin.as_constant().unwrap_or_default();
+            if since.is_negative() {
+                continue;
+            }
+            let function =
+                Transform::<ComplexBall>::embedded(&Transform::of(function, &self.local), &field)?;
+            let x = field.embed(&crate::expression::Fraction::constant(&since).into())?;
+            let h = field.embed(&crate::expression::Fraction::constant(&half).into())?;
+            let terms = sum.coefficients.len().max(32);
+            let part = Taylor::of(&function, &x, &h, terms, &numbers, bits)?.real()?;
+            sum.add(part.scaled(&Ball::from_rational(&self.unit, bits), bits), bits);
+        }
+        if sum.coefficients.is_empty() {
+            sum.coefficients.push(Ball::zero());
+        }
+        Ok(sum)
+    }
+}

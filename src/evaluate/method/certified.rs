@@ -1,0 +1,178 @@
+//! Certified: the double nearest to the exact value, ties to even.
+//!
+//! A rational value is recognised exactly and rounded. Any other is irrational, so that no tie exists
+//! and Ziv's loop ends: it is enclosed in a ball, with precision doubled until both ends round to one
+//! double. Many values on a window come from polynomials whose low coefficients are pairs of doubles,
+//! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
+//! enclosed one by one.
+
+use super::{Method, MethodError};
+use crate::evaluate::cells::{Cell, Fit, Window, rational};
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::signal::Signal;
+use std::cell::OnceCell;
+use wavestep_kernels::{Piece, Table};
+use wavestep_polynomial::Rational;
+
+/// The degree of polynomials in pairs of doubles.
+const DEGREE: usize = 23;
+
+/// The error of polynomials that is aimed at, relative to the largest value.
+const ERROR_BITS: i64 = 100;
+
+/// The precision of balls tried first, and the highest.
+const FIRST_BITS: u64 = 128;
+const MAX_BITS: u64 = 1 << 13;
+
+/// From how many values on polynomials pay: about what they cost over what a ball costs.
+const MANY: usize = 2_000;
+
+/// Tells a value that is a rational number.
+pub type Recogniser<'a> = dyn Fn(&Rational, Side) -> Result<Option<Rational>, EvaluateError> + 'a;
+
+/// Correctly rounded values of an observable on a window.
+///
+/// ```
+/// use wavestep::evaluate::{Certified, Evaluator, Method, Side, Signal};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let f = solution.recurrence().observation("f").unwrap();
+/// let signal = Signal::of_recurrence(solution.recurrence(), &f).unwrap();
+/// let evaluator = Evaluator::new(&solution).unwrap();
+/// let recognise = |at: &_, side| evaluator.rational(&f, at, side);
+/// let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// let certified = Certified::new(&signal, &from, &to, &recognise).unwrap();
+/// // At 0 the value is 1, exactly; at 1 it is 1/e, correctly rounded.
+/// let at = |t| certified.value(&parse_number(t).unwrap(), Side::Right).unwrap();
+/// assert_eq!((at("0"), at("1")), (1.0, 0.36787944117144233));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Certified<'a> {
+    window: Window<'a>,
+    recognise: &'a Recogniser<'a>,
+    table: OnceCell<Option<Table>>,
+}
+
+impl<'a> Certified<'a> {
+    /// Values on a window; `recognise` tells those that are rational, as
+    /// [`Evaluator::rational`](crate::evaluate::Evaluator::rational) and
+    /// [`SceneEvaluator::rational`](crate::evaluate::SceneEvaluator::rational) do.
+    ///
+    /// # Errors
+    /// [`MethodError`], where the window has too many arrivals.
+    pub fn new(
+        signal: &'a Signal,
+        from: &Rational,
+        to: &Rational,
+        recognise: &'a Recogniser<'a>,
+    ) -> Result<Certified<'a>, MethodError> {
+        let window = Window::new(signal, from, to)?.marching();
+        Ok(Certified { window, recognise, table: OnceCell::new() })
+    }
+
+    /// The polynomials in pairs of doubles, made when they are first asked for.
+    ///
+    /// # Errors
+    /// [`MethodError`], where the window is too long.
+    pub fn table(&self) -> Result<&Table, MethodError> {
+        if self.table.get().is_none() {
+            let table = self.make_table()?;
+            let _ = self.table.set(Some(table));
+        }
+        self.table.get().and_then(Option::as_ref).ok_or(MethodError::Outside)
+    }
+
+    fn make_table(&self) -> Result<Table, MethodError> {
+        let error = self.window.scale()?.scale(-ERROR_BITS);
+        let cells = self.window.cells(Fit { degree: DEGREE, error })?;
+        let pieces: Vec<Piece> = cells.iter().map(in_pairs).collect();
+        let end = cells.last().ok_or(MethodError::Outside)?.last;
+        Ok(Table::new(&pieces, end)?)
+    }
+
+    /// The value of a double's time that no table decides.
+    fn alone(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+        if let Some(value) = (self.recognise)(at, side)? {
+            return Ok(nearest(&value));
+        }
+        let stretch = &self.window.stretches[self.window.stretch_at(at, side)?];
+        let scaled = self.window.signal.slowness().scale(at);
+        let mut bits = FIRST_BITS;
+        loop {
+            let ball = self.window.signal.enclose(stretch, 0, &scaled, bits)?;
+            if let Some(value) = ball.rounded() {
+                return Ok(value);
+            }
+            if bits >= MAX_BITS {
+                let best = Box::new(ball);
+                return Err(EvaluateError::AccuracyNotReached { best, bits }.into());
+            }
+            bits *= 2;
+        }
+    }
+}
+
+/// The nearest double of a rational number, ties to even.
+fn nearest(value: &Rational) -> f64 {
+    use num_traits::ToPrimitive as _;
+    value.to_f64().unwrap_or(f64::NAN)
+}
+
+/// The polynomial of a cell with its coefficients as pairs.
+fn in_pairs(cell: &Cell) -> Piece {
+    let mut error = cell.taylor.remainder;
+    let mut coefficients = Vec::with_capacity(cell.taylor.coefficients.len());
+    let mut low = Vec::with_capacity(cell.taylor.coefficients.len());
+    for coefficient in &cell.taylor.coefficients {
+        let (high, rest) = coefficient.split();
+        let (double, distance) = rest.to_double();
+        coefficients.push(high);
+        low.push(double);
+        error = error.add(&distance);
+    }
+    Piece {
+        start: cell.first,
+        centre: cell.middle,
+        scale: cell.scale.recip(),
+        coefficients,
+        low,
+        error: error.to_double(),
+    }
+}
+
+impl Method for Certified<'_> {
+    fn name(&self) -> &'static str {
+        "certified"
+    }
+
+    fn law(&self) -> String {
+        "correctly rounded, proven".to_owned()
+    }
+
+    fn bound(&self) -> Option<f64> {
+        Some(0.0)
+    }
+
+    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+        self.alone(at, side)
+    }
+
+    fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
+        assert_eq!(at.len(), values.len(), "a place for each value");
+        let undecided: Vec<usize> = match at.len() {
+            0..MANY => (0..at.len()).collect(),
+            _ => self.table()?.evaluator().rounded_unsorted(at, values),
+        };
+        for i in undecided {
+            if !at[i].is_finite() {
+                return Err(MethodError::Outside);
+            }
+            values[i] = self.alone(&rational(at[i]), Side::Right)?;
+        }
+        if values.iter().any(|value| value.is_nan()) { Err(MethodError::Outside) } else { Ok(()) }
+    }
+}

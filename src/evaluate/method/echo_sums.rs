@@ -1,0 +1,208 @@
+//! Observables as weighted sums of echoes in doubles: what [`Stable`](super::Stable) and
+//! [`Expanded`](super::Expanded) share.
+
+use super::MethodError;
+use super::doubles::three;
+use crate::enclosure::Numbers;
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::signal::Signal;
+use crate::evaluate::taps::NoTaps;
+use crate::expression::{Expression, Fraction, Transform};
+use crate::solution::{EchoTemplate, Family, GeneralForm, Solution};
+use wavestep_kernels::echoes::{
+    self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term, Time,
+};
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The most echoes that are summed for a value: the cost grows with the square.
+const MAX_ECHOES: usize = 5_000;
+
+/// One wave that is seen.
+struct Seen {
+    weight: f64,
+    delay: [f64; 2],
+    sum: EchoSum,
+}
+
+/// An observable by its echoes.
+pub(super) struct EchoSums {
+    seen: Vec<Seen>,
+    /// What is added from the start, as sums of polynomials times exponentials.
+    added: Vec<ExponentialPolynomial>,
+    unit: f64,
+    slowness: [f64; 2],
+    from: f64,
+    to: f64,
+}
+
+impl EchoSums {
+    /// The echoes of a signal up to a time.
+    pub(super) fn new(
+        signal: &Signal,
+        from: &Rational,
+        to: &Rational,
+    ) -> Result<EchoSums, MethodError> {
+        if !signal.is_on_grid() {
+            return Err(NoTaps::NoGrid.into());
+        }
+        let order = signal.order(to)?;
+        if order > MAX_ECHOES {
+            return Err(MethodError::TooManyPeriods { periods: order, limit: MAX_ECHOES });
+        }
+        let numbers = signal.numbers();
+        let solution = Solution::new(signal.recurrence().clone());
+        let recurrence = solution.recurrence();
+        let statement = recurrence.statement();
+        let mut seen = Vec::new();
+        for wave in &signal.observation().waves {
+            let name = || recurrence.wave_name(wave.wave);
+            if wave.slope {
+                return Err(NoTaps::Slope(name()).into());
+            }
+            let template = match solution.general(wave.wave) {
+                Ok(GeneralForm::Echoes(template)) => template,
+                Ok(GeneralForm::Geometric(_)) => return Err(NoTaps::Sequence(name()).into()),
+                Err(_) => return Err(NoTaps::NoForm(name()).into()),
+            };
+            let echoes = in_doubles(template, &statement.period, &statement.local, numbers)?;
+            let weight = wave.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
+            let [high, low, _] = three(numbers, &wave.delay).map_err(EvaluateError::from)?;
+            seen.push(Seen {
+                weight: three(numbers, &weight).map_err(EvaluateError::from)?[0],
+                delay: [high, low],
+                sum: EchoSum::new(echoes, order.max(1)).map_err(refused)?,
+            });
+        }
+        let forcing = &signal.observation().forcing;
+        let added = exponential_polynomials(forcing, &statement.time, numbers)?;
+        let unit = numbers.enclose_root(signal.unit(), 128).map_err(EvaluateError::from)?;
+        let [high, low, _] = three(numbers, signal.slowness()).map_err(EvaluateError::from)?;
+        let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
+        let (unit, slowness) = (unit.to_double().0, [high, low]);
+        Ok(EchoSums { seen, added, unit, slowness, from: end(from), to: end(to) })
+    }
+
+    /// The value at the sum of two doubles.
+    pub(super) fn value(
+        &self,
+        method: echoes::Method,
+        (high, low): (f64, f64),
+        side: Side,
+    ) -> Result<f64, MethodError> {
+        if !(high >= self.from && high <= self.to) {
+            return Err(MethodError::Outside);
+        }
+        // (high + low)(slowness): the rounding of the product by a fused multiplication.
+        let [rate, rest] = self.slowness;
+        let time = high * rate;
+        let low = high.mul_add(rate, -time) + (high * rest + low * rate);
+        let arriving = side == Side::Right;
+        let mut sum = 0.0;
+        for Seen { weight, delay, sum: echoes } in &self.seen {
+            let (since, error) = difference(time, delay[0]);
+            let since = Time::new(since, error + (low - delay[1])).map_err(refused)?;
+            if since.high() < 0.0 || (since.high() == 0.0 && since.low() < 0.0) {
+                continue;
+            }
+            sum += weight * echoes.value(method, since, arriving).map_err(refused)?;
+        }
+        if time > 0.0 || (time == 0.0 && arriving) {
+            for part in &self.added {
+                let horner = |value: f64, c: &Expansion| value * time + c.parts()[0];
+                let polynomial = part.coefficients.iter().rev().fold(0.0, horner);
+                sum += polynomial * (-part.rate.parts()[0] * time).exp();
+            }
+        }
+        Ok(sum * self.unit)
+    }
+
+    /// Many values by the blocked sum of differences, where there is one wave without delay in its own
+    /// scale; else `None`.
+    pub(super) fn fill(&self, at: &[f64], values: &mut [f64]) -> Option<Result<(), MethodError>> {
+        if self.slowness != [1.0, 0.0] || !self.added.is_empty() {
+            return None;
+        }
+        if at.iter().any(|time| !(*time >= self.from && *time <= self.to)) {
+            return Some(Err(MethodError::Outside));
+        }
+        let mut part = vec![0.0; at.len()];
+        let mut shifted = vec![0.0; at.len()];
+        values.fill(0.0);
+        for Seen { weight, delay, sum } in &self.seen {
+            // A delay that does not subtract without error would cost digits behind fronts.
+            if *delay != [0.0, 0.0] {
+                return None;
+            }
+            shifted.copy_from_slice(at);
+            if let Err(error) = sum.fill(&shifted, true, &mut part) {
+                return Some(Err(refused(error)));
+            }
+            values.iter_mut().zip(&part).for_each(|(value, part)| *value += weight * part);
+        }
+        values.iter_mut().for_each(|value| *value *= self.unit);
+        Some(Ok(()))
+    }
+}
+
+/// `a − b` and its rounding error.
+fn difference(a: f64, b: f64) -> (f64, f64) {
+    let sum = a - b;
+    let virtual_b = a - sum;
+    (sum, (a - (sum + virtual_b)) + (virtual_b - b))
+}
+
+/// What the kernel says, in the words of this layer.
+fn refused(error: echoes::EchoError) -> MethodError {
+    MethodError::Kernel(error.to_string())
+}
+
+fn expansion(numbers: &Numbers, value: &Fraction) -> Result<Expansion, MethodError> {
+    let parts = three(numbers, value).map_err(EvaluateError::from)?;
+    Expansion::new(parts).map_err(refused)
+}
+
+/// Echoes in closed form with their constants in doubles.
+fn in_doubles(
+    template: &EchoTemplate,
+    period: &Fraction,
+    local: &Symbol,
+    numbers: &Numbers,
+) -> Result<Echoes, MethodError> {
+    let number = |value: &Fraction| expansion(numbers, value);
+    let (family, scale) = match template.family() {
+        Family::Laguerre(scale) => (echoes::Family::Laguerre, number(scale)?),
+        Family::Power => (echoes::Family::Powers, Expansion::ONE),
+    };
+    let mut terms = Vec::new();
+    for (lag, coefficient) in template.terms() {
+        terms.push(Term { lag: *lag, coefficient: number(coefficient)? });
+    }
+    let (rate, ratio) = (number(template.rate())?, number(template.ratio())?);
+    let echoes =
+        Echoes::new(family, rate, scale, ratio, &terms, number(period)?).map_err(refused)?;
+    let first = template.first().iter();
+    let first = first.map(|echo| exponential_polynomials(echo, local, numbers));
+    echoes.with_first(first.collect::<Result<_, _>>()?).map_err(refused)
+}
+
+/// An expression in `x` by the rates of its exponentials.
+fn exponential_polynomials(
+    function: &Expression,
+    x: &Symbol,
+    numbers: &Numbers,
+) -> Result<Vec<ExponentialPolynomial>, MethodError> {
+    let mut parts = Vec::new();
+    for (pole, coefficients) in Transform::of(function, x).poles() {
+        let mut row = Vec::new();
+        let mut factorial = Rational::from_integer(1.into());
+        for (j, coefficient) in coefficients.iter().enumerate() {
+            if j > 0 {
+                factorial *= Rational::from_integer(j.into());
+            }
+            let value = coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
+            row.push(expansion(numbers, &value.scale(&factorial.recip()))?);
+        }
+        parts.push(ExponentialPolynomial { rate: expansion(numbers, &-pole)?, coefficients: row });
+    }
+    Ok(parts)
+}

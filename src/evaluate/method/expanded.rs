@@ -1,0 +1,79 @@
+//! Expanded: the formula as it is printed, in doubles.
+//!
+//! Echoes in powers of time with alternating coefficients, by Horner's scheme, delays rounded. Terms
+//! reach about `e^{2√(2nx)}` before they cancel to a value of order 1, so that digits are lost from
+//! n = 15 or so on. It is here because it is what one would write, and to be measured.
+
+use super::echo_sums::EchoSums;
+use super::{Method, MethodError};
+use crate::ball::Ball;
+use crate::evaluate::evaluator::Side;
+use crate::evaluate::signal::Signal;
+use wavestep_kernels::echoes;
+use wavestep_polynomial::Rational;
+
+/// An observable on a window by the formula as printed.
+///
+/// ```
+/// use wavestep::evaluate::{Expanded, Method, Side, Signal, Stable, StablePrecision};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("200")?);
+/// let expanded = Expanded::new(&signal, &from, &to).unwrap();
+/// let stable = Stable::new(&signal, &from, &to, StablePrecision::DoubleDouble).unwrap();
+/// let off = |t| {
+///     let at = parse_number(t).unwrap();
+///     let [expanded, stable]: [&dyn Method; 2] = [&expanded, &stable];
+///     (expanded.value(&at, Side::Right).unwrap() - stable.value(&at, Side::Right).unwrap()).abs()
+/// };
+/// // Right after one period, and of no use after eighty.
+/// assert!(off("3") < 1e-14 && off("161") > 1e3);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Expanded {
+    sums: EchoSums,
+}
+
+impl Expanded {
+    /// The echoes that arrive until the end of the window.
+    ///
+    /// # Errors
+    /// [`MethodError::NoTaps`], where echoes have no closed form with one pole.
+    ///
+    /// # Cost
+    /// O(n) for n echoes; for each value O(n²).
+    pub fn new(signal: &Signal, from: &Rational, to: &Rational) -> Result<Expanded, MethodError> {
+        Ok(Expanded { sums: EchoSums::new(signal, from, to)? })
+    }
+}
+
+impl Method for Expanded {
+    fn name(&self) -> &'static str {
+        "expanded"
+    }
+
+    fn law(&self) -> String {
+        "no bound: about 2^−53 e^{2√(2nx)} where terms cancel, measured".to_owned()
+    }
+
+    fn bound(&self) -> Option<f64> {
+        None
+    }
+
+    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+        let high = Ball::from_rational(at, 128).to_double().0;
+        self.sums.value(echoes::Method::Expanded, (high, 0.0), side)
+    }
+
+    fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
+        assert_eq!(at.len(), values.len(), "a place for each value");
+        for (time, value) in at.iter().zip(values) {
+            *value = self.sums.value(echoes::Method::Expanded, (*time, 0.0), Side::Right)?;
+        }
+        Ok(())
+    }
+}

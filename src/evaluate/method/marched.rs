@@ -1,0 +1,307 @@
+//! Marched: the recurrence on Chebyshev coefficients, period by period, for millions of reflections.
+//!
+//! The impulse response is a polynomial on each period, whose length grows as the fronts sharpen. A
+//! certificate looks at the polynomials alone and proves how far they are from the exact response
+//! ([`wavestep_kernels::march`]); the bound of an observable is that, times the sum of the weights with
+//! which the response is seen.
+
+use super::doubles::near;
+use super::{Method, MethodError};
+use crate::ball::{Ball, ComplexBall};
+use crate::enclosure::Numbers;
+use crate::evaluate::cells::rational;
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::signal::Signal;
+use crate::evaluate::taps::Taps;
+use crate::evaluate::transforms::value_at;
+use crate::expression::{Field as _, Fraction, Transform};
+use num_traits::{Signed as _, ToPrimitive as _};
+use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection};
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The most periods that are marched through.
+const MAX_PERIODS: u64 = 10_000_000;
+
+/// An observable on a window by a march.
+///
+/// ```
+/// use wavestep::evaluate::{Marched, Method, Side, Signal};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// let marched = Marched::new(&signal, &from, &to, true).unwrap();
+/// let value = marched.value(&parse_number("1")?, Side::Right).unwrap();
+/// assert!((value - (-1f64).exp()).abs() <= marched.bound().unwrap() + 1e-16);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Marched {
+    taps: Taps,
+    numbers: Numbers,
+    local: Symbol,
+    reflection: Reflection,
+    slowness: Fraction,
+    unit: Ball,
+    from: Rational,
+    to: Rational,
+    /// The proven bound on the window, where one is asked for and proven.
+    bound: Option<f64>,
+}
+
+/// A place at which the response is asked for.
+struct Place {
+    period: usize,
+    /// In parts of the period.
+    local: f64,
+    /// Which of the values it is for, and the weight there.
+    value: usize,
+    weight: f64,
+}
+
+impl Marched {
+    /// The response until the end of the window; where `proven`, it is marched through at once and
+    /// a bound is proven.
+    ///
+    /// # Errors
+    /// [`MethodError::NoTaps`], where waves have not one pole and one lag; [`MethodError::Kernel`]
+    /// where they grow without bound.
+    ///
+    /// # Cost
+    /// For each period some hundred operations a coefficient, of which there are about `√(2nD)`; ten
+    /// times as many with a bound.
+    pub fn new(
+        signal: &Signal,
+        from: &Rational,
+        to: &Rational,
+        proven: bool,
+    ) -> Result<Marched, MethodError> {
+        let taps = Taps::of(signal)?;
+        let numbers = Numbers::new(signal.recurrence().constants());
+        let reflection = {
+            let parameter = |value: &Fraction| -> Result<Parameter, MethodError> {
+                let (value, radius) = near(&numbers, value).map_err(EvaluateError::from)?;
+                Parameter::within(value, radius).map_err(refused)
+            };
+            let rate = parameter(&(&taps.rate * &taps.period))?;
+            let zero = parameter(&(&taps.zero * &taps.period))?;
+            Reflection::new(rate, zero, parameter(&taps.ratio)?).map_err(refused)?
+        };
+        let unit = numbers.enclose_root(signal.unit(), 128).map_err(EvaluateError::from)?;
+        let mut marched = Marched {
+            taps,
+            numbers,
+            local: signal.recurrence().statement().local.clone(),
+            reflection,
+            slowness: signal.slowness().clone(),
+            unit,
+            from: from.clone(),
+            to: to.clone(),
+            bound: None,
+        };
+        let last = marched.last_period()?;
+        if last > MAX_PERIODS {
+            let periods = usize::try_from(last).unwrap_or(usize::MAX);
+            return Err(MethodError::TooManyPeriods { periods, limit: MAX_PERIODS as usize });
+        }
+        if proven {
+            marched.bound = marched.prove(last)?;
+        }
+        Ok(marched)
+    }
+
+    /// The last period of the response that is seen.
+    fn last_period(&self) -> Result<u64, MethodError> {
+        let mut last = 0;
+        for tap in &self.taps.taps {
+            if let Some((period, _)) = self.place(&tap.delay, &self.to, Side::Right)? {
+                last = last.max(period);
+            }
+        }
+        Ok(last)
+    }
+
+    /// Marches to the end with a certificate. The bound of the response is `b`, and a place is off by
+    /// `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period turns into an
+    /// error of the value.
+    fn prove(&self, last: u64) -> Result<Option<f64>, MethodError> {
+        let options = MarchOptions { bounds: Bounds::Proven, ..MarchOptions::default() };
+        let mut march = March::new(&self.reflection, options).map_err(refused)?;
+        let mut slope = 0.0_f64;
+        let mut sum = 0.0_f64;
+        loop {
+            let mut steepest = 0.0;
+            let mut total = 0.0;
+            for (k, coefficient) in march.coefficients().iter().enumerate() {
+                let k = k as f64;
+                steepest += 2.0 * k * k * coefficient.abs();
+                total += coefficient.abs();
+            }
+            slope = slope.max(steepest);
+            sum = sum.max(total);
+            if march.period() as u64 >= last {
+                break;
+            }
+            march.advance().map_err(refused)?;
+        }
+        let Some(bound) = march.bound() else { return Ok(None) };
+        let weights = self.weights()?;
+        let total: f64 = weights.iter().map(|weight| weight.abs()).sum();
+        // The weighted sum itself, with an eighth to spare for the rounding of this line.
+        let roundings = (weights.len() + self.taps.extras.len() + 4) as f64 * f64::EPSILON * sum;
+        Ok(Some((bound + slope * f64::EPSILON + roundings) * total * 1.125))
+    }
+
+    /// The weights of the taps in the unit of the observable.
+    fn weights(&self) -> Result<Vec<f64>, MethodError> {
+        let weight = |tap: &crate::evaluate::taps::Tap| {
+            let weight = self.numbers.enclose(&tap.weight, 128).map_err(EvaluateError::from)?;
+            Ok(weight.multiply(&self.unit, 128).to_double().0)
+        };
+        self.taps.taps.iter().map(weight).collect()
+    }
+
+    /// The period and the place on it of a time that is seen with a delay; `None` before the start.
+    fn place(
+        &self,
+        delay: &Fraction,
+        at: &Rational,
+        side: Side,
+    ) -> Result<Option<(u64, f64)>, MethodError> {
+        let since = &self.slowness.scale(at) - delay;
+        let period = &self.taps.period;
+        if let (Some(since), Some(period)) = (since.as_constant(), period.as_constant()) {
+            let periods = since / period;
+            let mut whole = periods.floor();
+            if side == Side::Left && whole == periods {
+                whole -= Rational::from_integer(1.into());
+            }
+            if whole.is_negative() {
+                return Ok(None);
+            }
+            let local = Ball::from_rational(&(periods - &whole), 64).to_double().0;
+            return Ok(whole.to_integer().to_u64().map(|whole| (whole, local)));
+        }
+        // Irrational: never on a joint, unless as an expression.
+        let compare = |n: u64| {
+            let joint = period.scale(&Rational::from_integer(n.into()));
+            self.numbers.compare(&since, &joint).map_err(EvaluateError::from)
+        };
+        let ball = |value: &Fraction| self.numbers.enclose(value, 192).map_err(EvaluateError::from);
+        let inverse = ball(period)?.reciprocal(192).map_err(EvaluateError::Ball)?;
+        let periods = ball(&since)?.multiply(&inverse, 192);
+        let near = Rational::from(periods.midpoint()).floor().to_integer();
+        if near < (-1).into() {
+            return Ok(None);
+        }
+        // The joint at or before: one of three.
+        let near = near.to_u64().unwrap_or(0);
+        for whole in [near + 1, near, near.saturating_sub(1)] {
+            let order = compare(whole)?;
+            if order.is_gt() || (order.is_eq() && side == Side::Right) {
+                let offset = Ball::from_rational(&Rational::from_integer(whole.into()), 192);
+                let local = periods.subtract(&offset, 192).to_double().0;
+                return Ok(Some((whole, local.clamp(0.0, 1.0))));
+            }
+        }
+        Ok(None)
+    }
+
+    /// What is added to the taps at a time.
+    fn extras(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+        const BITS: u64 = 96;
+        let field = self.numbers.field(BITS);
+        let mut sum = Ball::zero();
+        for extra in &self.taps.extras {
+            let since = &self.slowness.scale(at) - &extra.origin;
+            let order =
+                self.numbers.compare(&since, &Fraction::zero()).map_err(EvaluateError::from)?;
+            if order.is_lt() || (order.is_eq() && side == Side::Left) {
+                continue;
+            }
+            let exact = Transform::of(&extra.function, &self.local);
+            let function =
+                Transform::<ComplexBall>::embedded(&exact, &field).map_err(EvaluateError::from)?;
+            let x = field.embed(&since.into()).map_err(EvaluateError::from)?;
+            let value = value_at(&function, &x, &self.numbers, BITS)?;
+            sum = sum.add(value.real(), BITS);
+        }
+        Ok(sum.multiply(&self.unit, BITS).to_double().0)
+    }
+
+    /// The values at times: one march through all periods that are seen.
+    fn at(&self, times: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+        if times.iter().any(|at| *at < self.from || *at > self.to) {
+            return Err(MethodError::Outside);
+        }
+        let weights = self.weights()?;
+        let mut values = Vec::with_capacity(times.len());
+        let mut places = Vec::new();
+        for (value, at) in times.iter().enumerate() {
+            values.push(self.extras(at, side)?);
+            for (tap, weight) in self.taps.taps.iter().zip(&weights) {
+                let seen = self.place(&tap.since, at, side)?;
+                let found = self.place(&tap.delay, at, side)?;
+                if let (Some(_), Some((period, local))) = (seen, found) {
+                    let period = usize::try_from(period).unwrap_or(usize::MAX);
+                    places.push(Place { period, local, value, weight: *weight });
+                }
+            }
+        }
+        places.sort_by_key(|place| place.period);
+        let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
+        let mut march = March::new(&self.reflection, options).map_err(refused)?;
+        let (mut points, mut found) = (Vec::new(), Vec::new());
+        for group in places.chunk_by(|a, b| a.period == b.period) {
+            while march.period() < group[0].period {
+                march.advance().map_err(refused)?;
+            }
+            points.clear();
+            points.extend(group.iter().map(|place| place.local));
+            found.resize(points.len(), 0.0);
+            march.values(&points, &mut found);
+            for (place, response) in group.iter().zip(&found) {
+                values[place.value] += place.weight * response;
+            }
+        }
+        Ok(values)
+    }
+}
+
+/// What the kernel says, in the words of this layer.
+fn refused(error: impl std::fmt::Display) -> MethodError {
+    MethodError::Kernel(error.to_string())
+}
+
+impl Method for Marched {
+    fn name(&self) -> &'static str {
+        "marched"
+    }
+
+    fn law(&self) -> String {
+        match self.bound {
+            Some(bound) => format!("at most {bound:.1e} everywhere on the window, proven"),
+            None => "no bound; about 1e-15 √n, measured".to_owned(),
+        }
+    }
+
+    fn bound(&self) -> Option<f64> {
+        self.bound
+    }
+
+    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+        Ok(self.at(std::slice::from_ref(at), side)?[0])
+    }
+
+    fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
+        assert_eq!(at.len(), values.len(), "a place for each value");
+        if at.iter().any(|time| !time.is_finite()) {
+            return Err(MethodError::Outside);
+        }
+        let times: Vec<Rational> = at.iter().map(|time| rational(*time)).collect();
+        values.copy_from_slice(&self.at(&times, Side::Right)?);
+        Ok(())
+    }
+}

@@ -1,0 +1,133 @@
+//! The ladder of methods: the exact solution in doubles, each with its error law.
+//!
+//! | method | error | for |
+//! |---|---|---|
+//! | [`Certified`] | correctly rounded | every observable that is linear in the waves |
+//! | [`Compiled`] | proven bound, the same on the whole window | the same |
+//! | [`Marched`] | proven bound for passive reflections | waves with one pole and one lag |
+//! | [`Stable`] | measured: some units in the last place of the largest value | the same |
+//! | [`Expanded`] | measured: grows without bound | the same |
+
+mod certified;
+mod compiled;
+mod doubles;
+mod echo_sums;
+mod expanded;
+mod marched;
+mod stable;
+
+pub use certified::{Certified, Recogniser};
+pub use compiled::Compiled;
+pub use expanded::Expanded;
+pub use marched::Marched;
+pub use stable::{Stable, StablePrecision};
+
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::taps::NoTaps;
+use std::fmt;
+use wavestep_kernels::TableError;
+use wavestep_polynomial::Rational;
+
+/// One way to values of an observable in doubles, on a window of time.
+///
+/// ```
+/// use wavestep::evaluate::{Compiled, Method, Side, Signal};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// let compiled = Compiled::new(&signal, &from, &to, None).unwrap();
+/// // f(1) = e^{−1}; just before the echo at 2 it is e^{−2}, just after 1 + e^{−2}.
+/// let at = |t, side| compiled.value(&parse_number(t).unwrap(), side).unwrap();
+/// let bound = compiled.bound().unwrap();
+/// assert!(bound < 1e-15);
+/// assert!((at("1", Side::Right) - (-1f64).exp()).abs() <= 2.0 * bound);
+/// assert!((at("2", Side::Right) - at("2", Side::Left) - 1.0).abs() <= 2.0 * bound);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub trait Method {
+    /// What it is called on the command line.
+    fn name(&self) -> &'static str;
+
+    /// How far values can be off, in words.
+    fn law(&self) -> String;
+
+    /// A proven bound on the absolute error of every value on the window, beyond half a unit in its
+    /// last place; `None` where the law is measured only.
+    fn bound(&self) -> Option<f64>;
+
+    /// The value at a time.
+    ///
+    /// # Errors
+    /// [`MethodError`] outside the window, and where there is no value.
+    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError>;
+
+    /// The values at many times, right limits.
+    ///
+    /// # Errors
+    /// As [`Method::value`].
+    ///
+    /// # Panics
+    /// Where there are not as many places for values as times.
+    fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError>;
+}
+
+/// Why a method has no value.
+#[derive(Clone, PartialEq, Debug)]
+pub enum MethodError {
+    /// The exact solution cannot be had.
+    Evaluate(EvaluateError),
+    /// The method needs waves with one pole and one lag.
+    NoTaps(NoTaps),
+    /// The polynomials make no table.
+    Table(TableError),
+    /// A kernel cannot go on: its own words.
+    Kernel(String),
+    /// A time that is not within the window, or no number.
+    Outside,
+    /// The method takes fewer periods.
+    TooManyPeriods {
+        /// How many are asked for.
+        periods: usize,
+        /// How many are allowed.
+        limit: usize,
+    },
+}
+
+impl fmt::Display for MethodError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            MethodError::Evaluate(error) => error.fmt(f),
+            MethodError::NoTaps(error) => error.fmt(f),
+            MethodError::Table(error) => error.fmt(f),
+            MethodError::Kernel(reason) => f.write_str(reason),
+            MethodError::Outside => f.write_str("a time outside the window"),
+            MethodError::TooManyPeriods { periods, limit } => {
+                write!(f, "{periods} periods, where this method takes at most {limit}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for MethodError {}
+
+impl From<EvaluateError> for MethodError {
+    fn from(error: EvaluateError) -> MethodError {
+        MethodError::Evaluate(error)
+    }
+}
+
+impl From<NoTaps> for MethodError {
+    fn from(error: NoTaps) -> MethodError {
+        MethodError::NoTaps(error)
+    }
+}
+
+impl From<TableError> for MethodError {
+    fn from(error: TableError) -> MethodError {
+        MethodError::Table(error)
+    }
+}

@@ -1,0 +1,115 @@
+//! Stable: the sum of echoes in doubles, as well as doubles can.
+//!
+//! Laguerre polynomials by the recurrence of their differences, delays formed without error, and the
+//! exponent carried beside the mantissa, so that nothing underflows before the echo does. In pairs of
+//! doubles the rounding of the sum is all that is left. The laws are measured, not proven.
+
+use super::echo_sums::EchoSums;
+use super::{Method, MethodError};
+use crate::ball::Ball;
+use crate::evaluate::evaluator::Side;
+use crate::evaluate::signal::Signal;
+use wavestep_kernels::echoes;
+use wavestep_polynomial::Rational;
+
+/// In which numbers echoes are summed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum StablePrecision {
+    /// Doubles.
+    Double,
+    /// Pairs of doubles, some 106 bits.
+    DoubleDouble,
+}
+
+/// An observable on a window by the stable sum of its echoes.
+///
+/// ```
+/// use wavestep::evaluate::{Method, Side, Signal, Stable, StablePrecision};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// let stable = Stable::new(&signal, &from, &to, StablePrecision::DoubleDouble).unwrap();
+/// let at = |t| stable.value(&parse_number(t).unwrap(), Side::Right).unwrap();
+/// assert_eq!((at("0"), at("1")), (1.0, (-1f64).exp()));
+/// assert_eq!(stable.bound(), None);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Stable {
+    sums: EchoSums,
+    precision: StablePrecision,
+}
+
+impl Stable {
+    /// The echoes that arrive until the end of the window.
+    ///
+    /// # Errors
+    /// [`MethodError::NoTaps`], where echoes have no closed form with one pole.
+    ///
+    /// # Cost
+    /// O(n) for n echoes; for each value O(n²).
+    pub fn new(
+        signal: &Signal,
+        from: &Rational,
+        to: &Rational,
+        precision: StablePrecision,
+    ) -> Result<Stable, MethodError> {
+        Ok(Stable { sums: EchoSums::new(signal, from, to)?, precision })
+    }
+}
+
+impl Method for Stable {
+    fn name(&self) -> &'static str {
+        match self.precision {
+            StablePrecision::Double => "stable",
+            StablePrecision::DoubleDouble => "double-double",
+        }
+    }
+
+    fn law(&self) -> String {
+        match self.precision {
+            StablePrecision::Double => {
+                "at most 64 units in the last place of the largest value, \
+                measured for n ≤ 200 and mu from 1/100 to 10"
+            }
+            StablePrecision::DoubleDouble => {
+                "at most 2 units in the last place of the largest \
+                value, measured for n ≤ 200 and mu from 1/100 to 10"
+            }
+        }
+        .to_owned()
+    }
+
+    fn bound(&self) -> Option<f64> {
+        None
+    }
+
+    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+        let method = match self.precision {
+            StablePrecision::Double => echoes::Method::Scaled,
+            StablePrecision::DoubleDouble => echoes::Method::DoubleDouble,
+        };
+        let (high, rest) = Ball::from_rational(at, 128).split();
+        self.sums.value(method, (high, rest.midpoint().to_double()), side)
+    }
+
+    fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
+        assert_eq!(at.len(), values.len(), "a place for each value");
+        if self.precision == StablePrecision::Double
+            && let Some(done) = self.sums.fill(at, values)
+        {
+            return done;
+        }
+        let method = match self.precision {
+            StablePrecision::Double => echoes::Method::Scaled,
+            StablePrecision::DoubleDouble => echoes::Method::DoubleDouble,
+        };
+        for (time, value) in at.iter().zip(values) {
+            *value = self.sums.value(method, (*time, 0.0), Side::Right)?;
+        }
+        Ok(())
+    }
+}
