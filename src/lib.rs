@@ -2,6 +2,7 @@
 //!
 //! Data flows one way: text ([`language`]) → [`recurrence`] → [`solution`] → numbers ([`evaluate`])
 //! and formulas ([`export`]), all in exact [`expression`]s; [`ball`] encloses what is not rational.
+//! [`plot`] draws measured errors and times.
 //!
 //! ```
 //! use wavestep::{language, solution::Solution};
@@ -27,6 +28,7 @@ pub mod expression;
 pub mod language;
 pub mod lock;
 pub mod network;
+pub mod plot;
 pub mod recurrence;
 pub mod scene;
 pub mod scenes;

@@ -1,0 +1,464 @@
+//! Curves against one axis: error or cost against the order, the time, or the mesh.
+
+use super::axis::Mapping;
+use super::drawing::{Anchor, Drawing, SMALL, WIDTH};
+use super::layout::{GUTTER, LEFT, Legend, RIGHT, Sheet, counted, fitted, label_size};
+use super::number::rounded;
+use super::palette::COLOURS;
+use super::placement::Placement;
+use super::text::{csv_field, csv_number, json_number};
+use super::{Axis, Caption, Chart, PlotError, Scale};
+use serde_json::{Value, json};
+
+/// A line through points `(x, y)`, in their order.
+///
+/// ```
+/// use wavestep::plot::Curve;
+///
+/// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0), (2.0, 4.0)] };
+/// assert_eq!(curve.points.len(), 2);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Curve {
+    /// The name, as the legend gives it.
+    pub name: String,
+    /// The points; one that is not finite interrupts the line.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A shaded rectangle; a side that is `None` lies at the edge of the picture.
+///
+/// ```
+/// use wavestep::plot::Region;
+///
+/// let beyond = Region { x: (Some(100.0), None), y: (None, None), name: "refused".into() };
+/// assert_eq!(beyond.x.1, None);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Region {
+    /// From where to where across.
+    pub x: (Option<f64>, Option<f64>),
+    /// From where to where up.
+    pub y: (Option<f64>, Option<f64>),
+    /// What it means.
+    pub name: String,
+}
+
+/// Several curves over one axis, with marked places, levels and a shaded region if wanted.
+///
+/// On a logarithmic upward axis, values of exactly zero stand at the lower edge, with an arrow.
+/// Curves of at most forty points have a marker at each, longer ones a few.
+///
+/// # Invariants
+/// At least one point is finite. All that is finite has a place on its axis, or is zero on a
+/// logarithmic upward axis. Marked places, levels and sides of the region have a place on their
+/// axis.
+///
+/// ```
+/// use wavestep::plot::{Axis, Caption, Chart, Curve, Curves, Region};
+///
+/// let curve = |name: &str, points: &[_]| Curve { name: name.into(), points: points.to_vec() };
+/// let curves = vec![
+///     curve("expanded form", &[(10.0, 1e-13), (30.0, 1e-3), (40.0, 29.0)]),
+///     curve("exact", &[(10.0, 0.0), (40.0, 0.0)]),
+/// ];
+/// let (order, error) = (Axis::linear("order n"), Axis::logarithmic("error"));
+/// let chart = Curves::new("Digits lost", order, error, curves, Caption::default())?
+///     .level(1e-2, "useful no longer")?
+///     .mark(20.0, "first echo")?
+///     .region(Region { x: (Some(30.0), None), y: (None, None), name: "refused".into() })?;
+/// assert_eq!(chart.curves()[1].name, "exact");
+/// assert!(chart.svg().contains("useful no longer"));
+/// assert_eq!(chart.json()["levels"][0]["y"], 1e-2);
+/// # Ok::<(), wavestep::plot::PlotError>(())
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Curves {
+    title: String,
+    x: Axis,
+    y: Axis,
+    curves: Vec<Curve>,
+    region: Option<Region>,
+    marks: Vec<(f64, String)>,
+    levels: Vec<(f64, String)>,
+    caption: Caption,
+}
+
+impl Curves {
+    /// A chart of these curves.
+    ///
+    /// # Errors
+    /// A finite value that has no place on its axis, or nothing finite to draw.
+    pub fn new(
+        title: &str,
+        x: Axis,
+        y: Axis,
+        curves: Vec<Curve>,
+        caption: Caption,
+    ) -> Result<Curves, PlotError> {
+        for &(across, up) in curves.iter().flat_map(|curve| &curve.points) {
+            x.check(across)?;
+            if up != 0.0 {
+                y.check(up)?;
+            }
+        }
+        if !curves.iter().flat_map(|curve| &curve.points).any(finite) {
+            return Err(PlotError::Empty { title: title.to_owned() });
+        }
+        let (title, region) = (title.to_owned(), None);
+        Ok(Curves { title, x, y, curves, region, marks: Vec::new(), levels: Vec::new(), caption })
+    }
+
+    /// The same with a shaded region.
+    ///
+    /// # Errors
+    /// A side without a place on its axis, or sides in the wrong order.
+    pub fn region(mut self, region: Region) -> Result<Curves, PlotError> {
+        for (axis, (from, to)) in [(&self.x, region.x), (&self.y, region.y)] {
+            [from, to].into_iter().flatten().try_for_each(|side| checked(axis, side))?;
+            if let (Some(from), Some(to)) = (from, to)
+                && from >= to
+            {
+                return Err(PlotError::NotAscending { axis: axis.name.clone() });
+            }
+        }
+        self.region = Some(region);
+        Ok(self)
+    }
+
+    /// The same with a vertical line at `x`, labelled above the plotting area: an arrival, say.
+    ///
+    /// # Errors
+    /// A value without a place on the axis.
+    pub fn mark(mut self, x: f64, name: &str) -> Result<Curves, PlotError> {
+        checked(&self.x, x)?;
+        self.marks.push((x, name.to_owned()));
+        Ok(self)
+    }
+
+    /// The same with a labelled horizontal line at `y`.
+    ///
+    /// # Errors
+    /// A value without a place on the axis.
+    pub fn level(mut self, y: f64, name: &str) -> Result<Curves, PlotError> {
+        checked(&self.y, y)?;
+        self.levels.push((y, name.to_owned()));
+        Ok(self)
+    }
+
+    /// The curves.
+    pub fn curves(&self) -> &[Curve] {
+        &self.curves
+    }
+
+    fn points(&self) -> impl Iterator<Item = &(f64, f64)> {
+        self.curves.iter().flat_map(|curve| &curve.points)
+    }
+
+    fn left_out(&self) -> usize {
+        self.points().filter(|point| !finite(point)).count()
+    }
+
+    fn description(&self) -> String {
+        let names: Vec<&str> = self.curves.iter().map(|curve| curve.name.as_str()).collect();
+        let (x, y) = (self.x.label(), self.y.label());
+        format!("{y} (up) against {x} (across): {}.", names.join("; "))
+    }
+
+    fn remarks(&self, unlabelled: usize) -> Vec<String> {
+        let mut remarks = Vec::new();
+        if self.left_out() > 0 {
+            let points = counted(self.left_out(), "point", "points");
+            remarks.push(format!("{points} not finite and left out."));
+        }
+        if unlabelled > 0 {
+            let levels = counted(unlabelled, "level", "levels");
+            remarks.push(format!("{levels} not labelled for want of room."));
+        }
+        remarks
+    }
+}
+
+fn finite(point: &(f64, f64)) -> bool {
+    point.0.is_finite() && point.1.is_finite()
+}
+
+/// Refuses a value that is not finite as well as one without a place on the axis.
+fn checked(axis: &Axis, value: f64) -> Result<(), PlotError> {
+    match value.is_finite() {
+        true => axis.check(value),
+        false => Err(PlotError::TooLarge { what: format!("a value of \"{}\"", axis.name), value }),
+    }
+}
+
+/// The places of the data in pixels.
+struct Places {
+    x: Mapping,
+    y: Mapping,
+    /// Whether zeros stand below the upward axis, and where.
+    zero: Option<f64>,
+}
+
+impl Places {
+    fn new(chart: &Curves, sheet: &Sheet) -> Places {
+        let points: Vec<&(f64, f64)> = chart.points().filter(|point| finite(point)).collect();
+        let logarithmic = chart.y.scale == Scale::Logarithmic;
+        let zero = logarithmic && points.iter().any(|point| point.1 == 0.0);
+        let marks = chart.marks.iter().map(|mark| mark.0);
+        let across = points.iter().map(|point| point.0).chain(marks);
+        let levels = chart.levels.iter().map(|level| level.0);
+        let up = points.iter().map(|point| point.1).chain(levels);
+        Places {
+            x: fitted(chart.x.scale, across, (LEFT, RIGHT), false),
+            y: fitted(chart.y.scale, up, (sheet.bottom(), sheet.top), zero),
+            zero: zero.then_some(sheet.bottom() - GUTTER / 2.0),
+        }
+    }
+
+    fn is_zero(&self, point: &(f64, f64)) -> bool {
+        self.zero.is_some() && point.1 == 0.0
+    }
+
+    fn of(&self, point: &(f64, f64)) -> (f64, f64) {
+        let up = self.zero.filter(|_| point.1 == 0.0);
+        (self.x.position(point.0), up.unwrap_or_else(|| self.y.position(point.1)))
+    }
+
+    /// The parts of a curve between its gaps.
+    fn parts(&self, curve: &Curve) -> Vec<Vec<(f64, f64)>> {
+        let parts = curve.points.split(|point| !finite(point)).filter(|part| !part.is_empty());
+        parts.map(|part| part.iter().map(|point| self.of(point)).collect()).collect()
+    }
+}
+
+/// The left edges of the labels of vertical lines, and the rows in which they stand, counted
+/// upwards from the plotting area.
+///
+/// A label begins at its line, which ends below it, and stands higher than the labels of all lines
+/// that it would cross. Where it would leave the picture it moves to the left.
+fn rows_of(marks: &[(f64, &str)]) -> Vec<(f64, usize)> {
+    let mut order: Vec<usize> = (0..marks.len()).collect();
+    order.sort_by(|&i, &j| marks[j].0.total_cmp(&marks[i].0));
+    let mut rows = vec![(0.0, 0); marks.len()];
+    for (done, &i) in order.iter().enumerate() {
+        let (x, name) = marks[i];
+        let wide = label_size(name).0;
+        let left = (x - 3.0).min(WIDTH - 14.0 - wide).max(LEFT);
+        let crossed = order[..done].iter().filter(|&&j| marks[j].0 <= left + wide + 8.0);
+        rows[i] = (left, crossed.map(|&j| rows[j].1 + 1).max().unwrap_or(0));
+    }
+    rows
+}
+
+const ROW: f64 = 15.0;
+
+/// The vertical lines with their labels above the plotting area.
+fn draw_marks(chart: &Curves, sheet: &mut Sheet, places: &Places) {
+    let marks: Vec<(f64, &str)> =
+        chart.marks.iter().map(|(x, name)| (places.x.position(*x), name.as_str())).collect();
+    let rows = rows_of(&marks);
+    let (top, bottom) = (sheet.top, sheet.bottom());
+    let base = |row: usize| top - 6.0 - ROW * row as f64;
+    for ((x, _), (_, row)) in marks.iter().zip(&rows) {
+        sheet.drawing.line("rule-across", (*x, base(*row) + 3.0), (*x, bottom));
+    }
+    for ((_, name), (left, row)) in marks.iter().zip(&rows) {
+        sheet.drawing.text("label", Anchor::Start, (left + 1.0, base(*row)), name);
+    }
+}
+
+/// The horizontal lines with their labels, where the curves leave room; how many found none.
+fn draw_levels(chart: &Curves, sheet: &mut Sheet, places: &Places) -> usize {
+    let mut placement = Placement::within([(LEFT + 2.0, sheet.top), (RIGHT - 2.0, sheet.bottom())]);
+    for curve in &chart.curves {
+        places.parts(curve).iter().for_each(|part| placement.avoid(part));
+    }
+    for (x, _) in &chart.marks {
+        let x = places.x.position(*x);
+        placement.avoid(&[(x, sheet.top), (x, sheet.bottom())]);
+    }
+    let mut unlabelled = 0;
+    for (level, name) in &chart.levels {
+        let y = places.y.position(*level);
+        sheet.drawing.line("rule", (LEFT, y), (RIGHT, y));
+        let (wide, high) = label_size(name);
+        let room = RIGHT - LEFT - 16.0 - wide;
+        let along = (0..=12).map(|step| RIGHT - 8.0 - wide - room * f64::from(step) / 12.0);
+        let tries: Vec<(f64, f64)> =
+            along.flat_map(|x| [(x, y - 3.0 - high), (x, y + 3.0)]).collect();
+        match placement.first_free(&tries, wide, high) {
+            Some((x, top)) => {
+                let base = (x + 1.0, top + 0.85 * SMALL + 1.0);
+                sheet.drawing.text("label", Anchor::Start, base, name);
+            }
+            None => unlabelled += 1,
+        }
+    }
+    unlabelled
+}
+
+fn draw_region(region: &Region, sheet: &mut Sheet, places: &Places) {
+    let (top, bottom) = (sheet.top, sheet.bottom());
+    let side = |value: Option<f64>, mapping: &Mapping, edge: f64, low: f64, high: f64| {
+        value.map_or(edge, |value| mapping.position(value).clamp(low, high))
+    };
+    let left = side(region.x.0, &places.x, LEFT, LEFT, RIGHT);
+    let right = side(region.x.1, &places.x, RIGHT, LEFT, RIGHT);
+    let low = side(region.y.0, &places.y, bottom, top, bottom);
+    let high = side(region.y.1, &places.y, top, top, bottom);
+    sheet.drawing.rectangle("region", (left, high), (right, low));
+}
+
+fn arrow_down(drawing: &mut Drawing, line: usize, at: (f64, f64)) {
+    let mut arrow = Drawing::default();
+    let path = "M0 6V14M-3.5 10.5L0 14L3.5 10.5";
+    arrow.path(&format!("arrow c{}", line % COLOURS.len()), path);
+    drawing.moved(at, &arrow);
+}
+
+/// The points of a curve that take a marker: all of a short one, about eight of a long one, which
+/// begin later from line to line so that markers of close curves do not hide one another.
+fn marked(line: usize, count: usize) -> impl Iterator<Item = usize> {
+    let every = if count <= 40 { 1 } else { count.div_ceil(8) };
+    let first = if every == 1 { 0 } else { (line * every / 5 + every / 4) % every };
+    (first..count).step_by(every)
+}
+
+impl Chart for Curves {
+    fn title(&self) -> &str {
+        &self.title
+    }
+
+    fn caption(&self) -> &Caption {
+        &self.caption
+    }
+
+    fn svg_named(&self, name: &str) -> String {
+        // How many rows of labels stand above depends on places across alone.
+        let across = Places::new(self, &Sheet::open(name, &self.title, 0.0)).x;
+        let marks: Vec<(f64, &str)> =
+            self.marks.iter().map(|(x, name)| (across.position(*x), name.as_str())).collect();
+        let rows = rows_of(&marks).iter().map(|(_, row)| row + 1).max().unwrap_or(0);
+        let mut sheet = Sheet::open(name, &self.title, ROW * rows as f64);
+        let places = Places::new(self, &sheet);
+        let mut legend = Legend::default();
+        if let Some(region) = &self.region {
+            draw_region(region, &mut sheet, &places);
+        }
+        sheet.grid(&places.x, &places.y);
+        draw_marks(self, &mut sheet, &places);
+        let unlabelled = draw_levels(self, &mut sheet, &places);
+        for (i, curve) in self.curves.iter().enumerate() {
+            places.parts(curve).iter().for_each(|part| sheet.drawing.stroke(i, part));
+        }
+        for (i, curve) in self.curves.iter().enumerate() {
+            let points: Vec<&(f64, f64)> =
+                curve.points.iter().filter(|point| finite(point)).collect();
+            for point in marked(i, points.len()).map(|at| points[at]) {
+                let (x, y) = places.of(point);
+                if places.is_zero(point) {
+                    arrow_down(&mut sheet.drawing, i, (x, y));
+                }
+                let about = format!("{}: {} at {}", curve.name, rounded(point.1), rounded(point.0));
+                sheet.drawing.marker(i, (x, y), &about);
+            }
+            legend.entry(curve.name.clone(), |sample| {
+                sample.stroke(i, &[(0.0, 0.0), (30.0, 0.0)]);
+                sample.marker(i, (15.0, 0.0), "");
+            });
+        }
+        sheet.axes((&self.x, &places.x), (&self.y, &places.y));
+        if let Some(region) = &self.region {
+            legend.entry(region.name.clone(), |sample| {
+                sample.rectangle("region", (0.0, -6.0), (30.0, 6.0));
+            });
+        }
+        if places.zero.is_some() {
+            sheet.zero(false);
+            legend.entry("exactly zero", |sample| {
+                arrow_down(sample, 3, (15.0, -6.0));
+                sample.marker(3, (15.0, -6.0), "");
+            });
+        }
+        let top = sheet.top;
+        sheet.legend(&legend, top);
+        sheet.close(&self.title, &self.description(), &self.caption, &self.remarks(unlabelled))
+    }
+
+    fn json(&self) -> Value {
+        let number = |value: f64| json_number(Some(value));
+        let point = |&(x, y): &(f64, f64)| json!([number(x), number(y)]);
+        let curve = |curve: &Curve| {
+            let points: Vec<Value> = curve.points.iter().map(point).collect();
+            json!({"name": curve.name, "points": points})
+        };
+        let named = |key: &str, lines: &[(f64, String)]| -> Vec<Value> {
+            lines.iter().map(|(at, name)| json!({key: number(*at), "name": name})).collect()
+        };
+        let region = self.region.as_ref().map(|region| {
+            json!({
+                "x": [region.x.0, region.x.1],
+                "y": [region.y.0, region.y.1],
+                "name": region.name,
+            })
+        });
+        json!({
+            "kind": "curves",
+            "title": self.title,
+            "caption": self.caption.json(),
+            "x": self.x.json(),
+            "y": self.y.json(),
+            "curves": self.curves.iter().map(curve).collect::<Vec<_>>(),
+            "region": region,
+            "marks": named("x", &self.marks),
+            "levels": named("y", &self.levels),
+            "left_out": self.left_out(),
+        })
+    }
+
+    fn csv(&self) -> String {
+        let (x, y) = (csv_field(&self.x.label()), csv_field(&self.y.label()));
+        let mut csv = format!("curve,{x},{y}\n");
+        for curve in &self.curves {
+            for &(across, up) in &curve.points {
+                let numbers = [Some(across), Some(up)].map(csv_number);
+                csv.push_str(&format!("{},{}\n", csv_field(&curve.name), numbers.join(",")));
+            }
+        }
+        csv
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_above_take_rows_without_overlap() {
+        let marks = [
+            (649.0, "last"),
+            (100.0, "first arrival"),
+            (110.0, "second arrival"),
+            (120.0, "x"),
+            (
+                400.0,
+                "one with a long name that does not fit between its line and the edge of the sheet",
+            ),
+        ];
+        let rows = rows_of(&marks);
+        assert_eq!(rows.iter().map(|(_, row)| *row).collect::<Vec<_>>(), [0, 2, 1, 0, 1]);
+        for ((_, name), (left, _)) in marks.iter().zip(&rows) {
+            assert!(*left >= LEFT && left + label_size(name).0 <= WIDTH);
+        }
+    }
+
+    #[test]
+    fn long_curves_have_few_markers() {
+        assert_eq!(marked(3, 40).count(), 40);
+        for line in 0..9 {
+            let count = marked(line, 1000).count();
+            assert!((7..=8).contains(&count), "{count}");
+        }
+        assert_ne!(marked(0, 1000).next(), marked(1, 1000).next());
+    }
+}

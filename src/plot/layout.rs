@@ -1,0 +1,235 @@
+//! The sheet that all charts share: title, axes, legend beside the plotting area, small print
+//! below.
+
+use super::axis::{Axis, Mapping, Tick};
+use super::drawing::{Anchor, Drawing, LARGE, MEDIUM, SMALL, WIDTH};
+use super::text::{width, wrap};
+use super::{Caption, Scale};
+
+/// The left edge of the plotting area.
+pub(super) const LEFT: f64 = 88.0;
+
+/// The right edge of the plotting area.
+pub(super) const RIGHT: f64 = 650.0;
+
+/// The height of the plotting area.
+pub(super) const HEIGHT: f64 = 420.0;
+
+/// The room beside a logarithmic axis in which values of exactly zero stand.
+pub(super) const GUTTER: f64 = 34.0;
+
+/// Where the legend begins.
+const LEGEND: f64 = RIGHT + 22.0;
+
+const MARGIN: f64 = 14.0;
+
+/// The entries beside the plotting area: a sample, drawn from 0 to 30 across about the height 0,
+/// and what it means.
+#[derive(Default)]
+pub(super) struct Legend {
+    entries: Vec<(Drawing, String)>,
+}
+
+impl Legend {
+    pub fn entry(&mut self, text: impl Into<String>, draw: impl FnOnce(&mut Drawing)) {
+        let mut sample = Drawing::default();
+        draw(&mut sample);
+        self.entries.push((sample, text.into()));
+    }
+
+    /// The entries of another legend after these.
+    pub fn append(&mut self, other: Legend) {
+        self.entries.extend(other.entries);
+    }
+}
+
+/// A sheet while it is drawn on.
+pub(super) struct Sheet {
+    pub drawing: Drawing,
+    /// The upper edge of the plotting area.
+    pub top: f64,
+    /// The prefix of identifiers.
+    pub name: String,
+    /// The lowest place drawn on so far.
+    lowest: f64,
+}
+
+impl Sheet {
+    /// A sheet with its title, and `above` pixels left free between it and the plotting area.
+    pub fn open(name: &str, title: &str, above: f64) -> Sheet {
+        let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' };
+        let mut drawing = Drawing::default();
+        let mut y = 10.0;
+        // Titles are bold, and so up to 15 % wider.
+        for line in wrap(title, (WIDTH - 2.0 * MARGIN) / 1.15, LARGE) {
+            y += 1.3 * LARGE;
+            drawing.text("title", Anchor::Start, (MARGIN, y - 3.0), &line);
+        }
+        let top = y + 14.0 + above;
+        let name = name.chars().map(plain).collect();
+        Sheet { drawing, top, name, lowest: top + HEIGHT }
+    }
+
+    /// The lower edge of the plotting area.
+    pub fn bottom(&self) -> f64 {
+        self.top + HEIGHT
+    }
+
+    /// Lines behind the data at the labelled ticks.
+    pub fn grid(&mut self, x: &Mapping, y: &Mapping) {
+        for tick in ticks_across(x).iter().filter(|tick| tick.label.is_some()) {
+            let (top, bottom) = (self.top, self.bottom());
+            self.drawing.line("grid", (tick.position, top), (tick.position, bottom));
+        }
+        for tick in y.ticks(SPACING.1).iter().filter(|tick| tick.label.is_some()) {
+            self.drawing.line("grid", (LEFT, tick.position), (RIGHT, tick.position));
+        }
+    }
+
+    /// Frame, ticks, labels and names of the axes. Ticks point outwards.
+    pub fn axes(&mut self, x: (&Axis, &Mapping), y: (&Axis, &Mapping)) {
+        let bottom = self.bottom();
+        self.drawing.rectangle("frame", (LEFT, self.top), (RIGHT, bottom));
+        for tick in ticks_across(x.1) {
+            let length = if tick.major { 6.0 } else { 3.0 };
+            self.drawing.line("tick", (tick.position, bottom), (tick.position, bottom + length));
+            if let Some(label) = tick.label {
+                self.drawing.text("", Anchor::Middle, (tick.position, bottom + 20.0), &label);
+            }
+        }
+        for tick in y.1.ticks(SPACING.1) {
+            let length = if tick.major { 6.0 } else { 3.0 };
+            self.drawing.line("tick", (LEFT, tick.position), (LEFT - length, tick.position));
+            if let Some(label) = tick.label {
+                self.drawing.text("", Anchor::End, (LEFT - 9.0, tick.position + 4.0), &label);
+            }
+        }
+        let centre = f64::midpoint(LEFT, RIGHT);
+        let mut base = bottom + 24.0;
+        for line in wrap(&x.0.label(), RIGHT - LEFT, MEDIUM) {
+            base += 1.35 * MEDIUM;
+            self.drawing.text("", Anchor::Middle, (centre, base), &line);
+        }
+        self.reach(base + 4.0);
+        // A long name of the upward axis takes two columns at most before it runs past the frame.
+        let lines = wrap(&y.0.label(), HEIGHT, MEDIUM);
+        for (i, line) in lines.iter().enumerate() {
+            let across = 19.0 + 1.3 * MEDIUM * i as f64;
+            let up = f64::midpoint(self.top, bottom);
+            self.drawing.text_upwards("", (across, up), line);
+        }
+    }
+
+    /// The tick of exact zeros left of or below a logarithmic axis, and the line that parts them
+    /// off.
+    pub fn zero(&mut self, across: bool) {
+        let bottom = self.bottom();
+        let (from, to, end, label, anchor) = match across {
+            true => {
+                let x = LEFT + GUTTER / 2.0;
+                let parting = ((LEFT + GUTTER, self.top), (LEFT + GUTTER, bottom));
+                self.drawing.line("rule-across", parting.0, parting.1);
+                ((x, bottom), (x, bottom + 6.0), (x, bottom + 20.0), "0", Anchor::Middle)
+            }
+            false => {
+                let y = bottom - GUTTER / 2.0;
+                let parting = ((LEFT, bottom - GUTTER), (RIGHT, bottom - GUTTER));
+                self.drawing.line("rule-across", parting.0, parting.1);
+                ((LEFT, y), (LEFT - 6.0, y), (LEFT - 9.0, y + 4.0), "0", Anchor::End)
+            }
+        };
+        self.drawing.line("tick", from, to);
+        self.drawing.text("", anchor, end, label);
+    }
+
+    /// The legend, from the height `from` downwards.
+    pub fn legend(&mut self, legend: &Legend, from: f64) {
+        let mut y = from + 8.0;
+        for (sample, text) in &legend.entries {
+            self.drawing.moved((LEGEND, y), sample);
+            let lines = wrap(text, WIDTH - MARGIN - LEGEND - 38.0, MEDIUM);
+            for line in &lines {
+                self.drawing.text("", Anchor::Start, (LEGEND + 38.0, y + 4.0), line);
+                y += 1.3 * MEDIUM;
+            }
+            y += 6.0;
+        }
+        self.reach(y - 8.0);
+    }
+
+    /// Sees to it that the small print begins below `y`.
+    fn reach(&mut self, y: f64) {
+        self.lowest = self.lowest.max(y);
+    }
+
+    /// The picture, with the small print under it: the caption, then `remarks`.
+    pub fn close(
+        mut self,
+        title: &str,
+        description: &str,
+        caption: &Caption,
+        remarks: &[String],
+    ) -> String {
+        let mut y = self.lowest + 14.0;
+        self.drawing.line("grid", (MARGIN, y), (WIDTH - MARGIN, y));
+        y += 4.0;
+        let mut paragraph = String::new();
+        let mut sentences = caption.sentences();
+        // The command stands last, on a line of its own.
+        let command = (!caption.command.is_empty()).then(|| sentences.pop()).flatten();
+        sentences.extend(remarks.iter().cloned());
+        for sentence in sentences {
+            paragraph = format!("{paragraph} {sentence}");
+        }
+        for paragraph in [Some(paragraph), command].into_iter().flatten() {
+            for line in wrap(&paragraph, WIDTH - 2.0 * MARGIN, SMALL) {
+                y += 1.4 * SMALL;
+                self.drawing.text("small", Anchor::Start, (MARGIN, y), &line);
+            }
+        }
+        self.drawing.finish(&self.name, y + 12.0, title, description)
+    }
+}
+
+/// The least distance between labels across and up.
+const SPACING: (f64, f64) = (58.0, 26.0);
+
+/// The ticks of an axis across, as close as their labels allow.
+fn ticks_across(mapping: &Mapping) -> Vec<Tick> {
+    let mut spacing = SPACING.0;
+    loop {
+        let ticks = mapping.ticks(spacing);
+        let widths = ticks.iter().flat_map(|tick| &tick.label).map(|label| width(label, MEDIUM));
+        let widest = widths.fold(0.0, f64::max);
+        // Half of the area is room enough for any label.
+        if widest + 8.0 <= spacing || spacing > (RIGHT - LEFT) / 2.0 {
+            return ticks;
+        }
+        spacing *= 1.5;
+    }
+}
+
+/// The room of a label in the small size.
+pub(super) fn label_size(text: &str) -> (f64, f64) {
+    (width(text, SMALL) + 2.0, SMALL + 2.0)
+}
+
+/// An axis in pixels that shows all `values`, from `from` to `to`; `zero` tells whether some of
+/// them are zero on a logarithmic axis, which then stand in a gutter at its lower end.
+pub(super) fn fitted(
+    scale: Scale,
+    values: impl IntoIterator<Item = f64>,
+    (from, to): (f64, f64),
+    zero: bool,
+) -> Mapping {
+    let gutter = if zero { GUTTER.copysign(to - from) } else { 0.0 };
+    Mapping::around(scale, values).onto(from + gutter, to)
+}
+
+/// "1 point is", "3 points are".
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+    match count {
+        1 => format!("1 {one} is"),
+        _ => format!("{count} {many} are"),
+    }
+}

@@ -1,0 +1,37 @@
+//! Charts of accuracy against speed, as SVG, JSON, CSV, and pages of HTML.
+//!
+//! The layer knows series of numbers only, not where they come from. A [`WorkPrecision`] diagram
+//! shows methods, a [`Map`] shows the error over two parameters, [`Curves`] show it along one;
+//! [`page`] puts several of them into one file. What a picture shows can be drawn again from its
+//! data: equal data give equal bytes.
+//!
+//! Pictures are written as SVG here, by a few shapes in one file. Every chart needs what plotting
+//! libraries do not offer together: gutters for exact zeros, bounds joined to errors, labels that
+//! never overlap, titles for screen readers, and colours for light and dark paper.
+
+mod axis;
+mod caption;
+mod chart;
+mod contour;
+mod curves;
+mod drawing;
+mod error;
+mod frontier;
+mod layout;
+mod map;
+mod number;
+mod page;
+mod palette;
+mod placement;
+mod text;
+mod work_precision;
+
+pub use axis::{Axis, Scale};
+pub use caption::Caption;
+pub use chart::Chart;
+pub use curves::{Curve, Curves, Region};
+pub use error::PlotError;
+pub use frontier::frontier;
+pub use map::{Level, Map};
+pub use page::{Row, Section, Table, page};
+pub use work_precision::{Method, Point, WorkPrecision};
