@@ -20,6 +20,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+pub mod answer;
 pub mod ball;
 pub mod enclosure;
 pub mod evaluate;
@@ -27,6 +28,7 @@ pub mod export;
 pub mod expression;
 pub mod language;
 pub mod lock;
+pub mod model;
 pub mod network;
 pub mod plot;
 pub mod recurrence;

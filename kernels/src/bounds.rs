@@ -1,9 +1,13 @@
 //! Proven bounds on the rounding errors of Horner's scheme on one piece.
 //!
-//! All bounds hold for every argument with `|u| ≤ 1`, with and without fused multiply-adds. They are
-//! sums of magnitudes, computed in doubles and then widened by more than their own roundings.
+//! All bounds hold for every argument with `|u| ≤ r`, the *reach* of the piece, `r ≤ 1`, with and without
+//! fused multiply-adds. They are sums of magnitudes, computed in doubles and then widened by more than
+//! their own roundings.
 //!
-//! Notation: `ε = 2⁻⁵³`, `n` the degree, `T_k = Σ_{j≥k} |c_j|`, `û` the rounded argument. Scaling by
+//! Notation: `ε = 2⁻⁵³`, `n` the degree, `T_k = Σ_{j≥k} |c_j|`, `û` the rounded argument. What follows is
+//! for `r = 1`. Else an error made in the step to `r_k` reaches the result times `|û|^k ≤ r^k`, and
+//! `|r_k| r^k ≤ Σ_{j≥k} |c_j| r^j`: everything holds with `|c_k| r^k` and `|low_k| r^k` in place of `|c_k|` and
+//! `|low_k|`, and these are the magnitudes that are used. Scaling by
 //! powers of two is exact, so `û` is `u` rounded once: `|û − u| ≤ ε |u|`, and `|û| ≤ 1` as well.
 //!
 //! # Doubles
@@ -41,8 +45,9 @@ const WIDENING: f64 = 1.0 + 1.0 / (1_u64 << 40) as f64;
 const UNDERFLOW: f64 = f64::MIN_POSITIVE / (1_u64 << 38) as f64;
 
 /// Magnitudes of the coefficients of a piece, all rows padded to one degree.
-pub(crate) struct Magnitudes<'a> {
-    low: &'a [f64],
+pub(crate) struct Magnitudes {
+    /// `|low_k| r^k`.
+    low: Vec<f64>,
     /// `T_k` for `k = 0 … n`.
     tails: Vec<f64>,
     /// `Σ k (|c_k| + |low_k|)`.
@@ -66,16 +71,21 @@ fn horner_roundings(tails: &[f64]) -> f64 {
     }
 }
 
-impl<'a> Magnitudes<'a> {
-    /// Of coefficients `c_0 … c_n` (at least one) with low parts of the first ones.
-    pub(crate) fn new(coefficients: &[f64], low: &'a [f64], exact_argument: bool) -> Self {
-        let mut tails: Vec<f64> = coefficients.iter().map(|c| c.abs()).collect();
+impl Magnitudes {
+    /// Of coefficients `c_0 … c_n` (at least one) with low parts of the first ones, for `|u| ≤ reach`.
+    pub(crate) fn new(coefficients: &[f64], low: &[f64], reach: f64, exact_argument: bool) -> Self {
+        let scaled = |values: &[f64]| -> Vec<f64> {
+            let powers = std::iter::successors(Some(1.0), |power| Some(power * reach));
+            values.iter().zip(powers).map(|(value, power)| value.abs() * power).collect()
+        };
+        let (coefficients, low) = (scaled(coefficients), scaled(low));
+        let mut tails = coefficients.clone();
         for k in (1..tails.len()).rev() {
             tails[k - 1] += tails[k];
         }
-        let derivative = weighted(coefficients, |k| k) + weighted(low, |k| k);
+        let derivative = weighted(&coefficients, |k| k) + weighted(&low, |k| k);
         let twice = |k: f64| k * (k - 1.0);
-        let second_derivative = weighted(coefficients, twice) + weighted(low, twice);
+        let second_derivative = weighted(&coefficients, twice) + weighted(&low, twice);
         Self { low, tails, derivative, second_derivative, exact_argument }
     }
 
@@ -100,7 +110,7 @@ impl<'a> Magnitudes<'a> {
         }
         let argument = if self.exact_argument { 0.0 } else { self.derivative };
         let rounding = UNIT * (horner_roundings(&self.tails) + argument);
-        (error + weighted(self.low, |_| 1.0) + rounding + self.underflow()) * WIDENING
+        (error + weighted(&self.low, |_| 1.0) + rounding + self.underflow()) * WIDENING
     }
 
     /// The least number of pairs of doubles, `low.len()` at least, such that the doubles before them
@@ -118,7 +128,7 @@ impl<'a> Magnitudes<'a> {
         if self.is_zero() {
             return error;
         }
-        let low = |k: usize| self.low.get(k).map_or(0.0, |low| low.abs());
+        let low = |k: usize| self.low.get(k).copied().unwrap_or(0.0);
         let degree = self.tails.len() - 1;
         // With pairs for all coefficients, the first pair is (c_n, low_n).
         let (first, mut size) = if split > degree { (degree, low(degree)) } else { (split, 0.0) };
@@ -129,7 +139,7 @@ impl<'a> Magnitudes<'a> {
         }
         if !self.exact_argument {
             let steps = 2.0 * degree as f64 + 2.0;
-            rounding += UNIT * weighted(self.low, |k| k) + 2.0 * UNIT * size;
+            rounding += UNIT * weighted(&self.low, |k| k) + 2.0 * UNIT * size;
             rounding += UNIT * UNIT * (steps * self.derivative + self.second_derivative);
         }
         let test = 2.0 * UNIT * UNIT * (self.total() + size);

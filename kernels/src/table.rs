@@ -217,6 +217,15 @@ fn check(number: usize, piece: &Piece, last: f64) -> Result<(), TableError> {
     Ok(())
 }
 
+/// A bound on `|u|` on a piece, at most 1: `u` is largest at an end.
+fn reach(piece: &Piece, last: f64) -> f64 {
+    let size = |t: f64| {
+        let (u, rest) = two_sum(t * piece.scale, -(piece.centre * piece.scale));
+        (u.abs() + rest.abs()).next_up()
+    };
+    size(piece.start).max(size(last)).min(1.0)
+}
+
 /// Whether `t − centre` is a double for every double `t` from `start` to `last`.
 ///
 /// By Sterbenz' lemma it is where `centre/2 ≤ t ≤ 2 centre` (mirrored for negative ones), and trivially
@@ -262,7 +271,8 @@ impl Table {
         let magnitudes = |i: usize| {
             let piece = &pieces[i];
             let exact = has_exact_argument(piece.centre, piece.start, last(i));
-            Magnitudes::new(&padded[i * length..][..length], &piece.low, exact)
+            let reach = reach(piece, last(i));
+            Magnitudes::new(&padded[i * length..][..length], &piece.low, reach, exact)
         };
         let total = (0..pieces.len()).map(|i| magnitudes(i).total()).fold(0.0, f64::max);
         let needed = |i: usize| magnitudes(i).split(total * PAIR_ERROR);
@@ -318,7 +328,7 @@ impl Table {
     /// error + Σ |low_k| + 2⁻⁵³ (Σ_{k<n} T_k + Σ_{1≤k≤n} T_k + Σ k |c_k|),   T_k = Σ_{j≥k} |c_j|
     /// ```
     ///
-    /// where the last sum is left out if `t − centre` is exact on the whole piece, and with a little
+    /// with `|c_k| r^k` for `|c_k|` where `|u| ≤ r < 1` on the piece; the last sum is left out if `t − centre` is exact on the whole piece, and with a little
     /// more for underflow. O(1).
     pub fn bound(&self) -> f64 {
         self.bound

@@ -29,6 +29,8 @@ pub enum Subcommand {
     Derive(Derive),
     /// Evaluate a wave or an observable with certified digits
     Eval(Eval),
+    /// Write values on a window as a program with a proven bound
+    Export(Export),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
     /// Lock derived forms and certified values in a file, for `check --locked`
@@ -151,7 +153,9 @@ pub enum DeriveFormat {
     wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n  \
     wavestep eval rigid-mass --set mu=1 --quantity strain_fixed --from 0 --to 6 --points 13\n  \
     wavestep eval rigid-mass --set mu=1 --quantity velocity --at 2 --side left\n  \
-    wavestep eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json\n\n\
+    wavestep eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity f --from 0 --to 80 --points 9 --tol 1e-9 --explain\n  \
+    wavestep eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 3 --method modes:100 --tol 1e-3\n\n\
     Times and values are exact: 33/10, 12.34, 1e3. Rational values are printed exactly where\n\
     they have no more digits than asked for; all others are rounded correctly, ties to even.")]
 pub struct Eval {
@@ -191,6 +195,18 @@ pub struct Eval {
     /// The most bits of working precision
     #[arg(long, value_name = "BITS", default_value_t = 1 << 18)]
     pub max_bits: u64,
+    /// In doubles, by the cheapest method that is proven to be off by at most so much: 1e-9 of the
+    /// largest value, abs:1e-9 in the unit of the quantity, ulp:4 units in the last place of the
+    /// largest value
+    #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
+    pub tol: Option<String>,
+    /// In doubles, by this method or model: certified, compiled, marched, stable, double-double,
+    /// expanded; rigid, third, modes:N, leapfrog:CELLS,CFL, steps:TOL
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
+    pub method: Option<String>,
+    /// Say on standard error which method was picked, and why
+    #[arg(long)]
+    pub explain: bool,
     /// Written how
     #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
     pub format: EvalFormat,
@@ -214,6 +230,43 @@ pub enum EvalFormat {
     Json,
     /// Columns with a heading
     Csv,
+}
+
+/// Options of `export`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep export rigid-mass --as c --set mu=1 --quantity f --to 40 -o f.c\n  \
+    wavestep export hopkinson --as c --quantity gauge_output --to 2ms --tol 1e-6 -o gauge.c\n\n\
+The file holds polynomials, the function `double wavestep_QUANTITY(double t)`, one for many times, and\n\
+the proven bound.")]
+pub struct Export {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// In which language
+    #[arg(long = "as", value_enum)]
+    pub language: ExportLanguage,
+    /// A wave or an observable
+    #[arg(long, value_name = "NAME")]
+    pub quantity: String,
+    /// The first time of the window
+    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
+    pub from: String,
+    /// The last time of the window
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub to: String,
+    /// How far off values may be, as for eval [default: ulp:4]
+    #[arg(long, value_name = "TOL")]
+    pub tol: Option<String>,
+    /// The file to write; standard output without it
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<String>,
+}
+
+/// What values on a window are written as.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportLanguage {
+    /// A C function
+    C,
 }
 
 /// Options of `scenes`.

@@ -1,6 +1,7 @@
 //! `eval`: values with proven digits, of a recurrence or of a scene.
 
 use super::arguments::Eval;
+use super::eval_doubles;
 use super::eval_recurrence::of_recurrence;
 use super::eval_scene;
 use super::failure::Failure;
@@ -9,7 +10,15 @@ use super::input::{self, Subject};
 /// Evaluates what is asked for.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    match input::subject(&options.scene)? {
+    let subject = input::subject(&options.scene)?;
+    if options.tol.is_some() || options.method.is_some() {
+        return eval_doubles::run(subject, options);
+    }
+    if options.explain {
+        let message = "--explain tells how values in doubles are computed";
+        return Err(Failure::usage(message, "give --tol or --method as well"));
+    }
+    match subject {
         Subject::Recurrence(recurrence) => of_recurrence(*recurrence, options),
         Subject::Scene(network) => eval_scene::run(&network, options),
     }

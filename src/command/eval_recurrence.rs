@@ -3,16 +3,15 @@
 use super::arguments::{Eval, SideOption};
 use super::failure::Failure;
 use super::progress;
-use super::rows::{Row, time_on_period, times, unknown, written};
+use super::quantity;
+use super::rows::{Row, time_on_period, times, written};
 use wavestep::evaluate::{Evaluator, Side};
-use wavestep::language;
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
 
 /// Evaluates a wave or an observable of a recurrence.
 pub fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, Failure> {
-    let observation = recurrence.observation(&language::normalise_name(&options.quantity));
-    let Some(observation) = observation else { return Err(unknown_quantity(&recurrence, options)) };
+    let observation = quantity::of_recurrence(&recurrence, &options.quantity)?;
     let solution = Solution::new(recurrence);
     let evaluator = Evaluator::new(&solution)?;
     let side = match options.side {
@@ -39,10 +38,4 @@ pub fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, F
     }
     drop(progress);
     Ok(written(&rows, &solution.recurrence().statement().title, ["", "", ""], options))
-}
-
-fn unknown_quantity(recurrence: &Recurrence, options: &Eval) -> Failure {
-    let statement = recurrence.statement();
-    let observables = statement.observables.iter().map(|observable| observable.name.as_str());
-    unknown(statement.waves.iter().map(String::as_str).chain(observables).collect(), options)
 }

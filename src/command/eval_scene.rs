@@ -3,19 +3,18 @@
 use super::arguments::{Eval, SideOption};
 use super::failure::Failure;
 use super::progress;
-use super::rows::{Row, time_on_period, times, unknown, written};
+use super::quantity;
+use super::rows::{Row, time_on_period, times, written};
 use num_rational::BigRational;
 use wavestep::evaluate::{Evaluator, SceneEvaluator, Side};
-use wavestep::expression::{Expression, Fraction, Root};
+use wavestep::expression::Fraction;
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
-use wavestep::recurrence::{Observation, ObservedWave};
-use wavestep::scene::Dimension;
 use wavestep::solution::Solution;
 
 /// Evaluates an observable or a wave of a scene.
 pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
-    let observed = observed(network, options)?;
+    let observed = quantity::of_scene(network, &options.quantity)?;
     let side = match options.side {
         SideOption::Left => Side::Left,
         SideOption::Right => Side::Right,
@@ -108,29 +107,4 @@ fn time_on_piece(
     let period = number(&network.lattice().periods()[0])?;
     let offset = number(&offset.ok_or_else(refuse)?)?;
     Ok(offset + time_on_period(n, local, &period, side)?)
-}
-
-/// The observable asked for, or a wave in the scale of the scene.
-fn observed(network: &Network, options: &Eval) -> Result<Observed, Failure> {
-    let name = language::normalise_name(&options.quantity);
-    if let Some(observed) = network.observables().iter().find(|observed| observed.name == name) {
-        return Ok(observed.clone());
-    }
-    let waves = network.waves();
-    let Some(wave) = waves.iter().position(|wave| wave.name == name) else {
-        let observables = network.observables().iter().map(|observed| observed.name.as_str());
-        return Err(unknown(
-            observables.chain(waves.iter().map(|w| w.name.as_str())).collect(),
-            options,
-        ));
-    };
-    let (coefficient, delay) = (Expression::one(), Fraction::zero());
-    let seen = ObservedWave { coefficient, wave, slope: false, delay };
-    let observation = Observation { waves: vec![seen], forcing: Expression::zero() };
-    Ok(Observed {
-        name,
-        value: ObservedValue::Linear(observation),
-        unit: Root::from(Fraction::one()),
-        dimension: Dimension::NONE,
-    })
 }

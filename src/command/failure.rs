@@ -1,8 +1,10 @@
 //! Failures with their exit codes.
 
-use wavestep::evaluate::EvaluateError;
+use wavestep::answer::WayError;
+use wavestep::evaluate::{EvaluateError, MethodError};
 use wavestep::expression::NotInvertible;
 use wavestep::language::{Diagnostic, Style};
+use wavestep::model::ModelError;
 use wavestep::network::NetworkError;
 use wavestep::solution::{SolveError, Unsolvable};
 
@@ -131,6 +133,12 @@ impl From<EvaluateError> for Failure {
             EvaluateError::TooManyPeriods { .. } | EvaluateError::TooManyEchoes { .. } => {
                 Failure::Computation(message, "ask for an earlier time".to_owned())
             }
+            EvaluateError::NotLinear(_) => {
+                Failure::Computation(message, "ask for digits, without --tol".to_owned())
+            }
+            EvaluateError::TooManyCells { .. } => {
+                Failure::Computation(message, "ask for a shorter window".to_owned())
+            }
             EvaluateError::NotReal => {
                 let remedy = "observe a wave in which both poles of each complex pair occur";
                 Failure::Computation(message, remedy.to_owned())
@@ -142,5 +150,23 @@ impl From<EvaluateError> for Failure {
             }
             _ => Failure::Computation(message, "ask for an earlier time".to_owned()),
         }
+    }
+}
+
+impl From<WayError> for Failure {
+    fn from(error: WayError) -> Failure {
+        let message = error.to_string();
+        let remedy = match error {
+            WayError::Method(MethodError::Evaluate(error)) => return error.into(),
+            WayError::Method(MethodError::NoTaps(_)) => "use --method compiled or certified",
+            WayError::Method(_) => "ask for a shorter window, or use --method certified",
+            WayError::Model(ModelError::MissingValue(symbol)) => {
+                return Failure::usage(message, format!("give it one: --set {symbol}=1"));
+            }
+            WayError::Model(_) => "use another model, or a method on the exact solution",
+            WayError::NeedsScene(_) => "describe it by its parts: see docs/scene-language.md",
+            WayError::LeftLimit(_) => "leave out --side left",
+        };
+        Failure::Computation(message, remedy.to_owned())
     }
 }

@@ -4,10 +4,10 @@ use super::arguments::Lock as Options;
 use super::bounds;
 use super::failure::Failure;
 use super::input::{self, Subject};
+use super::output::write_whole;
 use super::progress;
-use std::fs::{self, File};
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::Path;
 use wavestep::evaluate::EvaluateError;
 use wavestep::language::Source;
 use wavestep::lock::{Lock, LockError, MAX_FILE_BYTES, Request};
@@ -115,34 +115,4 @@ fn counted(lock: &Lock) -> String {
         0 => plural(pieces, "piece"),
         values => format!("{} and {}", plural(pieces, "piece"), plural(values, "value")),
     }
-}
-
-/// Writes a file as a whole or not at all: beside it first, under a name that is free, then in its
-/// place. What is no ordinary file, such as a pipe, is written to.
-fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
-    let written = match fs::metadata(file) {
-        Ok(found) if !found.is_file() => fs::write(file, text),
-        // A link stays a link: its target is replaced.
-        Ok(_) => fs::canonicalize(file).and_then(|target| replace(&target, text)),
-        Err(_) => replace(file, text),
-    };
-    written.map_err(|error| {
-        let message = format!("the file `{}` cannot be written: {error}", file.display());
-        Failure::usage(message, "name a file in a folder that exists and can be written to")
-    })
-}
-
-fn replace(file: &Path, text: &str) -> std::io::Result<()> {
-    let mut name = file.as_os_str().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let beside = PathBuf::from(name);
-    let mut part = File::options().write(true).create_new(true).open(&beside)?;
-    let written = part.write_all(text.as_bytes()).and_then(|()| part.sync_all());
-    let written = written.and_then(|()| match fs::metadata(file) {
-        Ok(old) => fs::set_permissions(&beside, old.permissions()),
-        Err(_) => Ok(()),
-    });
-    written.and_then(|()| fs::rename(&beside, file)).inspect_err(|_| {
-        let _ = fs::remove_file(&beside);
-    })
 }

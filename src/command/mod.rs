@@ -10,13 +10,18 @@ mod derive;
 mod derive_recurrence;
 mod derive_scene;
 mod eval;
+mod eval_doubles;
 mod eval_recurrence;
 mod eval_scene;
+mod export;
 mod failure;
 mod generate;
 mod input;
 mod lock;
+mod output;
+mod problem;
 mod progress;
+mod quantity;
 mod rates;
 mod rows;
 
@@ -44,6 +49,7 @@ pub fn run() -> ExitCode {
     let result = match &arguments.subcommand {
         Subcommand::Derive(options) => derive::run(options),
         Subcommand::Eval(options) => eval::run(options),
+        Subcommand::Export(options) => export::run(options),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),
         Subcommand::Scenes(options) => scenes(options),

@@ -9,10 +9,9 @@ use serde_json::{Value as Json, json};
 use wavestep::ball::{Decimal, Exactness};
 use wavestep::evaluate::{Side, Value};
 use wavestep::export::SCHEMA_VERSION;
-use wavestep::language;
 
 /// The most times that are evaluated at once.
-const MAX_POINTS: usize = 1_000_000;
+pub const MAX_POINTS: usize = 1_000_000;
 
 /// The most digits of a time in decimals.
 const TIME_DIGITS: usize = 17;
@@ -26,16 +25,6 @@ pub struct Row {
     pub time: BigRational,
     /// The value then.
     pub value: Value,
-}
-
-/// Refuses a quantity that is none of these.
-pub fn unknown(names: Vec<&str>, options: &Eval) -> Failure {
-    let message = format!("`{}` is neither a wave nor an observable here", options.quantity);
-    let remedy = match language::closest(&options.quantity, names.iter().copied()) {
-        Some(name) => format!("did you mean `{name}`?"),
-        None => format!("ask for one of {}", names.join(", ")),
-    };
-    Failure::usage(message, remedy)
 }
 
 /// `n` periods and the local time on the next.
@@ -95,7 +84,7 @@ pub fn written(
 }
 
 /// A time with a unit, in decimals where these are exact.
-fn in_decimals(time: &BigRational) -> String {
+pub fn in_decimals(time: &BigRational) -> String {
     match Decimal::from_rational(time, TIME_DIGITS) {
         (decimal, Exactness::Exact) => decimal.to_string(),
         _ => time.to_string(),

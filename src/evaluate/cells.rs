@@ -247,6 +247,15 @@ impl<'a> Window<'a> {
     }
 }
 
+/// About the largest absolute value of a signal on a window, from the beginnings, middles and ends of
+/// some stretches between arrivals; the largest one is not smaller by more than one part in 2^18.
+///
+/// # Errors
+/// [`EvaluateError`], where the window has too many arrivals.
+pub fn scale(signal: &Signal, from: &Rational, to: &Rational) -> Result<f64, EvaluateError> {
+    Ok(Window::new(signal, from, to)?.scale()?.to_double())
+}
+
 /// A finite double as a fraction.
 pub(crate) fn rational(value: f64) -> Rational {
     Rational::from(&Binary::from_double(value).expect("a finite number"))

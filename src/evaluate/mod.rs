@@ -21,6 +21,7 @@ mod transforms;
 mod value;
 
 pub use arrivals::{Arrival, ArrivalError, arrivals};
+pub(crate) use cells::scale;
 pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
     Side,

@@ -163,6 +163,12 @@ impl Signal {
         &self.slowness
     }
 
+    /// Whether unit and time are those of the waves, but for rational factors.
+    pub(crate) fn is_rational(&self) -> bool {
+        let unit = self.unit.exact().and_then(|unit| unit.as_constant());
+        unit.is_some() && self.slowness.as_constant().is_some()
+    }
+
     /// Whether arrivals lie on one grid, so that pieces follow from earlier ones.
     pub fn is_on_grid(&self) -> bool {
         self.lattice.is_none()

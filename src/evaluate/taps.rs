@@ -169,6 +169,13 @@ impl Taps {
         Ok(taps)
     }
 
+    /// Whether all constants are rational numbers.
+    pub(crate) fn is_rational(&self) -> bool {
+        let constants = [&self.rate, &self.zero, &self.ratio, &self.period];
+        let taps = self.taps.iter().flat_map(|tap| [&tap.weight, &tap.delay]);
+        constants.into_iter().chain(taps).all(|value| value.as_constant().is_some())
+    }
+
     /// Adds `weight · W(T − delay)` for a wave with these echoes.
     fn add(
         &mut self,

@@ -23,6 +23,8 @@ mod unfold;
 pub use delay::Lattice;
 pub use equations::{Network, NetworkError, Role, WaveRole};
 pub use laws::{Law, Rule};
+pub(crate) use layout::{Layout, Side};
+pub(crate) use model::bar_roots;
 pub use model::{Model, ModelBar, ModelLump, Scale};
 pub use observe::{EnergyTerm, Observed, ObservedValue, Window};
 pub use unfold::Unfolded;

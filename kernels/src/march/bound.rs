@@ -1,43 +1,47 @@
 //! The proof that computed polynomials are near the true wave.
 //!
-//! The doubles that a march computes are exact numbers: polynomials `p_n` and `u_n`, meant to be `y_n` and
-//! `v_n = y_n − ρ y_{n−1}`. A certificate takes them as they are, whoever made them, measures by how much
-//! they miss the equations, and bounds by how much they miss the wave.
+//! The doubles that a march computes are exact numbers: polynomials `p_n` and `u_n`, meant to be
+//! `y_n` and `v_n = y_n − ρ y_{n−1}`. A certificate takes them as they are, whoever made them,
+//! measures by how much they miss the equations, and bounds by how much they miss the wave.
 //!
 //! # What is measured
 //!
-//! Write `Δ_n = p_n − y_n`, `g = p_{n−1}`, `e = p_n − ρ g − u_n`, `w = u_n + e = p_n − ρ p_{n−1}`, `C = ρ (A + B)`. Let
-//! `G_n` be the antiderivative of `−(B w + C g)` whose constant coefficient is that of `u_n`, and
-//! `R_n = w − G_n`. On coefficients, with the constant one counted twice in the row `k = 1`,
+//! Write `Δ_n = p_n − y_n`, `g = p_{n−1}`, `e = p_n − ρ g − u_n`, `w = u_n + e = p_n − ρ p_{n−1}`,
+//! `C = ρ (A + B)`. Let `G_n` be the antiderivative of `−(B w + C g)` whose constant coefficient is
+//! that of `u_n`, and `R_n = w − G_n`. On coefficients, with the constant one counted twice in the
+//! row `k = 1`,
 //!
 //! `k R_k = k w_k + (B/4)(w_{k−1} − w_{k+1}) + (C/4)(g_{k−1} − g_{k+1})`, `k ≥ 1`, `R_0 = e_0`.
 //!
-//! `d̃ = G_n − v_n` then satisfies `d̃' + B d̃ = −C Δ_{n−1} − B R_n`, and `Δ_n = ρ Δ_{n−1} + d̃ + R_n`. Two more
-//! numbers are measured at the joint of periods `n − 1` and `n`: `j_n = G_n(0) − G_{n−1}(1)` and
-//! `J_n = p_n(0) − p_{n−1}(1) − ρⁿ = Δ_n(0) − Δ_{n−1}(1)`; on the first period `j_0 = G_0(0) − 1`,
-//! `J_0 = p_0(0) − 1`.
+//! `d̃ = G_n − v_n` then satisfies `d̃' + B d̃ = −C Δ_{n−1} − B R_n`, and
+//! `Δ_n = ρ Δ_{n−1} + d̃ + R_n`. Two more numbers are measured at the joint of periods `n − 1` and
+//! `n`: `j_n = G_n(0) − G_{n−1}(1)` and `J_n = p_n(0) − p_{n−1}(1) − ρⁿ = Δ_n(0) − Δ_{n−1}(1)`; on
+//! the first period `j_0 = G_0(0) − 1`, `J_0 = p_0(0) − 1`.
 //!
 //! # A passive reflection: the energy
 //!
-//! **Lemma.** Let `|ρ| ≤ 1`, `|ρA| ≤ B`, `s = ρ²A + B > 0`, `κ = 1/(s + √(s² − C²))`. For `v' + B v = −C g` on
-//! `[0, 1]` and `y = ρ g + v`: `‖y‖² + κ v(1)² ≤ ‖g‖² + κ v(0)²`, norms in L².
+//! **Lemma.** Let `|ρ| ≤ 1`, `|ρA| ≤ B`, `s = ρ²A + B > 0`, `κ = 1/(s + √(s² − C²))`. For
+//! `v' + B v = −C g` on `[0, 1]` and `y = ρ g + v`: `‖y‖² + κ v(1)² ≤ ‖g‖² + κ v(0)²`, norms in L².
 //! *Proof.* `κ (v²)' = 2κ v (−B v − C g)`, so it suffices that
-//! `g² − (ρg + v)² + 2κ v (B v + C g) = (1 − ρ²) g² + 2 (κC − ρ) g v + (2κB − 1) v² ≥ 0`. The determinant of this
-//! form is `(1 − ρ²)(2κB − 1) − (κC − ρ)² = −(κ²C² − 2κs + 1)`, which is zero for this `κ`; `s ≥ |C|` because
-//! `s ∓ C = (1 ∓ ρ)(B ∓ ρA) ≥ 0`. With determinant zero the form has one sign, that of its diagonal:
-//! `1 − ρ² ≥ 0`, and `2κB ≥ 1` is `√(s² − C²) ≤ 2B − s`, which holds because `2B − s = B − ρ²A ≥ 0` and
-//! `(B − ρ²A)² − (s² − C²) = C² − 4Bρ²A = ρ²(A − B)² ≥ 0`. ∎
+//! `g² − (ρg + v)² + 2κ v (B v + C g) = (1 − ρ²) g² + 2 (κC − ρ) g v + (2κB − 1) v² ≥ 0`. The
+//! determinant of this form is `(1 − ρ²)(2κB − 1) − (κC − ρ)² = −(κ²C² − 2κs + 1)`, which is zero
+//! for this `κ`; `s ≥ |C|` because `s ∓ C = (1 ∓ ρ)(B ∓ ρA) ≥ 0`. With determinant zero the form
+//! has one sign, that of its diagonal: `1 − ρ² ≥ 0`, and `2κB ≥ 1` is `√(s² − C²) ≤ 2B − s`, which
+//! holds because `2B − s = B − ρ²A ≥ 0` and `(B − ρ²A)² − (s² − C²) = C² − 4Bρ²A = ρ²(A − B)² ≥ 0`.
+//! ∎
 //!
-//! So the state `(Δ_n, d̃_n(1))` has the norm `E² = ‖Δ‖² + κ d̃(1)²`, and a step without residual does not
-//! enlarge it. By linearity the residual adds the answer to `−B R` from rest: `h(x) = −∫_0^x e^{−B(x−t)} B R dt`.
-//! Its output `R + h` is `R` through the filter `p/(p + B)`, which is causal and at most 1 on the imaginary
-//! axis: `‖R + h‖ ≤ ‖R‖`; and `h(1)² ≤ B² ‖R‖²/(2B)`. With `Γ = √(1 + κB/2)`
+//! So the state `(Δ_n, d̃_n(1))` has the norm `E² = ‖Δ‖² + κ d̃(1)²`, and a step without residual
+//! does not enlarge it. By linearity the residual adds the answer to `−B R` from rest:
+//! `h(x) = −∫_0^x e^{−B(x−t)} B R dt`. Its output `R + h` is `R` through the filter `p/(p + B)`,
+//! which is causal and at most 1 on the imaginary axis: `‖R + h‖ ≤ ‖R‖`; and
+//! `h(1)² ≤ B² ‖R‖²/(2B)`. With `Γ = √(1 + κB/2)`
 //!
 //! `E_n ≤ E_{n−1} + Γ ‖R_n‖ + √κ |j_n|`.
 //!
 //! The derivatives obey the same equations: with `ζ = d̃' = −B (d̃ + R_n) − C Δ_{n−1}`,
-//! `ζ' + Bζ = −C Δ_{n−1}' − B R_n'`, `Δ_n' = ρ Δ_{n−1}' + ζ + R_n'`. At the joint `d̃ + R` jumps by `J_n − ρ J_{n−1}`, so
-//! `ζ` jumps by `−B (J_n − ρ J_{n−1}) − C J_{n−1}`, and with `F` the energy of the derivatives
+//! `ζ' + Bζ = −C Δ_{n−1}' − B R_n'`, `Δ_n' = ρ Δ_{n−1}' + ζ + R_n'`. At the joint `d̃ + R` jumps by
+//! `J_n − ρ J_{n−1}`, so `ζ` jumps by `−B (J_n − ρ J_{n−1}) − C J_{n−1}`, and with `F` the energy
+//! of the derivatives
 //!
 //! `F_n ≤ F_{n−1} + Γ ‖R_n'‖ + √κ (B |J_n| + (B|ρ| + |C|) |J_{n−1}|)`.
 //!
@@ -46,10 +50,11 @@
 //!
 //! # Any reflection: the wave is its own impulse response
 //!
-//! The computed wave `P` satisfies `(d/dT + B) P = ρ q (d/dT − A) P + δ(T) + μ` with the measure `μ` that has the
-//! density `R_n'` on the periods and the weight `J_n − ρ J_{n−1}` at the joints. Hence `Δ = Y * μ` and
-//! `|Δ| ≤ sup|Y| · m`, `m = ∫ |dμ|`, up to the time looked at. As `sup|Y| ≤ sup|P| + sup|Y| m`, and a sum of
-//! absolute coefficients bounds a polynomial, `|Δ| ≤ m M/(1 − m)` with `M = max_n Σ|c_k|`, where `m < 1`.
+//! The computed wave `P` satisfies `(d/dT + B) P = ρ q (d/dT − A) P + δ(T) + μ` with the measure
+//! `μ` that has the density `R_n'` on the periods and the weight `J_n − ρ J_{n−1}` at the joints.
+//! Hence `Δ = Y * μ` and `|Δ| ≤ sup|Y| · m`, `m = ∫ |dμ|`, up to the time looked at. As
+//! `sup|Y| ≤ sup|P| + sup|Y| m`, and a sum of absolute coefficients bounds a polynomial,
+//! `|Δ| ≤ m M/(1 − m)` with `M = max_n Σ|c_k|`, where `m < 1`.
 //!
 //! # Norms of R from its coefficients
 //!
@@ -57,18 +62,19 @@
 //! - `‖R‖² ≤ ½ ∫ R² dt/√(1 − t²) = (π/4)(2 R_0² + Σ R_k²)`;
 //! - `∫|R'| dx = ∫_0^π |Σ k R_k sin kθ| dθ ≤ √π √((π/2) Σ b_k²) = (π/√2) √(Σ b_k²)`;
 //! - `‖R'‖² = 2 ∫_{−1}^{1} (dR/dt)² dt = 2 ∫_0^π S²/sin θ dθ`, `S = Σ k R_k sin kθ`. Let
-//!   `η² = Σ b_k²/Σ k² b_k² ≤ 1`. Between `η` and `π − η` the integral is at most `(π/2) Σ b_k²/sin η`. Near the
-//!   ends `S(θ)² ≤ θ ∫_0^θ S'²`, so both parts are at most `(η²/sin η) (π/2) Σ k² b_k²`. Together, as
-//!   `sin η ≥ η sin 1`: `‖R'‖² ≤ (2π/sin 1) √(Σ b_k² · Σ k² b_k²)`.
+//!   `η² = Σ b_k²/Σ k² b_k² ≤ 1`. Between `η` and `π − η` the integral is at most
+//!   `(π/2) Σ b_k²/sin η`. Near the ends `S(θ)² ≤ θ ∫_0^θ S'²`, so both parts are at most
+//!   `(η²/sin η) (π/2) Σ k² b_k²`. Together, as `sin η ≥ η sin 1`:
+//!   `‖R'‖² ≤ (2π/sin 1) √(Σ b_k² · Σ k² b_k²)`.
 //!
 //! # Rounding in the measurement
 //!
-//! `ε = 2⁻⁵³`. Each coefficient of `R` is bounded by its computed value plus what the evaluation can have
-//! lost, a few `ε` times the computed terms, plus what a parameter within its radius can change; the
-//! formulas stand at the code. What remains are sums, products and roots of non-negative numbers:
-//! fewer than 2³⁰ operations in a chain each add a relative error of at most `ε`, together less than
-//! `2⁻²²`, and the result is multiplied by `1 + 2⁻²⁰`. Below the normal doubles an operation loses at most
-//! `2⁻¹⁰⁷⁴`: [`UNDERFLOW`] covers a period's, weights included.
+//! `ε = 2⁻⁵³`. Each coefficient of `R` is bounded by its computed value plus what the evaluation
+//! can have lost, a few `ε` times the computed terms, plus what a parameter within its radius can
+//! change; the formulas stand at the code. What remains are sums, products and roots of
+//! non-negative numbers: fewer than 2³⁰ operations in a chain each add a relative error of at most
+//! `ε`, together less than `2⁻²²`, and the result is multiplied by `1 + 2⁻²⁰`. Below the normal
+//! doubles an operation loses at most `2⁻¹⁰⁷⁴`: [`UNDERFLOW`] covers a period's, weights included.
 
 use super::compensated::{Ends, Pair, ends};
 use super::reflection::{Parameter, Reflection};
@@ -88,8 +94,8 @@ const LANES: usize = 4;
 
 /// A proof in progress: how far recorded polynomials can be from the wave of a [`Reflection`].
 ///
-/// It knows nothing of how the polynomials were made. A wrong coefficient is seen on the period where
-/// it is recorded, and the bound covers it.
+/// It knows nothing of how the polynomials were made. A wrong coefficient is seen on the period
+/// where it is recorded, and the bound covers it.
 ///
 /// # Invariants
 /// The bounds never decrease from period to period.
@@ -193,9 +199,9 @@ impl Certificate {
         self.periods
     }
 
-    /// Takes the next period: the Chebyshev coefficients on `[0, 1]` of `y_n − ρ y_{n−1}` and of `y_n`, as
-    /// somebody computed them. More than 2²⁰ coefficients, infinities and not-a-numbers end the proof:
-    /// from there on there is no bound. O(N).
+    /// Takes the next period: the Chebyshev coefficients on `[0, 1]` of `y_n − ρ y_{n−1}` and of
+    /// `y_n`, as somebody computed them. More than 2²⁰ coefficients, infinities and not-a-numbers
+    /// end the proof: from there on there is no bound. O(N).
     pub fn record(&mut self, increment: &[f64], wave: &[f64]) {
         let residual = self.measure(increment, wave);
         let here = Joint {
@@ -218,13 +224,15 @@ impl Certificate {
 
     /// The coefficients of `R_n`, row by row.
     ///
-    /// `e_k = p_k − ρ g_k − u_k`. With `t = fl(fl(ρ g_k) + u_k)`: `|e_k| ≤ |p_k − t| + ε|t| + ε|ρ g_k| + r_ρ|g_k|`, and
-    /// the third term is absent where `ρ = ±1`.
+    /// `e_k = p_k − ρ g_k − u_k`. With `t = fl(fl(ρ g_k) + u_k)`:
+    /// `|e_k| ≤ |p_k − t| + ε|t| + ε|ρ g_k| + r_ρ|g_k|`, and the third term is absent where
+    /// `ρ = ±1`.
     ///
-    /// `k R_k` is evaluated as `(k u_k + β (u_{k−1} − u_{k+1})) + γ (g_{k−1} − g_{k+1})`: 3, 4 and 3 roundings touch
-    /// the terms, so at most `4.01 ε` times the sum of the terms' sizes is lost. The radii of `β` and `γ`
-    /// add their multiple of the differences, and `e` adds `k|e_k| + β (|e_{k−1}| + |e_{k+1}|)`. Without `k|e_k|`
-    /// the same is a bound of `k |u_k − G_k|`.
+    /// `k R_k` is evaluated as `(k u_k + β (u_{k−1} − u_{k+1})) + γ (g_{k−1} − g_{k+1})`: 3, 4 and
+    /// 3 roundings touch the terms, so at most `4.01 ε` times the sum of the terms' sizes is lost.
+    /// The radii of `β` and `γ` add their multiple of the differences, and `e` adds
+    /// `k|e_k| + β (|e_{k−1}| + |e_{k+1}|)`. Without `k|e_k|` the same is a bound of
+    /// `k |u_k − G_k|`.
     fn measure(&mut self, increment: &[f64], wave: &[f64]) -> Residual {
         let most = increment.len().max(wave.len()).max(self.before.len()).max(1);
         let rows = most.div_ceil(LANES);
@@ -308,8 +316,8 @@ impl Certificate {
             + UNDERFLOW
     }
 
-    /// A bound of `|p_n(x) − y_n(x)|` for all `x` in `[0, 1]` on the period recorded last, for every wave whose
-    /// parameters lie within their radii; `None` where nothing is proven. O(1).
+    /// A bound of `|p_n(x) − y_n(x)|` for all `x` in `[0, 1]` on the period recorded last, for
+    /// every wave whose parameters lie within their radii; `None` where nothing is proven. O(1).
     pub fn bound(&self) -> Option<f64> {
         if self.periods == 0 || self.periods > LAST_PERIOD {
             return None;
@@ -342,8 +350,9 @@ fn quarter(value: f64, radius: f64) -> Parameter {
         .expect("finite numbers")
 }
 
-/// Upper bounds of `√κ` and of `Γ = √(1 + κB/2)` for all parameters within the radii, from `κ ≤ 1/s`,
-/// `s = ρ²A + B`; `None` where the reflection may not be passive or `s` may not be positive.
+/// Upper bounds of `√κ` and of `Γ = √(1 + κB/2)` for all parameters within the radii, from
+/// `κ ≤ 1/s`, `s = ρ²A + B`; `None` where the reflection may not be passive or `s` may not be
+/// positive.
 fn energy_weights(reflection: &Reflection) -> Option<(f64, f64)> {
     if !reflection.is_passive() {
         return None;
@@ -420,5 +429,130 @@ impl Sums {
     /// `Σ R_k²`, `Σ k² R_k²`, `Σ k⁴ R_k²`.
     fn squares(&self) -> [f64; 3] {
         [self.plain, self.first, self.second].map(|lanes| lanes.iter().sum())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::march::{Bounds, March, MarchOptions};
+
+    const SIZE: f64 = 1e-3;
+
+    /// Six periods of the rigid mass, `B = 2`, and one more whose wave is off by `1e−3 T_k`.
+    fn perturbed(place: usize) -> Certificate {
+        let wave = Reflection::exact(2.0, 2.0, 1.0).expect("a reflection");
+        let options = MarchOptions { bounds: Bounds::None, ..Default::default() };
+        let mut march = March::new(&wave, options).expect("a march");
+        let mut certificate = Certificate::new(&wave);
+        for _ in 0..6 {
+            certificate.record(march.increment(), march.coefficients());
+            march.advance().expect("room");
+        }
+        let mut wrong = march.coefficients().to_vec();
+        wrong.resize(wrong.len().max(place + 1), 0.0);
+        wrong[place] += SIZE;
+        certificate.record(march.increment(), &wrong);
+        certificate
+    }
+
+    /// Each part of the bound, against the exact norms of `T_k` on `[0, 1]`. The parts are above
+    /// them and, where no inequality of the proof is lost on a single coefficient, near them.
+    #[test]
+    fn every_part_covers_its_norm() {
+        for k in [3usize, 10, 41] {
+            let found = perturbed(k);
+            let degree = k as f64;
+            // ∫ T_k² dx = ½ (1 − 1/(4k² − 1)), ∫ T_k'² dx = 4k² Σ_{i<k} 1/(2i + 1), ∫ |T_k'| dx =
+            // 2k.
+            let norm = (0.5 * (1.0 - 1.0 / (4.0 * degree * degree - 1.0))).sqrt() * SIZE;
+            let odd: f64 = (0..k).map(|i| 1.0 / (2.0 * i as f64 + 1.0)).sum();
+            let slope = (4.0 * odd).sqrt() * degree * SIZE;
+            assert!(found.energy > norm && found.energy < 3.0 * norm, "{k} {}", found.energy);
+            assert!(found.slope_energy > slope, "{k} {}", found.slope_energy);
+            assert!(found.slope_energy < 2.0 * degree.sqrt() * slope);
+            let variation = (2.0 * degree + 1.0) * SIZE;
+            assert!(found.mass > variation && found.mass < 1.6 * variation, "{k} {}", found.mass);
+        }
+    }
+
+    /// A constant `δ` in the wave: `Δ = δ`; the measure has the density `Bδ` and the jump `δ`; the
+    /// derivative of the next step begins with `ζ(0) = −Bδ`.
+    #[test]
+    fn a_constant_counts_at_the_joint() {
+        let found = perturbed(0);
+        assert!(found.mass > 3.0 * SIZE && found.mass < 4.0 * SIZE);
+        // R_0 = δ and R_1 = δ: Γ ‖R‖ is at most Γ √(3π/4) δ, and √κ times the kink adds δ/2.
+        assert!(found.energy > 2.0 * SIZE && found.energy < 2.5 * SIZE);
+        // Γ ‖R'‖ is at most Γ √(2π/sin 1) δ = 3.06 δ, and the joint adds √κ Bδ = δ.
+        assert!(found.slope_energy > 4.0 * SIZE && found.slope_energy < 4.2 * SIZE);
+    }
+
+    #[test]
+    fn weights_are_those_of_the_lemma() {
+        // A rigid mass: κ = 1/(2B), Γ = √(1 + 1/4).
+        let weights = |rate, zero, ratio| {
+            energy_weights(&Reflection::exact(rate, zero, ratio).expect("a reflection"))
+        };
+        let (root, gain) = weights(2.0, 2.0, 1.0).expect("passive");
+        assert!((root - 0.5).abs() < 1e-5 && (gain - 1.25f64.sqrt()).abs() < 1e-5);
+        assert!(root >= 0.5 && gain >= 1.25f64.sqrt());
+        assert!(weights(2.0, 2.1, 1.0).is_none());
+        // The zero on the pole with a ratio of 1: the mass never comes to rest in the energy.
+        assert!(weights(2.0, -2.0, 1.0).is_none());
+        assert!(weights(2.0, -2.0, 0.99).is_some());
+    }
+
+    /// By how much the mass grows when the three parameters (B = A = 2, ρ = 1) get the given radii.
+    fn mass_of_radii(radii: [f64; 3], periods: &[(&[f64], &[f64])]) -> f64 {
+        let mass = |radii: [f64; 3]| {
+            let within = |value, radius| Parameter::within(value, radius).expect("a number");
+            let [rate, zero, ratio] = radii;
+            let wave = Reflection::new(within(2.0, rate), within(2.0, zero), within(1.0, ratio));
+            let mut certificate = Certificate::new(&wave.expect("a reflection"));
+            periods.iter().for_each(|(u, p)| certificate.record(u, p));
+            certificate.mass
+        };
+        mass(radii) - mass([0.0; 3])
+    }
+
+    /// A wave `T_41` that returns: the radius of each parameter adds what the parameter can change.
+    #[test]
+    fn every_radius_adds_what_it_can_change() {
+        let mut wave = [0.0; 70];
+        wave[41] = 1.0;
+        // The next period by the equations, so that only radii are left of its residual.
+        let mut increment = Vec::new();
+        crate::march::relaxation::Relaxation::new(2.0, 4.0).particular(&wave, &mut increment);
+        let at = |k: usize| wave.get(k).copied().unwrap_or(0.0);
+        let next: Vec<f64> = increment.iter().enumerate().map(|(k, u)| at(k) + u).collect();
+        let periods: [(&[f64], &[f64]); 2] = [(&wave, &wave), (&increment, &next)];
+        let radius = 1e-3;
+        // ∫ |T_41| is about 2/π.
+        let mean = 0.63;
+        let grown = mass_of_radii([0.0, radius, 0.0], &periods);
+        assert!(grown > mean * radius && grown < 2.0 * radius, "zero: {grown}");
+        let grown = mass_of_radii([radius, 0.0, 0.0], &periods);
+        assert!(grown > mean * radius && grown < 4.0 * radius, "rate: {grown}");
+        // The total variation of T_41 is 82, and the wave that returns may have changed by it.
+        let grown = mass_of_radii([0.0, 0.0, radius], &periods);
+        assert!(grown > 82.0 * radius && grown < 110.0 * radius, "ratio: {grown}");
+        // Without a wave the jump ρⁿ alone may change: by 1 and 2 radii at both of its periods'
+        // joints.
+        let nothing: [(&[f64], &[f64]); 3] = [(&[0.0], &[0.0]); 3];
+        let grown = mass_of_radii([0.0, 0.0, radius], &nothing);
+        assert!(grown > 4.0 * radius && grown < 7.0 * radius, "jump: {grown}");
+    }
+
+    /// What is dropped behind the end of a wave counts: a wave of total variation 82 disappears.
+    #[test]
+    fn dropped_coefficients_count() {
+        let mut wave = [0.0; 42];
+        wave[41] = 1.0;
+        let mut certificate = Certificate::new(&Reflection::exact(2.0, 2.0, 1.0).expect("exact"));
+        certificate.record(&wave, &wave);
+        let before = certificate.mass;
+        certificate.record(&[0.0], &[0.0]);
+        assert!(certificate.mass - before > 82.0);
     }
 }

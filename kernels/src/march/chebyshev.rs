@@ -1,12 +1,13 @@
 //! Chebyshev series on a period: `p(x) = Σ c_k T_k(2x − 1)`, `x` in `[0, 1]`.
 //!
-//! Values are summed from the end nearer to `x` in Reinsch's form of Clenshaw's recurrence, which needs
-//! no small difference of large numbers there and has an error bound that is uniform in `x`.
+//! Values are summed from the end nearer to `x` in Reinsch's form of Clenshaw's recurrence, which
+//! needs no small difference of large numbers there and has an error bound that is uniform in `x`.
 
 /// How many points are evaluated side by side: the recurrence of one point waits for itself.
 const LANES: usize = 8;
 
-/// The value of the series at `x` in `[0, 1]`, within [`evaluation_error`]. O(N). An empty series is zero.
+/// The value of the series at `x` in `[0, 1]`, within [`evaluation_error`]. O(N). An empty series
+/// is zero.
 ///
 /// ```
 /// use wavestep_kernels::march::chebyshev;
@@ -19,8 +20,8 @@ pub fn value(coefficients: &[f64], x: f64) -> f64 {
     found
 }
 
-/// The values of the series at all `points` of `[0, 1]`, in any order, into `values`: as [`value`], bit
-/// for bit, and several times faster. O(N · points).
+/// The values of the series at all `points` of `[0, 1]`, in any order, into `values`: as [`value`],
+/// bit for bit, and several times faster. O(N · points).
 ///
 /// # Panics
 /// Where `points` and `values` differ in length.
@@ -49,25 +50,26 @@ pub fn values(coefficients: &[f64], points: &[f64], values: &mut [f64]) {
     }
 }
 
-/// A bound of `|value(c, x) − p(x)|` for all `x` in `[0, 1]`: `9 ε Σ (k + 1) |c_k|`, `ε = 2⁻⁵³`, for
-/// fewer than 2²⁰ coefficients. O(N).
+/// A bound of `|value(c, x) − p(x)|` for all `x` in `[0, 1]`: `9 ε Σ (k + 1) |c_k|`, `ε = 2⁻⁵³`,
+/// for fewer than 2²⁰ coefficients. O(N).
 ///
 /// *Proof.* By symmetry let `t = 2x − 1 = cos θ ≥ 0`, `0 ≤ θ ≤ π/2`. The recurrence is
-/// `d_k = (c_k + d_{k+1}) + h b_{k+1}`, `b_k = d_k + b_{k+1}`, `h = 2(t − 1) = 4(x − 1)`, an exact double, and
-/// `p = (c_0 + (h/2) b_1) + d_1`. With `A_k = Σ_{j≥k} |c_j|`,
+/// `d_k = (c_k + d_{k+1}) + h b_{k+1}`, `b_k = d_k + b_{k+1}`, `h = 2(t − 1) = 4(x − 1)`, an exact
+/// double, and `p = (c_0 + (h/2) b_1) + d_1`. With `A_k = Σ_{j≥k} |c_j|`,
 ///
-/// - `b_k = Σ_{j≥k} c_j U_{j−k}(t)`, so `|b_k| ≤ A_k/sin θ` and `|h b_k| ≤ 4 sin²(θ/2)/sin θ A_k ≤ 2 A_k`;
+/// - `b_k = Σ_{j≥k} c_j U_{j−k}(t)`, so `|b_k| ≤ A_k/sin θ` and
+///   `|h b_k| ≤ 4 sin²(θ/2)/sin θ A_k ≤ 2 A_k`;
 /// - `d_k = b_k − b_{k+1} = Σ_{j≥k} c_j cos((j−k+½)θ)/cos(θ/2)`, so `|d_k| ≤ √2 A_k`, and so
 ///   `|c_k + d_{k+1}| = |d_k − h b_{k+1}| ≤ (2 + √2) A_k`.
 ///
-/// An error in `d_k` acts as the same error in `c_k`: it reaches `p` times `T_k`, at most 1. The three
-/// roundings there are at most `ε ((2 + √2) + 2 + √2) A_k`. An error `ζ` in `b_k` alone acts as `ζ` in `c_k` and
-/// `−ζ` in `c_{k−1}`: it reaches `p` times `|T_k − T_{k−1}| ≤ 2 sin(θ/2)`, and with `ζ ≤ ε A_k/sin θ` that is at
-/// most `ε √2 A_k`. All together `(4 + 3√2) ε A_k < 8.25 ε A_k`; the last line is no worse, and
-/// `Σ_k A_k = Σ_k (k + 1) |c_k|`. The sizes above are those of the exact recurrence on coefficients moved
-/// by the roundings: larger by the factor `1 + 9Nε` at most. That, and the rounding of this sum
-/// itself, are far within `9/8.25`. Below the normal doubles a product is off by at most `2⁻¹⁰⁷⁵`: `1e−290`
-/// covers all of them. ∎
+/// An error in `d_k` acts as the same error in `c_k`: it reaches `p` times `T_k`, at most 1. The
+/// three roundings there are at most `ε ((2 + √2) + 2 + √2) A_k`. An error `ζ` in `b_k` alone acts
+/// as `ζ` in `c_k` and `−ζ` in `c_{k−1}`: it reaches `p` times `|T_k − T_{k−1}| ≤ 2 sin(θ/2)`, and
+/// with `ζ ≤ ε A_k/sin θ` that is at most `ε √2 A_k`. All together `(4 + 3√2) ε A_k < 8.25 ε A_k`;
+/// the last line is no worse, and `Σ_k A_k = Σ_k (k + 1) |c_k|`. The sizes above are those of the
+/// exact recurrence on coefficients moved by the roundings: larger by the factor `1 + 9Nε` at most.
+/// That, and the rounding of this sum itself, are far within `9/8.25`. Below the normal doubles a
+/// product is off by at most `2⁻¹⁰⁷⁵`: `1e−290` covers all of them. ∎
 ///
 /// ```
 /// use wavestep_kernels::march::chebyshev;

@@ -68,11 +68,11 @@ pub(crate) struct Ends {
 
 /// The ends of the series, summed in two doubles. O(N).
 ///
-/// Four lanes are summed apart; even and odd coefficients never share one. With `m = N/4 + 1` terms a
-/// lane and `A = Σ|c_k|`, every partial sum is at most `A (1 + mε)`, so the exact errors of the
+/// Four lanes are summed apart; even and odd coefficients never share one. With `m = N/4 + 1` terms
+/// a lane and `A = Σ|c_k|`, every partial sum is at most `A (1 + mε)`, so the exact errors of the
 /// additions sum to at most `mεA (1 + mε)` in absolute value, and adding those up rounds by at most
-/// `mε` times as much: `m²ε²A`. Joining the lanes, and later a difference with such a sum, rounds low
-/// parts of at most `mεA` a dozen times: `12 m ε² A`. Both are far within `2 ((m + 8) ε)² A`.
+/// `mε` times as much: `m²ε²A`. Joining the lanes, and later a difference with such a sum, rounds
+/// low parts of at most `mεA` a dozen times: `12 m ε² A`. Both are far within `2 ((m + 8) ε)² A`.
 pub(crate) fn ends(coefficients: &[f64]) -> Ends {
     let (mut sum, mut lost, mut absolute) = ([0.0; 4], [0.0; 4], [0.0; 4]);
     let mut add = |group: &[f64; 4]| {
@@ -106,9 +106,9 @@ mod tests {
 
     #[test]
     fn cancelled_terms_leave_the_small_ones() {
-        // 1 + 2⁻⁸⁰ − 1 on even places, 2⁻⁷⁰ on an odd one.
+        // 1 + 2⁻⁸⁰ − 1 on even places of one lane, 2⁻⁷⁰ on an odd one.
         let (small, odd) = (2f64.powi(-80), 2f64.powi(-70));
-        let found = ends(&[1.0, odd, small, 0.0, -1.0]);
+        let found = ends(&[1.0, odd, 0.0, 0.0, small, 0.0, 0.0, 0.0, -1.0]);
         assert!((found.right.value() - (small + odd)).abs() <= found.radius);
         assert!((found.left.value() - (small - odd)).abs() <= found.radius);
         assert_eq!(found.right.value(), small + odd);

@@ -1,5 +1,5 @@
-//! The numbers of a reflected wave: the rate of decay and the zero of the reflection, in units of the
-//! period, and the ratio by which it multiplies. A number that was rounded carries its radius.
+//! The numbers of a reflected wave: the rate of decay and the zero of the reflection, in units of
+//! the period, and the ratio by which it multiplies. A number that was rounded carries its radius.
 
 use std::fmt;
 
@@ -80,12 +80,13 @@ impl Parameter {
 /// A wave that returns after each period `D`, reflected by `ρ (p − a)/(p + b)`.
 ///
 /// With `T` the time in periods, `q` the shift by one period, `B = bD` and `A = aD`,
-/// `(d/dT + B) Y = ρ q (d/dT − A) Y + δ(T)`: the wave's answer to a unit impulse. On the n-th period,
-/// with the local time `x` in `[0, 1]`,
+/// `(d/dT + B) Y = ρ q (d/dT − A) Y + δ(T)`: the wave's answer to a unit impulse. On the n-th
+/// period, with the local time `x` in `[0, 1]`,
 ///
 /// `y_n' + B y_n = ρ (y_{n−1}' − A y_{n−1})`, `y_{−1} = 0`,
 ///
-/// and the jump of `Y` at `T = n` is `ρⁿ`. A rigid mass on a bar with a fixed end has `a = b`, `ρ = 1`.
+/// and the jump of `Y` at `T = n` is `ρⁿ`. A rigid mass on a bar with a fixed end has `a = b`,
+/// `ρ = 1`.
 ///
 /// # Invariants
 /// Every number within the radius of the rate is positive.
@@ -147,8 +148,9 @@ impl Reflection {
         self.ratio
     }
 
-    /// Whether no reflection within the radii gives energy to the wave: `|ρ| ≤ 1` and `|ρA| ≤ B`, the
-    /// bounds of `|ρ (iω − A)/(iω + B)|` as `ω → ∞` and at `ω = 0`. It errs towards `false`. O(1).
+    /// Whether no reflection within the radii gives energy to the wave: `|ρ| ≤ 1` and `|ρA| ≤ B`,
+    /// the bounds of `|ρ (iω − A)/(iω + B)|` as `ω → ∞` and at `ω = 0`. It errs towards `false`.
+    /// O(1).
     pub fn is_passive(&self) -> bool {
         let ratio = self.ratio.magnitude();
         let product = ratio * self.zero.magnitude();

@@ -6,8 +6,8 @@ use std::fmt;
 
 /// A time: the number of a period and the time since its beginning, in periods.
 ///
-/// Apart, the two lose nothing at large periods: the wave changes by up to `2nB` times a change of the
-/// local time.
+/// Apart, the two lose nothing at large periods: the wave changes by up to `2nB` times a change of
+/// the local time.
 ///
 /// # Invariants
 /// `local` is in `[0, 1]`. At 1 the time is the limit from the left at the period's end; the next
@@ -26,7 +26,8 @@ pub struct LocalTime {
 }
 
 impl LocalTime {
-    /// The time `local` after the beginning of `period`; `None` where `local` is not in `[0, 1]`. O(1).
+    /// The time `local` after the beginning of `period`; `None` where `local` is not in `[0, 1]`.
+    /// O(1).
     pub fn new(period: usize, local: f64) -> Option<LocalTime> {
         (0.0..=1.0).contains(&local).then_some(LocalTime { period, local })
     }

@@ -1,14 +1,14 @@
 //! One wave, period by period.
 //!
 //! With `v_n = y_n − ρ y_{n−1}` the recurrence `y_n' + B y_n = ρ (y_{n−1}' − A y_{n−1})` becomes
-//! `v_n' + B v_n = −C y_{n−1}`, `C = ρ (A + B)`: the derivative of the older wave cancels. The jump of `Y` at
-//! the time `n` is `ρⁿ`, so `V = Y − ρ q Y` jumps at the time 0 only, by 1: `v_0(0) = 1` and
-//! `v_n(0) = v_{n−1}(1)`.
+//! `v_n' + B v_n = −C y_{n−1}`, `C = ρ (A + B)`: the derivative of the older wave cancels. The jump
+//! of `Y` at the time `n` is `ρⁿ`, so `V = Y − ρ q Y` jumps at the time 0 only, by 1: `v_0(0) = 1`
+//! and `v_n(0) = v_{n−1}(1)`.
 //!
-//! Every front carries a chirp like `J_0(2√(2nBx))`, so the number of coefficients has to grow with `n`:
-//! with a fixed one the answer becomes wrong without a sign. Here a period takes as many coefficients
-//! as lie above a threshold. High coefficients are computed from their neighbours, which are as
-//! small, so their relative errors stay small and no level of noise hides the decay.
+//! Every front carries a chirp like `J_0(2√(2nBx))`, so the number of coefficients has to grow with
+//! `n`: with a fixed one the answer becomes wrong without a sign. Here a period takes as many
+//! coefficients as lie above a threshold. High coefficients are computed from their neighbours,
+//! which are as small, so their relative errors stay small and no level of noise hides the decay.
 
 use super::bound::Certificate;
 use super::chebyshev;
@@ -35,9 +35,9 @@ pub enum Bounds {
     Proven,
 }
 
-/// The share of a wrong jump that the next period takes back. The rounding of the ends would let the
-/// jumps drift from `ρⁿ`, by `2·10⁻¹²` after 10⁵ periods. A small share averages over what the jump itself
-/// is measured with.
+/// The share of a wrong jump that the next period takes back. The rounding of the ends would let
+/// the jumps drift from `ρⁿ`, by `2·10⁻¹²` after 10⁵ periods. A small share averages over what the
+/// jump itself is measured with.
 const RESTORE: f64 = 1.0 / 64.0;
 
 /// How a march is run.
@@ -106,11 +106,12 @@ pub struct March {
 }
 
 impl March {
-    /// The march on its first period, 0, where `y_0 = e^{−Bx}`. O(B).
+    /// The march on its first period, 0, where `y_0 = e^{−Bx}`. O(√B).
     ///
     /// # Errors
     /// [`MarchError::Options`] where the threshold is not positive and finite or the limit is not
-    /// between 1 and 2²⁰ − 1; [`MarchError::TooManyCoefficients`] where the first period needs more.
+    /// between 1 and 2²⁰ − 1; [`MarchError::TooManyCoefficients`] where the first period needs
+    /// more.
     pub fn new(reflection: &Reflection, options: MarchOptions) -> Result<March, MarchError> {
         let threshold = options.threshold;
         if !(threshold.is_finite() && threshold > 0.0 && (1..1 << 20).contains(&options.limit)) {
@@ -125,14 +126,15 @@ impl March {
         let step = Relaxation::new(rate, coupling);
         let mut increment = step.decay().to_vec();
         trim(&mut increment, threshold);
+        let wave_end = sums(&increment).1;
         let mut march = March {
             ratio,
             options,
             period: 0,
             wave: increment.clone(),
-            end: 0.0,
+            end: wave_end,
             decay_end: sums(step.decay()).1,
-            wave_end: sums(&increment).1,
+            wave_end,
             front: 1.0,
             drift: 0.0,
             increment,
@@ -141,7 +143,6 @@ impl March {
             certificate: (options.bounds == Bounds::Proven).then(|| Certificate::new(reflection)),
             failed: None,
         };
-        march.end = march.wave_end;
         march.check()?;
         Ok(march)
     }
@@ -166,8 +167,8 @@ impl March {
     ///
     /// # Errors
     /// [`MarchError::TooManyCoefficients`] where the period needs more than the limit,
-    /// [`MarchError::NotFinite`] where the wave outgrows the doubles. Every later call then fails in the same way, and nothing is
-    /// proven any more.
+    /// [`MarchError::NotFinite`] where the wave outgrows the doubles. Every later call then
+    /// fails in the same way, and nothing is proven any more.
     pub fn advance(&mut self) -> Result<(), MarchError> {
         if let Some(error) = self.failed {
             return Err(error);
@@ -240,8 +241,8 @@ impl March {
         chebyshev::values(&self.wave, points, values);
     }
 
-    /// How far [`March::value`] can be from the true wave anywhere on this period, the rounding of the
-    /// evaluation included; `None` where nothing is proven. O(N).
+    /// How far [`March::value`] can be from the true wave anywhere on this period, the rounding of
+    /// the evaluation included; `None` where nothing is proven. O(N).
     pub fn bound(&self) -> Option<f64> {
         if self.failed.is_some() {
             return None;
@@ -269,8 +270,8 @@ fn sums(coefficients: &[f64]) -> (f64, f64) {
     (even - odd, even + odd)
 }
 
-/// `w ← ρ w + u` on the places of `u`, behind which `w` is zero or multiplied by ρ; gives the largest
-/// absolute value, or not-a-number if one of them is none.
+/// `w ← ρ w + u` on the places of `u`, behind which `w` is zero or multiplied by ρ; gives the
+/// largest absolute value, or not-a-number if one of them is none.
 fn advance_wave(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f64 {
     let mut lanes = [0.0; 4];
     let larger = |a: f64, b: f64| if b <= a { a } else { b };
@@ -324,11 +325,13 @@ impl fmt::Display for MarchError {
         match self {
             Self::Options => write!(
                 f,
-                "the options are out of range: give a positive threshold and a limit from 1 to 1048575"
+                "the options are out of range: give a positive threshold and a limit from 1 to \
+                 1048575"
             ),
             Self::TooManyCoefficients { period, limit } => write!(
                 f,
-                "period {period} needs more than {limit} coefficients: raise the limit or stop earlier"
+                "period {period} needs more than {limit} coefficients: raise the limit or stop \
+                 earlier"
             ),
             Self::NotFinite { period } => {
                 write!(f, "the wave outgrows the doubles on period {period}: stop earlier")

@@ -6,7 +6,7 @@ use super::Simd;
 use super::blocks::Evaluate;
 use crate::table::{ROW_BOUND, ROW_HEAD, ROW_OFFSET, ROW_SCALE, Table};
 
-/// The numbers of the pieces that the lanes of a vector are in.
+/// The rows of the pieces that the lanes of a vector are in.
 pub(crate) trait Rows<S: Simd>: Copy {
     /// An entry of the rows.
     fn entry(self, simd: S, column: usize) -> S::Values;

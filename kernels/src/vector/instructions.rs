@@ -21,8 +21,9 @@ pub(crate) fn dispatch<T: Task>(level: Level, task: T) -> T::Output {
         Level::Avx512 => unsafe { x86::with_avx512(task) },
     }
     #[cfg(not(target_arch = "x86_64"))]
-    match level {
-        _ => task.run(Scalar::<false>),
+    {
+        debug_assert_eq!(level, Level::Baseline);
+        task.run(Scalar::<false>)
     }
 }
 
@@ -165,9 +166,7 @@ mod x86 {
 
             #[inline(always)]
             fn grid(self, first: usize, from: f64, step: f64) -> Self::Values {
-                // Indices of slices of doubles are less than 2⁶⁰; below 2⁵³ they are exact. Beyond,
-                // they are rounded as the conversion of a single index is only if lanes are so one
-                // by one.
+                // Below 2⁵³ the sum of two indices is exact; beyond, each index is rounded alone.
                 if first < 1 << 52 {
                     let index = self.add(self.splat(first as f64), instruction!($iota));
                     return self.multiply_add(index, self.splat(step), self.splat(from));

@@ -295,6 +295,10 @@ impl Method for Marched {
         Ok(self.at(std::slice::from_ref(at), side)?[0])
     }
 
+    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+        self.at(at, side)
+    }
+
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         if at.iter().any(|time| !time.is_finite()) {

@@ -65,6 +65,14 @@ pub trait Method {
     /// [`MethodError`] outside the window, and where there is no value.
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError>;
 
+    /// The values at many exact times.
+    ///
+    /// # Errors
+    /// As [`Method::value`].
+    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+        at.iter().map(|at| self.value(at, side)).collect()
+    }
+
     /// The values at many times, right limits.
     ///
     /// # Errors

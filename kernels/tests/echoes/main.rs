@@ -1,0 +1,365 @@
+//! The summations of echoes against arbitrary precision: how many ulps each of them loses.
+
+mod reference;
+
+use reference::{Random, Reference};
+use wavestep_kernels::echoes::{
+    EchoError, EchoSum, Echoes, ExpandedPeriods, Expansion, ExponentialPolynomial, Family, Method,
+    Term, Time,
+};
+
+fn number(value: f64) -> Expansion {
+    Expansion::try_from(value).expect("a number")
+}
+
+/// The rigid mass on a fixed bar: `φ_k(x) = e^{−x} L_k(2x)`, `D = 2μ`.
+fn rigid_mass(period: Expansion, last: usize) -> EchoSum {
+    let (one, two) = (Expansion::ONE, number(2.0));
+    let terms = [Term { lag: 0, coefficient: one }];
+    let wave = Echoes::new(Family::Laguerre, one, two, one, &terms, period).expect("a wave");
+    EchoSum::new(wave, last).expect("a sum")
+}
+
+/// The pulse: `φ_0 = 1 − e^{−x}`, `φ_k = e^{−x} (L_{k−1}(x) − L_k(x))`, `D = μ`.
+fn pulse(period: Expansion, last: usize) -> EchoSum {
+    let (one, minus) = (Expansion::ONE, number(-1.0));
+    let terms = [Term { lag: 0, coefficient: minus }, Term { lag: 1, coefficient: one }];
+    let step = ExponentialPolynomial { rate: Expansion::ZERO, coefficients: vec![one] };
+    let decay = ExponentialPolynomial { rate: one, coefficients: vec![minus] };
+    let wave = Echoes::new(Family::Laguerre, one, one, one, &terms, period).expect("a wave");
+    let wave = wave.with_first(vec![vec![step, decay]]).expect("first echoes");
+    EchoSum::new(wave, last).expect("a sum")
+}
+
+/// A time in period `n`: most often anywhere, every third time next to an arrival.
+fn time_in_period(random: &mut Random, period: f64, n: usize, kind: usize) -> f64 {
+    let arrival = n as f64 * period;
+    match kind % 6 {
+        0 => arrival.next_up(),
+        1 => ((n + 1) as f64 * period).next_down(),
+        2 => arrival + period * 1e-6 * random.unit(),
+        _ => arrival + period * random.unit(),
+    }
+}
+
+/// The largest value of the wave before `time`, from where echoes arrive and 64 times between: a lower
+/// bound, so that errors in ulps of it are not flattered.
+fn largest(sum: &EchoSum, period: f64, time: f64) -> f64 {
+    let arrivals = (0..).map(|k| k as f64 * period).take_while(|&arrival| arrival < time);
+    let times: Vec<f64> = arrivals.chain((1..=64).map(|i| time * f64::from(i) / 64.0)).collect();
+    let mut values = vec![0.0; times.len()];
+    sum.fill(&times, true, &mut values).expect("in range");
+    values.iter().fold(0.0, |most, value| value.abs().max(most))
+}
+
+/// An ulp of a positive double.
+fn ulp(value: f64) -> f64 {
+    value.next_up() - value
+}
+
+/// Errors seen of each method, in ulps, with a count.
+#[derive(Default)]
+struct Worst {
+    comparisons: usize,
+    ulps: [f64; 6],
+}
+
+impl Worst {
+    fn take(&mut self, sum: &EchoSum, time: f64, right: impl Fn(f64) -> f64, largest: f64) {
+        self.comparisons += 1;
+        let mut values = [0.0];
+        sum.fill(&[time], true, &mut values).expect("in range");
+        let value = |method| sum.value(method, Time::from(time), true).expect("in range");
+        let all = Method::ALL.map(value).into_iter().chain(values);
+        for (worst, value) in self.ulps.iter_mut().zip(all) {
+            // What is not a number is as wrong as can be.
+            let error = right(value).abs() / ulp(largest);
+            *worst = if error.is_nan() { f64::INFINITY } else { worst.max(error) };
+        }
+    }
+
+    /// Prints the errors and holds the laws: 64 ulps for the stable summations, 2 in pairs.
+    fn hold(&self, name: &str) {
+        println!("{name}: {} times, 6 summations each; ulps at most:", self.comparisons);
+        for (method, ulps) in Method::ALL.iter().zip(self.ulps) {
+            println!("    {method:?}: {ulps:.3e}");
+        }
+        println!("    side by side: {:.3e}", self.ulps[5]);
+        assert!(self.ulps[2] <= 64.0 && self.ulps[3] <= 64.0 && self.ulps[5] <= 64.0);
+        assert!(self.ulps[4] <= 2.0);
+    }
+}
+
+#[test]
+fn the_reference_agrees_with_exact_polynomials() {
+    let mut random = Random::new(1);
+    let mut reference = Reference::new();
+    for k in [0, 1, 2, 7, 40, 200, 500] {
+        let x = 4.0 * k as f64 * random.unit();
+        let difference = reference.disagreement(k, x);
+        assert!(difference < 1e-60, "L_{k}(2·{x}): {difference:e}");
+    }
+    // What is said of an echo whose exponential underflows.
+    let echo = reference.echo(500, 900.0, 2.0);
+    assert!((echo + 0.02471102674978201).abs() < 1e-17, "{echo}");
+}
+
+#[test]
+fn stable_sums_keep_64_ulps_and_pairs_2_on_the_rigid_mass() {
+    let mut random = Random::new(2);
+    let mut reference = Reference::new();
+    let mut worst = Worst::default();
+    for round in 0..250 {
+        // Every fourth time in the last period, and the ends of the range now and then.
+        let mass = match round % 10 {
+            0 => 0.01,
+            1 => 10.0,
+            _ => 0.01 * 1000f64.powf(random.unit()),
+        };
+        let n = if round % 4 == 0 { 200 } else { (201.0 * random.unit()) as usize };
+        let period = 2.0 * mass;
+        let time = time_in_period(&mut random, period, n, round);
+        let sum = rigid_mass(number(period), 201);
+        let wave = reference.rigid_mass([period, 0.0, 0.0], time, 202);
+        worst.take(&sum, time, |value| reference.error(&wave, value), largest(&sum, period, time));
+    }
+    worst.hold("rigid mass");
+    // The reference of what goes wrong does go wrong.
+    assert!(worst.ulps[0] > 1e15 && worst.ulps[1] > 500.0);
+}
+
+#[test]
+fn the_pulse_keeps_the_same_laws() {
+    let mut random = Random::new(3);
+    let mut reference = Reference::new();
+    let mut worst = Worst::default();
+    for round in 0..60 {
+        let period = 0.01 * 1000f64.powf(random.unit());
+        let n = if round % 4 == 0 { 200 } else { (201.0 * random.unit()) as usize };
+        let time = time_in_period(&mut random, period, n, round);
+        let sum = pulse(number(period), 201);
+        let wave = reference.pulse([period, 0.0, 0.0], time, 202);
+        let largest = largest(&sum, period, time).max(0.5);
+        worst.take(&sum, time, |value| reference.error(&wave, value), largest);
+    }
+    worst.hold("pulse");
+}
+
+/// A period that no double is: what the summations lose does not depend on it.
+#[test]
+fn periods_need_not_be_doubles() {
+    let mut random = Random::new(4);
+    let mut reference = Reference::new();
+    let mut worst = Worst::default();
+    for round in 0..40 {
+        // 2/3, and what its first and second doubles lack.
+        let parts = [2.0 / 3.0, 2.0 / 3.0 * 2f64.powi(-54), 2.0 / 3.0 * 2f64.powi(-108)];
+        let sum = rigid_mass(Expansion::new(parts).expect("a number"), 201);
+        let n = 100 + (100.0 * random.unit()) as usize;
+        let time = time_in_period(&mut random, parts[0], n, round);
+        let wave = reference.rigid_mass(parts, time, 202);
+        let right = |value| reference.error(&wave, value);
+        worst.take(&sum, time, right, largest(&sum, parts[0], time));
+    }
+    worst.hold("rigid mass, period 2/3");
+}
+
+#[test]
+fn single_echoes_are_right_where_the_exponential_underflows() {
+    let mut random = Random::new(5);
+    let mut reference = Reference::new();
+    let sum = rigid_mass(number(2.0), 2000);
+    let (mut worst, mut underflows) = ([0f64; 2], 0);
+    for round in 0..120 {
+        let k = if round % 3 == 0 { 2000 } else { (2001.0 * random.unit()) as usize };
+        let x = (2.2 * k as f64 + 10.0) * random.unit();
+        // A low part that is nearly half an ulp: without it the echo is off by up to 25 ulps.
+        let low = 0.49 * ulp(x);
+        let exact = reference.exact_echo(k, [x, low], 2.0);
+        let mut error = |method, place: usize| {
+            let value = sum.echo(method, k, Time::new(x, low).expect("a time")).expect("in range");
+            let off = reference.error(&exact, value).abs() / f64::EPSILON;
+            worst[place] = worst[place].max(off);
+        };
+        error(Method::Scaled, 0);
+        error(Method::DoubleDouble, 1);
+        underflows += usize::from((-x).exp() == 0.0);
+    }
+    println!(
+        "120 echoes to 2000, {underflows} of which underflow: off by at most {worst:.3?} ulps"
+    );
+    assert!(underflows > 30);
+    assert!(worst[0] <= 4.0 && worst[1] <= 1.0);
+}
+
+/// All times at once, in an order that mixes periods, beyond the range of `e^{−x}`, for both
+/// families, both signs of the scale, lags on both sides and both limits.
+#[test]
+fn lanes_agree_with_pairs() {
+    let mut random = Random::new(6);
+    let [one, half, minus] = [1.0, 0.5, -1.0].map(number);
+    let terms = [
+        Term { lag: -1, coefficient: half },
+        Term { lag: 0, coefficient: one },
+        Term { lag: 3, coefficient: minus },
+    ];
+    let waves = [
+        (Family::Laguerre, 1.0, 2.0, 1.0, 12.5),
+        (Family::Laguerre, 1.0, 1.5, -0.75, 0.3),
+        (Family::Laguerre, 2.0, -0.25, 0.5, 1.0),
+        (Family::Powers, 1.0, 1.0, 1.0, 12.5),
+        (Family::Powers, 2.0, -1.0, 0.9, 0.25),
+    ];
+    let mut comparisons = 0;
+    for (family, rate, scale, ratio, period) in waves {
+        let [rate, scale, ratio] = [rate, scale, ratio].map(number);
+        let wave = Echoes::new(family, rate, scale, ratio, &terms, number(period)).expect("fine");
+        let sum = EchoSum::new(wave, 101).expect("a sum");
+        let mut times: Vec<f64> = (0..300).map(|_| 101.0 * period * random.unit()).collect();
+        times.extend((0..101).map(|k| f64::from(k) * period));
+        times.push(-1.0);
+        let ordered = {
+            let mut ordered = times.clone();
+            ordered.sort_by(f64::total_cmp);
+            ordered
+        };
+        for times in [times, ordered] {
+            for include_arriving in [false, true] {
+                let mut values = vec![f64::NAN; times.len()];
+                sum.fill(&times, include_arriving, &mut values).expect("in range");
+                let right = |&time: &f64| {
+                    let method = Method::DoubleDouble;
+                    sum.value(method, Time::from(time), include_arriving).expect("in range")
+                };
+                let right: Vec<f64> = times.iter().map(right).collect();
+                let largest = right.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
+                for (i, value) in values.iter().enumerate() {
+                    let off = (value - right[i]).abs() / ulp(largest);
+                    assert!(off <= 64.0, "{family:?} at {}: {value}, not {}", times[i], right[i]);
+                    comparisons += 1;
+                }
+            }
+        }
+    }
+    println!("{comparisons} values side by side");
+}
+
+/// One echo alone, the others being empty, at times since its arrival that no double is: lanes too
+/// correct it by its slope.
+#[test]
+fn lanes_keep_the_low_part_of_the_time() {
+    let (one, two) = (Expansion::ONE, number(2.0));
+    let period = Expansion::new([600.0, 3.3e-14, 0.0]).expect("a number");
+    let terms = [Term { lag: 0, coefficient: one }];
+    let wave = Echoes::new(Family::Laguerre, one, two, one, &terms, period).expect("a wave");
+    let sum = EchoSum::new(wave.with_first(vec![vec![]; 400]).expect("empty"), 400).expect("fine");
+    let mut random = Random::new(8);
+    let times: Vec<f64> = (0..400).map(|_| 240_300.0 + 290.0 * random.unit()).collect();
+    let mut values = vec![0.0; times.len()];
+    sum.fill(&times, true, &mut values).expect("in range");
+    let mut worst = 0f64;
+    for (&time, value) in times.iter().zip(values) {
+        let right = sum.value(Method::DoubleDouble, Time::from(time), true).expect("in range");
+        worst = worst.max((value - right).abs() / f64::EPSILON);
+    }
+    println!("400 times of echo 400 alone: off by at most {worst:.3} ulps of 1");
+    assert!(worst < 2.0);
+}
+
+/// Powers, a ratio and lags, against arbitrary precision.
+#[test]
+fn powers_and_lags_are_right() {
+    let mut random = Random::new(7);
+    let mut reference = Reference::new();
+    for (family, powers) in [(Family::Powers, true), (Family::Laguerre, false)] {
+        let terms = [
+            Term { lag: -1, coefficient: number(0.5) },
+            Term { lag: 2, coefficient: number(-3.0) },
+        ];
+        let (one, ratio) = (Expansion::ONE, number(-0.75));
+        let wave = Echoes::new(family, one, one, ratio, &terms, one).expect("a wave");
+        let sum = EchoSum::new(wave, 61).expect("a sum");
+        let mut worst = [0f64; 2];
+        for _ in 0..40 {
+            let time = 61.0 * random.unit();
+            let right = reference.lagged([1.0, 0.0, 0.0], time, -0.75, powers);
+            for (place, method) in [Method::Scaled, Method::DoubleDouble].into_iter().enumerate() {
+                let value = sum.value(method, Time::from(time), true).expect("in range");
+                let off = reference.error(&right, value).abs() / f64::EPSILON;
+                worst[place] = worst[place].max(off);
+            }
+        }
+        println!("{family:?} with lags: 40 times, off by at most {worst:.3?} ulps of 1");
+        assert!(worst[0] <= 64.0 && worst[1] <= 2.0);
+    }
+}
+
+/// The jump at an arrival is 1, on whatever side of it the doubles lie.
+#[test]
+fn limits_at_arrivals_differ_by_the_jump() {
+    let sum = rigid_mass(number(0.1), 200);
+    for k in 1..=200 {
+        // 0.1 is a double that is not 1/10; its multiples are seldom doubles, but sums of two.
+        let high = f64::from(k) * 0.1;
+        let time = Time::new(high, f64::from(k).mul_add(0.1, -high)).expect("a time");
+        for method in [Method::Difference, Method::Scaled, Method::DoubleDouble] {
+            let [left, right] = [false, true].map(|side| sum.value(method, time, side).unwrap());
+            assert!((right - left - 1.0).abs() < 1e-15, "{method:?}, echo {k}: {left} {right}");
+        }
+    }
+}
+
+/// Periods expanded at μ = 1, with rows that are themselves right: errors come from Horner's scheme.
+#[test]
+fn expanded_periods_fail() {
+    let mut reference = Reference::new();
+    let mut rows = vec![Vec::new(); 133];
+    (0..=132).step_by(4).for_each(|n| rows[n] = reference.period_row(n, 2.0));
+    let known = [1.0 + (-2f64).exp(), -2.0];
+    let row = reference.period_row(1, 2.0);
+    assert!(row.iter().zip(known).all(|(row, known)| (row - known).abs() < 1e-15));
+    let periods = ExpandedPeriods::new(1.0, 2.0, rows).expect("periods");
+    let mut beyond = [1e-12, 1e-3, 1.0].map(|limit: f64| (limit, None));
+    for n in (0..=132).step_by(4) {
+        for part in 1..=4 {
+            let time = 2.0 * n as f64 + f64::from(part) * 0.4999;
+            let value = periods.value(time).expect("a row");
+            let wave = reference.rigid_mass([2.0, 0.0, 0.0], time, n + 1);
+            let error = reference.error(&wave, value).abs();
+            for (limit, first) in &mut beyond {
+                if error > *limit {
+                    first.get_or_insert(n);
+                }
+            }
+        }
+    }
+    println!("expanded periods, first n with an error beyond: {beyond:?}");
+    let first = beyond.map(|(_, first)| first.expect("it fails"));
+    assert!(first[0] > 8 && first[0] < 24 && first[1] < 110 && first[2] <= 132);
+}
+
+#[test]
+fn what_cannot_be_summed_is_refused() {
+    let sum = rigid_mass(number(1.0), 5);
+    let value = |time| sum.value(Method::Scaled, Time::from(time), true);
+    assert_eq!(value(f64::NAN), Err(EchoError::NotFinite));
+    assert_eq!(value(6.0), Err(EchoError::BeyondLast { last: 5 }));
+    assert_eq!(value(1e300), Err(EchoError::TimeTooLarge));
+    assert_eq!(value(-1.0), Ok(0.0));
+    assert!(sum.value(Method::Scaled, Time::from(6.0), false).is_ok());
+    assert_eq!(sum.fill(&[f64::NAN], true, &mut [0.0]), Err(EchoError::NotFinite));
+    assert_eq!(
+        sum.fill(&[1.0], true, &mut []),
+        Err(EchoError::LengthsDiffer { times: 1, values: 0 })
+    );
+    let one = Expansion::ONE;
+    let wave = |rate, period, lag| {
+        let terms = [Term { lag, coefficient: one }];
+        Echoes::new(Family::Laguerre, rate, one, one, &terms, period)
+    };
+    assert_eq!(wave(one, number(0.0), 0), Err(EchoError::PeriodNotPositive));
+    assert_eq!(wave(number(1e100), one, 0), Err(EchoError::BeyondRange));
+    assert_eq!(wave(one, one, -2000), Err(EchoError::LagTooLarge { lag: -2000 }));
+    let many = EchoSum::new(wave(one, one, 0).expect("fine"), usize::MAX);
+    assert_eq!(many.unwrap_err(), EchoError::TooManyEchoes { last: usize::MAX });
+}

@@ -1,0 +1,83 @@
+//! What ways cost: a measured table.
+//!
+//! The figures are seconds on one core of the machine of `docs/performance.md`, as measured by
+//! `cargo bench --bench methods` and rounded to one digit: they rank ways against each other and are
+//! not promises. `docs/accuracy-and-speed.md` shows the measurements that they come from.
+
+use crate::answer::way::Kind;
+use crate::evaluate::StablePrecision;
+
+/// How large a problem is.
+///
+/// ```
+/// use wavestep::answer::{Cost, Kind, Size};
+///
+/// let size = |points| Size { order: 200, points, marches: true };
+/// let cost = |kind, points| Cost::of(kind, size(points)).unwrap().seconds(points);
+/// // A few values come cheapest without preparation, many with it.
+/// assert!(cost(Kind::Certified, 1) < cost(Kind::Compiled, 1));
+/// assert!(cost(Kind::Compiled, 1_000_000) < cost(Kind::Certified, 1_000_000));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Size {
+    /// How many reflections the window sees.
+    pub order: usize,
+    /// How many values are asked for.
+    pub points: usize,
+    /// Whether waves have one pole and one lag, with rational constants, so that a march in
+    /// fixed-point numbers gives the pieces.
+    pub marches: bool,
+}
+
+/// What a way costs, in seconds.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Cost {
+    /// Before the first value.
+    pub setup: f64,
+    /// For each value, at an exact time.
+    pub point: f64,
+}
+
+/// Operations in balls.
+const BALL: f64 = 2e-7;
+/// The polynomials on a stretch between arrivals, and the terms that they are expanded to.
+const PIECES: f64 = 16.0;
+const TERMS: f64 = 40.0;
+/// A polynomial of a march in fixed-point numbers, moved to another middle.
+const MOVED: f64 = 1e-4;
+/// Finding the piece of an exact time, and evaluating it.
+const LOOKUP: f64 = 3e-6;
+/// A step of a recurrence in doubles, in pairs of doubles.
+const STEP: f64 = 1e-9;
+const PAIR_STEP: f64 = 3e-8;
+/// A Chebyshev coefficient of a march, without and with a bound.
+const COEFFICIENT: f64 = 2e-9;
+const PROVEN_COEFFICIENT: f64 = 1.2e-8;
+
+impl Cost {
+    /// The cost of a method; `None` for models, which are never picked.
+    pub fn of(kind: Kind, size: Size) -> Option<Cost> {
+        let n = size.order as f64 + 1.0;
+        let pieces = PIECES * n * if size.marches { MOVED } else { TERMS * n * BALL };
+        let echoes = n * n / 2.0;
+        let coefficients = n * (4.0 * n).sqrt().max(30.0);
+        let (setup, point) = match kind {
+            Kind::Certified => (3.0 * echoes * BALL, n * BALL + LOOKUP),
+            Kind::Compiled => (pieces, LOOKUP),
+            Kind::Stable(StablePrecision::Double) => (0.0, echoes * STEP + LOOKUP),
+            Kind::Stable(StablePrecision::DoubleDouble) => (0.0, echoes * PAIR_STEP + LOOKUP),
+            Kind::Expanded => (0.0, echoes * STEP + LOOKUP),
+            Kind::Marched { proven } => {
+                let each = COEFFICIENT + if proven { PROVEN_COEFFICIENT } else { 0.0 };
+                (coefficients * each, LOOKUP + COEFFICIENT * coefficients / n)
+            }
+            _ => return None,
+        };
+        Some(Cost { setup, point })
+    }
+
+    /// The cost of so many values.
+    pub fn seconds(&self, points: usize) -> f64 {
+        self.setup + self.point * points as f64
+    }
+}

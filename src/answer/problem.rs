@@ -1,0 +1,54 @@
+//! What is asked for: an observable on a window of time.
+
+use crate::evaluate::{EvaluateError, Recogniser, Signal};
+use crate::network::Network;
+use wavestep_polynomial::Rational;
+
+/// An observable on a window, with what there is to compute it from.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::evaluate::Signal;
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// // f rises to 1 at once.
+/// assert_eq!(problem.scale().unwrap(), 1.0 + (-2f64).exp());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Problem<'a> {
+    /// The observable.
+    pub signal: &'a Signal,
+    /// The scene, and the place of the observable in it; models need it.
+    pub scene: Option<(&'a Network, usize)>,
+    /// Tells values that are rational numbers.
+    pub recognise: &'a Recogniser<'a>,
+    /// The first time of the window, in the user's unit.
+    pub from: Rational,
+    /// The last one.
+    pub to: Rational,
+}
+
+impl Problem<'_> {
+    /// About the largest absolute value on the window, from the beginnings, middles and ends of some
+    /// stretches between arrivals; the largest one is not smaller, but for rounding.
+    ///
+    /// # Errors
+    /// [`EvaluateError`], where the window has too many arrivals.
+    pub fn scale(&self) -> Result<f64, EvaluateError> {
+        crate::evaluate::scale(self.signal, &self.from, &self.to)
+    }
+
+    /// How many reflections the window sees.
+    ///
+    /// # Errors
+    /// As [`Signal::order`].
+    pub fn order(&self) -> Result<usize, EvaluateError> {
+        self.signal.order(&self.to)
+    }
+}

@@ -1,0 +1,97 @@
+//! How far values may be off.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// A tolerance for all values of a window.
+///
+/// Written as a number, it is relative to the largest absolute value; `abs:1e-9` is in the unit of the
+/// values; `ulp:4` is in units in the last place of the largest value, which are `2^(e−52)` for values
+/// from `2^e` to `2^(e+1)`.
+///
+/// ```
+/// use wavestep::answer::Tolerance;
+///
+/// let absolute = |text: &str| text.parse::<Tolerance>().map(|t| t.absolute(6.0));
+/// assert_eq!(absolute("1e-9"), Ok(6e-9));
+/// assert_eq!(absolute("abs:1e-9"), Ok(1e-9));
+/// assert_eq!(absolute("ulp:4"), Ok(2f64.powi(-48)));
+/// assert!(absolute("-1").is_err() && absolute("rel:1").is_err());
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Tolerance {
+    /// In the unit of the values.
+    Absolute(f64),
+    /// In parts of the largest absolute value.
+    Relative(f64),
+    /// In units in the last place of the largest absolute value.
+    Ulps(f64),
+}
+
+impl Tolerance {
+    /// The tolerance in the unit of the values, the largest of which is `scale` in size.
+    pub fn absolute(self, scale: f64) -> f64 {
+        match self {
+            Tolerance::Absolute(tolerance) => tolerance,
+            Tolerance::Relative(tolerance) => tolerance * scale.abs(),
+            Tolerance::Ulps(tolerance) => tolerance * unit_in_the_last_place(scale),
+        }
+    }
+}
+
+/// The distance of doubles at a value: `2^(e−52)` for `2^e ≤ |value| < 2^(e+1)`.
+pub(crate) fn unit_in_the_last_place(value: f64) -> f64 {
+    let value = value.abs().max(f64::MIN_POSITIVE);
+    let power = f64::from_bits(value.to_bits() & !((1 << 52) - 1));
+    power * f64::EPSILON
+}
+
+/// What is no tolerance.
+///
+/// ```
+/// use wavestep::answer::Tolerance;
+///
+/// let error = "often".parse::<Tolerance>().unwrap_err();
+/// assert_eq!(error.to_string(), "`often` is no tolerance");
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct InvalidTolerance(String);
+
+impl fmt::Display for InvalidTolerance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` is no tolerance", self.0)
+    }
+}
+
+impl std::error::Error for InvalidTolerance {}
+
+impl FromStr for Tolerance {
+    type Err = InvalidTolerance;
+
+    fn from_str(text: &str) -> Result<Tolerance, InvalidTolerance> {
+        let invalid = || InvalidTolerance(text.to_owned());
+        let (kind, number) = text.split_once(':').unwrap_or(("", text));
+        let number: f64 = number.trim().parse().map_err(|_| invalid())?;
+        if !(number.is_finite() && number > 0.0) {
+            return Err(invalid());
+        }
+        match kind {
+            "" => Ok(Tolerance::Relative(number)),
+            "abs" => Ok(Tolerance::Absolute(number)),
+            "ulp" => Ok(Tolerance::Ulps(number)),
+            _ => Err(invalid()),
+        }
+    }
+}
+
+impl fmt::Display for Tolerance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Tolerance::Absolute(tolerance) => write!(f, "{tolerance:e}"),
+            Tolerance::Relative(tolerance) => write!(f, "{tolerance:e} of the largest value"),
+            Tolerance::Ulps(tolerance) => {
+                write!(f, "{tolerance} units in the last place of the largest value")
+            }
+        }
+    }
+}

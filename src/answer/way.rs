@@ -1,0 +1,393 @@
+//! Ways to values, by name and settings.
+
+use crate::answer::problem::Problem;
+use crate::evaluate::{
+    Certified, Compiled, Expanded, Marched, Method, MethodError, Side, Stable, StablePrecision,
+};
+use crate::model::{
+    Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
+};
+use num_traits::ToPrimitive as _;
+use std::fmt;
+use std::str::FromStr;
+use wavestep_polynomial::Rational;
+
+/// A way to values with its settings, as it is written: `NAME` or `NAME:SETTING[,SETTING]`.
+///
+/// ```
+/// use wavestep::answer::Kind;
+///
+/// assert_eq!("modes:1000".parse(), Ok(Kind::Modes { count: 1000 }));
+/// assert_eq!("leapfrog:400,0.9".parse(), Ok(Kind::Leapfrog { cells: 400, courant: 0.9 }));
+/// assert_eq!("compiled".parse::<Kind>().unwrap().to_string(), "compiled");
+/// let error = "modes:few".parse::<Kind>().unwrap_err();
+/// assert_eq!(error.to_string(), "`few` is no setting of modes");
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Kind {
+    /// Correctly rounded.
+    Certified,
+    /// Polynomials with a proven bound.
+    Compiled,
+    /// A march on Chebyshev coefficients; proven where asked for.
+    Marched {
+        /// Whether a bound is proven.
+        proven: bool,
+    },
+    /// The stable sum of echoes.
+    Stable(StablePrecision),
+    /// The formula as printed.
+    Expanded,
+    /// One rigid body.
+    Rigid,
+    /// A spring with a third of the mass of the bar.
+    Third,
+    /// Modes of vibration.
+    Modes {
+        /// How many.
+        count: usize,
+    },
+    /// Finite differences.
+    Leapfrog {
+        /// Cells in the shortest travel time.
+        cells: usize,
+        /// Courant's number.
+        courant: f64,
+    },
+    /// The method of steps with an adaptive solver.
+    Steps {
+        /// Its relative tolerance.
+        tolerance: f64,
+    },
+}
+
+impl Kind {
+    /// The names, each with its settings and what they are when nothing is said.
+    pub const NAMES: [(&'static str, &'static str); 12] = [
+        ("certified", "correctly rounded"),
+        ("compiled", "polynomials with a proven bound"),
+        ("marched", "Chebyshev coefficients period by period, with a proven bound"),
+        ("marched-unproven", "the same without"),
+        ("stable", "echoes summed by differences"),
+        ("double-double", "the same in pairs of doubles"),
+        ("expanded", "the formula as printed"),
+        ("rigid", "model: one rigid body"),
+        ("third", "model: a spring with a third of the bar's mass"),
+        ("modes:N", "model: N modes of vibration [default: 1000]"),
+        ("leapfrog:CELLS,CFL", "model: finite differences [default: 400,1]"),
+        ("steps:TOL", "model: method of steps with an adaptive solver [default: 1e-10]"),
+    ];
+
+    /// Whether it is a model that leaves something out.
+    pub fn is_model(&self) -> bool {
+        matches!(
+            self,
+            Kind::Rigid
+                | Kind::Third
+                | Kind::Modes { .. }
+                | Kind::Leapfrog { .. }
+                | Kind::Steps { .. }
+        )
+    }
+
+    /// The name without settings.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Kind::Certified => "certified",
+            Kind::Compiled => "compiled",
+            Kind::Marched { proven: true } => "marched",
+            Kind::Marched { proven: false } => "marched-unproven",
+            Kind::Stable(StablePrecision::Double) => "stable",
+            Kind::Stable(StablePrecision::DoubleDouble) => "double-double",
+            Kind::Expanded => "expanded",
+            Kind::Rigid => "rigid",
+            Kind::Third => "third",
+            Kind::Modes { .. } => "modes",
+            Kind::Leapfrog { .. } => "leapfrog",
+            Kind::Steps { .. } => "steps",
+        }
+    }
+
+    /// The settings, as they are written; none where there are none.
+    pub fn setting(&self) -> String {
+        match self {
+            Kind::Modes { count } => count.to_string(),
+            Kind::Leapfrog { cells, courant } => format!("{cells},{courant}"),
+            Kind::Steps { tolerance } => format!("{tolerance:e}"),
+            _ => String::new(),
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.setting() {
+            setting if setting.is_empty() => f.write_str(self.name()),
+            setting => write!(f, "{}:{setting}", self.name()),
+        }
+    }
+}
+
+/// What names no way.
+///
+/// ```
+/// use wavestep::answer::{InvalidWay, Kind};
+///
+/// assert_eq!("magic".parse::<Kind>(), Err(InvalidWay::Name("magic".to_owned())));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum InvalidWay {
+    /// No way has this name.
+    Name(String),
+    /// A way has not this setting.
+    Setting(&'static str, String),
+}
+
+impl fmt::Display for InvalidWay {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InvalidWay::Name(name) => write!(f, "there is no method `{name}`"),
+            InvalidWay::Setting(way, setting) => write!(f, "`{setting}` is no setting of {way}"),
+        }
+    }
+}
+
+impl std::error::Error for InvalidWay {}
+
+impl FromStr for Kind {
+    type Err = InvalidWay;
+
+    fn from_str(text: &str) -> Result<Kind, InvalidWay> {
+        let (name, settings) = match text.split_once(':') {
+            Some((name, settings)) => (name, Some(settings)),
+            None => (text, None),
+        };
+        let kind = match name {
+            "certified" => Kind::Certified,
+            "compiled" => Kind::Compiled,
+            "marched" => Kind::Marched { proven: true },
+            "marched-unproven" => Kind::Marched { proven: false },
+            "stable" => Kind::Stable(StablePrecision::Double),
+            "double-double" => Kind::Stable(StablePrecision::DoubleDouble),
+            "expanded" => Kind::Expanded,
+            "rigid" => Kind::Rigid,
+            "third" => Kind::Third,
+            "modes" => Kind::Modes { count: 1000 },
+            "leapfrog" => Kind::Leapfrog { cells: 400, courant: 1.0 },
+            "steps" => Kind::Steps { tolerance: 1e-10 },
+            _ => return Err(InvalidWay::Name(name.to_owned())),
+        };
+        let Some(settings) = settings else { return Ok(kind) };
+        let invalid = || InvalidWay::Setting(kind.name(), settings.to_owned());
+        match kind {
+            Kind::Modes { .. } => {
+                settings.parse().map(|count| Kind::Modes { count }).map_err(|_| invalid())
+            }
+            Kind::Steps { .. } => {
+                settings.parse().map(|tolerance| Kind::Steps { tolerance }).map_err(|_| invalid())
+            }
+            Kind::Leapfrog { .. } => {
+                let (cells, courant) = settings.split_once(',').unwrap_or((settings, "1"));
+                let cells = cells.parse().map_err(|_| invalid())?;
+                let courant = courant.parse().map_err(|_| invalid())?;
+                Ok(Kind::Leapfrog { cells, courant })
+            }
+            _ => Err(invalid()),
+        }
+    }
+}
+
+/// Why a way has no values.
+///
+/// ```
+/// use wavestep::answer::WayError;
+///
+/// let error = WayError::NeedsScene("rigid");
+/// assert_eq!(error.to_string(), "rigid models a scene of bars, and this is a recurrence");
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub enum WayError {
+    /// A method refuses.
+    Method(MethodError),
+    /// A model refuses.
+    Model(ModelError),
+    /// A model has no scene to be made of.
+    NeedsScene(&'static str),
+    /// Models have values after arrivals only.
+    LeftLimit(&'static str),
+}
+
+impl fmt::Display for WayError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WayError::Method(error) => error.fmt(f),
+            WayError::Model(error) => error.fmt(f),
+            WayError::NeedsScene(name) => {
+                write!(f, "{name} models a scene of bars, and this is a recurrence")
+            }
+            WayError::LeftLimit(name) => write!(f, "{name} gives values just after arrivals only"),
+        }
+    }
+}
+
+impl std::error::Error for WayError {}
+
+impl From<MethodError> for WayError {
+    fn from(error: MethodError) -> WayError {
+        WayError::Method(error)
+    }
+}
+
+impl From<ModelError> for WayError {
+    fn from(error: ModelError) -> WayError {
+        WayError::Model(error)
+    }
+}
+
+/// A way that is ready to give values.
+pub enum Ways<'a> {
+    /// A method on the exact solution.
+    Method(Box<dyn Method + 'a>),
+    /// A model, and the place of the observable in the scene.
+    Model(Box<dyn Model>, usize),
+}
+
+/// A way to the values of a problem.
+///
+/// ```
+/// use wavestep::answer::{Kind, Problem, Way};
+/// use wavestep::evaluate::Signal;
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let way = Way::new(Kind::Compiled, &problem, None).unwrap();
+/// assert!((way.values(&[1.0]).unwrap()[0] - (-1f64).exp()).abs() <= way.bound().unwrap() + 1e-16);
+/// assert!(Way::new(Kind::Rigid, &problem, None).is_err());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Way<'a> {
+    kind: Kind,
+    inner: Ways<'a>,
+}
+
+impl<'a> Way<'a> {
+    /// Makes a way ready. Methods that can be less exact at less cost take account of a tolerance, in
+    /// the unit of the values.
+    ///
+    /// # Errors
+    /// [`WayError`], where the problem is none for this way.
+    pub fn new(
+        kind: Kind,
+        problem: &Problem<'a>,
+        tolerance: Option<f64>,
+    ) -> Result<Way<'a>, WayError> {
+        let Problem { signal, from, to, .. } = problem;
+        let scene = || problem.scene.ok_or(WayError::NeedsScene(kind.name()));
+        let inner = match kind {
+            Kind::Certified => {
+                Ways::Method(Box::new(Certified::new(signal, from, to, problem.recognise)?))
+            }
+            Kind::Compiled => Ways::Method(Box::new(Compiled::new(signal, from, to, tolerance)?)),
+            Kind::Marched { proven } => {
+                Ways::Method(Box::new(Marched::new(signal, from, to, proven)?))
+            }
+            Kind::Stable(precision) => {
+                Ways::Method(Box::new(Stable::new(signal, from, to, precision)?))
+            }
+            Kind::Expanded => Ways::Method(Box::new(Expanded::new(signal, from, to)?)),
+            Kind::Rigid => {
+                let (network, place) = scene()?;
+                Ways::Model(Box::new(RigidBody::new(network)?), place)
+            }
+            Kind::Third => {
+                let (network, place) = scene()?;
+                let start = StartingVelocity::ByMomentum;
+                Ways::Model(Box::new(ThirdOfMass::new(network, start)?), place)
+            }
+            Kind::Modes { count } => {
+                let (network, place) = scene()?;
+                Ways::Model(Box::new(Modes::new(network, count)?), place)
+            }
+            Kind::Leapfrog { cells, courant } => {
+                let (network, place) = scene()?;
+                Ways::Model(Box::new(Leapfrog::new(network, cells, courant)?), place)
+            }
+            Kind::Steps { tolerance } => {
+                let (network, place) = scene()?;
+                Ways::Model(Box::new(Steps::new(network, tolerance)?), place)
+            }
+        };
+        Ok(Way { kind, inner })
+    }
+
+    /// Its name and settings.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// How far values can be off, in words.
+    pub fn law(&self) -> String {
+        match &self.inner {
+            Ways::Method(method) => method.law(),
+            Ways::Model(model, _) => format!("a model: {}", model.assumptions()),
+        }
+    }
+
+    /// A proven bound on the absolute error of every value, beyond half a unit in its last place.
+    pub fn bound(&self) -> Option<f64> {
+        match &self.inner {
+            Ways::Method(method) => method.bound(),
+            Ways::Model(..) => None,
+        }
+    }
+
+    /// The value at a time.
+    ///
+    /// # Errors
+    /// [`WayError`], for times outside the window and left limits of models.
+    pub fn value(&self, at: &Rational, side: Side) -> Result<f64, WayError> {
+        match &self.inner {
+            Ways::Method(method) => Ok(method.value(at, side)?),
+            Ways::Model(..) if side == Side::Left => Err(WayError::LeftLimit(self.kind.name())),
+            Ways::Model(model, place) => {
+                let at = at.to_f64().unwrap_or(f64::NAN);
+                Ok(model.values(*place, &[at])?[0])
+            }
+        }
+    }
+
+    /// The values at many times, just after arrivals.
+    ///
+    /// # Errors
+    /// As [`Way::value`].
+    pub fn values(&self, at: &[f64]) -> Result<Vec<f64>, WayError> {
+        match &self.inner {
+            Ways::Method(method) => {
+                let mut values = vec![0.0; at.len()];
+                method.values(at, &mut values)?;
+                Ok(values)
+            }
+            Ways::Model(model, place) => Ok(model.values(*place, at)?),
+        }
+    }
+
+    /// The values at many exact times.
+    ///
+    /// # Errors
+    /// As [`Way::value`].
+    pub fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, WayError> {
+        match &self.inner {
+            Ways::Model(model, place) if side == Side::Right => {
+                let at: Vec<f64> = at.iter().map(|at| at.to_f64().unwrap_or(f64::NAN)).collect();
+                Ok(model.values(*place, &at)?)
+            }
+            Ways::Method(method) => Ok(method.exact_values(at, side)?),
+            Ways::Model(..) => Err(WayError::LeftLimit(self.kind.name())),
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Which way is the cheapest whose proven bound meets a tolerance.
+
+use crate::answer::cost::{Cost, Size};
+use crate::answer::problem::Problem;
+use crate::answer::tolerance::unit_in_the_last_place;
+use crate::answer::way::Kind;
+use crate::evaluate::{EvaluateError, StablePrecision, Taps};
+
+/// The methods that are weighed; models leave something out and are picked by name only.
+const METHODS: [Kind; 6] = [
+    Kind::Certified,
+    Kind::Compiled,
+    Kind::Marched { proven: true },
+    Kind::Stable(StablePrecision::Double),
+    Kind::Stable(StablePrecision::DoubleDouble),
+    Kind::Expanded,
+];
+
+/// The bound of compiled polynomials that can be relied on, in units in the last place of the largest
+/// value.
+const COMPILED_ULPS: f64 = 4.0;
+
+/// What a march with a proven bound loses a period, in units in the last place of the largest value.
+const MARCHED_ULPS: f64 = 40.0;
+
+/// How far off a way can be, as known before it is tried.
+///
+/// ```
+/// use wavestep::answer::Promise;
+///
+/// assert_ne!(Promise::Proven(1e-15), Promise::Measured(1e-15));
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Promise {
+    /// A bound that will be proven.
+    Proven(f64),
+    /// What was measured.
+    Measured(f64),
+    /// Nothing.
+    Nothing,
+}
+
+/// A way that was weighed.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Candidate {
+    /// Which.
+    pub kind: Kind,
+    /// How far off it can be; `None` where it has no values.
+    pub promise: Option<Promise>,
+    /// What it costs, in seconds, by the table.
+    pub seconds: f64,
+    /// Why it was picked or not.
+    pub verdict: String,
+}
+
+/// The ways that were weighed, the one that was picked first.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Weighed {
+    /// All of them.
+    pub candidates: Vec<Candidate>,
+    /// Whether the first is good enough.
+    pub met: bool,
+}
+
+/// Weighs all methods: picks the cheapest by the table of costs whose proven bound meets a tolerance
+/// in the unit of the values; the largest of these is about `scale`.
+///
+/// # Errors
+/// [`EvaluateError`], where there is no exact solution to evaluate.
+///
+/// ```
+/// use wavestep::answer::{Kind, Problem, consider};
+/// use wavestep::evaluate::Signal;
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("80")?);
+/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let picked = |points, tolerance| {
+///     let weighed = consider(&problem, points, tolerance, 1.0).unwrap();
+///     weighed.met.then(|| weighed.candidates[0].kind)
+/// };
+/// assert_eq!(picked(1, 1e-16), Some(Kind::Certified));
+/// assert_eq!(picked(1_000_000, 1e-15), Some(Kind::Compiled));
+/// // No double is so near.
+/// assert_eq!(picked(1, 1e-20), None);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn consider(
+    problem: &Problem<'_>,
+    points: usize,
+    tolerance: f64,
+    scale: f64,
+) -> Result<Weighed, EvaluateError> {
+    let order = problem.order()?;
+    let taps = Taps::of(problem.signal);
+    let marches = taps.as_ref().is_ok_and(Taps::is_rational) && problem.signal.is_rational();
+    let size = Size { order, points, marches };
+    let ulp = unit_in_the_last_place(scale);
+    let candidate = |kind: Kind| {
+        let seconds = Cost::of(kind, size).map_or(f64::INFINITY, |cost| cost.seconds(points));
+        let needs_taps = !matches!(kind, Kind::Certified | Kind::Compiled);
+        if let (true, Err(reason)) = (needs_taps, &taps) {
+            return Candidate {
+                kind,
+                promise: None,
+                seconds,
+                verdict: format!("has no values: {reason}"),
+            };
+        }
+        let promise = match kind {
+            Kind::Certified => Promise::Proven(ulp / 2.0),
+            Kind::Compiled => Promise::Proven((COMPILED_ULPS * ulp).max(tolerance / 2.0)),
+            Kind::Marched { .. } => Promise::Proven(MARCHED_ULPS * (order as f64 + 1.0) * ulp),
+            Kind::Stable(StablePrecision::Double) => Promise::Measured(64.0 * ulp),
+            Kind::Stable(StablePrecision::DoubleDouble) => Promise::Measured(2.0 * ulp),
+            _ => Promise::Nothing,
+        };
+        let verdict = match promise {
+            Promise::Proven(bound) if bound <= tolerance => "proven to be good enough".to_owned(),
+            Promise::Proven(_) => "its proven bound is larger than the tolerance".to_owned(),
+            Promise::Measured(_) => "its error is measured, not proven".to_owned(),
+            Promise::Nothing => "it promises nothing".to_owned(),
+        };
+        Candidate { kind, promise: Some(promise), seconds, verdict }
+    };
+    let mut candidates: Vec<Candidate> = METHODS.into_iter().map(candidate).collect();
+    let meets = |candidate: &Candidate| matches!(candidate.promise, Some(Promise::Proven(bound)) if bound <= tolerance);
+    candidates.sort_by(|a, b| meets(b).cmp(&meets(a)).then(a.seconds.total_cmp(&b.seconds)));
+    let met = candidates.first().is_some_and(meets);
+    if let (true, Some(first)) = (met, candidates.first_mut()) {
+        first.verdict = "the cheapest that is proven to be good enough".to_owned();
+    }
+    Ok(Weighed { candidates, met })
+}

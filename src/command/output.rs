@@ -1,0 +1,47 @@
+//! Files that are written: whole, or not at all.
+
+use super::failure::Failure;
+use std::fs::{self, File};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Text for standard output, or written to a file, which is then named there.
+pub fn written(text: String, file: Option<&str>) -> Result<String, Failure> {
+    match file.filter(|file| *file != "-") {
+        None => Ok(text),
+        Some(file) => {
+            write_whole(Path::new(file), &text)?;
+            Ok(format!("{file}: {} bytes\n", text.len()))
+        }
+    }
+}
+
+/// Writes a file as a whole or not at all: beside it first, under a name that is free, then in its
+/// place. What is no ordinary file, such as a pipe, is written to.
+pub fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
+    let written = match fs::metadata(file) {
+        Ok(found) if !found.is_file() => fs::write(file, text),
+        // A link stays a link: its target is replaced.
+        Ok(_) => fs::canonicalize(file).and_then(|target| replace(&target, text)),
+        Err(_) => replace(file, text),
+    };
+    written.map_err(|error| {
+        let message = format!("the file `{}` cannot be written: {error}", file.display());
+        Failure::usage(message, "name a file in a folder that exists and can be written to")
+    })
+}
+
+fn replace(file: &Path, text: &str) -> std::io::Result<()> {
+    let mut name = file.as_os_str().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let beside = PathBuf::from(name);
+    let mut part = File::options().write(true).create_new(true).open(&beside)?;
+    let written = part.write_all(text.as_bytes()).and_then(|()| part.sync_all());
+    let written = written.and_then(|()| match fs::metadata(file) {
+        Ok(old) => fs::set_permissions(&beside, old.permissions()),
+        Err(_) => Ok(()),
+    });
+    written.and_then(|()| fs::rename(&beside, file)).inspect_err(|_| {
+        let _ = fs::remove_file(&beside);
+    })
+}

@@ -1,0 +1,126 @@
+//! The course of a load in doubles: `Σ Re(p(t) e^{λt})` with complex polynomials and rates.
+
+use crate::ball::{Ball, ComplexBall};
+use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
+use crate::expression::{Expression, Fraction};
+use num_traits::ToPrimitive;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The precision at which exact values are enclosed before they are rounded to doubles.
+const BITS: u64 = 96;
+
+/// A complex number as its two parts.
+type Complex = [f64; 2];
+
+/// An exponential polynomial of time in doubles.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Course {
+    /// Rate `λ` and the coefficients of `p`, lowest power first.
+    terms: Vec<(Complex, Vec<Complex>)>,
+}
+
+/// The middle of a ball.
+fn middle(ball: &Ball) -> f64 {
+    Rational::from(ball.midpoint()).to_f64().unwrap_or(f64::NAN)
+}
+
+/// A real value, rounded.
+pub(crate) fn double(numbers: &Numbers, value: &Fraction) -> Result<f64, EnclosureError> {
+    match value.as_constant() {
+        Some(number) => Ok(number.to_f64().unwrap_or(f64::NAN)),
+        None => numbers.enclose(value, BITS).map(|ball| middle(&ball)),
+    }
+}
+
+/// A factor times a root, rounded.
+pub(crate) fn double_root(
+    numbers: &Numbers,
+    value: &crate::expression::Root,
+) -> Result<f64, EnclosureError> {
+    numbers.enclose_root(value, BITS).map(|ball| middle(&ball))
+}
+
+fn complex(numbers: &Numbers, value: &Fraction) -> Result<Complex, EnclosureError> {
+    let expression = Expression::from(value.clone());
+    let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
+    let ball: ComplexBall = enclose_expression(&expression, &values, BITS)?;
+    Ok([middle(ball.real()), middle(ball.imaginary())])
+}
+
+impl Course {
+    /// The course as a function of one symbol.
+    ///
+    /// # Errors
+    /// As [`Numbers::enclose`].
+    pub fn of(
+        numbers: &Numbers,
+        course: &Expression,
+        time: &Symbol,
+    ) -> Result<Course, EnclosureError> {
+        let at_zero = |value: &Fraction| value.substitute(time, &Fraction::zero());
+        let mut terms = Vec::new();
+        for (exponent, coefficient) in course.terms() {
+            let rate = complex(numbers, &at_zero(&exponent.derivative(time))?)?;
+            let [growth, turn] = complex(numbers, &at_zero(exponent)?)?;
+            let (sine, cosine) = turn.sin_cos();
+            let [re, im] = [growth.exp() * cosine, growth.exp() * sine];
+            let mut polynomial = Vec::new();
+            let (mut derivative, mut factorial) = (coefficient.clone(), 1.0);
+            while !derivative.is_zero() {
+                let [x, y] = complex(numbers, &at_zero(&derivative)?)?;
+                polynomial.push([(x * re - y * im) / factorial, (x * im + y * re) / factorial]);
+                factorial *= polynomial.len() as f64;
+                derivative = derivative.derivative(time);
+            }
+            terms.push((rate, polynomial));
+        }
+        Ok(Course { terms })
+    }
+
+    /// The value at a time.
+    pub fn value(&self, time: f64) -> f64 {
+        let mut sum = 0.0;
+        for ([decay, turn], polynomial) in &self.terms {
+            let (mut re, mut im) = (0.0, 0.0);
+            for [x, y] in polynomial.iter().rev() {
+                (re, im) = (re * time + x, im * time + y);
+            }
+            let (sine, cosine) = (turn * time).sin_cos();
+            sum += (decay * time).exp() * (re * cosine - im * sine);
+        }
+        sum
+    }
+
+    /// The value, where it does not change with time.
+    pub fn constant(&self) -> Option<f64> {
+        let constant = |(rate, polynomial): &(Complex, Vec<Complex>)| {
+            *rate == [0.0, 0.0] && polynomial.len() <= 1
+        };
+        self.terms.iter().all(constant).then(|| self.value(0.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `(2 + 3t) e^{−t/2} + cos(2t)` against the same in doubles.
+    #[test]
+    fn courses_are_what_they_are_in_doubles() {
+        let t = Symbol::new("t").unwrap();
+        let read =
+            |text: &str| Fraction::from(text.parse::<wavestep_polynomial::Polynomial>().unwrap());
+        let decaying = Expression::exponential(read("-1/2*t")).times(&read("2 + 3*t"));
+        let course = &decaying + &Expression::cosine(&read("2*t"));
+        let course = Course::of(&Numbers::new(&[]), &course, &t).unwrap();
+        for time in [0.0, 0.7, 3.0, 11.0] {
+            let direct = (2.0 + 3.0 * time) * f64::exp(-time / 2.0) + f64::cos(2.0 * time);
+            assert!((course.value(time) - direct).abs() < 1e-14, "{time}");
+        }
+        assert_eq!(course.constant(), None);
+        let five = Course::of(&Numbers::new(&[]), &Expression::integer(5), &t).unwrap();
+        assert_eq!(five.constant(), Some(5.0));
+        let moving = Course::of(&Numbers::new(&[]), &read("t").into(), &t).unwrap();
+        assert_eq!(moving.constant(), None);
+    }
+}

@@ -1,0 +1,303 @@
+//! A line as the sum of its first modes of vibration.
+//!
+//! A conservative line of bars, masses and springs swings in modes `u_n(x) cos ω_n t`. The frequencies
+//! are found one by one by the angle of Prüfer, which counts them, so that none is missed; then the
+//! motion at the start is projected onto each mode with exact integrals over the uniform bars.
+//!
+//! Error law (measured, not proven): with `N` modes the error falls like `1/N` away from jumps; beside
+//! a jump it does not fall, as is known of Fourier series. For a mass on a fixed bar with `μ = 1` the
+//! mean error of the velocity of the mass is about `0.1/N`, of strains at places with jumps about
+//! `1/N` in the mean.
+
+use crate::model::Model;
+use crate::model::error::ModelError;
+use crate::model::line::{Law, Line, Quantity, Spot, Term};
+use crate::model::shape::{Part, Shape, frequency};
+use crate::network::{Network, Side};
+
+const NAME: &str = "modes of vibration";
+
+/// The most modes that are found.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::model::{MAX_MODES, ModelError, Modes};
+/// use wavestep::network::Network;
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod - fixed";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let refused = Modes::new(&Network::new(&scene).unwrap(), MAX_MODES + 1).err();
+/// assert!(matches!(refused, Some(ModelError::TooMuch { what: "modes", .. })));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub const MAX_MODES: usize = 1_000_000;
+
+/// The most terms, modes times times, that are added up for one observable.
+///
+/// ```
+/// assert!(wavestep::model::MAX_MODE_TERMS >= wavestep::model::MAX_MODES as f64);
+/// ```
+pub const MAX_MODE_TERMS: f64 = 1e9;
+
+/// One mode with its motion: `q(t) = v/ω sin ωt + p/ω² (1 − cos ωt)`, or `v t` where `ω = 0`.
+#[derive(Clone, Debug)]
+struct Mode {
+    shape: Shape,
+    /// `v`, the velocity at the start.
+    velocity: f64,
+    /// `p`, the force of what is strained at the start, over the modal mass.
+    push: f64,
+}
+
+/// The first modes of vibration of a line.
+///
+/// Cost: for each mode some ten evaluations of a chain of rotations, then a sine and a cosine for each
+/// time.
+///
+/// # Invariants
+/// Frequencies ascend; a free line has the frequency 0 first, its motion as a whole.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::model::{Model, Modes};
+/// use wavestep::network::Network;
+///
+/// let text = r#"
+///     scene "A mass strikes a bar"
+///     mass hammer { mass = 1, velocity = 1 }
+///     bar rod { impedance = 1, travel = 2 }
+///     line free - hammer - rod - fixed
+///     observe v = velocity(hammer)
+/// "#;
+/// let scene = read_scene(&Source::new("modes.wave", text)?, &Default::default()).unwrap();
+/// let modes = Modes::new(&Network::new(&scene).unwrap(), 50).unwrap();
+/// // The frequency equation cot(mu omega) = omega with mu = 2.
+/// for frequency in modes.frequencies() {
+///     let rest = (2.0 * frequency).cos() - frequency * (2.0 * frequency).sin();
+///     assert!(rest.abs() < 1e-10, "{frequency}");
+/// }
+/// assert!((modes.values(0, &[3.0]).unwrap()[0] - f64::exp(-3.0)).abs() < 0.01);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Modes {
+    line: Line,
+    modes: Vec<Mode>,
+    /// The unit of frequency by that of the user.
+    unit: f64,
+}
+
+fn refuse<T>(reason: String) -> Result<T, ModelError> {
+    Err(ModelError::Refused { model: NAME, reason })
+}
+
+/// The parts of a line from left to right, and of each node where its parts begin.
+///
+/// # Errors
+/// [`ModelError::Refused`] for what does not keep energy, or has no modes.
+fn parts(line: &Line) -> Result<Vec<Part>, ModelError> {
+    if let Some(bar) = line.endless() {
+        return refuse(format!(
+            "bar {} is endless, and waves that leave are no vibration",
+            bar.name
+        ));
+    }
+    if line.bars.is_empty() {
+        return refuse("it takes a line with at least one bar".to_owned());
+    }
+    let mut parts = Vec::new();
+    for (place, node) in line.nodes.iter().enumerate() {
+        for lump in &node.lumps {
+            parts.push(match lump.law {
+                Law::Spring { damping, .. } | Law::Support { damping, .. } if damping > 0.0 => {
+                    return refuse(format!("{} damps the motion", lump.name));
+                }
+                Law::Load { .. } => {
+                    return refuse(format!("load {} acts from outside", lump.name));
+                }
+                Law::Mass { mass, .. } => Part::Mass { mass },
+                Law::Spring { stiffness, .. } => Part::Spring { stiffness },
+                Law::Support { stiffness, .. } => Part::Support { stiffness },
+            });
+        }
+        if let Some(bar) = line.bars.get(place) {
+            let travel = bar.travel.expect("finite");
+            parts.push(Part::Bar { impedance: bar.impedance, travel });
+        }
+    }
+    Ok(parts)
+}
+
+impl Modes {
+    /// The first `count` modes.
+    ///
+    /// # Errors
+    /// [`ModelError::Refused`] for endless bars, dampers, loads, and lines without bars;
+    /// [`ModelError::Setting`] for no modes, [`ModelError::TooMuch`] for more than [`MAX_MODES`];
+    /// [`ModelError::MissingValue`] for symbols without values.
+    pub fn new(network: &Network, count: usize) -> Result<Modes, ModelError> {
+        if count == 0 {
+            let reason = "it takes at least one mode".to_owned();
+            return Err(ModelError::Setting { model: NAME, reason });
+        }
+        if count > MAX_MODES {
+            let (count, limit) = (count as f64, MAX_MODES as f64);
+            return Err(ModelError::TooMuch { model: NAME, what: "modes", count, limit });
+        }
+        let line = Line::of(network)?;
+        let parts = parts(&line)?;
+        let held = |side| side == Side::Fixed;
+        let ends = [line.nodes[0].left, line.nodes[line.nodes.len() - 1].right].map(held);
+        let still = |part: &Part| matches!(part, Part::Support { stiffness } if *stiffness > 0.0);
+        let drifts = ends == [false, false] && !parts.iter().any(still);
+        let mut modes: Vec<Mode> = Vec::with_capacity(count);
+        for number in 0..count {
+            let frequency = match number {
+                0 if drifts => 0.0,
+                _ => {
+                    let below = modes.last().map_or(0.0, |mode| mode.shape.frequency());
+                    frequency(&parts, ends, number, below)
+                }
+            };
+            let shape = Shape::of(&parts, ends[0], frequency);
+            modes.push(Mode::of(&line, shape));
+        }
+        let unit = line.scaled(&[1.0])?[0];
+        Ok(Modes { line, modes, unit })
+    }
+
+    /// The frequencies `ω_n` in ascending order, in radians a second, or as plain numbers.
+    pub fn frequencies(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+        self.modes.iter().map(|mode| mode.shape.frequency() * self.unit)
+    }
+
+    /// Adds what a term sees of a mode, as factors of `q` and `q'`.
+    fn seen(&self, term: &Term, shape: &Shape) -> Option<[f64; 2]> {
+        let displaced = |u: f64| match term.quantity {
+            Quantity::Velocity => Some([0.0, u]),
+            Quantity::Displacement => Some([u, 0.0]),
+            _ => None,
+        };
+        match term.spot {
+            Spot::Section { bar, at } => {
+                let part = self.part_of_bar(bar);
+                let [u, pulled] = shape.section(part, at);
+                match term.quantity {
+                    Quantity::Force => Some([-pulled, 0.0]),
+                    _ => displaced(u),
+                }
+            }
+            Spot::Bar(bar) => {
+                let part = self.part_of_bar(bar);
+                Some([0.0, self.line.bars[bar].impedance * shape.integral(part)])
+            }
+            Spot::Lump { node, place } => {
+                let [u, pulled] = shape.left_of(self.part_of_node(node) + place);
+                match (term.quantity, &self.line.nodes[node].lumps[place].law) {
+                    (Quantity::Force, Law::Spring { .. }) => Some([-pulled, 0.0]),
+                    (Quantity::Compression, Law::Spring { stiffness, .. }) => {
+                        Some([-pulled / stiffness, 0.0])
+                    }
+                    (Quantity::Force, Law::Support { stiffness, .. }) => Some([stiffness * u, 0.0]),
+                    (Quantity::Momentum, Law::Mass { mass, .. }) => Some([0.0, mass * u]),
+                    _ => displaced(u),
+                }
+            }
+        }
+    }
+
+    /// Where the parts of a node begin: behind all nodes and bars before it.
+    fn part_of_node(&self, node: usize) -> usize {
+        self.line.nodes[..node].iter().map(|node| node.lumps.len() + 1).sum()
+    }
+
+    fn part_of_bar(&self, bar: usize) -> usize {
+        self.part_of_node(bar + 1) - 1
+    }
+}
+
+impl Mode {
+    /// The motion of a mode: what is moving at the start, and what is strained, projected onto it.
+    fn of(line: &Line, shape: Shape) -> Mode {
+        let (mut momentum, mut force, mut part) = (0.0, 0.0, 0);
+        for (place, node) in line.nodes.iter().enumerate() {
+            for lump in &node.lumps {
+                if let Law::Mass { mass, velocity } = lump.law {
+                    momentum += mass * velocity * shape.left_of(part)[0];
+                }
+                part += 1;
+            }
+            if let Some(bar) = line.bars.get(place) {
+                momentum += bar.impedance * bar.velocity * shape.integral(part);
+                // The work of the force at the start, which compresses, while the bar lengthens.
+                let travel = bar.travel.expect("finite");
+                force += bar.force * (shape.section(part, travel)[0] - shape.section(part, 0.0)[0]);
+                part += 1;
+            }
+        }
+        let mass = shape.mass();
+        Mode { velocity: momentum / mass, push: force / mass, shape }
+    }
+
+    /// `q` and `q'` at a time.
+    fn motion(&self, time: f64) -> [f64; 2] {
+        let frequency = self.shape.frequency();
+        if frequency == 0.0 {
+            return [self.velocity * time, self.velocity];
+        }
+        let (sine, cosine) = (frequency * time).sin_cos();
+        let (half, push) = ((frequency * time / 2.0).sin(), self.push / frequency);
+        let turned = 2.0 * half * half;
+        [(self.velocity * sine + push * turned) / frequency, self.velocity * cosine + push * sine]
+    }
+}
+
+impl Model for Modes {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn assumptions(&self) -> &'static str {
+        "All modes of vibration above the last one are left out, and with them what is steep in a wave."
+    }
+
+    fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let observable = self.line.observable(NAME, observable)?;
+        let count = self.modes.len() as f64 * times.len() as f64;
+        if count > MAX_MODE_TERMS {
+            let limit = MAX_MODE_TERMS;
+            return Err(ModelError::TooMuch { model: NAME, what: "terms", count, limit });
+        }
+        let times = self.line.scaled(times)?;
+        let mut constant = 0.0;
+        for term in &observable.terms {
+            if let (Quantity::Force, Spot::Section { bar, .. }) = (term.quantity, term.spot) {
+                constant += term.coefficient * self.line.bars[bar].force;
+            }
+        }
+        let mut values = vec![constant; times.len()];
+        for mode in &self.modes {
+            let mut factors = [0.0; 2];
+            for term in &observable.terms {
+                let Some([x, v]) = self.seen(term, &mode.shape) else {
+                    return self.line.refuse(NAME, observable, "what modes do not have");
+                };
+                factors[0] += term.coefficient * x;
+                factors[1] += term.coefficient * v;
+            }
+            if factors == [0.0; 2] || (mode.velocity == 0.0 && mode.push == 0.0) {
+                continue;
+            }
+            for (value, time) in values.iter_mut().zip(&times) {
+                let [x, v] = mode.motion(*time);
+                *value += factors[0] * x + factors[1] * v;
+            }
+        }
+        for (value, time) in values.iter_mut().zip(&times) {
+            if *time < 0.0 {
+                *value = 0.0;
+            }
+        }
+        Ok(values)
+    }
+}

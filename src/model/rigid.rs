@@ -1,0 +1,288 @@
+//! The line as one rigid body on the springs and dampers at its ends.
+//!
+//! All bars and masses stick together at the start, keep their momentum, and then move as one:
+//!
+//! ```text
+//! M v' + d v + k x = F,   x' = v,   x(0) = 0,   M v(0) = Σ m v_0,   M = Σ m + Σ Z τ
+//! ```
+//!
+//! with constant forces between the times at which loads begin and end. Error law (measured, not
+//! proven): what it leaves out are the waves, so the error is as large as the waves are; averaged over
+//! many round trips the velocity of a free line is right, because momentum is kept.
+
+use crate::model::Model;
+use crate::model::error::ModelError;
+use crate::model::line::{Law, Line, Node, Quantity, Spot, Term};
+use crate::network::{Network, Side};
+use crate::scene::Drive;
+
+const NAME: &str = "rigid body";
+
+/// The line as one rigid body.
+///
+/// Cost: a few exponentials for each time.
+///
+/// # Invariants
+/// The mass is positive and finite; stiffness and damping are not negative.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::model::{Model, RigidBody};
+/// use wavestep::network::Network;
+///
+/// let text = r#"
+///     scene "A striker on a rod on a spring"
+///     bar striker { impedance = 1, travel = 1, velocity = 4 }
+///     bar rod { impedance = 1, travel = 3 }
+///     support ground { stiffness = 4 }
+///     line free - striker | rod - ground - free
+///     observe v = velocity(rod.right)
+///     observe F = force(ground)
+/// "#;
+/// let scene = read_scene(&Source::new("rigid.wave", text)?, &Default::default()).unwrap();
+/// let model = RigidBody::new(&Network::new(&scene).unwrap()).unwrap();
+/// // M = 4 moves with 4/4 = 1 on k = 4: v = cos t, and the spring presses with 4 sin t.
+/// let times = [0.0, 0.5, 2.0];
+/// for (velocity, t) in model.values(0, &times).unwrap().iter().zip(times) {
+///     assert!((velocity - t.cos()).abs() < 1e-15);
+/// }
+/// assert!((model.values(1, &[2.0]).unwrap()[0] - 4.0 * f64::sin(2.0)).abs() < 1e-14);
+/// assert_eq!(model.mass(), 4.0);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct RigidBody {
+    line: Line,
+    mass: f64,
+    stiffness: f64,
+    damping: f64,
+    /// The velocity after the impact.
+    start: f64,
+    /// Constant forces, and from when until when they act.
+    forces: Vec<(f64, f64, f64)>,
+    /// Which run is the body, by node: what is left of it is held, and what is right of it.
+    body: Vec<usize>,
+}
+
+fn refuse<T>(reason: String) -> Result<T, ModelError> {
+    Err(ModelError::Refused { model: NAME, reason })
+}
+
+/// Displacement and velocity after a time under a constant force, in closed form.
+///
+/// With `β = d/2M`, `ω² = |k/M − β²|` and the distance `y` from equilibrium,
+/// `y = e^{−βt} (y_0 C + (v_0 + β y_0) S)` and `v = e^{−βt} (v_0 C − (β v_0 + k/M y_0) S)`, where
+/// `C, S = cos ωt, sin ωt/ω`, or `cosh, sinh`. The latter stand with their exponential, as
+/// `e^{−(β−ω)t}` and `e^{−(β+ω)t}` with `β − ω = (k/M)/(β + ω)`: nothing overflows or cancels.
+fn moved(body: &RigidBody, [x, v]: [f64; 2], force: f64, t: f64) -> [f64; 2] {
+    let (push, decay, square) =
+        (force / body.mass, body.damping / body.mass, body.stiffness / body.mass);
+    if square == 0.0 {
+        if decay == 0.0 {
+            return [x + v * t + push * t * t / 2.0, v + push * t];
+        }
+        let (last, gone) = (push / decay, -f64::exp_m1(-decay * t));
+        return [x + last * t + (v - last) * gone / decay, v + (last - v) * gone];
+    }
+    let rest = push / square;
+    let y = x - rest;
+    let beta = decay / 2.0;
+    let omega_squared = square - beta * beta;
+    let (cosine, sine) = if omega_squared > 0.0 {
+        let omega = omega_squared.sqrt();
+        let (sine, cosine) = (omega * t).sin_cos();
+        let damped = (-beta * t).exp();
+        (damped * cosine, damped * sine / omega)
+    } else {
+        let omega = (-omega_squared).sqrt();
+        let slow = (-square / (beta + omega) * t).exp();
+        let gone = -f64::exp_m1(-2.0 * omega * t);
+        let sine = if omega == 0.0 { slow * t } else { slow * gone / (2.0 * omega) };
+        (slow * (1.0 - gone / 2.0), sine)
+    };
+    [rest + y * cosine + (v + beta * y) * sine, v * cosine - (beta * v + square * y) * sine]
+}
+
+impl RigidBody {
+    /// The body that a line is where nothing in it yields.
+    ///
+    /// # Errors
+    /// [`ModelError::Refused`] for endless and strained bars, springs between bodies, ends that are
+    /// fixed without a spring, imposed velocities and forces that vary; and for symbols without values.
+    pub fn new(network: &Network) -> Result<RigidBody, ModelError> {
+        let line = Line::of(network)?;
+        if let Some(bar) = line.endless() {
+            return refuse(format!("bar {} is endless, so its mass has no bound", bar.name));
+        }
+        if let Some(bar) = line.bars.iter().find(|bar| bar.force != 0.0) {
+            return refuse(format!(
+                "bar {} is strained at the start, and a rigid one is not",
+                bar.name
+            ));
+        }
+        let mut body = RigidBody {
+            mass: line.bars.iter().map(|bar| bar.mass()).sum(),
+            start: line.bars.iter().map(|bar| bar.mass() * bar.velocity).sum(),
+            stiffness: 0.0,
+            damping: 0.0,
+            forces: Vec::new(),
+            body: Vec::new(),
+            line,
+        };
+        let nodes = std::mem::take(&mut body.line.nodes);
+        for node in &nodes {
+            body.join(node)?;
+        }
+        body.line.nodes = nodes;
+        if !(body.mass > 0.0 && body.mass.is_finite()) {
+            return refuse("the line has no mass".to_owned());
+        }
+        body.start /= body.mass;
+        Ok(body)
+    }
+
+    /// `M`, in the scale of the scene: the masses and the bars together.
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Adds what a node holds.
+    fn join(&mut self, node: &Node) -> Result<(), ModelError> {
+        let bar = |side| matches!(side, Side::Bar(_));
+        let moves = |run: usize| node.mass_of(run).0 > 0.0 || node.sides(run).any(bar);
+        let moving: Vec<usize> = (0..node.runs).filter(|run| moves(*run)).collect();
+        let springs = node.lumps.iter().filter(|lump| matches!(lump.law, Law::Spring { .. }));
+        let springs: Vec<_> = springs.collect();
+        let [run] = moving[..] else {
+            let Some(spring) = springs.get(moving.first().copied().unwrap_or(0)) else {
+                return refuse("the line has no mass".to_owned());
+            };
+            return refuse(format!(
+                "it takes one body, and spring {} parts this line into more",
+                spring.name
+            ));
+        };
+        if node.is_held(run) {
+            return refuse(
+                "an end is fixed without a spring, so that a rigid line cannot move".to_owned(),
+            );
+        }
+        for (left, spring) in springs.iter().enumerate() {
+            let outer = if left < run { left } else { left + 1 };
+            if !node.is_held(outer) || outer.abs_diff(run) != 1 {
+                return refuse(format!(
+                    "spring {} does not lie between the body and a fixed end",
+                    spring.name
+                ));
+            }
+        }
+        for lump in &node.lumps {
+            match &lump.law {
+                Law::Mass { mass, velocity } if lump.run == run => {
+                    self.mass += mass;
+                    self.start += mass * velocity;
+                }
+                Law::Spring { stiffness, damping } => {
+                    self.stiffness += stiffness;
+                    self.damping += damping;
+                }
+                Law::Support { stiffness, damping } if lump.run == run => {
+                    self.stiffness += stiffness;
+                    self.damping += damping;
+                }
+                Law::Load { drive: Drive::Velocity, .. } => {
+                    return refuse(format!("load {} imposes a velocity", lump.name));
+                }
+                Law::Load { course, from, until, .. } if lump.run == run => {
+                    let Some(force) = course.constant() else {
+                        return refuse(format!("the force of load {} varies in time", lump.name));
+                    };
+                    self.forces.push((force, *from, *until));
+                }
+                _ => {}
+            }
+        }
+        self.body.push(run);
+        Ok(())
+    }
+
+    /// Displacement and velocity at a time.
+    fn state(&self, time: f64) -> [f64; 2] {
+        let moments = self.forces.iter().flat_map(|(_, from, until)| [*from, *until]);
+        let mut moments: Vec<f64> = moments.filter(|at| *at > 0.0 && *at < time).collect();
+        moments.push(time);
+        moments.sort_by(f64::total_cmp);
+        let (mut state, mut now) = ([0.0, self.start], 0.0);
+        for next in moments {
+            let acting = self.forces.iter().filter(|(_, from, until)| *from <= now && now < *until);
+            state = moved(self, state, acting.map(|(force, ..)| force).sum(), next - now);
+            now = next;
+        }
+        state
+    }
+
+    /// What is seen when the body is at `x` and moves with `v`, as factors of the two.
+    fn seen(&self, term: &Term) -> Result<[f64; 2], &'static str> {
+        let (node, place) = match term.spot {
+            Spot::Section { .. } => {
+                return match term.quantity {
+                    Quantity::Velocity => Ok([0.0, 1.0]),
+                    Quantity::Displacement => Ok([1.0, 0.0]),
+                    _ => Err("the force within a rigid bar"),
+                };
+            }
+            Spot::Bar(bar) => return Ok([0.0, self.line.bars[bar].mass()]),
+            Spot::Lump { node, place } => (node, place),
+        };
+        let lump = &self.line.nodes[node].lumps[place];
+        let body = self.body[node];
+        let moves = if lump.run == body { 1.0 } else { 0.0 };
+        // A spring at the left of the body is shortened when that moves to the left.
+        let shortens = if lump.run == body { 1.0 } else { -1.0 };
+        Ok(match (term.quantity, &lump.law) {
+            (Quantity::Force, Law::Spring { stiffness, damping }) => {
+                [shortens * stiffness, shortens * damping]
+            }
+            (Quantity::Compression, Law::Spring { .. }) => [shortens, 0.0],
+            (Quantity::Force, Law::Support { stiffness, damping }) => {
+                [moves * stiffness, moves * damping]
+            }
+            (Quantity::Velocity, _) => [0.0, moves],
+            (Quantity::Displacement, _) => [moves, 0.0],
+            (Quantity::Momentum, Law::Mass { mass, .. }) => [0.0, moves * mass],
+            _ => return Err("what a rigid body does not have"),
+        })
+    }
+}
+
+impl Model for RigidBody {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn assumptions(&self) -> &'static str {
+        "Bars do not yield: the whole line moves as one body, and all waves in it are left out."
+    }
+
+    fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let observable = self.line.observable(NAME, observable)?;
+        let mut factors = [0.0; 2];
+        for term in &observable.terms {
+            match self.seen(term) {
+                Ok([x, v]) => {
+                    factors[0] += term.coefficient * x;
+                    factors[1] += term.coefficient * v;
+                }
+                Err(what) => return self.line.refuse(NAME, observable, what),
+            }
+        }
+        let value = |time: f64| match time < 0.0 {
+            true => 0.0,
+            false => {
+                let [x, v] = self.state(time);
+                factors[0] * x + factors[1] * v
+            }
+        };
+        Ok(self.line.scaled(times)?.into_iter().map(value).collect())
+    }
+}

@@ -1,0 +1,228 @@
+//! A mass that strikes a bar with a fixed end: the bar as a spring that carries a third of its mass.
+//!
+//! Where the bar deforms uniformly, its velocity grows linearly from the fixed end, and its kinetic
+//! energy is that of a third of its mass at the struck end: `½ ∫_0^1 m ξ² v² dξ = ½ (m/3) v²`.
+//! With `M` the striking mass, `m = Zτ` and `k = Z/τ` the displacement of the struck end obeys
+//! Rayleigh's equation
+//!
+//! ```text
+//! (M + m/3) u'' + k u = 0,   u(0) = 0,   u'(0) = v_0
+//! ```
+//!
+//! Error law (measured, not proven): the strain of light bars, `μ = m/M ≪ 1`, is right but for steps of
+//! relative size `√μ`, which fronts of height `V/c` leave beside a maximum of `(V/c)/√μ`.
+
+use crate::model::Model;
+use crate::model::error::ModelError;
+use crate::model::line::{Law, Line, Quantity, Spot};
+use crate::network::{Network, Side};
+
+const NAME: &str = "a third of the mass";
+
+/// The velocity with which the mass and a third of the bar begin to move.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::model::{StartingVelocity, ThirdOfMass};
+/// use wavestep::network::Network;
+///
+/// let text = r#"
+///     scene "A mass as heavy as the bar"
+///     mass hammer { mass = 3, velocity = 1 }
+///     bar rod { impedance = 3, travel = 1 }
+///     line free - hammer - rod - fixed
+/// "#;
+/// let scene = read_scene(&Source::new("third.wave", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let strain = |start| ThirdOfMass::new(&network, start).unwrap().largest_strain();
+/// // Momentum slows 3 down to 3/4 of its velocity when 1 is added.
+/// let ratio = strain(StartingVelocity::ByMomentum) / strain(StartingVelocity::Kept);
+/// assert!((ratio - 0.75).abs() < 1e-15);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum StartingVelocity {
+    /// That of the striking mass. The largest strain is then the energy estimate
+    /// `(V/c) √(1/μ + 1/3)`, in which a third of the bar strikes along.
+    Kept,
+    /// By momentum, `M V/(M + m/3)`: the third is at rest before.
+    ByMomentum,
+}
+
+/// A mass on a spring that has a third of the mass of the bar.
+///
+/// Cost: a sine for each time.
+///
+/// # Invariants
+/// The line is one finite bar at rest with one fixed end, and masses at the other.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::model::{Model, StartingVelocity, ThirdOfMass};
+/// use wavestep::network::Network;
+///
+/// let text = r#"
+///     scene "A mass twice as heavy as the bar"
+///     mass hammer { mass = 2, velocity = 1 }
+///     bar rod { impedance = 1, travel = 1 }
+///     line free - hammer - rod - fixed
+///     observe strain = strain(rod.right)
+/// "#;
+/// let scene = read_scene(&Source::new("third.wave", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let model = ThirdOfMass::new(&network, StartingVelocity::Kept).unwrap();
+/// // mu = 1/2: the largest strain by energy, and 6.86, where the front is added.
+/// let largest = f64::sqrt(2.0 + 1.0 / 3.0);
+/// assert!((model.largest_strain() - largest).abs() < 1e-15);
+/// assert!((model.largest_strain_with_front() - (1.0 + largest)).abs() < 1e-15);
+/// // It is reached a quarter of a period after the impact: a pulled bar has positive strain.
+/// let strain = model.values(0, &[model.period() / 4.0]).unwrap()[0];
+/// assert!((strain + largest).abs() < 1e-15);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ThirdOfMass {
+    line: Line,
+    /// The velocity of the striking mass.
+    velocity: f64,
+    /// The velocity at the start.
+    start: f64,
+    /// `ω = √(k/(M + m/3))`
+    frequency: f64,
+    /// Whether the fixed end is the left one.
+    mirrored: bool,
+    /// The unit of time, and the strain that goes with the unit of velocity, in units of the user.
+    time: f64,
+    strain: f64,
+}
+
+fn refuse<T>(reason: &str) -> Result<T, ModelError> {
+    Err(ModelError::Refused { model: NAME, reason: reason.to_owned() })
+}
+
+impl ThirdOfMass {
+    /// The model of a mass that strikes a bar with a fixed end.
+    ///
+    /// # Errors
+    /// [`ModelError::Refused`] for every other scene, with what differs;
+    /// [`ModelError::MissingValue`] for symbols without values.
+    pub fn new(network: &Network, start: StartingVelocity) -> Result<ThirdOfMass, ModelError> {
+        let line = Line::of(network)?;
+        let ([bar], [left, right]) = (&line.bars[..], &line.nodes[..]) else {
+            let reason = match (&line.bars[..], line.endless()) {
+                ([_], Some(bar)) => format!("bar {} is endless, and no spring", bar.name),
+                (bars, _) => format!("it takes one bar; this line has {}", bars.len()),
+            };
+            return Err(ModelError::Refused { model: NAME, reason });
+        };
+        let travel = bar.travel.expect("a bar between two nodes is finite");
+        let (struck, fixed, mirrored) = match (left.left, right.right) {
+            (Side::Free, Side::Fixed) => (left, right, false),
+            (Side::Fixed, Side::Free) => (right, left, true),
+            _ => return refuse("it takes a line with one free and one fixed end"),
+        };
+        if let Some(lump) = fixed.lumps.first() {
+            return Err(ModelError::Refused {
+                model: NAME,
+                reason: format!("{} stands at the fixed end, which it takes bare", lump.name),
+            });
+        }
+        for lump in &struck.lumps {
+            if !matches!(lump.law, Law::Mass { .. }) {
+                let reason = format!("{} is no mass; it takes masses at the struck end", lump.name);
+                return Err(ModelError::Refused { model: NAME, reason });
+            }
+        }
+        if bar.velocity != 0.0 || bar.force != 0.0 {
+            let reason = format!("bar {} is not at rest at the start", bar.name);
+            return Err(ModelError::Refused { model: NAME, reason });
+        }
+        let (mass, momentum) = struck.mass_of(0);
+        if mass <= 0.0 {
+            return refuse("no mass strikes the bar");
+        }
+        let velocity = momentum / mass;
+        let whole = mass + bar.mass() / 3.0;
+        let (time, strain) = line.units_of(network, 0)?;
+        Ok(ThirdOfMass {
+            velocity,
+            start: match start {
+                StartingVelocity::Kept => velocity,
+                StartingVelocity::ByMomentum => momentum / whole,
+            },
+            frequency: (bar.impedance / travel / whole).sqrt(),
+            mirrored,
+            time,
+            strain,
+            line,
+        })
+    }
+
+    /// The period `2π √((M + m/3)/k)` of the motion, in seconds or as a plain number.
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU / self.frequency * self.time
+    }
+
+    /// The largest strain `(v_0/c) √(1/μ + 1/3)`, without its sign.
+    pub fn largest_strain(&self) -> f64 {
+        // u/L = v_0/(ω L) in the scale of the line, where L is c τ.
+        let travel = self.line.bars[0].travel.expect("finite");
+        (self.start / (self.frequency * travel)).abs() * self.strain
+    }
+
+    /// The better estimate of equation 6.86, `(V/c) [1 + √(1/μ + 1/3)]` where the velocity is kept:
+    /// the front of strain `V/c` is added.
+    pub fn largest_strain_with_front(&self) -> f64 {
+        self.velocity.abs() * self.strain + self.largest_strain()
+    }
+}
+
+impl Model for ThirdOfMass {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn assumptions(&self) -> &'static str {
+        "The bar is strained uniformly at every time, with a third of its mass at the struck end; waves \
+         are left out."
+    }
+
+    fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let observable = self.line.observable(NAME, observable)?;
+        let bar = &self.line.bars[0];
+        let travel = bar.travel.expect("finite");
+        let stiffness = bar.impedance / travel;
+        // Factors of the displacement and the velocity of the struck end.
+        let mut factors = [0.0; 2];
+        for term in &observable.terms {
+            let share = |at: f64| if self.mirrored { at / travel } else { 1.0 - at / travel };
+            let pressed = if self.mirrored { -stiffness } else { stiffness };
+            let [x, v] = match (term.quantity, term.spot) {
+                (Quantity::Velocity, Spot::Section { at, .. }) => [0.0, share(at)],
+                (Quantity::Displacement, Spot::Section { at, .. }) => [share(at), 0.0],
+                (Quantity::Force, Spot::Section { .. }) => [pressed, 0.0],
+                (Quantity::Velocity, Spot::Lump { .. }) => [0.0, 1.0],
+                (Quantity::Displacement, Spot::Lump { .. }) => [1.0, 0.0],
+                (Quantity::Momentum, Spot::Lump { node, place }) => {
+                    match self.line.nodes[node].lumps[place].law {
+                        Law::Mass { mass, .. } => [0.0, mass],
+                        _ => unreachable!("masses alone stand at the struck end"),
+                    }
+                }
+                (Quantity::Momentum, _) => {
+                    let what = "the momentum of a bar, which a third of its mass does not tell";
+                    return self.line.refuse(NAME, observable, what);
+                }
+                _ => return self.line.refuse(NAME, observable, "what the model does not have"),
+            };
+            factors[0] += term.coefficient * x;
+            factors[1] += term.coefficient * v;
+        }
+        let value = |time: f64| {
+            let (sine, cosine) = (self.frequency * time).sin_cos();
+            let [x, v] = [self.start * sine / self.frequency, self.start * cosine];
+            if time < 0.0 { 0.0 } else { factors[0] * x + factors[1] * v }
+        };
+        Ok(self.line.scaled(times)?.into_iter().map(value).collect())
+    }
+}

@@ -1,0 +1,151 @@
+//! Functions of time as Chebyshev series piece by piece, with their integrals.
+
+use std::f64::consts::PI;
+
+/// The degree of a piece.
+pub(crate) const DEGREE: usize = 24;
+
+/// The points of Chebyshev and Lobatto in `[0, 1]`, ascending, where a piece takes its values.
+pub(crate) fn points() -> [f64; DEGREE + 1] {
+    std::array::from_fn(|j| {
+        let half = (PI * j as f64 / (2 * DEGREE) as f64).sin();
+        half * half
+    })
+}
+
+/// A series `Σ c_k T_k(2x − 1)` on one piece of a period.
+#[derive(Clone, Debug)]
+struct Piece {
+    /// Since the period began.
+    start: f64,
+    length: f64,
+    series: [f64; DEGREE + 1],
+    /// `∫` from the piece's start, over its length.
+    integral: [f64; DEGREE + 2],
+    /// The integral from time 0 to the start of the piece.
+    total: f64,
+}
+
+/// A function of time, constant before the start, in periods of one length.
+#[derive(Clone, Debug)]
+pub(crate) struct Track {
+    before: f64,
+    /// The length of a period.
+    period: f64,
+    periods: Vec<Vec<Piece>>,
+    /// The integral from time 0 to the end.
+    total: f64,
+}
+
+/// The sum of a series by the recurrence of Clenshaw, at `y` in `[−1, 1]`.
+fn sum(series: &[f64], y: f64) -> f64 {
+    let (mut next, mut after) = (0.0, 0.0);
+    for c in series[1..].iter().rev() {
+        (next, after) = (c + 2.0 * y * next - after, next);
+    }
+    series[0] + y * next - after
+}
+
+/// The coefficients of the polynomial with these values at [`points`].
+pub(crate) fn series(values: &[f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
+    let halved = |k: usize| if k == 0 || k == DEGREE { 0.5 } else { 1.0 };
+    std::array::from_fn(|k| {
+        // The j-th point is at cos(π (N−j)/N) in [−1, 1].
+        let term = |(j, value): (usize, &f64)| {
+            let turn = k * (DEGREE - j) % (2 * DEGREE);
+            halved(j) * value * (PI * turn as f64 / DEGREE as f64).cos()
+        };
+        values.iter().enumerate().map(term).sum::<f64>() * 2.0 * halved(k) / DEGREE as f64
+    })
+}
+
+impl Track {
+    /// A function that was constant before the start.
+    pub fn new(before: f64, period: f64) -> Track {
+        Track { before, period, periods: Vec::new(), total: 0.0 }
+    }
+
+    /// Begins a period.
+    pub fn begin(&mut self) {
+        self.periods.push(Vec::new());
+    }
+
+    /// Adds a piece to the last period.
+    pub fn push(&mut self, start: f64, length: f64, series: [f64; DEGREE + 1]) {
+        // ∫ T_k = (T_{k+1}/(k+1) − T_{k−1}/(k−1))/2, and T_0 + T_1 for k = 0, over half the length.
+        let mut integral = [0.0; DEGREE + 2];
+        let c = |k: usize| series.get(k).copied().unwrap_or(0.0);
+        for (k, entry) in integral.iter_mut().enumerate().skip(1) {
+            let below = if k == 1 { 2.0 * c(0) } else { c(k - 1) };
+            *entry = (below - c(k + 1)) / (2 * k) as f64 * length / 2.0;
+        }
+        integral[0] = -sum(&integral, -1.0);
+        let piece = Piece { start, length, series, integral, total: self.total };
+        self.total += sum(&piece.integral, 1.0);
+        self.periods.last_mut().expect("a period has begun").push(piece);
+    }
+
+    fn piece(&self, period: usize, since: f64) -> &Piece {
+        let pieces = &self.periods[period];
+        let count = pieces.partition_point(|piece| piece.start <= since);
+        &pieces[count.saturating_sub(1)]
+    }
+
+    /// The value in a period, some time after it began; before the start for a negative period.
+    pub fn within(&self, period: i64, since: f64) -> f64 {
+        let Ok(period) = usize::try_from(period) else { return self.before };
+        let piece = self.piece(period, since);
+        let y = (2.0 * (since - piece.start) / piece.length - 1.0).clamp(-1.0, 1.0);
+        sum(&piece.series, y)
+    }
+
+    /// The period that a time is in, and how long since it began; a time that is a rounding below a
+    /// period is in it.
+    fn place(&self, time: f64) -> (i64, f64) {
+        let periods = time / self.period;
+        let period = (periods + 1e-11 * periods.abs().max(1.0)).floor();
+        let last = self.periods.len() as i64 - 1;
+        let period = (period as i64).min(last);
+        (period, (time - period as f64 * self.period).clamp(0.0, self.period))
+    }
+
+    /// The value at a time, behind a jump.
+    pub fn value(&self, time: f64) -> f64 {
+        let (period, since) = self.place(time);
+        self.within(period, since)
+    }
+
+    /// The integral from the start to a time, also to one before.
+    pub fn integral(&self, time: f64) -> f64 {
+        let (period, since) = self.place(time);
+        let Ok(period) = usize::try_from(period) else { return self.before * time };
+        let piece = self.piece(period, since);
+        let y = (2.0 * (since - piece.start) / piece.length - 1.0).clamp(-1.0, 1.0);
+        piece.total + sum(&piece.integral, y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `e^{−x}` on two unequal pieces: values and integrals.
+    #[test]
+    fn values_and_integrals_are_those_of_an_exponential() {
+        let mut track = Track::new(7.0, 2.0);
+        for period in 0..2 {
+            track.begin();
+            for (start, length) in [(0.0, 0.5), (0.5, 1.5)] {
+                let at = |x: f64| f64::exp(-(f64::from(period) * 2.0 + start + length * x));
+                track.push(start, length, series(&points().map(at)));
+            }
+        }
+        for t in [0.0, 0.3, 0.5, 1.9, 2.0, 2.2, 3.99, 4.0] {
+            assert!((track.value(t) - f64::exp(-t)).abs() < 1e-15, "{t}");
+            assert!((track.integral(t) + f64::exp_m1(-t)).abs() < 1e-15, "{t}");
+        }
+        assert_eq!((track.value(-0.5), track.integral(-0.5)), (7.0, -3.5));
+        assert_eq!(track.within(-1, 0.3), 7.0);
+        assert!((track.within(0, 2.0) - f64::exp(-2.0)).abs() < 1e-15);
+    }
+}
