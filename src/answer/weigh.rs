@@ -2,9 +2,8 @@
 
 use crate::answer::cost::{Cost, Size};
 use crate::answer::problem::Problem;
-use crate::answer::tolerance::unit_in_the_last_place;
 use crate::answer::way::Kind;
-use crate::evaluate::{EvaluateError, StablePrecision, Taps};
+use crate::evaluate::{EvaluateError, StablePrecision, Taps, unit_in_the_last_place};
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Kind; 6] = [

@@ -35,6 +35,9 @@ pub(crate) struct Fit {
     pub degree: usize,
     /// A bound on the error, absolute.
     pub error: Magnitude,
+    /// What rounding may cost when the polynomial is evaluated in doubles by Horner's scheme; no matter
+    /// what where nothing is said.
+    pub rounding: Option<Magnitude>,
 }
 
 /// A part of a window on which a signal is one polynomial in `u = (t − middle)/scale`.
@@ -216,7 +219,8 @@ impl<'a> Window<'a> {
         let half = (last - middle).max(middle - first).next_up();
         let half = half.max(middle.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
         let mut taylor = self.expand(stretch, (middle, half), (fit, bits))?;
-        if taylor.remainder > fit.error {
+        let loses = |most| first < last && taylor.rounding() > most;
+        if taylor.remainder > fit.error || fit.rounding.is_some_and(loses) {
             return Ok(None);
         }
         let scale = power_of_two_above(half);

@@ -193,10 +193,18 @@ impl Taylor {
         terms.fold(self.remainder, |sum, term| sum.add(&term))
     }
 
-    /// The largest radius of a coefficient.
-    pub(crate) fn radius(&self) -> Magnitude {
-        let radii = self.coefficients.iter().map(|c| *c.radius());
-        radii.max().unwrap_or(Magnitude::ZERO).max(self.remainder)
+    /// About what Horner's scheme loses in doubles: `2^−53 Σ_k T_k` for products and sums, with
+    /// `T_k = Σ_{j≥k} |c_j|`.
+    pub(crate) fn rounding(&self) -> Magnitude {
+        let mut tail = Magnitude::ZERO;
+        let mut sum = Magnitude::ZERO;
+        for coefficient in self.coefficients.iter().rev() {
+            tail = tail.add(&coefficient.magnitude());
+            sum = sum.add(&tail.scale(1));
+        }
+        // The constant is not multiplied any more.
+        let twice = sum.to_double() - tail.to_double();
+        Magnitude::from_double(twice).scale(-53)
     }
 
     /// In units `by` times as long: `c_m ← c_m by^m`. The remainder holds where it did, for

@@ -88,7 +88,7 @@ impl<'a> Certified<'a> {
 
     fn make_table(&self) -> Result<Table, MethodError> {
         let error = self.window.scale()?.scale(-ERROR_BITS);
-        let cells = self.window.cells(Fit { degree: DEGREE, error })?;
+        let cells = self.window.cells(Fit { degree: DEGREE, error, rounding: None })?;
         let pieces: Vec<Piece> = cells.iter().map(in_pairs).collect();
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         Ok(Table::new(&pieces, end)?)

@@ -9,6 +9,7 @@ use crate::ball::Magnitude;
 use crate::evaluate::cells::{Cell, Fit, Window};
 use crate::evaluate::evaluator::Side;
 use crate::evaluate::signal::Signal;
+use crate::evaluate::unit_in_the_last_place;
 use std::cmp::Ordering;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
@@ -52,7 +53,12 @@ impl<'a> Compiled<'a> {
         let fine = window.scale()?.scale(-ERROR_BITS);
         let coarse = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 4.0));
         let error = coarse.map_or(fine, |coarse| coarse.max(fine));
-        let cells = window.cells(Fit { degree: DEGREE, error })?;
+        // Half of a tolerance, but the units that are always kept.
+        let ulp = Magnitude::from_double(unit_in_the_last_place(window.scale()?.to_double()));
+        let kept = ulp.multiply(&Magnitude::from_u64(5)).scale(-1);
+        let allowed = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 2.0));
+        let rounding = Some(allowed.map_or(kept, |allowed| allowed.max(kept)));
+        let cells = window.cells(Fit { degree: DEGREE, error, rounding })?;
         let pieces: Vec<Piece> = cells.iter().map(in_doubles).collect();
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         let table = Table::new(&pieces, end)?;
