@@ -35,3 +35,4 @@ pub mod recurrence;
 pub mod scene;
 pub mod scenes;
 pub mod solution;
+pub mod study;

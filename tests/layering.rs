@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 14] = [
+const LAYERS: [(&str, &[&str]); 16] = [
     ("ball", &[]),
     ("plot", &[]),
     ("expression", &[]),
@@ -16,11 +16,13 @@ const LAYERS: [(&str, &[&str]); 14] = [
     ("scene", &["expression"]),
     ("recurrence", &["enclosure", "expression"]),
     ("network", &["enclosure", "expression", "recurrence", "scene"]),
+    ("model", &["ball", "enclosure", "expression", "network", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
     (
         "evaluate",
         &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"],
     ),
+    ("answer", &["evaluate", "model", "network"]),
     ("export", &["evaluate", "expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
@@ -28,6 +30,7 @@ const LAYERS: [(&str, &[&str]); 14] = [
     (
         "command",
         &[
+            "answer",
             "ball",
             "enclosure",
             "evaluate",
@@ -35,7 +38,9 @@ const LAYERS: [(&str, &[&str]); 14] = [
             "expression",
             "language",
             "lock",
+            "model",
             "network",
+            "plot",
             "recurrence",
             "scene",
             "scenes",
@@ -45,10 +50,11 @@ const LAYERS: [(&str, &[&str]); 14] = [
 ];
 
 /// What may stand in one layer only.
-const CONFINED: [(&str, &str); 8] = [
+const CONFINED: [(&str, &str); 9] = [
     ("nom::", "language"),
     ("nom_locate", "language"),
     ("annotate_snippets", "language"),
+    ("ode_solvers", "model"),
     ("clap", "command"),
     ("indicatif", "command"),
     ("println!", "command"),

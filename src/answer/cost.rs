@@ -66,7 +66,7 @@ impl Cost {
             Kind::Compiled => (pieces, LOOKUP),
             Kind::Stable(StablePrecision::Double) => (0.0, echoes * STEP + LOOKUP),
             Kind::Stable(StablePrecision::DoubleDouble) => (0.0, echoes * PAIR_STEP + LOOKUP),
-            Kind::Expanded => (0.0, echoes * STEP + LOOKUP),
+            Kind::Plain | Kind::Expanded => (0.0, echoes * STEP + LOOKUP),
             Kind::Marched { proven } => {
                 let each = COEFFICIENT + if proven { PROVEN_COEFFICIENT } else { 0.0 };
                 (coefficients * each, LOOKUP + COEFFICIENT * coefficients / n)

@@ -2,7 +2,8 @@
 
 use crate::answer::problem::Problem;
 use crate::evaluate::{
-    Certified, Compiled, Expanded, Marched, Method, MethodError, Side, Stable, StablePrecision,
+    Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Side, Stable,
+    StablePrecision,
 };
 use crate::model::{
     Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
@@ -36,6 +37,8 @@ pub enum Kind {
     },
     /// The stable sum of echoes.
     Stable(StablePrecision),
+    /// The recurrence of three terms.
+    Plain,
     /// The formula as printed.
     Expanded,
     /// One rigid body.
@@ -63,13 +66,14 @@ pub enum Kind {
 
 impl Kind {
     /// The names, each with its settings and what they are when nothing is said.
-    pub const NAMES: [(&'static str, &'static str); 12] = [
+    pub const NAMES: [(&'static str, &'static str); 13] = [
         ("certified", "correctly rounded"),
         ("compiled", "polynomials with a proven bound"),
         ("marched", "Chebyshev coefficients period by period, with a proven bound"),
         ("marched-unproven", "the same without"),
         ("stable", "echoes summed by differences"),
         ("double-double", "the same in pairs of doubles"),
+        ("plain", "the recurrence of three terms"),
         ("expanded", "the formula as printed"),
         ("rigid", "model: one rigid body"),
         ("third", "model: a spring with a third of the bar's mass"),
@@ -99,6 +103,7 @@ impl Kind {
             Kind::Marched { proven: false } => "marched-unproven",
             Kind::Stable(StablePrecision::Double) => "stable",
             Kind::Stable(StablePrecision::DoubleDouble) => "double-double",
+            Kind::Plain => "plain",
             Kind::Expanded => "expanded",
             Kind::Rigid => "rigid",
             Kind::Third => "third",
@@ -169,6 +174,7 @@ impl FromStr for Kind {
             "marched-unproven" => Kind::Marched { proven: false },
             "stable" => Kind::Stable(StablePrecision::Double),
             "double-double" => Kind::Stable(StablePrecision::DoubleDouble),
+            "plain" => Kind::Plain,
             "expanded" => Kind::Expanded,
             "rigid" => Kind::Rigid,
             "third" => Kind::Third,
@@ -299,6 +305,7 @@ impl<'a> Way<'a> {
             Kind::Stable(precision) => {
                 Ways::Method(Box::new(Stable::new(signal, from, to, precision)?))
             }
+            Kind::Plain => Ways::Method(Box::new(Plain::new(signal, from, to)?)),
             Kind::Expanded => Ways::Method(Box::new(Expanded::new(signal, from, to)?)),
             Kind::Rigid => {
                 let (network, place) = scene()?;

@@ -6,12 +6,13 @@ use crate::answer::way::Kind;
 use crate::evaluate::{EvaluateError, StablePrecision, Taps, unit_in_the_last_place};
 
 /// The methods that are weighed; models leave something out and are picked by name only.
-const METHODS: [Kind; 6] = [
+const METHODS: [Kind; 7] = [
     Kind::Certified,
     Kind::Compiled,
     Kind::Marched { proven: true },
     Kind::Stable(StablePrecision::Double),
     Kind::Stable(StablePrecision::DoubleDouble),
+    Kind::Plain,
     Kind::Expanded,
 ];
 
@@ -101,7 +102,7 @@ pub fn consider(
     let ulp = unit_in_the_last_place(scale);
     let candidate = |kind: Kind| {
         let seconds = Cost::of(kind, size).map_or(f64::INFINITY, |cost| cost.seconds(points));
-        let needs_taps = !matches!(kind, Kind::Certified | Kind::Compiled);
+        let needs_taps = !matches!(kind, Kind::Certified | Kind::Compiled | Kind::Expanded);
         if let (true, Err(reason)) = (needs_taps, &taps) {
             return Candidate {
                 kind,

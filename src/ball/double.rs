@@ -24,6 +24,14 @@ impl Ball {
         (double, Ball::new(rest, *self.radius()))
     }
 
+    /// Two doubles whose sum is near the midpoint, and a bound on its distance from every point of the
+    /// ball.
+    pub(crate) fn two_doubles(&self) -> (f64, f64, f64) {
+        let (high, rest) = self.split();
+        let (low, rest) = rest.split();
+        (high, low, rest.magnitude().to_double())
+    }
+
     /// The double that all points of the ball round to, ties to even; `None` where there is no one.
     ///
     /// ```

@@ -27,7 +27,7 @@ pub use evaluator::{
     Side,
 };
 pub use method::{
-    Certified, Compiled, Expanded, Marched, Method, MethodError, Recogniser, Stable,
+    Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,
     StablePrecision,
 };
 pub use scene::{MAX_ECHOES, SceneEvaluator};

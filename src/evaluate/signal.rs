@@ -284,13 +284,7 @@ impl Signal {
         let solved = match &self.lattice {
             None => Solved::Periods(Periods::new(&self.recurrence, self.numbers.clone(), bits)?),
             Some(lattice) => {
-                let mut demand = Demand::none(&self.recurrence);
-                let exists = |k| lattice.unfolded.counts(k).is_some();
-                for seen in &self.observation.waves {
-                    for (number, _) in &lattice.arrivals {
-                        demand.add_where(&self.recurrence, seen.wave, *number, exists);
-                    }
-                }
+                let demand = self.demand(&lattice.arrivals);
                 let (echoes, _) = solve_in(&self.recurrence, self.numbers.field(bits), demand)?;
                 Solved::Echoes(Rc::new(echoes))
             }
@@ -298,6 +292,45 @@ impl Signal {
         let solved = Rc::new(RefCell::new(solved));
         self.solved.borrow_mut().insert(bits, solved.clone());
         Ok(solved)
+    }
+
+    /// The echoes that are there until a time, by wave and number, with their numbers and delays.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyEchoes`] beyond `limit`.
+    pub(crate) fn echoes(
+        &self,
+        to: &Rational,
+        limit: usize,
+        bits: u64,
+    ) -> Result<(Echoes, Vec<(usize, Fraction)>), EvaluateError> {
+        let order = self.order(to)?;
+        if order > limit {
+            return Err(EvaluateError::TooManyEchoes { echoes: order as u128, limit });
+        }
+        let arrivals = match &self.lattice {
+            Some(lattice) => lattice.arrivals.clone(),
+            None => {
+                let period = &self.recurrence.statement().period;
+                let delay = |k: usize| period.scale(&Rational::from_integer(k.into()));
+                (0..=order).map(|k| (k, delay(k))).collect()
+            }
+        };
+        let (echoes, _) =
+            solve_in(&self.recurrence, self.numbers.field(bits), self.demand(&arrivals))?;
+        Ok((echoes, arrivals))
+    }
+
+    /// The echoes that are needed for those of the waves that are seen.
+    fn demand(&self, arrivals: &[(usize, Fraction)]) -> Demand {
+        let mut demand = Demand::none(&self.recurrence);
+        let exists = |k| self.lattice.as_ref().is_none_or(|l| l.unfolded.counts(k).is_some());
+        for seen in &self.observation.waves {
+            for (number, _) in arrivals {
+                demand.add_where(&self.recurrence, seen.wave, *number, exists);
+            }
+        }
+        demand
     }
 
     /// The function of a part, in the time since its origin.

@@ -112,10 +112,10 @@ impl Junction {
             }
         }
         let (mut mass, mut start) = (Vec::new(), Vec::new());
-        for run in 0..runs {
+        for (run, held) in held.iter().enumerate() {
             let (own, momentum) = node.mass_of(run);
             mass.push(own);
-            start.push(if own > 0.0 && !held[run] { momentum / own } else { 0.0 });
+            start.push(if own > 0.0 && !held { momentum / own } else { 0.0 });
         }
         let massless: Vec<usize> =
             (0..runs).filter(|run| !held[*run] && mass[*run] <= 0.0).collect();

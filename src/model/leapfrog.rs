@@ -44,7 +44,7 @@ pub const MAX_CELL_UPDATES: f64 = 1e9;
 
 /// Finite differences on staggered points.
 ///
-/// Cost: cells times steps, some two nanoseconds each.
+/// Cost: some ten operations for each cell and step, anew for each call.
 ///
 /// # Invariants
 /// The step is positive and at most the shortest time in which a wave crosses a cell; every point has

@@ -4,10 +4,9 @@
 //! are found one by one by the angle of Prüfer, which counts them, so that none is missed; then the
 //! motion at the start is projected onto each mode with exact integrals over the uniform bars.
 //!
-//! Error law (measured, not proven): with `N` modes the error falls like `1/N` away from jumps; beside
-//! a jump it does not fall, as is known of Fourier series. For a mass on a fixed bar with `μ = 1` the
-//! mean error of the velocity of the mass is about `0.1/N`, of strains at places with jumps about
-//! `1/N` in the mean.
+//! Error law (measured, not proven): with `N` modes the mean error over time falls at least like `1/N`,
+//! and with 1600 modes is below 1/800 of the largest value; beside a jump the largest error does not
+//! fall, as is known of Fourier series.
 
 use crate::model::Model;
 use crate::model::error::ModelError;

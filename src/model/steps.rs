@@ -7,8 +7,8 @@
 //! one writes these problems as neutral equations.
 //!
 //! Error law (measured, not proven): the largest error over some ten round trips is below ten times the
-//! tolerance, in the scales of the scene, down to about 1e-12; it grows no faster than linearly with
-//! time. Jumps lie on the borders of periods and are exact.
+//! tolerance times the largest value, for tolerances down to 1e-10. Jumps lie on the borders of periods
+//! and are exact.
 
 use crate::expression::{Fraction, Root};
 use crate::model::Model;

@@ -9,8 +9,8 @@
 //! (M + m/3) u'' + k u = 0,   u(0) = 0,   u'(0) = v_0
 //! ```
 //!
-//! Error law (measured, not proven): the strain of light bars, `μ = m/M ≪ 1`, is right but for steps of
-//! relative size `√μ`, which fronts of height `V/c` leave beside a maximum of `(V/c)/√μ`.
+//! Error law (measured, not proven): for `μ = m/M` of 1/16, 1/4 and 1 the largest strain is 20, 35 and
+//! 49 % below the exact one at the fixed end; with the front added, 0.8, 3.6 and 4.5 % below.
 
 use crate::model::Model;
 use crate::model::error::ModelError;

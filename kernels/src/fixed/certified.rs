@@ -49,7 +49,7 @@ pub struct Tap {
 /// let before = Tap { weight: -&one, delay: one };
 /// let difference = certified(&equation, &[now, before], &[0.5, 1.0], Side::Left).unwrap();
 /// assert!(difference.undecided.is_empty());
-/// assert_eq!(difference.values, [(-0.5f64).exp(), (-1f64).exp()]);
+/// assert_eq!(difference.values, [0.6065306597126334, 0.36787944117144233]);
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct CertifiedDoubles {
@@ -71,7 +71,7 @@ struct Prepared {
 /// numbers that the doubles are. At a jump `side` says which limit is meant. Before the start, Y is
 /// zero exactly.
 ///
-/// The weights are scaled by a power of two so that the largest is between 1/2 and 1 in
+/// The weights are scaled by a power of two so that the largest is from 1/2 to below 1 in
 /// size; then a weighted value is off by `|w|·radius`, and by one unit more for the weight and the
 /// product.
 ///
@@ -150,13 +150,13 @@ fn prepare(equation: &DelayEquation, taps: &[Tap]) -> Result<(Vec<Prepared>, i64
     };
     let weighty = taps.iter().filter(|tap| !tap.weight.is_zero());
     let prepared = weighty.map(|tap| {
-        let weight = Multiplier::nearest(&scaled(&tap.weight)).unwrap_or(Multiplier::ONE);
+        let weight = Multiplier::near(&scaled(&tap.weight)).expect("scaled weights are below 1");
         Ok(Prepared { weight, reduction: Reduction::new(equation.period(), &tap.delay)? })
     });
     Ok((prepared.collect::<Result<_, _>>()?, scale))
 }
 
-/// The least s with `value ≤ 2^s`, for a positive value.
+/// The least s with `value < 2^s`, for a positive value.
 fn binary_exponent(value: &BigRational) -> i64 {
     let (numerator, denominator) = (value.numer(), value.denom());
     let bits = |value: &num_bigint::BigInt| value.bits().to_i64().unwrap_or(i64::MAX);
@@ -164,9 +164,9 @@ fn binary_exponent(value: &BigRational) -> i64 {
     let fits = |scale: i64| {
         let shift = scale.unsigned_abs();
         if scale < 0 {
-            numerator << shift <= *denominator
+            numerator << shift < *denominator
         } else {
-            *numerator <= denominator << shift
+            *numerator < denominator << shift
         }
     };
     (least..).find(|&scale| fits(scale)).unwrap_or(least)

@@ -3,10 +3,10 @@
 use super::certificate::Certificate;
 use super::equation::DelayEquation;
 use super::error::FixedError;
-use super::multiplier::{MULTIPLIER_BITS, Multiplier};
+use super::multiplier::{Fraction, MULTIPLIER_BITS, Multiplier};
 use super::position::{POSITION_BITS, Position};
 use super::scheme::{MarchOptions, Scheme};
-use super::step::Stepper;
+use super::step::{Stepper, halves};
 use super::value::FixedValue;
 
 /// Fraction bits of coefficients and values: their unit is `2^−112`.
@@ -77,7 +77,7 @@ impl March {
     /// use.
     ///
     /// # Cost
-    /// About three products of 128 bits a coefficient: for the rigid mass with μ = 1, some 500
+    /// About three products of 128 bits a coefficient: for the rigid mass with μ = 1, some 600
     /// coefficients a period.
     pub fn new(
         equation: &DelayEquation,
@@ -161,11 +161,16 @@ impl March {
         let piece = (fraction >> shift).min(u128::from(self.scheme.pieces) - 1);
         // The distance from the centre of the piece, from −2^(shift−1) to 2^(shift−1).
         let distance = (fraction - (piece << shift)) as i128 - (1 << (shift - 1));
-        let place = Multiplier::from_mantissa(distance << (MULTIPLIER_BITS - shift + 1))
-            .ok_or(FixedError::PositionOutside)?;
         let coefficients = self.piece(period, piece as u32).ok_or_else(beyond)?;
-        let midpoint =
-            coefficients.iter().rev().fold(0, |sum, coefficient| place.times(sum) + coefficient);
+        let midpoint = if distance.unsigned_abs() >> (shift - 1) == 1 {
+            // At the ends of the piece u is 1 or −1.
+            let (even, odd) = halves(coefficients);
+            if distance < 0 { even - odd } else { even + odd }
+        } else {
+            let size = Fraction(distance.unsigned_abs() << (MULTIPLIER_BITS - shift + 1));
+            let place = Multiplier { size, negative: distance < 0 };
+            coefficients.iter().rev().fold(0, |sum, coefficient| place.times(sum) + coefficient)
+        };
         let rounding = proof.terms as u128;
         // 63·64·2^112 · 2S·2^−120 units, rounded upwards.
         let slope = if position.is_exact() { 0 } else { 32 * u128::from(self.scheme.pieces) };

@@ -3,62 +3,61 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive};
+use num_traits::{Signed, ToPrimitive};
 
-use super::product::signed_product;
+use super::product::upper_product;
 
 /// Fraction bits of a multiplier.
-pub(super) const MULTIPLIER_BITS: u32 = 126;
+pub(super) const MULTIPLIER_BITS: u32 = 128;
 
-/// A number `mantissa·2^−126` between −1 and 1.
-///
-/// # Invariants
-/// - `|mantissa| ≤ 2^126`.
+/// A number `mantissa·2^−128`, at least 0 and less than 1.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Multiplier(i128);
+pub(super) struct Fraction(pub(super) u128);
+
+impl Fraction {
+    /// The product `value·mantissa·2^−128`, rounded to the nearest integer: off by at most half a
+    /// unit, and no larger than the value.
+    ///
+    /// For a fraction that is off from a real number r by at most `2^−128` and `|value| ≤ 2^126`,
+    /// the product is off from `value·r` by at most `1/2 + 1/4` units: by less than one unit.
+    #[inline(always)]
+    pub(super) fn times(self, value: i128) -> i128 {
+        upper_product(value, self.0)
+    }
+
+    /// A part of the fraction, rounded downwards.
+    pub(super) fn divided_by(self, divisor: u32) -> Self {
+        Self(self.0 / u128::from(divisor))
+    }
+}
+
+/// A fraction with a sign.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Multiplier {
+    /// The size.
+    pub(super) size: Fraction,
+    /// Whether the number is negative.
+    pub(super) negative: bool,
+}
 
 impl Multiplier {
-    /// One.
-    pub(super) const ONE: Self = Self(1 << MULTIPLIER_BITS);
-
-    /// The multiplier nearest to a rational, not further away than `2^−127`; none if it is not
-    /// between −1 and 1.
-    pub(super) fn nearest(value: &BigRational) -> Option<Self> {
-        if value.abs() > BigRational::one() {
-            return None;
-        }
-        let doubled: BigInt = (value.numer() << (MULTIPLIER_BITS + 1)).div_floor(value.denom());
-        ((doubled + 1u32) >> 1u32).to_i128().map(Self)
+    /// The multiplier next to a rational: off by at most `2^−128`, towards zero. None if the size of
+    /// the rational is not below 1.
+    pub(super) fn near(value: &BigRational) -> Option<Self> {
+        let size: BigInt = (value.numer().abs() << MULTIPLIER_BITS).div_floor(value.denom());
+        Some(Self { size: Fraction(size.to_u128()?), negative: value.is_negative() })
     }
 
-    /// The multiplier with this mantissa; none if it is not between −1 and 1.
-    #[inline]
-    pub(super) fn from_mantissa(mantissa: i128) -> Option<Self> {
-        (mantissa.unsigned_abs() <= 1 << MULTIPLIER_BITS).then_some(Self(mantissa))
-    }
-
-    /// The number times `2^126`.
-    #[inline]
-    pub(super) fn mantissa(self) -> i128 {
-        self.0
-    }
-
-    /// A part of the multiplier, rounded downwards.
-    pub(super) fn divided_by(self, divisor: u32) -> Self {
-        Self(self.0.div_euclid(i128::from(divisor)))
-    }
-
-    /// The product `value·mantissa·2^−126`, rounded to the nearest integer, for
-    /// `|value| < 2^127`; so it is off by at most half a unit, and no larger than the value.
-    ///
-    /// For a multiplier that is the nearest to a real number r and `|value| ≤ 2^126`, the product
-    /// is off from `value·r` by at most `1/2 + |value|·2^−127` units: by at most one unit.
-    #[inline]
+    /// The product, like that of [`Fraction::times`].
+    #[inline(always)]
     pub(super) fn times(self, value: i128) -> i128 {
-        debug_assert!(value != i128::MIN, "the product would not fit");
-        let (high, low) = signed_product(value, self.0);
-        let (low, carry) = low.overflowing_add(1 << (MULTIPLIER_BITS - 1));
-        ((high + i128::from(carry)) << (128 - MULTIPLIER_BITS)) | (low >> MULTIPLIER_BITS) as i128
+        let product = self.size.times(value);
+        if self.negative { -product } else { product }
+    }
+
+    /// A part of the multiplier, rounded towards zero.
+    pub(super) fn divided_by(self, divisor: u32) -> Self {
+        Self { size: self.size.divided_by(divisor), ..self }
     }
 }
 
@@ -66,49 +65,31 @@ impl Multiplier {
 mod tests {
     use super::*;
     use crate::fixed::samples::Samples;
-
-    /// `|value·factor − product| ≤ limit / 2`, exactly.
-    fn within(value: i128, factor: &BigRational, product: i128, halves: u32) -> bool {
-        let exact = BigRational::from(BigInt::from(value)) * factor;
-        (exact - BigRational::from(BigInt::from(product))).abs()
-            <= BigRational::new(halves.into(), 2.into())
-    }
+    use num_traits::One;
 
     #[test]
-    fn products_are_rounded_to_nearest() {
-        let mut samples = Samples::new(7);
-        for _ in 0..100_000 {
-            let value = (samples.word() as i128).max(-i128::MAX);
-            let Some(multiplier) = Multiplier::from_mantissa(samples.word() as i128) else {
-                continue;
-            };
-            let factor = BigRational::new(multiplier.0.into(), BigInt::one() << MULTIPLIER_BITS);
-            let product = multiplier.times(value);
-            assert!(within(value, &factor, product, 1), "{value} {factor}");
-            assert!(product.unsigned_abs() <= value.unsigned_abs());
-        }
-        assert_eq!(Multiplier::from_mantissa(-(1 << 126)).unwrap().times(i128::MAX), -i128::MAX);
-        assert_eq!(Multiplier::ONE.times(-i128::MAX), -i128::MAX);
-    }
-
-    #[test]
-    fn products_by_the_nearest_multiplier_are_off_by_one_at_most() {
+    fn products_are_off_by_less_than_a_unit() {
         let mut samples = Samples::new(8);
         for _ in 0..20_000 {
             let value = (samples.word() as i128) >> 1;
             let denominator = i128::from(samples.bits() | 1);
-            let numerator = i128::from(samples.bits()) % (denominator + 1);
-            let factor = BigRational::new((-numerator).into(), denominator.into());
-            let multiplier = Multiplier::nearest(&factor).unwrap();
-            assert!(within(value, &factor, multiplier.times(value), 2), "{value} {factor}");
+            let numerator = i128::from(samples.bits()) % denominator;
+            let sign = if samples.bits().is_multiple_of(2) { 1 } else { -1 };
+            let factor = BigRational::new((sign * numerator).into(), denominator.into());
+            let product = Multiplier::near(&factor).unwrap().times(value);
+            let exact = BigRational::from(BigInt::from(value)) * &factor;
+            let error = (exact - BigRational::from(BigInt::from(product))).abs();
+            assert!(error <= BigRational::new(3.into(), 4.into()), "{value} {factor}");
         }
-        assert_eq!(Multiplier::nearest(&BigRational::one()), Some(Multiplier::ONE));
-        assert_eq!(Multiplier::nearest(&BigRational::new(101.into(), 100.into())), None);
+        assert_eq!(Multiplier::near(&BigRational::one()), None);
+        assert_eq!(Multiplier::near(&-BigRational::one()), None);
     }
 
     #[test]
-    fn parts_are_rounded_downwards() {
-        assert_eq!(Multiplier(-7).divided_by(2), Multiplier(-4));
-        assert_eq!(Multiplier::ONE.divided_by(4).mantissa(), 1 << 124);
+    fn parts_are_rounded_towards_zero() {
+        let seventh = Multiplier::near(&BigRational::new((-1).into(), 7.into())).unwrap();
+        assert_eq!(seventh.size.0, u128::MAX / 7);
+        assert_eq!(seventh.divided_by(2), Multiplier { size: Fraction(u128::MAX / 14), ..seventh });
+        assert_eq!(seventh.times(-70), 10);
     }
 }

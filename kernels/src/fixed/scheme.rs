@@ -1,11 +1,11 @@
 //! The equation on pieces: how a period is cut, and the constants of one piece.
 
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive};
+use num_traits::{Signed, ToPrimitive};
 
 use super::equation::DelayEquation;
 use super::error::FixedError;
-use super::multiplier::Multiplier;
+use super::multiplier::{Fraction, Multiplier};
 
 /// The most terms of a piece.
 pub(super) const MOST_TERMS: u32 = 64;
@@ -51,25 +51,28 @@ pub struct MarchOptions {
 pub(super) enum Forcing {
     /// `G = kB` with a small integer k: one product serves both.
     Multiple(i128),
-    /// The nearest multiplier to `hG`.
+    /// The multiplier next to `hG`.
     Separate(Multiplier),
 }
 
 /// The reflection ρ, as it is multiplied with.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Reflection {
-    /// 1 or −1, which need no rounding.
-    Sign(i128),
-    /// The nearest multiplier.
+    /// 1, which needs no rounding.
+    One,
+    /// −1, which needs none either.
+    MinusOne,
+    /// The multiplier next to a smaller one.
     Factor(Multiplier),
 }
 
 impl Reflection {
     /// `ρ·value`, off by at most [`slack`](Self::slack) units.
-    #[inline]
+    #[inline(always)]
     pub(super) fn times(self, value: i128) -> i128 {
         match self {
-            Reflection::Sign(sign) => sign * value,
+            Reflection::One => value,
+            Reflection::MinusOne => -value,
             Reflection::Factor(factor) => factor.times(value),
         }
     }
@@ -77,7 +80,7 @@ impl Reflection {
     /// The most units by which a product is off.
     pub(super) fn slack(self) -> u128 {
         match self {
-            Reflection::Sign(_) => 0,
+            Reflection::One | Reflection::MinusOne => 0,
             Reflection::Factor(_) => 1,
         }
     }
@@ -89,13 +92,13 @@ impl Reflection {
 ///
 /// # Invariants
 /// - `pieces` is a power of two from 4 to `2^20`, `terms` is from 2 to 64.
-/// - `hB ≤ 1/2` and `|hG| ≤ 1`; the multipliers are the nearest to them. A multiple is at most 4
-///   in size.
+/// - `hB ≤ 1/2` and `|hG| ≤ 1/2`; the multipliers are off by at most `2^−128`. A multiple is at
+///   most 4 in size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Scheme {
     pub(super) pieces: u32,
     pub(super) terms: u32,
-    pub(super) decay: Multiplier,
+    pub(super) decay: Fraction,
     pub(super) forcing: Forcing,
     pub(super) reflection: Reflection,
 }
@@ -129,8 +132,8 @@ impl Scheme {
         if !fits(&decay, &forcing, pieces) {
             return Err(FixedError::TooFewPieces(pieces));
         }
-        let nearest = |value: &BigRational| {
-            Multiplier::nearest(&(value * &half_width)).ok_or(FixedError::TooFewPieces(pieces))
+        let near = |value: &BigRational| {
+            Multiplier::near(&(value * &half_width)).ok_or(FixedError::TooFewPieces(pieces))
         };
         let multiple = &forcing / &decay;
         let small = |value: i64| value.abs() <= MOST_MULTIPLE;
@@ -138,16 +141,17 @@ impl Scheme {
         Ok(Self {
             pieces,
             terms,
-            decay: nearest(&decay)?,
+            decay: near(&decay)?.size,
             forcing: match multiple.to_integer().to_i64() {
                 Some(value) if multiple.is_integer() && small(value) => {
                     Forcing::Multiple(i128::from(value))
                 }
-                _ => Forcing::Separate(nearest(&forcing)?),
+                _ => Forcing::Separate(near(&forcing)?),
             },
-            reflection: match Multiplier::nearest(reflection) {
-                Some(factor) if !reflection.abs().is_one() => Reflection::Factor(factor),
-                _ => Reflection::Sign(if reflection.is_negative() { -1 } else { 1 }),
+            reflection: match Multiplier::near(reflection) {
+                Some(factor) => Reflection::Factor(factor),
+                None if reflection.is_negative() => Reflection::MinusOne,
+                None => Reflection::One,
             },
         })
     }
@@ -163,10 +167,10 @@ fn is_piece_count(pieces: u32) -> bool {
     pieces.is_power_of_two() && (FEWEST_PIECES..=MOST_PIECES).contains(&pieces)
 }
 
-/// Whether `hB ≤ 1/2` and `|hG| ≤ 1`.
+/// Whether `hB ≤ 1/2` and `|hG| ≤ 1/2`.
 fn fits(decay: &BigRational, forcing: &BigRational, pieces: u32) -> bool {
     let pieces = BigRational::from(num_bigint::BigInt::from(pieces));
-    *decay <= pieces && forcing.abs() <= &pieces + &pieces
+    *decay <= pieces && forcing.abs() <= pieces
 }
 
 /// The smallest count of pieces that the constants and the chirp allow.
@@ -207,8 +211,8 @@ mod tests {
         let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
         let scheme = Scheme::new(&equation, 200, &MarchOptions::default()).unwrap();
         assert_eq!(scheme.forcing, Forcing::Multiple(2));
-        assert_eq!(scheme.reflection, Reflection::Sign(1));
-        assert_eq!(scheme.decay.mantissa() * i128::from(scheme.pieces), 1 << 126);
+        assert_eq!(scheme.reflection, Reflection::One);
+        assert_eq!(scheme.decay.0, (1 << 127) / u128::from(scheme.pieces) * 2);
         let skew = DelayEquation::new(&two, &one, &rational(-1, 3), &rational(-1, 2)).unwrap();
         let scheme = Scheme::new(&skew, 10, &MarchOptions::default()).unwrap();
         assert!(matches!(scheme.forcing, Forcing::Separate(_)));
@@ -218,10 +222,15 @@ mod tests {
 
     #[test]
     fn long_pieces_are_refused() {
-        let equation =
-            DelayEquation::new(&rational(20, 1), &rational(1, 1), &rational(1, 1), &rational(1, 1));
-        let few = MarchOptions { pieces: Some(16), terms: None };
-        let refused = Scheme::new(&equation.unwrap(), 10, &few).unwrap_err();
-        assert_eq!(refused, FixedError::TooFewPieces(16));
+        // B = 20 with G = 40 and with G = 0; B = 1 with G = 20; the last one fits.
+        for (period, zero, refused) in
+            [(20, 1, true), (20, -1, true), (1, 19, true), (16, -1, false)]
+        {
+            let [period, zero, one] = [period, zero, 1].map(|value| rational(value, 1));
+            let equation = DelayEquation::new(&period, &one, &zero, &one).unwrap();
+            let few = MarchOptions { pieces: Some(16), terms: None };
+            let scheme = Scheme::new(&equation, 10, &few);
+            assert_eq!(scheme.err(), refused.then_some(FixedError::TooFewPieces(16)));
+        }
     }
 }

@@ -6,7 +6,7 @@
 use super::certificate::LARGEST_SUM;
 use super::error::FixedError;
 use super::march::FRACTION_BITS;
-use super::multiplier::Multiplier;
+use super::multiplier::{Fraction, Multiplier};
 use super::scheme::{FEWEST_PIECES, Forcing, Scheme};
 
 /// Pieces worked on at once: a product takes longer than the processor needs to begin the next.
@@ -23,14 +23,14 @@ const GROWTH: usize = 3;
 /// pieces; to it comes `c₀ e^(−hBu)`, and the value at the left end gives `c₀`.
 pub(super) struct Stepper {
     scheme: Scheme,
-    /// `−hB/(m + 1)`.
-    decay: Vec<Multiplier>,
-    /// `−hG/(m + 1)`; empty if the forcing is a multiple of the decay.
+    /// `hB/(m + 1)`.
+    decay: Vec<Fraction>,
+    /// `hG/(m + 1)`; empty if the forcing is a multiple of the decay.
     forcing: Vec<Multiplier>,
-    /// The coefficients of `e^(−hBu)` from the first power on, as far as they are not zero.
-    exponential: Vec<Multiplier>,
+    /// The sizes of the coefficients of `e^(−hBu)` from the first power on, as far as they count.
+    exponential: Vec<Fraction>,
     /// `e^(−hB)`.
-    fading: Multiplier,
+    fading: Fraction,
     /// The value of v at the right end of the period done last.
     end: i128,
     /// The count of terms of the period done last.
@@ -40,27 +40,29 @@ pub(super) struct Stepper {
 impl Stepper {
     /// The state before the first period.
     pub(super) fn new(scheme: Scheme) -> Self {
-        let parts = |whole: Multiplier| {
-            let negative = Multiplier::from_mantissa(-whole.mantissa()).unwrap_or(whole);
-            (1..scheme.terms).map(|m| negative.divided_by(m)).collect::<Vec<_>>()
-        };
-        let decay = parts(scheme.decay);
-        let mut power = Multiplier::ONE.mantissa();
-        let powers = decay.iter().map(|part| {
+        let decay: Vec<_> = (1..scheme.terms).map(|m| scheme.decay.divided_by(m)).collect();
+        // e^(−hB) in units of 2^−126, from the coefficients of e^(−hBu).
+        let (mut power, mut fading) = (1i128 << 126, 1i128 << 126);
+        let mut exponential = Vec::new();
+        for part in &decay {
             power = part.times(power);
-            power
-        });
-        let powers: Vec<i128> = powers.take_while(|power| power.unsigned_abs() > 1 << 8).collect();
-        let fading = Multiplier::ONE.mantissa() + powers.iter().sum::<i128>();
+            if power < 1 << 8 {
+                break;
+            }
+            exponential.push(Fraction(power.unsigned_abs() << 2));
+            fading += if exponential.len() % 2 == 1 { -power } else { power };
+        }
         Self {
             scheme,
             decay,
             forcing: match scheme.forcing {
                 Forcing::Multiple(_) => Vec::new(),
-                Forcing::Separate(factor) => parts(factor),
+                Forcing::Separate(whole) => {
+                    (1..scheme.terms).map(|m| whole.divided_by(m)).collect()
+                }
             },
-            exponential: powers.into_iter().filter_map(Multiplier::from_mantissa).collect(),
-            fading: Multiplier::from_mantissa(fading).unwrap_or(Multiplier::ONE),
+            exponential,
+            fading: Fraction(fading.unsigned_abs() << 2),
             end: 1 << FRACTION_BITS,
             terms: scheme.terms as usize,
         }
@@ -70,7 +72,7 @@ impl Stepper {
     /// terms that a piece has.
     ///
     /// `before` are the coefficients of the period before, at most [`LARGEST_SUM`] in sum for each
-    /// piece. Then no sum here leaves its range: with `hB ≤ 1/2` and `|hG| ≤ 1` the coefficients
+    /// piece. Then no sum here leaves its range: with `hB ≤ 1/2` and `|hG| ≤ 1/2` the coefficients
     /// with `c₀ = 0` add up to at most `2(LARGEST_SUM + 64)`, hence `|c₀| ≤ 2^121`, and nothing
     /// exceeds `2^123`.
     pub(super) fn advance(
@@ -85,16 +87,21 @@ impl Stepper {
         for (own, before) in blocks.zip(before.chunks_exact(LANES * stride)) {
             let (decay, forcing) = (&self.decay[..terms - 1], &self.forcing[..]);
             match self.scheme.forcing {
+                // Doubling is faster than a product of 128 bits.
+                Forcing::Multiple(2) => fill(own, before, stride, terms, |m, own, before| {
+                    decay[m].times(-own - (before << 1))
+                }),
                 Forcing::Multiple(multiple) => {
                     fill(own, before, stride, terms, |m, own, before| {
-                        decay[m].times(own + multiple * before)
+                        decay[m].times(-own - multiple * before)
                     })
                 }
                 Forcing::Separate(_) => fill(own, before, stride, terms, |m, own, before| {
-                    decay[m].times(own) + forcing[m].times(before)
+                    -decay[m].times(own) - forcing[m].times(before)
                 }),
             }
         }
+        let reflection = self.scheme.reflection;
         for (own, before) in current.chunks_exact_mut(stride).zip(before.chunks_exact(stride)) {
             let (even, odd) = halves(&own[..terms]);
             let centre = self.fading.times(self.end - (even - odd));
@@ -103,11 +110,13 @@ impl Stepper {
                 return Err(FixedError::Overflow { period });
             }
             own[0] = centre;
+            let mut signed = -centre;
             for (own, power) in own[1..terms].iter_mut().zip(&self.exponential) {
-                *own += power.times(centre);
+                *own += power.times(signed);
+                signed = -signed;
             }
             for (own, before) in own[..terms].iter_mut().zip(before) {
-                *own += self.scheme.reflection.times(*before);
+                *own += reflection.times(*before);
             }
         }
         let length = |piece: &[i128]| piece.iter().rposition(|&own| own != 0).map_or(1, |m| m + 1);

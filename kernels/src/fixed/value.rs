@@ -44,13 +44,12 @@ impl FixedValue {
 /// `value·2^−fraction_bits` as a double: the nearest one, or one of the two nearest where doubles
 /// are subnormal.
 pub(super) fn scaled(value: i128, fraction_bits: i64) -> f64 {
-    let power = |exponent: i64| (exponent.clamp(-1000, 1000) as f64).exp2();
     let mut exponent = -fraction_bits;
     let mut double = value as f64;
     // Three steps lead from the ends of the range of i128 past those of doubles.
     for _ in 0..3 {
         let step = exponent.clamp(-1000, 1000);
-        double *= power(step);
+        double *= (step as f64).exp2();
         exponent -= step;
     }
     double

@@ -5,6 +5,7 @@
 //! n = 15 or so on. It is here because it is what one would write, and to be measured.
 
 use super::echo_sums::EchoSums;
+use super::printed::PrintedEchoes;
 use super::{Method, MethodError};
 use crate::ball::Ball;
 use crate::evaluate::evaluator::Side;
@@ -35,19 +36,36 @@ use wavestep_polynomial::Rational;
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub struct Expanded {
-    sums: EchoSums,
+    sums: Sums,
+}
+
+/// Echoes with one pole in closed form, or any others as they are derived.
+enum Sums {
+    Closed(EchoSums),
+    Derived(PrintedEchoes),
 }
 
 impl Expanded {
     /// The echoes that arrive until the end of the window.
     ///
     /// # Errors
-    /// [`MethodError::NoTaps`], where echoes have no closed form with one pole.
+    /// [`MethodError`], where too many echoes without a closed form would have to be derived.
     ///
     /// # Cost
-    /// O(n) for n echoes; for each value O(n²).
+    /// O(n) for n echoes in closed form, O(n³) for others; for each value O(n²).
     pub fn new(signal: &Signal, from: &Rational, to: &Rational) -> Result<Expanded, MethodError> {
-        Ok(Expanded { sums: EchoSums::new(signal, from, to)? })
+        let sums = match EchoSums::new(signal, from, to) {
+            Err(MethodError::NoTaps(_)) => Sums::Derived(PrintedEchoes::new(signal, to)?),
+            sums => Sums::Closed(sums?),
+        };
+        Ok(Expanded { sums })
+    }
+
+    fn at(&self, time: f64, side: Side) -> Result<f64, MethodError> {
+        match &self.sums {
+            Sums::Closed(sums) => sums.value(echoes::Method::Expanded, (time, 0.0), side),
+            Sums::Derived(echoes) => Ok(echoes.value(time, side)),
+        }
     }
 }
 
@@ -66,13 +84,13 @@ impl Method for Expanded {
 
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
         let high = Ball::from_rational(at, 128).to_double().0;
-        self.sums.value(echoes::Method::Expanded, (high, 0.0), side)
+        self.at(high, side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         for (time, value) in at.iter().zip(values) {
-            *value = self.sums.value(echoes::Method::Expanded, (*time, 0.0), Side::Right)?;
+            *value = self.at(*time, Side::Right)?;
         }
         Ok(())
     }

@@ -6,7 +6,8 @@
 //! | [`Compiled`] | proven bound, the same on the whole window | the same |
 //! | [`Marched`] | proven bound for passive reflections | waves with one pole and one lag |
 //! | [`Stable`] | measured: some units in the last place of the largest value | the same |
-//! | [`Expanded`] | measured: grows without bound | the same |
+//! | [`Plain`] | measured: some thousand units by n = 200 | the same |
+//! | [`Expanded`] | measured: grows without bound | every observable that is linear in the waves |
 
 mod certified;
 mod compiled;
@@ -14,12 +15,15 @@ mod doubles;
 mod echo_sums;
 mod expanded;
 mod marched;
+mod plain;
+mod printed;
 mod stable;
 
 pub use certified::{Certified, Recogniser};
 pub use compiled::Compiled;
 pub use expanded::Expanded;
 pub use marched::Marched;
+pub use plain::Plain;
 pub use stable::{Stable, StablePrecision};
 
 use crate::evaluate::evaluator::{EvaluateError, Side};

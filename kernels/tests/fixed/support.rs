@@ -1,0 +1,134 @@
+//! The exact solution of a delay equation, and repeatable random words.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use wavestep_kernels::fixed::{DelayEquation, FRACTION_BITS, FixedValue, March, MarchOptions};
+
+/// A fraction.
+pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
+    BigRational::new(numerator.into(), denominator.into())
+}
+
+/// An integer as a fraction.
+pub fn integer(value: i64) -> BigRational {
+    BigRational::from(BigInt::from(value))
+}
+
+/// A linear congruential generator.
+pub struct Samples(u64);
+
+impl Samples {
+    /// The generator that begins with a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Sixty-four random bits.
+    pub fn bits(&mut self) -> u64 {
+        let mut next = || {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            self.0 >> 32
+        };
+        (next() << 32) | next()
+    }
+}
+
+/// A delay equation, solved by its echoes: `Y(T) = Σ_k ρ^k e^(−b x_k) L_k((a + b) x_k)` over
+/// `x_k = T − kD ≥ 0`.
+pub struct Echoes {
+    pub period: BigRational,
+    pub rate: BigRational,
+    pub zero: BigRational,
+    pub reflection: BigRational,
+}
+
+impl Echoes {
+    /// The equation with these parameters.
+    pub fn new(
+        period: BigRational,
+        rate: BigRational,
+        zero: BigRational,
+        reflection: BigRational,
+    ) -> Self {
+        Self { period, rate, zero, reflection }
+    }
+
+    /// The equation as the library takes it.
+    pub fn equation(&self) -> DelayEquation {
+        DelayEquation::new(&self.period, &self.rate, &self.zero, &self.reflection).unwrap()
+    }
+
+    /// The march of the equation.
+    pub fn march(&self, periods: u32, options: &MarchOptions) -> March {
+        March::new(&self.equation(), periods, options).unwrap()
+    }
+
+    /// Fraction bits of [`solution`](Self::solution). The recurrence of the Laguerre polynomials
+    /// enlarges an error by about `e^|X|` at most, and begins with `e^(−bx)`; 256 bits are left.
+    pub fn bits(&self, periods: u32) -> u64 {
+        let slope = &self.rate + (&self.rate + &self.zero).abs();
+        let longest = slope * &self.period * integer(i64::from(periods) + 1);
+        256 + (1.5 * longest.to_f64().unwrap()) as u64
+    }
+
+    /// `Y((n + part) D)` for n below a count of periods, in units of `2^−bits`; the sum is over
+    /// the echoes to the n-th.
+    pub fn solution(&self, part: &BigRational, periods: u32) -> Vec<BigInt> {
+        let bits = self.bits(periods);
+        let faded = |time: &BigRational| exponential(&(time * &self.rate), bits);
+        let (mut fading, step) = (faded(&(part * &self.period)), faded(&self.period));
+        let mut sums = vec![BigInt::zero(); periods as usize];
+        for late in 0..periods {
+            // The echoes k that are x = (part + late) D old, in period n = k + late.
+            let place = (&self.rate + &self.zero) * &self.period * (part + integer(late.into()));
+            let (numerator, denominator) = (place.numer(), place.denom());
+            let (mut before, mut echo) = (BigInt::zero(), fading.clone());
+            let mut factor = BigRational::one();
+            for k in 0..periods - late {
+                sums[(k + late) as usize] += match self.reflection.is_one() {
+                    true => echo.clone(),
+                    false => (&echo * factor.numer()).div_floor(factor.denom()),
+                };
+                let next =
+                    (denominator * (2 * k + 1) - numerator) * &echo - denominator * k * &before;
+                before = std::mem::replace(&mut echo, next.div_floor(&(denominator * (k + 1))));
+                factor *= &self.reflection;
+            }
+            fading = (fading * &step) >> bits;
+        }
+        sums
+    }
+
+    /// The error of a value, in units of `2^−112`.
+    pub fn error(&self, value: &FixedValue, exact: &BigInt, bits: u64) -> f64 {
+        let difference =
+            (BigInt::from(value.midpoint) << (bits - u64::from(FRACTION_BITS))) - exact;
+        BigRational::new(difference.abs(), BigInt::one() << (bits - u64::from(FRACTION_BITS)))
+            .to_f64()
+            .unwrap()
+    }
+}
+
+/// `e^(−x)` for a rational `x ≥ 0`, in units of `2^−bits`: Taylor's series after halvings.
+fn exponential(x: &BigRational, bits: u64) -> BigInt {
+    let halvings = x.ceil().to_integer().bits() + 16;
+    let guarded = bits + 2 * halvings + 32;
+    let argument = ((x.numer() << guarded).div_floor(x.denom())) >> halvings;
+    let (mut sum, mut term) = (BigInt::one() << guarded, BigInt::one() << guarded);
+    for m in 1u32.. {
+        term = ((term * &argument) >> guarded) / m;
+        if term.is_zero() {
+            break;
+        }
+        if m % 2 == 1 { sum -= &term } else { sum += &term }
+    }
+    for _ in 0..halvings {
+        sum = (&sum * &sum) >> guarded;
+    }
+    sum >> (guarded - bits)
+}

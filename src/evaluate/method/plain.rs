@@ -1,0 +1,74 @@
+//! Plain: echoes by the recurrence of three terms, as libraries have it.
+//!
+//! `(k+1) L_{k+1} = (2k+1−X) L_k − k L_{k−1}` in doubles, delays rounded. It does not fail as the expanded
+//! formula does, but loses some thousand units in the last place by n = 200, most of them behind fronts,
+//! where a rounding of a delay costs n units. It is here to be measured.
+
+use super::echo_sums::EchoSums;
+use super::{Method, MethodError};
+use crate::ball::Ball;
+use crate::evaluate::evaluator::Side;
+use crate::evaluate::signal::Signal;
+use wavestep_kernels::echoes;
+use wavestep_polynomial::Rational;
+
+/// An observable on a window by the recurrence of three terms.
+///
+/// ```
+/// use wavestep::evaluate::{Method, Plain, Side, Signal};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// let plain = Plain::new(&signal, &from, &to).unwrap();
+/// // e^{−3} + e^{−1}(1 − 2)
+/// let value = plain.value(&parse_number("3")?, Side::Right).unwrap();
+/// assert!((value - ((-3f64).exp() - (-1f64).exp())).abs() < 1e-15);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Plain {
+    sums: EchoSums,
+}
+
+impl Plain {
+    /// The echoes that arrive until the end of the window.
+    ///
+    /// # Errors
+    /// [`MethodError::NoTaps`], where echoes have no closed form with one pole.
+    ///
+    /// # Cost
+    /// O(n) for n echoes; for each value O(n²).
+    pub fn new(signal: &Signal, from: &Rational, to: &Rational) -> Result<Plain, MethodError> {
+        Ok(Plain { sums: EchoSums::new(signal, from, to)? })
+    }
+}
+
+impl Method for Plain {
+    fn name(&self) -> &'static str {
+        "plain"
+    }
+
+    fn law(&self) -> String {
+        "no bound: some thousand units in the last place by n = 200, measured".to_owned()
+    }
+
+    fn bound(&self) -> Option<f64> {
+        None
+    }
+
+    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+        let high = Ball::from_rational(at, 128).to_double().0;
+        self.sums.value(echoes::Method::Plain, (high, 0.0), side)
+    }
+
+    fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
+        assert_eq!(at.len(), values.len(), "a place for each value");
+        for (time, value) in at.iter().zip(values) {
+            *value = self.sums.value(echoes::Method::Plain, (*time, 0.0), Side::Right)?;
+        }
+        Ok(())
+    }
+}

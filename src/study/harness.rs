@@ -1,0 +1,122 @@
+//! One way on one problem: its error and its time.
+
+use crate::answer::{Kind, Problem, Way, WayError};
+use crate::study::reference::Reference;
+use std::time::{Duration, Instant};
+
+/// How long is measured.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Settings {
+    /// How often at least; the least time counts.
+    pub runs: usize,
+    /// For how long at least.
+    pub time: Duration,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings { runs: 3, time: Duration::from_millis(30) }
+    }
+}
+
+/// What was measured of a way.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Measured {
+    /// Which way.
+    pub kind: Kind,
+    /// The largest error, in parts of the largest value.
+    pub error: f64,
+    /// The proven bound, in parts of the largest value, half a unit in the last place included.
+    pub bound: Option<f64>,
+    /// Seconds before the first value.
+    pub preparation: f64,
+    /// Seconds a value after that.
+    pub seconds: f64,
+}
+
+/// The largest of some errors; infinite where one is no number.
+///
+/// ```
+/// use wavestep::study::worst;
+///
+/// assert_eq!(worst(&[1e-3, 2e-3, 0.0]), 2e-3);
+/// assert_eq!(worst(&[1e-3, f64::NAN]), f64::INFINITY);
+/// ```
+pub fn worst(errors: &[f64]) -> f64 {
+    let larger = |worst: f64, error: &f64| match error.is_nan() {
+        true => f64::INFINITY,
+        false => worst.max(*error),
+    };
+    errors.iter().fold(0.0, larger)
+}
+
+/// The errors of a way at the times of a reference.
+///
+/// # Errors
+/// [`WayError`], where the problem is none for this way.
+///
+/// ```
+/// use wavestep::answer::{Kind, Problem};
+/// use wavestep::evaluate::Signal;
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::study::{Reference, Sampling, errors, worst};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("100")?);
+/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let times = Sampling { points: 60, seed: 1 }.times(0.0, 100.0);
+/// let reference = Reference::new(&problem, &times).unwrap();
+/// // By n = 50 the formula as printed has lost all digits; the stable sum has not.
+/// let of = |kind: &str| worst(&errors(&problem, kind.parse().unwrap(), &reference).unwrap());
+/// assert!(of("expanded") > 1e-3 && of("stable") < 1e-14);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn errors(
+    problem: &Problem<'_>,
+    kind: Kind,
+    reference: &Reference,
+) -> Result<Vec<f64>, WayError> {
+    let way = Way::new(kind, problem, None)?;
+    Ok(reference.errors(&way.values(reference.times())?))
+}
+
+/// Prepares a way, compares it with a reference, and takes its time there.
+///
+/// # Errors
+/// [`WayError`], where the problem is none for this way.
+pub fn measure(
+    problem: &Problem<'_>,
+    (kind, tolerance): (Kind, Option<f64>),
+    reference: &Reference,
+    settings: Settings,
+) -> Result<Measured, WayError> {
+    let begin = Instant::now();
+    let way = Way::new(kind, problem, tolerance)?;
+    let values = way.values(reference.times())?;
+    let first = begin.elapsed();
+    let mut least = Duration::MAX;
+    let begin = Instant::now();
+    let mut runs = 0;
+    while runs < settings.runs || begin.elapsed() < settings.time {
+        let begin = Instant::now();
+        std::hint::black_box(way.values(std::hint::black_box(reference.times()))?);
+        least = least.min(begin.elapsed());
+        runs += 1;
+        // What takes long is not repeated for the sake of a third digit.
+        if least > 10 * settings.time {
+            break;
+        }
+    }
+    let scale = if reference.scale() == 0.0 { 1.0 } else { reference.scale() };
+    let half_ulp = f64::EPSILON / 2.0;
+    Ok(Measured {
+        kind,
+        error: worst(&reference.errors(&values)),
+        bound: way.bound().map(|bound| bound / scale + half_ulp),
+        preparation: first.saturating_sub(least).as_secs_f64(),
+        seconds: least.as_secs_f64() / reference.times().len().max(1) as f64,
+    })
+}

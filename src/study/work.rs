@@ -1,0 +1,154 @@
+//! Work against precision: all ways with their settings on one problem.
+
+use crate::answer::{Kind, Problem};
+use crate::evaluate::StablePrecision;
+use crate::plot::{Caption, Method, PlotError, Point, Row, Table, WorkPrecision};
+use crate::study::harness::{Measured, Settings, measure};
+use crate::study::reference::Reference;
+
+/// One step of the ladder: a way, and the tolerance it is given in parts of the largest value.
+pub type Step = (Kind, Option<f64>);
+
+/// The ways that are measured, and their settings in order.
+pub const LADDER: [Step; 34] = [
+    (Kind::Rigid, None),
+    (Kind::Third, None),
+    (Kind::Modes { count: 10 }, None),
+    (Kind::Modes { count: 100 }, None),
+    (Kind::Modes { count: 1_000 }, None),
+    (Kind::Modes { count: 10_000 }, None),
+    (Kind::Leapfrog { cells: 50, courant: 0.9 }, None),
+    (Kind::Leapfrog { cells: 200, courant: 0.9 }, None),
+    (Kind::Leapfrog { cells: 800, courant: 0.9 }, None),
+    (Kind::Leapfrog { cells: 50, courant: 1.0 }, None),
+    (Kind::Leapfrog { cells: 200, courant: 1.0 }, None),
+    (Kind::Leapfrog { cells: 800, courant: 1.0 }, None),
+    (Kind::Steps { tolerance: 1e-3 }, None),
+    (Kind::Steps { tolerance: 1e-5 }, None),
+    (Kind::Steps { tolerance: 1e-7 }, None),
+    (Kind::Steps { tolerance: 1e-9 }, None),
+    (Kind::Steps { tolerance: 1e-11 }, None),
+    (Kind::Expanded, None),
+    (Kind::Plain, None),
+    (Kind::Stable(StablePrecision::Double), None),
+    (Kind::Stable(StablePrecision::DoubleDouble), None),
+    (Kind::Marched { proven: false }, None),
+    (Kind::Marched { proven: true }, None),
+    (Kind::Compiled, Some(1e-2)),
+    (Kind::Compiled, Some(1e-3)),
+    (Kind::Compiled, Some(1e-4)),
+    (Kind::Compiled, Some(1e-6)),
+    (Kind::Compiled, Some(1e-8)),
+    (Kind::Compiled, Some(1e-10)),
+    (Kind::Compiled, Some(1e-12)),
+    (Kind::Compiled, Some(1e-13)),
+    (Kind::Compiled, Some(1e-14)),
+    (Kind::Compiled, None),
+    (Kind::Certified, None),
+];
+
+/// What came of one step.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Outcome {
+    /// The step.
+    pub step: Step,
+    /// What was measured, or why the way refused.
+    pub result: Result<Measured, String>,
+}
+
+impl Outcome {
+    /// The line of the chart that it belongs to.
+    fn line(&self) -> String {
+        match self.step.0 {
+            Kind::Leapfrog { courant, .. } => format!("leapfrog, CFL {courant}"),
+            Kind::Marched { proven: true } => "marched".to_owned(),
+            kind => kind.name().to_owned(),
+        }
+    }
+
+    /// The setting, in few letters.
+    fn setting(&self) -> String {
+        match self.step {
+            (Kind::Modes { count }, _) => format!("N = {count}"),
+            (Kind::Leapfrog { cells, .. }, _) => format!("{cells} cells"),
+            (Kind::Steps { tolerance }, _) => format!("tol {tolerance:e}"),
+            (_, Some(tolerance)) => format!("tol {tolerance:e}"),
+            _ => String::new(),
+        }
+    }
+}
+
+/// Measures all steps; `tick` is called before each.
+pub fn ladder(
+    problem: &Problem<'_>,
+    reference: &Reference,
+    settings: Settings,
+    tick: impl Fn(&Kind),
+) -> Vec<Outcome> {
+    let outcome = |step: Step| {
+        let (kind, tolerance) = step;
+        tick(&kind);
+        let absolute = tolerance.map(|tolerance| tolerance * reference.scale());
+        let result = measure(problem, (kind, absolute), reference, settings);
+        Outcome { step, result: result.map_err(|error| error.to_string()) }
+    };
+    LADDER.into_iter().map(outcome).collect()
+}
+
+/// The diagram and the table of outcomes. Ways that refused are named in the caption, with the reason.
+///
+/// # Errors
+/// [`PlotError`], where nothing was measured.
+pub fn work_precision(
+    title: &str,
+    outcomes: &[Outcome],
+    reference: &Reference,
+    mut caption: Caption,
+) -> Result<(WorkPrecision, Table), PlotError> {
+    let mut methods: Vec<Method> = Vec::new();
+    let mut rows = Vec::new();
+    let slowest = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
+    let slowest = slowest
+        .filter(|measured| matches!(measured.kind, Kind::Certified))
+        .map(|measured| measured.seconds)
+        .next();
+    for outcome in outcomes {
+        let (line, setting) = (outcome.line(), outcome.setting());
+        let measured = match &outcome.result {
+            Ok(measured) => measured,
+            Err(reason) => {
+                let remark = format!("{line} is left out: {reason}.");
+                if !caption.remarks.contains(&remark) {
+                    caption.remarks.push(remark);
+                }
+                continue;
+            }
+        };
+        let Measured { error, bound, seconds, preparation, .. } = *measured;
+        let point = Point { setting: setting.clone(), error, bound, seconds };
+        match methods.iter_mut().find(|method| method.name == line) {
+            Some(method) => method.points.push(point),
+            None => methods.push(Method { name: line.clone(), points: vec![point] }),
+        }
+        let prepared = format!("prepared in {}", duration(preparation));
+        let setting = match (setting.is_empty(), preparation > seconds) {
+            (_, false) => setting,
+            (true, true) => prepared,
+            (false, true) => format!("{setting}, {prepared}"),
+        };
+        let speed_up = slowest.map(|slowest| slowest / seconds);
+        rows.push(Row { method: line, setting, error, bound, seconds, speed_up });
+    }
+    let chart =
+        WorkPrecision::new(title, methods, caption)?.reference_radius(reference.radius())?;
+    Ok((chart, Table { compared_with: "certified".to_owned(), rows }))
+}
+
+/// A time for people.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-3 => format!("{:.0} µs", s * 1e6),
+        s if s < 1.0 => format!("{:.0} ms", s * 1e3),
+        s => format!("{s:.1} s"),
+    }
+}
