@@ -31,6 +31,8 @@ pub enum Subcommand {
     Eval(Eval),
     /// Write values on a window as a program with a proven bound
     Export(Export),
+    /// Measure accuracy and speed of all methods, as charts with their data and one page
+    Chart(Chart),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
     /// Lock derived forms and certified values in a file, for `check --locked`
@@ -267,6 +269,39 @@ pub struct Export {
 pub enum ExportLanguage {
     /// A C function
     C,
+}
+
+/// Options of `chart`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep chart rigid-mass --set mu=1 -o charts\n  \
+    wavestep chart hopkinson --quantity gauge_output --to 2ms -o charts\n\n\
+Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table. With one symbol\n\
+set, there are maps over the order and that symbol as well. Times are those of this machine.")]
+pub struct Chart {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// A wave or an observable [default: the first observable]
+    #[arg(long, value_name = "NAME")]
+    pub quantity: Option<String>,
+    /// The first time of the window
+    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
+    pub from: String,
+    /// The last time of the window [default: 40 periods]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// At how many times errors are measured
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub points: usize,
+    /// The seed of the times
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Fewer orders and runs: to see whether it works
+    #[arg(long)]
+    pub quick: bool,
+    /// The folder to write to; it is made where there is none
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub output: String,
 }
 
 /// Options of `scenes`.

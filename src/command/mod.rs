@@ -5,6 +5,8 @@
 
 mod arguments;
 mod bounds;
+mod chart;
+mod chart_page;
 mod check;
 mod derive;
 mod derive_recurrence;
@@ -49,6 +51,7 @@ pub fn run() -> ExitCode {
     let result = match &arguments.subcommand {
         Subcommand::Derive(options) => derive::run(options),
         Subcommand::Eval(options) => eval::run(options),
+        Subcommand::Chart(options) => chart::run(options),
         Subcommand::Export(options) => export::run(options),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),

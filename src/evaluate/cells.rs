@@ -290,7 +290,7 @@ pub(crate) fn at_or_after(value: &Rational) -> f64 {
 }
 
 /// The smallest double that is not before a time in the scale of the waves.
-fn first_double(signal: &Signal, time: &Fraction) -> Result<f64, EvaluateError> {
+pub(crate) fn first_double(signal: &Signal, time: &Fraction) -> Result<f64, EvaluateError> {
     let numbers = signal.numbers();
     if let (Some(time), Some(slowness)) = (time.as_constant(), signal.slowness().as_constant()) {
         return Ok(at_or_after(&(time / slowness)));

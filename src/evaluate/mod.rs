@@ -28,7 +28,7 @@ pub use evaluator::{
 };
 pub use method::{
     Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,
-    StablePrecision,
+    StablePrecision, instructions,
 };
 pub use scene::{MAX_ECHOES, SceneEvaluator};
 pub use signal::{Signal, Stretch};

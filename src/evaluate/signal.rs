@@ -7,6 +7,7 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{EnclosureError, Numbers, real_part};
+use crate::evaluate::cells::first_double;
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::periods::Periods;
 use crate::evaluate::scene::{Echoes, MAX_ECHOES, SceneEvaluator, solve_in, whole_periods};
@@ -161,6 +162,23 @@ impl Signal {
     /// Time in the scale of the waves for one unit of the user's.
     pub fn slowness(&self) -> &Fraction {
         &self.slowness
+    }
+
+    /// The length of a period in the user's time, near it; `None` on a lattice.
+    pub fn period(&self) -> Option<f64> {
+        let period = self.numbers.enclose(&self.recurrence.statement().period, 128).ok()?;
+        let slowness = self.numbers.enclose(&self.slowness, 128).ok()?;
+        let inverse = slowness.reciprocal(128).ok()?;
+        self.is_on_grid().then(|| period.multiply(&inverse, 128).to_double().0)
+    }
+
+    /// The smallest doubles that are not before the arrivals within a window, its ends apart.
+    ///
+    /// # Errors
+    /// As [`Signal::stretches`].
+    pub fn arrivals(&self, from: &Rational, to: &Rational) -> Result<Vec<f64>, EvaluateError> {
+        let stretches = self.stretches(from, to)?;
+        stretches.iter().skip(1).map(|stretch| first_double(self, &stretch.from)).collect()
     }
 
     /// Whether unit and time are those of the waves, but for rational factors.

@@ -127,6 +127,12 @@ impl Reference {
         self.scale
     }
 
+    /// The absolute values in parts of the largest.
+    pub(crate) fn sizes(&self) -> Vec<f64> {
+        let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
+        self.values.iter().map(|(high, _)| high.abs() / scale).collect()
+    }
+
     /// How far off values can be, in parts of the largest.
     pub fn radius(&self) -> f64 {
         match self.scale {

@@ -87,6 +87,15 @@ pub trait Method {
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError>;
 }
 
+/// The vector instructions that polynomials are evaluated with on this machine.
+///
+/// ```
+/// assert!(["Baseline", "Avx2", "Avx512"].contains(&wavestep::evaluate::instructions().as_str()));
+/// ```
+pub fn instructions() -> String {
+    format!("{:?}", wavestep_kernels::Level::best())
+}
+
 /// Why a method has no value.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MethodError {

@@ -70,7 +70,10 @@ impl PrintedEchoes {
         }
         let forcing =
             Transform::of(&signal.observation().forcing, &signal.recurrence().statement().time);
-        let added = function(&Transform::embedded(&forcing, &field).map_err(EvaluateError::from)?)?;
+        let added = function(
+            &Transform::<crate::ball::ComplexBall>::embedded(&forcing, &field)
+                .map_err(EvaluateError::from)?,
+        )?;
         let unit = numbers.enclose_root(signal.unit(), BITS).map_err(EvaluateError::from)?;
         let slowness = number(&signal.slowness().clone().into())?.0;
         Ok(PrintedEchoes { seen, added, unit: unit.to_double().0, slowness })

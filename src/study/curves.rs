@@ -1,0 +1,248 @@
+//! Errors along one axis: time, order, distance from jumps and zeros, Courant's number; and costs.
+
+use crate::answer::{Kind, Problem};
+use crate::evaluate::StablePrecision;
+use crate::plot::{Axis, Caption, Curve, Curves, PlotError};
+use crate::study::harness::{Settings, errors, measure};
+use crate::study::reference::{Reference, Sampling};
+use wavestep_polynomial::Rational;
+
+/// The methods in doubles whose errors are followed.
+pub const DOUBLES: [Kind; 6] = [
+    Kind::Expanded,
+    Kind::Plain,
+    Kind::Stable(StablePrecision::Double),
+    Kind::Stable(StablePrecision::DoubleDouble),
+    Kind::Marched { proven: false },
+    Kind::Compiled,
+];
+
+/// An error from which on a result is of no use, and one at which half of the digits are lost.
+pub const USELESS: f64 = 1e-3;
+const HALF: f64 = 1e-8;
+
+/// A curve, with what a way refused as a remark.
+fn curve(
+    kind: Kind,
+    points: Result<Vec<(f64, f64)>, String>,
+    caption: &mut Caption,
+) -> Option<Curve> {
+    match points {
+        Ok(points) => Some(Curve { name: kind.to_string(), points }),
+        Err(reason) => {
+            caption.remarks.push(format!("{kind} is left out: {reason}."));
+            None
+        }
+    }
+}
+
+/// Curves with the lines at which half and all of the usefulness is lost.
+fn levelled(
+    title: &str,
+    x: Axis,
+    curves: Vec<Curve>,
+    caption: Caption,
+) -> Result<Curves, PlotError> {
+    let chart = Curves::new(title, x, Axis::logarithmic("error"), curves, caption)?;
+    chart.level(HALF, "8 digits lost")?.level(USELESS, "useful no longer")
+}
+
+/// The largest error in each of equal parts of the window.
+///
+/// # Errors
+/// [`PlotError`], where no method has values.
+pub fn over_time(
+    reference: &Reference,
+    problem: &Problem<'_>,
+    axis: Axis,
+    parts: usize,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let times = reference.times();
+    let size = times.len().div_ceil(parts).max(1);
+    let mut curves = Vec::new();
+    for kind in DOUBLES {
+        let points = errors(problem, kind, reference).map_err(|error| error.to_string());
+        let points = points.map(|errors| {
+            let parts = times.chunks(size).zip(errors.chunks(size));
+            parts.map(|(t, e)| (t[t.len() / 2], super::worst(e))).collect()
+        });
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    levelled("Error over time", axis, curves, caption)
+}
+
+/// The error relative to the value itself, by the size of the value: what is left near zeros.
+///
+/// # Errors
+/// [`PlotError`], where no method has values.
+pub fn near_zeros(
+    reference: &Reference,
+    problem: &Problem<'_>,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let mut curves = Vec::new();
+    for kind in DOUBLES {
+        let points = errors(problem, kind, reference).map_err(|error| error.to_string());
+        let points = points.map(|errors| {
+            let sizes = reference.sizes();
+            let decade = |exponent: i32| {
+                let (low, high) = (10f64.powi(exponent), 10f64.powi(exponent + 1));
+                let within =
+                    sizes.iter().zip(&errors).filter(|(size, _)| (low..high).contains(*size));
+                let worst = within.map(|(size, error)| error / size).fold(None, larger);
+                worst.map(|worst| (low * 10f64.sqrt(), worst))
+            };
+            (-8..1).filter_map(decade).collect()
+        });
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    let axis = Axis::logarithmic("size of the value, in parts of the largest");
+    let title = "Error relative to the value, near zeros";
+    Curves::new(title, axis, Axis::logarithmic("relative error"), curves, caption)
+}
+
+fn larger(worst: Option<f64>, error: f64) -> Option<f64> {
+    Some(worst.map_or(error, |worst: f64| worst.max(error)))
+}
+
+/// The error just after arrivals, by their number.
+///
+/// # Errors
+/// [`PlotError`], where no method has values.
+pub fn at_arrivals(
+    problem: &Problem<'_>,
+    most: usize,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let empty = |title: &str| PlotError::Empty { title: title.to_owned() };
+    let title = "Error just after arrivals";
+    let arrivals = problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty(title))?;
+    let stride = arrivals.len().div_ceil(most).max(1);
+    let chosen: Vec<(usize, f64)> = arrivals.iter().copied().enumerate().step_by(stride).collect();
+    let times: Vec<f64> = chosen.iter().flat_map(|(_, at)| [*at, at.next_up()]).collect();
+    let reference = Reference::new(problem, &times).map_err(|_| empty(title))?;
+    let mut curves = Vec::new();
+    for kind in DOUBLES {
+        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points = points.map(|errors| {
+            let pairs = chosen.iter().zip(errors.chunks(2));
+            pairs.map(|((n, _), pair)| (*n as f64 + 1.0, super::worst(pair))).collect()
+        });
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    levelled(title, Axis::linear("number of the arrival"), curves, caption)
+}
+
+/// The error of sums of modes by the distance from a jump, after it.
+///
+/// # Errors
+/// [`PlotError`], where modes have no values.
+pub fn near_jump(
+    problem: &Problem<'_>,
+    axis: Axis,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    const PLACES: usize = 60;
+    let title = "Modes near a jump";
+    let empty = || PlotError::Empty { title: title.to_owned() };
+    let arrivals = problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty())?;
+    let middle = arrivals.len() / 2;
+    let (Some(at), Some(next)) = (arrivals.get(middle), arrivals.get(middle + 1)) else {
+        return Err(empty());
+    };
+    let distance = |i: usize| 10f64.powf(-4.0 + 3.8 * i as f64 / PLACES as f64) * (next - at);
+    let times: Vec<f64> = (0..PLACES).map(|i| at + distance(i)).collect();
+    let reference = Reference::new(problem, &times).map_err(|_| empty())?;
+    let mut curves = Vec::new();
+    for count in [30, 300, 3000] {
+        let kind = Kind::Modes { count };
+        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points =
+            points.map(|errors| times.iter().zip(errors).map(|(t, e)| (t - at, e)).collect());
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    Curves::new(title, axis, Axis::logarithmic("error"), curves, caption)
+}
+
+/// The error of finite differences by Courant's number: the mean, and the largest.
+///
+/// # Errors
+/// [`PlotError`], where finite differences have no values.
+pub fn over_courant(
+    problem: &Problem<'_>,
+    reference: &Reference,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let numbers = [0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.98, 1.0];
+    let mut curves = Vec::new();
+    for cells in [50, 200, 800] {
+        let (mut mean, mut largest) = (Vec::new(), Vec::new());
+        for courant in numbers {
+            match errors(problem, Kind::Leapfrog { cells, courant }, reference) {
+                Ok(errors) => {
+                    let sum: f64 = errors.iter().sum();
+                    mean.push((courant, sum / errors.len().max(1) as f64));
+                    largest.push((courant, super::worst(&errors)));
+                }
+                Err(reason) => {
+                    caption.remarks.push(format!("{cells} cells at {courant}: {reason}."));
+                    break;
+                }
+            }
+        }
+        curves.push(Curve { name: format!("{cells} cells, mean"), points: mean });
+        curves.push(Curve { name: format!("{cells} cells, largest"), points: largest });
+    }
+    let axis = Axis::linear("Courant's number");
+    let title = "Finite differences by Courant's number";
+    Curves::new(title, axis, Axis::logarithmic("error"), curves, caption)
+}
+
+/// What a value and its preparation cost, by the number of periods before it.
+///
+/// # Errors
+/// [`PlotError`], where nothing was measured.
+pub fn cost_over_order(
+    problem: &Problem<'_>,
+    period: f64,
+    orders: &[usize],
+    settings: Settings,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let kinds = DOUBLES.into_iter().chain([Kind::Certified]);
+    let mut curves = Vec::new();
+    for kind in kinds {
+        let (mut values, mut preparations) = (Vec::new(), Vec::new());
+        for &order in orders {
+            let ends = [order as f64 * period, (order as f64 + 1.0) * period];
+            let [from, to] = ends.map(|end| Rational::from_float(end).unwrap_or_default());
+            let part = Problem { from, to, ..*problem };
+            let times = Sampling { points: 64, seed: 1 }.times(ends[0], ends[1]);
+            let measured = Reference::new(&part, &times)
+                .map_err(|error| error.to_string())
+                .and_then(|reference| {
+                    let measured = measure(&part, (kind, None), &reference, settings);
+                    measured.map_err(|error| error.to_string())
+                });
+            match measured {
+                Ok(measured) => {
+                    values.push((order as f64, measured.seconds));
+                    preparations.push((order as f64, measured.preparation.max(1e-9)));
+                }
+                Err(reason) => {
+                    caption.remarks.push(format!("{kind} is left out: {reason}."));
+                    break;
+                }
+            }
+        }
+        if matches!(kind, Kind::Compiled) {
+            let name = format!("{kind}, preparation of one period");
+            curves.push(Curve { name, points: preparations });
+        }
+        curves.push(Curve { name: format!("{kind}, a value"), points: values });
+    }
+    curves.retain(|curve| !curve.points.is_empty());
+    let (order, seconds) = (Axis::logarithmic("order n"), Axis::logarithmic("time").unit("s"));
+    Curves::new("Cost of values by order", order, seconds, curves, caption)
+}
