@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 16] = [
+const LAYERS: [(&str, &[&str]); 17] = [
     ("ball", &[]),
     ("plot", &[]),
     ("expression", &[]),
@@ -26,6 +26,7 @@ const LAYERS: [(&str, &[&str]); 16] = [
     ("export", &["evaluate", "expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
+    ("study", &["answer", "evaluate", "language", "plot"]),
     ("scenes", &[]),
     (
         "command",
@@ -45,6 +46,7 @@ const LAYERS: [(&str, &[&str]); 16] = [
             "scene",
             "scenes",
             "solution",
+            "study",
         ],
     ),
 ];

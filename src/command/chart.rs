@@ -23,6 +23,9 @@ const PERIODS: i64 = 40;
 const ORDERS: [usize; 14] = [1, 5, 10, 15, 20, 30, 40, 60, 80, 100, 120, 140, 170, 200];
 const FEW_ORDERS: [usize; 4] = [1, 5, 10, 20];
 
+/// Orders at which exponentials underflow.
+const HIGH_ORDERS: [usize; 7] = [10, 30, 100, 200, 400, 1000, 2000];
+
 /// Values of the parameter of maps: twelve from 1/100 to 10, a factor of about two apart.
 const PARAMETERS: [&str; 12] =
     ["1/100", "1/50", "1/25", "1/12", "1/6", "1/4", "1/2", "1", "2", "4", "7", "10"];
@@ -56,7 +59,8 @@ pub fn run(options: &Options) -> Result<String, Failure> {
             true => Axis::linear("time"),
             false => Axis::linear("time").unit(unit),
         };
-        on_problem(problem, options, &command, axis, &|text| spinner.set_message(text.to_owned()))
+        let tick = |text: &str| spinner.set_message(text.to_owned());
+        on_problem(problem, options, &command, (unit, axis), &tick)
     })?;
     if let Some(symbol) = single_symbol(options) {
         spinner.set_message("maps".to_owned());
@@ -136,7 +140,7 @@ fn on_problem(
     problem: &Problem<'_>,
     options: &Options,
     command: &str,
-    axis: impl Fn() -> Axis,
+    (unit, axis): (&str, impl Fn() -> Axis),
     tick: &dyn Fn(&str),
 ) -> Result<(Vec<Figure>, Table), Failure> {
     let sampling = Sampling { points: options.points, seed: options.seed };
@@ -158,11 +162,9 @@ fn on_problem(
          preparation is not counted here and stands in the table.",
         work,
     )];
-    let mut add = |name, text, chart: Result<Curves, PlotError>| {
-        // A chart without anything to draw is left out.
-        if let Ok(chart) = chart {
-            figures.push(Figure::new(name, text, chart));
-        }
+    let mut add = |name, text, chart: Result<Curves, PlotError>| match chart {
+        Ok(chart) => figures.push(Figure::new(name, text, chart)),
+        Err(reason) => eprintln!("note: {name} is left out: {reason}"),
     };
     tick("errors over time");
     let parts = if options.quick { 10 } else { 100 };
@@ -195,12 +197,19 @@ fn on_problem(
         add(
             "modes-near-a-jump",
             "A sum of modes converges like one over their number, and not at all at a jump.",
-            study::near_jump(problem, axis(), caption()),
+            study::near_jump(problem, unit, caption()),
         );
     }
     if let Some(period) = problem.signal.period() {
         tick("costs");
         let orders = if options.quick { &FEW_ORDERS[..] } else { &ORDERS };
+        let high = if options.quick { &HIGH_ORDERS[..2] } else { &HIGH_ORDERS };
+        add(
+            "error-at-high-orders",
+            "At n = 400 the exponential of an echo is below all doubles long before the echo is: methods \
+             that carry its exponent apart do not notice.",
+            study::over_order(problem, period, high, caption()),
+        );
         add(
             "cost-by-order",
             "Sums of echoes cost the square of the order; polynomials cost the same at any order, once \
@@ -208,6 +217,13 @@ fn on_problem(
             study::cost_over_order(problem, period, orders, settings, caption()),
         );
     }
+    tick("near equal poles");
+    add(
+        "error-near-equal-poles",
+        "With two poles the formula holds powers of one over their distance, which cancel; polynomials \
+         are made from balls that have the bits for it.",
+        study::near_confluence(if options.quick { 2 } else { 12 }, caption()),
+    );
     Ok((figures, table))
 }
 

@@ -13,7 +13,7 @@ use crate::evaluate::taps::{Extra, Taps};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::{Field as _, Transform};
 use num_traits::{Signed as _, ToPrimitive as _};
-use wavestep_kernels::fixed::{DelayEquation, March, MarchOptions};
+use wavestep_kernels::fixed::{self, DelayEquation, March, MarchOptions};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The bits below the point of the march.
@@ -28,6 +28,8 @@ const MAX_TAPS: usize = 8;
 /// A signal on a window, from a march.
 pub(crate) struct MarchedPieces {
     march: March,
+    /// The same in the user's time.
+    equation: DelayEquation,
     taps: Vec<RationalTap>,
     extras: Vec<Extra>,
     local: Symbol,
@@ -71,8 +73,26 @@ impl MarchedPieces {
         }
         let equation = DelayEquation::new(&period, &rate, &zero, &ratio).ok()?;
         let march = March::new(&equation, periods, &MarchOptions::default()).ok()?;
+        // In the user's time rates are larger by the slowness, and the period shorter.
+        let (period_there, rate, zero) = (&period / &slowness, rate * &slowness, zero * &slowness);
+        let there = DelayEquation::new(&period_there, &rate, &zero, &ratio).ok()?;
         let local = signal.recurrence().statement().local.clone();
-        Some(MarchedPieces { march, taps, extras, local, period, slowness, unit })
+        Some(MarchedPieces { march, equation: there, taps, extras, local, period, slowness, unit })
+    }
+
+    /// Correctly rounded values at doubles, just after arrivals, and the places of those that the bound
+    /// does not decide; `None` where more than taps is added up.
+    pub(crate) fn certified(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
+        if !self.extras.is_empty() || self.taps.iter().any(|tap| tap.since != tap.delay) {
+            return None;
+        }
+        let tap = |tap: &RationalTap| fixed::Tap {
+            weight: &tap.weight * &self.unit,
+            delay: &tap.delay / &self.slowness,
+        };
+        let taps: Vec<fixed::Tap> = self.taps.iter().map(tap).collect();
+        let found = fixed::certified(&self.equation, &taps, times, fixed::Side::Right).ok()?;
+        Some((found.values, found.undecided))
     }
 
     /// Whether the proven bound is good enough for polynomials with such an error.

@@ -28,11 +28,19 @@ fn curve(
     caption: &mut Caption,
 ) -> Option<Curve> {
     match points {
-        Ok(points) => Some(Curve { name: kind.to_string(), points }),
+        Ok(points) => Some(Curve { name: name(kind), points }),
         Err(reason) => {
             caption.remarks.push(format!("{kind} is left out: {reason}."));
             None
         }
+    }
+}
+
+/// A way by its name; that a march has no bound here is of no matter for its error.
+fn name(kind: Kind) -> String {
+    match kind {
+        Kind::Marched { .. } => "marched".to_owned(),
+        kind => kind.to_string(),
     }
 }
 
@@ -117,7 +125,10 @@ pub fn at_arrivals(
 ) -> Result<Curves, PlotError> {
     let empty = |title: &str| PlotError::Empty { title: title.to_owned() };
     let title = "Error just after arrivals";
-    let arrivals = problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty(title))?;
+    let mut arrivals =
+        problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty(title))?;
+    // One at the very end has no time after it.
+    arrivals.retain(|at| Rational::from_float(at.next_up()).is_some_and(|at| at <= problem.to));
     let stride = arrivals.len().div_ceil(most).max(1);
     let chosen: Vec<(usize, f64)> = arrivals.iter().copied().enumerate().step_by(stride).collect();
     let times: Vec<f64> = chosen.iter().flat_map(|(_, at)| [*at, at.next_up()]).collect();
@@ -134,13 +145,35 @@ pub fn at_arrivals(
     levelled(title, Axis::linear("number of the arrival"), curves, caption)
 }
 
+/// The error at orders so high that exponentials underflow long before the echoes do.
+///
+/// # Errors
+/// [`PlotError`], where no method has values.
+pub fn over_order(
+    problem: &Problem<'_>,
+    period: f64,
+    orders: &[usize],
+    caption: Caption,
+) -> Result<Curves, PlotError> {
+    let kinds = &DOUBLES[..5];
+    let rows = super::errors_by_order(problem, period, orders, kinds);
+    let mut curves = Vec::new();
+    for (kind, row) in kinds.iter().zip(rows) {
+        let points = orders.iter().zip(row);
+        let points = points.filter_map(|(order, error)| Some((*order as f64, error?))).collect();
+        curves.push(Curve { name: name(*kind), points });
+    }
+    curves.retain(|curve: &Curve| !curve.points.is_empty());
+    levelled("Error at high orders", Axis::logarithmic("order n"), curves, caption)
+}
+
 /// The error of sums of modes by the distance from a jump, after it.
 ///
 /// # Errors
 /// [`PlotError`], where modes have no values.
 pub fn near_jump(
     problem: &Problem<'_>,
-    axis: Axis,
+    unit: &str,
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     const PLACES: usize = 60;
@@ -162,6 +195,8 @@ pub fn near_jump(
             points.map(|errors| times.iter().zip(errors).map(|(t, e)| (t - at, e)).collect());
         curves.extend(curve(kind, points, &mut caption));
     }
+    let axis = Axis::logarithmic("time after the jump");
+    let axis = if unit.is_empty() { axis } else { axis.unit(unit) };
     Curves::new(title, axis, Axis::logarithmic("error"), curves, caption)
 }
 
@@ -237,10 +272,10 @@ pub fn cost_over_order(
             }
         }
         if matches!(kind, Kind::Compiled) {
-            let name = format!("{kind}, preparation of one period");
+            let name = format!("{}, preparation of one period", name(kind));
             curves.push(Curve { name, points: preparations });
         }
-        curves.push(Curve { name: format!("{kind}, a value"), points: values });
+        curves.push(Curve { name: format!("{}, a value", name(kind)), points: values });
     }
     curves.retain(|curve| !curve.points.is_empty());
     let (order, seconds) = (Axis::logarithmic("order n"), Axis::logarithmic("time").unit("s"));

@@ -9,18 +9,22 @@ use super::doubles::near;
 use super::{Method, MethodError};
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::rational;
+use crate::evaluate::cells::{at_or_after, rational};
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::Taps;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Transform};
 use num_traits::{Signed as _, ToPrimitive as _};
+use wavestep_kernels::fixed::{self, Reduction};
 use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The most periods that are marched through.
 const MAX_PERIODS: u64 = 10_000_000;
+
+/// What a place on a period is counted in: `2^120` to the period.
+const POSITION_UNITS: f64 = (1_u128 << 120) as f64;
 
 /// An observable on a window by a march.
 ///
@@ -154,6 +158,11 @@ impl Marched {
         Ok(Some((bound + slope * f64::EPSILON + roundings) * total * 1.125))
     }
 
+    /// The doubles of the window.
+    fn doubles(&self) -> std::ops::RangeInclusive<f64> {
+        at_or_after(&self.from)..=-at_or_after(&-&self.to)
+    }
+
     /// The weights of the taps in the unit of the observable.
     fn weights(&self) -> Result<Vec<f64>, MethodError> {
         let weight = |tap: &crate::evaluate::taps::Tap| {
@@ -250,6 +259,45 @@ impl Marched {
                 }
             }
         }
+        self.march(places, values)
+    }
+
+    /// The same for doubles, just after arrivals, where periods and delays are rational numbers and
+    /// nothing is added: their places are found in integers.
+    fn at_doubles(&self, times: &[f64]) -> Option<Result<Vec<f64>, MethodError>> {
+        let slowness = self.slowness.as_constant()?;
+        let period = self.taps.period.as_constant()? / &slowness;
+        if !self.taps.extras.is_empty() {
+            return None;
+        }
+        let mut reductions = Vec::new();
+        for tap in &self.taps.taps {
+            let delay = tap.delay.as_constant()? / &slowness;
+            if tap.since != tap.delay {
+                return None;
+            }
+            reductions.push(Reduction::new(&period, &delay).ok()?);
+        }
+        let weights = match self.weights() {
+            Ok(weights) => weights,
+            Err(error) => return Some(Err(error)),
+        };
+        let mut places = Vec::with_capacity(times.len() * weights.len());
+        for (value, time) in times.iter().enumerate() {
+            for (reduction, weight) in reductions.iter().zip(&weights) {
+                let Some(position) = reduction.of_double(*time, fixed::Side::Right).ok()? else {
+                    continue;
+                };
+                let local = position.fraction() as f64 / POSITION_UNITS;
+                let period = position.period() as usize;
+                places.push(Place { period, local, value, weight: *weight });
+            }
+        }
+        Some(self.march(places, vec![0.0; times.len()]))
+    }
+
+    /// Adds the response at all places to values.
+    fn march(&self, mut places: Vec<Place>, mut values: Vec<f64>) -> Result<Vec<f64>, MethodError> {
         places.sort_by_key(|place| place.period);
         let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
         let mut march = March::new(&self.reflection, options).map_err(refused)?;
@@ -301,11 +349,15 @@ impl Method for Marched {
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
-        if at.iter().any(|time| !time.is_finite()) {
+        let window = self.doubles();
+        if !at.iter().all(|time| window.contains(time)) {
             return Err(MethodError::Outside);
         }
-        let times: Vec<Rational> = at.iter().map(|time| rational(*time)).collect();
-        values.copy_from_slice(&self.at(&times, Side::Right)?);
+        let found = self.at_doubles(at).unwrap_or_else(|| {
+            let times: Vec<Rational> = at.iter().map(|time| rational(*time)).collect();
+            self.at(&times, Side::Right)
+        });
+        values.copy_from_slice(&found?);
         Ok(())
     }
 }

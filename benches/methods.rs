@@ -1,0 +1,137 @@
+//! Values in doubles: the figures of docs/performance.md.
+//!
+//! The rigid mass on a fixed bar, all periods to n = 200, one core. Elements are values. Where memory is
+//! the limit, `stores` is what it can do: the same stores of a constant.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+use wavestep::evaluate::{Certified, Compiled, Marched, Method, Signal, Stable, StablePrecision};
+use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep::study::Sampling;
+use wavestep_kernels::{Level, Piece, Table};
+
+const ORDER: u32 = 200;
+const POINTS: usize = 10_000_000;
+const UNSORTED: usize = 1_000_000;
+const MASSES: [&str; 2] = ["1", "1/4"];
+
+/// Calls `work` with the wave f, and the end of the window.
+fn with_signal(mass: &str, work: impl FnOnce(&Signal, &str)) {
+    let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    let values = [("mu".to_owned(), parse_number(mass).unwrap())].into();
+    let source = Source::new("rigid-mass", text).unwrap();
+    let recurrence = read_recurrence(&source, &values).unwrap();
+    let observation = recurrence.observation("f").unwrap();
+    let signal = Signal::of_recurrence(&recurrence, &observation).unwrap();
+    work(&signal, &format!("{}*2*{mass}", ORDER + 1));
+}
+
+/// Times in an order that no cache knows.
+fn shuffled(end: f64) -> Vec<f64> {
+    let times = Sampling { points: UNSORTED, seed: 1 }.times(0.0, end * 0.999_999);
+    (0..UNSORTED).map(|i| times[(i * 611_953) % UNSORTED]).collect()
+}
+
+/// A table of one constant: what writing costs.
+fn constant(end: f64) -> Table {
+    let (coefficients, low) = (vec![1.0], Vec::new());
+    let scale = 0.5_f64.powi(20);
+    let piece = Piece { start: 0.0, centre: 0.0, scale, coefficients, low, error: 0.0 };
+    Table::new(&[piece], end).unwrap()
+}
+
+fn polynomials(criterion: &mut Criterion) {
+    for mass in MASSES {
+        with_signal(mass, |signal, last| {
+            let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
+            let compiled = Compiled::new(signal, &from, &to, None).unwrap();
+            let certified = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();
+            let end = compiled.table().end();
+            let step = end / POINTS as f64;
+            let mut values = vec![0.0; POINTS];
+            let times = shuffled(end);
+            let mut group = criterion.benchmark_group(format!("rigid-mass mu={mass} n≤{ORDER}"));
+            group.sample_size(10);
+            for level in Level::available() {
+                let name = |what: &str| BenchmarkId::new(what, format!("{level:?}"));
+                group.throughput(Throughput::Elements(POINTS as u64));
+                let stores = constant(end);
+                let stores = stores.evaluator().with_level(level);
+                group.bench_function(name("stores"), |b| {
+                    b.iter(|| stores.grid(0.0, step, black_box(&mut values)));
+                });
+                let plain = compiled.table().evaluator().with_level(level);
+                group.bench_function(name("compiled grid"), |b| {
+                    b.iter(|| plain.grid(0.0, step, black_box(&mut values)));
+                });
+                let pairs = certified.table().unwrap().evaluator().with_level(level);
+                group.bench_function(name("certified grid"), |b| {
+                    b.iter(|| pairs.rounded_grid(0.0, step, black_box(&mut values)));
+                });
+                group.throughput(Throughput::Elements(UNSORTED as u64));
+                let some = &mut values[..UNSORTED];
+                group.bench_function(name("compiled unsorted"), |b| {
+                    b.iter(|| plain.unsorted(&times, black_box(&mut *some)));
+                });
+                group.bench_function(name("certified unsorted"), |b| {
+                    b.iter(|| pairs.rounded_unsorted(&times, black_box(&mut *some)));
+                });
+            }
+            group.finish();
+        });
+    }
+}
+
+/// A thousand values from scratch: nothing is prepared.
+fn from_scratch(criterion: &mut Criterion) {
+    with_signal("1", |signal, last| {
+        let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
+        let times = Sampling { points: 1000, seed: 1 }.times(0.0, 402.0);
+        let mut values = vec![0.0; 1000];
+        let mut group = criterion.benchmark_group("1000 values to n = 200, from scratch");
+        group.bench_function("certified", |b| {
+            b.iter(|| {
+                let method = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();
+                method.values(&times, black_box(&mut values)).unwrap();
+            });
+        });
+        for (name, proven) in [("marched", true), ("marched, no bound", false)] {
+            group.bench_function(name, |b| {
+                b.iter(|| {
+                    let method = Marched::new(signal, &from, &to, proven).unwrap();
+                    method.values(&times, black_box(&mut values)).unwrap();
+                });
+            });
+        }
+        group.sample_size(10);
+        group.bench_function("compiled", |b| {
+            b.iter(|| {
+                let method = Compiled::new(signal, &from, &to, None).unwrap();
+                method.values(&times, black_box(&mut values)).unwrap();
+            });
+        });
+        group.finish();
+    });
+}
+
+/// Sums of echoes, on one period.
+fn sums(criterion: &mut Criterion) {
+    with_signal("1", |signal, last| {
+        let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
+        let mut group = criterion.benchmark_group("sums of echoes");
+        for order in [10_u32, 50, 200] {
+            let start = f64::from(2 * order);
+            let times = Sampling { points: 4096, seed: 1 }.times(start, start + 2.0);
+            let mut values = vec![0.0; times.len()];
+            group.throughput(Throughput::Elements(times.len() as u64));
+            let stable = Stable::new(signal, &from, &to, StablePrecision::Double).unwrap();
+            group.bench_function(BenchmarkId::new("stable", order), |b| {
+                b.iter(|| stable.values(&times, black_box(&mut values)).unwrap());
+            });
+        }
+        group.finish();
+    });
+}
+
+criterion_group!(benches, polynomials, from_scratch, sums);
+criterion_main!(benches);
