@@ -1,7 +1,7 @@
 //! `chart`: accuracy against speed, measured, as pictures with their data and one page.
 
 use super::arguments::{Chart as Options, Scene};
-use super::chart_page::{Figure, write};
+use super::chart_page::{Figure, check, write};
 use super::failure::Failure;
 use super::input::{self, Subject};
 use super::problem::{is_dimensional, with_problem};
@@ -9,7 +9,7 @@ use super::progress;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::answer::{Kind, Problem};
-use wavestep::evaluate::StablePrecision;
+use wavestep::evaluate::{EvaluateError, StablePrecision};
 use wavestep::plot::{Axis, Caption, Curves, PlotError, Table};
 use wavestep::study::{self, Reference, Sampling, Settings};
 
@@ -36,6 +36,7 @@ pub fn run(options: &Options) -> Result<String, Failure> {
         let message = format!("{} times cannot be measured", options.points);
         return Err(Failure::usage(message, format!("ask for 1 to {MAX_POINTS}")));
     }
+    check(&options.output)?;
     let subject = input::subject(&options.scene)?;
     let quantity = match &options.quantity {
         Some(quantity) => quantity.clone(),
@@ -97,8 +98,20 @@ fn default_end(subject: &Subject) -> Result<BigRational, Failure> {
             period.zip(slowness).map(|(period, slowness)| period / slowness)
         }
     };
-    let end = period.map(|period| period * BigRational::from_integer(PERIODS.into()));
-    end.ok_or_else(|| Failure::usage("the window has no end", "give --to T"))
+    if let Some(period) = period {
+        return Ok(period * BigRational::from_integer(PERIODS.into()));
+    }
+    let missing = match subject {
+        Subject::Recurrence(recurrence) => recurrence.symbols().next().cloned(),
+        Subject::Scene(network) if network.lattice().periods().len() == 1 => {
+            network.recurrence()?.symbols().next().cloned()
+        }
+        Subject::Scene(_) => None,
+    };
+    Err(match missing {
+        Some(symbol) => EvaluateError::MissingValue(symbol).into(),
+        None => Failure::usage("the window has no end", "give --to T"),
+    })
 }
 
 /// The symbol that has a value, where it is one only.
@@ -151,7 +164,9 @@ fn on_problem(
         true => Settings { runs: 1, time: std::time::Duration::ZERO },
         false => Settings::default(),
     };
-    let outcomes = study::ladder(problem, &reference, settings, |kind| tick(&kind.to_string()));
+    let outcomes = study::ladder(problem, &reference, (settings, options.quick), |kind| {
+        tick(&kind.to_string());
+    });
     let (work, table) =
         study::work_precision("Work against precision", &outcomes, &reference, caption())
             .map_err(nothing)?;
@@ -192,7 +207,11 @@ fn on_problem(
             "finite-differences",
             "At Courant's number 1 finite differences follow the characteristics; below, jumps are smeared \
              and ring, however small the cells. Above 1 they are unstable, and refused.",
-            study::over_courant(problem, &reference, caption()),
+            study::over_courant(
+                problem,
+                (&reference, if options.quick { 50 } else { 800 }),
+                caption(),
+            ),
         );
         add(
             "modes-near-a-jump",

@@ -20,6 +20,20 @@ impl Figure {
     }
 }
 
+/// Refuses a folder that cannot be made, before anything is measured.
+pub fn check(folder: &str) -> Result<(), Failure> {
+    let known = Path::new(folder).ancestors().find(|folder| folder.exists());
+    match known.is_none_or(Path::is_dir) {
+        true => Ok(()),
+        false => Err(unusable(folder, "a part of its path is a file")),
+    }
+}
+
+fn unusable(folder: &str, reason: impl std::fmt::Display) -> Failure {
+    let message = format!("the folder `{folder}` cannot be made: {reason}");
+    Failure::usage(message, "name a folder that can be written to with -o")
+}
+
 /// Writes all files, and says which.
 pub fn write(
     folder: &str,
@@ -27,11 +41,8 @@ pub fn write(
     figures: &[Figure],
     table: &Table,
 ) -> Result<String, Failure> {
+    fs::create_dir_all(folder).map_err(|error| unusable(folder, error))?;
     let folder = Path::new(folder);
-    fs::create_dir_all(folder).map_err(|error| {
-        let message = format!("the folder `{}` cannot be made: {error}", folder.display());
-        Failure::usage(message, "name a folder that can be written to with -o")
-    })?;
     let mut told = String::new();
     let mut sections = Vec::new();
     for figure in figures {

@@ -206,12 +206,12 @@ pub fn near_jump(
 /// [`PlotError`], where finite differences have no values.
 pub fn over_courant(
     problem: &Problem<'_>,
-    reference: &Reference,
+    (reference, most_cells): (&Reference, usize),
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     let numbers = [0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.98, 1.0];
     let mut curves = Vec::new();
-    for cells in [50, 200, 800] {
+    for cells in [50, 200, 800].into_iter().filter(|cells| *cells <= most_cells) {
         let (mut mean, mut largest) = (Vec::new(), Vec::new());
         for courant in numbers {
             match errors(problem, Kind::Leapfrog { cells, courant }, reference) {

@@ -77,11 +77,21 @@ impl Outcome {
     }
 }
 
-/// Measures all steps; `tick` is called before each.
+/// Whether a step takes long.
+fn is_heavy(kind: Kind) -> bool {
+    match kind {
+        Kind::Modes { count } => count > 1_000,
+        Kind::Leapfrog { cells, .. } => cells > 100,
+        Kind::Steps { tolerance } => tolerance < 1e-6,
+        _ => false,
+    }
+}
+
+/// Measures all steps, or those that do not take long; `tick` is called before each.
 pub fn ladder(
     problem: &Problem<'_>,
     reference: &Reference,
-    settings: Settings,
+    (settings, quick): (Settings, bool),
     tick: impl Fn(&Kind),
 ) -> Vec<Outcome> {
     let outcome = |step: Step| {
@@ -91,7 +101,7 @@ pub fn ladder(
         let result = measure(problem, (kind, absolute), reference, settings);
         Outcome { step, result: result.map_err(|error| error.to_string()) }
     };
-    LADDER.into_iter().map(outcome).collect()
+    LADDER.into_iter().filter(|(kind, _)| !(quick && is_heavy(*kind))).map(outcome).collect()
 }
 
 /// The diagram and the table of outcomes. Ways that refused are named in the caption, with the reason.

@@ -1,0 +1,121 @@
+//! `wavestep chart`: its files, and what stands in them.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn wavestep(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_wavestep")).args(arguments).output().unwrap()
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    folder
+}
+
+fn json(folder: &Path, name: &str) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(folder.join(name)).unwrap()).unwrap()
+}
+
+/// All proven bounds hold, the reference is far finer than every error, and the page holds every chart.
+#[test]
+fn charts_of_a_scene() {
+    let folder = folder("charts-of-a-scene");
+    let output = wavestep(&[
+        "chart",
+        "mass-on-fixed-bar",
+        "--set",
+        "mu=1",
+        "--quantity",
+        "strain_impact",
+        "--to",
+        "12",
+        "--points",
+        "60",
+        "--quick",
+        "-o",
+        folder.to_str().unwrap(),
+    ]);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{errors}");
+    let work = json(&folder, "work-precision.json");
+    let mut proven = 0;
+    for method in work["methods"].as_array().unwrap() {
+        for point in method["points"].as_array().unwrap() {
+            let error = point["error"].as_f64().unwrap();
+            if let Some(bound) = point["bound"].as_f64() {
+                assert!(error <= bound, "{}: {error:e} > {bound:e}", method["name"]);
+                proven += 1;
+            }
+        }
+    }
+    assert!(proven >= 10, "{proven} proven bounds");
+    let caption = work["caption"].to_string();
+    for part in ["Norm", "mu=1", "strain_impact", "wavestep chart", "seed"] {
+        assert!(caption.to_lowercase().contains(&part.to_lowercase()), "{part} in {caption}");
+    }
+    let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
+    let told = String::from_utf8(output.stdout).unwrap();
+    let mut pictures = 0;
+    for file in told.lines() {
+        assert!(Path::new(file).exists(), "{file}");
+        pictures += usize::from(file.ends_with(".svg"));
+    }
+    assert!(pictures >= 12, "{told}");
+    assert_eq!(page.matches("<svg").count(), pictures);
+}
+
+/// A recurrence has no models, and the page says why they are missing.
+#[test]
+fn charts_of_a_recurrence() {
+    let folder = folder("charts-of-a-recurrence");
+    let output = wavestep(&[
+        "chart",
+        "two-bars",
+        "--set",
+        "r=1/2",
+        "--to",
+        "8",
+        "--points",
+        "20",
+        "--quick",
+        "-o",
+        folder.to_str().unwrap(),
+    ]);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{errors}");
+    let work = json(&folder, "work-precision.json").to_string();
+    assert!(work.contains("rigid models a scene of bars, and this is a recurrence"), "{work}");
+}
+
+#[test]
+fn bad_requests_are_refused() {
+    let folder = folder("charts-refused");
+    let to = folder.to_str().unwrap();
+    let cases: [(&[&str], &str); 5] = [
+        (&["chart", "rigid-mass", "-o", to], "the symbol mu has no value"),
+        (
+            &["chart", "rigid-mass", "--set", "mu=1", "--from", "3", "--to", "2", "-o", to],
+            "is empty",
+        ),
+        (&["chart", "rigid-mass", "--set", "mu=1", "--points", "0", "-o", to], "0 times"),
+        (
+            &["chart", "rigid-mass", "--set", "mu=1", "--quantity", "force", "-o", to],
+            "neither a wave",
+        ),
+        (
+            &["chart", "mass-on-fixed-bar", "--set", "mu=1", "--quantity", "energy", "-o", to],
+            "an energy",
+        ),
+    ];
+    for (arguments, part) in cases {
+        let output = wavestep(arguments);
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && errors.contains(part), "{arguments:?}: {errors}");
+        assert!(errors.contains("help: "), "{errors}");
+        assert!(!folder.exists(), "no partial files");
+    }
+    let output = wavestep(&["chart", "two-bars", "--set", "r=1", "--quick", "-o", "/dev/null/no"]);
+    assert!(String::from_utf8(output.stderr).unwrap().contains("cannot be made"));
+}
