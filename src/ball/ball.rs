@@ -72,6 +72,21 @@ impl Ball {
         Self::new(midpoint, radius)
     }
 
+    /// The ball around zero with this radius, rounded up.
+    ///
+    /// ```
+    /// use num_rational::BigRational;
+    /// use wavestep::ball::Ball;
+    /// let third = BigRational::new(1.into(), 3.into());
+    /// let ball = Ball::symmetric(&third);
+    /// assert!(ball.contains(&third) && ball.contains(&-&third));
+    /// assert!(!ball.contains(&BigRational::new(1.into(), 2.into())));
+    /// ```
+    #[must_use]
+    pub fn symmetric(radius: &BigRational) -> Self {
+        Self::new(Binary::zero(), Magnitude::from_rational(radius))
+    }
+
     /// A ball around two rationals and all that is between them.
     #[must_use]
     pub(crate) fn between(lower: &BigRational, upper: &BigRational, precision: u64) -> Self {

@@ -27,6 +27,15 @@ pub enum Failure {
     Computation(String, String),
     /// The accuracy asked for is not reached: what, and the remedy.
     Accuracy(String, String),
+    /// Some of what is asked for stays undecided.
+    Undecided {
+        /// What is known, for standard output.
+        report: String,
+        /// What is not.
+        message: String,
+        /// The remedy.
+        remedy: String,
+    },
     /// What is derived differs from what is locked.
     Difference {
         /// What differs, for standard output.
@@ -44,7 +53,7 @@ impl Failure {
         match self {
             Failure::Text(_) | Failure::Texts(_) | Failure::Usage(..) => USAGE,
             Failure::Computation(..) | Failure::Difference { .. } => COMPUTATION,
-            Failure::Accuracy(..) => ACCURACY,
+            Failure::Accuracy(..) | Failure::Undecided { .. } => ACCURACY,
         }
     }
 
@@ -60,6 +69,7 @@ impl Failure {
             Failure::Usage(message, remedy)
             | Failure::Computation(message, remedy)
             | Failure::Accuracy(message, remedy)
+            | Failure::Undecided { message, remedy, .. }
             | Failure::Difference { message, remedy, .. } => {
                 format!("error: {message}\nhelp: {remedy}")
             }
@@ -134,9 +144,11 @@ impl From<EvaluateError> for Failure {
                 Failure::Computation(message, "ask for an earlier time".to_owned())
             }
             EvaluateError::NotLinear(_) => {
-                Failure::Computation(message, "ask for digits, without --tol".to_owned())
+                let remedy = "ask for a force or a velocity, or for digits with `wavestep eval`";
+                Failure::Computation(message, remedy.to_owned())
             }
-            EvaluateError::TooManyCells { .. } => {
+            EvaluateError::EmptyWindow => Failure::usage(message, "give --from before --to"),
+            EvaluateError::TooManyRoots { .. } | EvaluateError::TooManyCells { .. } => {
                 Failure::Computation(message, "ask for a shorter window".to_owned())
             }
             EvaluateError::NotReal => {

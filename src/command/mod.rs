@@ -17,6 +17,9 @@ mod eval_recurrence;
 mod eval_scene;
 mod export;
 mod failure;
+mod find;
+mod find_equal;
+mod found;
 mod generate;
 mod input;
 mod lock;
@@ -53,6 +56,7 @@ pub fn run() -> ExitCode {
         Subcommand::Eval(options) => eval::run(options),
         Subcommand::Chart(options) => chart::run(options),
         Subcommand::Export(options) => export::run(options),
+        Subcommand::Find(options) => find::run(options),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),
         Subcommand::Scenes(options) => scenes(options),
@@ -61,7 +65,8 @@ pub fn run() -> ExitCode {
     match result {
         Ok(output) => written(io::stdout().lock().write_all(output.as_bytes())),
         Err(failure) => {
-            if let Failure::Difference { report, .. } = &failure {
+            if let Failure::Difference { report, .. } | Failure::Undecided { report, .. } = &failure
+            {
                 let _ = io::stdout().lock().write_all(report.as_bytes());
             }
             let coloured = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();

@@ -17,7 +17,7 @@ pub const MAX_POINTS: usize = 1_000_000;
 const TIME_DIGITS: usize = 17;
 
 /// More digits than a ball of the highest precision has.
-const ALL_DIGITS: usize = 1 << 30;
+pub const ALL_DIGITS: usize = 1 << 30;
 
 /// One value with its time.
 pub struct Row {

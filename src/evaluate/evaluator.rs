@@ -192,6 +192,13 @@ pub enum EvaluateError {
         /// How many are allowed.
         limit: usize,
     },
+    /// More roots, or places of extrema, in a window than are listed.
+    TooManyRoots {
+        /// How many are allowed.
+        limit: usize,
+    },
+    /// A window that does not end after it begins, at or after time 0.
+    EmptyWindow,
     /// A function that no polynomial of the degree allowed follows, however short the cell.
     TooSteep,
     /// An energy, where only what is linear in the waves can be expanded.
@@ -232,6 +239,12 @@ impl fmt::Display for EvaluateError {
             EvaluateError::Network(error) => error.fmt(f),
             EvaluateError::TooManyCells { limit } => {
                 write!(f, "the window needs more than {limit} polynomials: ask for a shorter one")
+            }
+            EvaluateError::TooManyRoots { limit } => {
+                write!(f, "more than {limit} roots lie in this window")
+            }
+            EvaluateError::EmptyWindow => {
+                f.write_str("the window is empty: it has to end after it begins, from 0 on")
             }
             EvaluateError::TooSteep => f.write_str(
                 "the function is too steep for polynomials between neighbouring doubles",

@@ -9,6 +9,7 @@ mod cells;
 mod contribution;
 mod energy;
 mod evaluator;
+mod find;
 mod marched_pieces;
 mod method;
 mod modular;
@@ -26,6 +27,7 @@ pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
     Side,
 };
+pub use find::{Determined, Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,
     StablePrecision, instructions,

@@ -5,7 +5,7 @@
 //! enclosed at a time, and expanded about a time with a proven remainder: what tables of polynomials,
 //! roots and largest values are made from.
 
-use crate::ball::{Ball, ComplexBall};
+use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::{EnclosureError, Numbers, real_part};
 use crate::evaluate::cells::first_double;
 use crate::evaluate::evaluator::{EvaluateError, Side};
@@ -478,6 +478,72 @@ impl Signal {
                 Ok(sum.scaled(&self.times_slowness(one, times, bits)?, bits))
             }
         }
+    }
+
+    /// Stretches joined where all that arrives is identically zero, so that nothing changes.
+    pub(crate) fn audible(
+        &self,
+        stretches: Vec<Stretch>,
+        bits: u64,
+    ) -> Result<Vec<Stretch>, EvaluateError> {
+        let mut joined: Vec<Stretch> = Vec::new();
+        for stretch in stretches {
+            let Some(last) = joined.last_mut() else {
+                joined.push(stretch);
+                continue;
+            };
+            // On a lattice parts are added to those that are there.
+            let mut goes_on = !self.is_on_grid() && last.begun == stretch.begun;
+            for part in stretch.parts.iter().skip(last.parts.len()) {
+                goes_on = goes_on && self.function(part, bits)?.is_zero();
+            }
+            match goes_on {
+                true => *last = Stretch { from: last.from.clone(), ..stretch },
+                false => joined.push(stretch),
+            }
+        }
+        Ok(joined)
+    }
+
+    /// About the sum of the absolute values of all that a derivative consists of at a time, in the
+    /// scale of the waves, and the sum of the radii of their enclosures.
+    pub(crate) fn size(
+        &self,
+        stretch: &Stretch,
+        derivative: usize,
+        at: &Rational,
+        bits: u64,
+    ) -> Result<(Magnitude, Magnitude), EvaluateError> {
+        let (field, at) = (self.numbers.field(bits), self.slowness.scale(at));
+        let (mut size, mut error) = (Magnitude::ZERO, Magnitude::ZERO);
+        self.for_each_function(stretch, derivative, bits, |function, origin, coefficient| {
+            let x = field.embed(&(&at - origin).into())?;
+            let value = value_at(function, &x, &self.numbers, bits)?.multiply(coefficient, bits);
+            for part in [value.real(), value.imaginary()] {
+                size = size.add(&part.midpoint().magnitude());
+                error = error.add(part.radius());
+            }
+            Ok(())
+        })?;
+        Ok((size, error))
+    }
+
+    /// The rates λ of a stretch, in the scale of the waves, each with a bound on how many
+    /// coefficients `c_j` of `Σ_λ e^{λx} Σ_j c_j x^j/j!` the signal has there.
+    pub(crate) fn rates(
+        &self,
+        stretch: &Stretch,
+        bits: u64,
+    ) -> Result<BTreeMap<Fraction, usize>, EvaluateError> {
+        let mut rates: BTreeMap<Fraction, usize> = BTreeMap::new();
+        self.for_each_function(stretch, 0, bits, |function, _, _| {
+            for (pole, coefficients) in function.poles() {
+                let count = rates.entry(pole.clone()).or_default();
+                *count = (*count).max(coefficients.len());
+            }
+            Ok(())
+        })?;
+        Ok(rates)
     }
 
     /// The last of the stretches whose first time is at or before a time; on the left side, before it.

@@ -1,0 +1,53 @@
+//! A number as far as it is known: with proven digits, or an enclosure.
+
+use crate::ball::Ball;
+use crate::evaluate::evaluator::{EvaluateError, certified};
+use crate::evaluate::value::Value;
+
+/// A time or a value that was found.
+///
+/// ```
+/// use wavestep::ball::Ball;
+/// use wavestep::evaluate::{Determined, Value};
+/// use wavestep::language::parse_number;
+///
+/// let half = parse_number("1/2")?;
+/// assert_eq!(Determined::Digits(Value::Exact(half)).to_text(9), "0.5 = 1/2");
+/// let third = Ball::from_rational(&parse_number("1/3")?, 20);
+/// assert_eq!(Determined::Enclosed(third).to_text(9), "0.333333492 ± 4.8e-7");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Determined {
+    /// Rational and exact, or rounded correctly to the digits asked for.
+    Digits(Value),
+    /// Enclosed, but not so that one decimal is left: it may be half-way between two.
+    Enclosed(Ball),
+}
+
+impl Determined {
+    /// The digits that `enclosure` proves with no more bits than allowed, or the best enclosure.
+    pub(crate) fn of(
+        digits: usize,
+        limit_bits: u64,
+        enclosure: impl FnMut(u64) -> Result<Ball, EvaluateError>,
+    ) -> Result<Determined, EvaluateError> {
+        match certified(digits, limit_bits, enclosure) {
+            Ok(Value::Certified(found)) if found.ball.is_exact() => {
+                Ok(Determined::Digits(Value::Exact(found.ball.midpoint().into())))
+            }
+            Ok(value) => Ok(Determined::Digits(value)),
+            Err(EvaluateError::AccuracyNotReached { best, .. }) => Ok(Determined::Enclosed(*best)),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The number as plain text: its digits, a fraction beside them where that is short, or a
+    /// midpoint with a radius.
+    pub fn to_text(&self, digits: usize) -> String {
+        match self {
+            Determined::Digits(value) => value.to_text(digits),
+            Determined::Enclosed(ball) => ball.to_decimal(digits).to_string(),
+        }
+    }
+}

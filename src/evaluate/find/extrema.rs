@@ -1,0 +1,512 @@
+//! The largest or smallest value on a window, and where it is taken.
+//!
+//! Branch and bound on every stretch: a cell whose largest value lies below one that is taken
+//! elsewhere is dropped. On the cells left, `f'` without a root leaves the ends of the stretch
+//! alone; `f'' > 0` likewise; on a run with `f'' < 0` the derivative falls strictly, and where it
+//! changes sign there is exactly one critical point, refined as a root of `f'`. Where nothing of
+//! this is proven, the cell itself is listed. The limits at both ends of every stretch are
+//! candidates too, since observables jump.
+//!
+//! Candidates are compared by enclosures that are narrowed; those that cannot be told apart stay,
+//! all of them. The supremum then lies between the largest lower bound and the largest upper bound.
+
+use crate::ball::Ball;
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, range_of};
+use crate::evaluate::find::determined::Determined;
+use crate::evaluate::find::refine::Isolated;
+use crate::evaluate::find::search::{Search, rationals, sign_of};
+use crate::evaluate::value::Value;
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// The precisions at which candidates are compared.
+const COMPARISONS: [u64; 4] = [64, 128, 256, 512];
+
+/// Bits of balls beyond those of a value.
+const SPARE_BITS: u64 = 64;
+
+/// The most bits that the sign of a derivative is tried with.
+const SLOPE_BITS: u64 = 1 << 10;
+
+/// The most candidates that are compared with high precision.
+const MAX_PLACES: usize = 10_000;
+
+/// Which extremum.
+///
+/// ```
+/// use wavestep::evaluate::{Goal, Search};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
+/// let window = [parse_number("1")?, parse_number("2")?];
+/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+/// // The front is felt twice at the fixed end; then it fades.
+/// let told = |goal| search.extremum(goal, 4, 1 << 12).unwrap().value.to_text(4);
+/// assert_eq!(told(Goal::Smallest), "-2");
+/// assert_eq!(told(Goal::Largest), "-0.7358");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Goal {
+    /// The supremum.
+    Largest,
+    /// The infimum.
+    Smallest,
+}
+
+/// Where an extremum is taken, or approached. Times are the user's.
+///
+/// ```
+/// use wavestep::evaluate::{Determined, Goal, Place, Search, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("strain_impact").unwrap();
+/// let window = [parse_number("2")?, parse_number("4")?];
+/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+/// // Just before the front arrives at 4, not when it does.
+/// let largest = search.extremum(Goal::Largest, 6, 1 << 12).unwrap();
+/// let time = Determined::Digits(Value::Exact(parse_number("4")?));
+/// assert_eq!(largest.places, [Place::Arrival { time, before: true, after: false }]);
+/// assert!(!largest.places[0].is_attained());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// At a simple root of the derivative.
+    Critical(Determined),
+    /// At an end of the window.
+    End(Determined),
+    /// Where an echo arrives.
+    Arrival {
+        /// When.
+        time: Determined,
+        /// In the limit from earlier times.
+        before: bool,
+        /// In the limit from later times: the value itself.
+        after: bool,
+    },
+    /// On all of an interval, at its first time as well.
+    Plateau {
+        /// Its first time.
+        from: Determined,
+        /// Its end.
+        to: Determined,
+        /// Whether the value is taken at the end as well: where that of the window is it.
+        closed: bool,
+    },
+    /// Somewhere in an interval, where no critical point could be proven.
+    Undecided {
+        /// Its first time, rounded down.
+        from: Rational,
+        /// Its last time, rounded up.
+        to: Rational,
+    },
+}
+
+impl Place {
+    /// Whether the value is taken there: a limit from earlier times alone is not.
+    pub fn is_attained(&self) -> bool {
+        !matches!(self, Place::Arrival { after: false, .. })
+    }
+}
+
+/// The largest or smallest value with all places that cannot be told apart.
+///
+/// ```
+/// use wavestep::evaluate::{Goal, Place, Search};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("g").unwrap();
+/// let window = [parse_number("2")?, parse_number("4")?];
+/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+/// let largest = search.extremum(Goal::Largest, 12, 1 << 12).unwrap();
+/// // g_1 = -exp(-s) ends lowest, and is largest where it has faded most: at 4, before it jumps.
+/// assert_eq!(largest.value.to_text(12), "-0.135335283237");
+/// assert!(matches!(&largest.places[..], [Place::Arrival { before: true, after: false, .. }]));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Extremum {
+    /// The value.
+    pub value: Determined,
+    /// In order of time. With several of them one at least has the value; which one, balls do not
+    /// tell.
+    pub places: Vec<Place>,
+}
+
+/// A place that may have the largest value.
+#[derive(Clone, Debug)]
+enum Candidate {
+    Limit { stretch: usize, side: Side },
+    Critical(Isolated),
+    Plateau { stretch: usize },
+    Open { stretch: usize, from: Rational, to: Rational },
+}
+
+/// The candidates of a window that are left.
+struct Contenders<'a, 's> {
+    search: &'a Search<'s>,
+    goal: Goal,
+    limit_bits: u64,
+    left: RefCell<Vec<Candidate>>,
+}
+
+impl<'s> Search<'s> {
+    /// The supremum or infimum on the window, with so many digits, and where it is taken.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyCells`], [`EvaluateError::TooManyRoots`], and what stands in the way
+    /// of enclosures.
+    ///
+    /// # Panics
+    /// Where `digits` is zero.
+    ///
+    /// # Cost
+    /// A few polynomials with 20 terms for each stretch, tens for each place that comes close.
+    ///
+    /// ```
+    /// use wavestep::evaluate::{Goal, Place, Search};
+    /// use wavestep::language::{Source, parse_number, read_recurrence};
+    /// use wavestep::solution::Solution;
+    ///
+    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
+    /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+    /// let strain = solution.recurrence().observation("g").unwrap();
+    /// let window = [parse_number("0")?, parse_number("12")?];
+    /// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+    /// let largest = search.extremum(Goal::Largest, 9, 1 << 12).unwrap();
+    /// let [Place::Critical(time)] = &largest.places[..] else { panic!("{largest:?}") };
+    /// assert_eq!(time.to_text(9), "6.71350395");
+    /// assert_eq!(largest.value.to_text(9), "0.694053895");
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn extremum(
+        &self,
+        goal: Goal,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Extremum, EvaluateError> {
+        let contenders = self.contenders(goal, limit_bits)?;
+        for bits in COMPARISONS {
+            contenders.compare(bits)?;
+        }
+        let value = match contenders.exact()? {
+            Some(value) => Determined::Digits(Value::Exact(value)),
+            None => {
+                let limit = contenders.limit_bits;
+                Determined::of(digits, limit, |bits| contenders.enclose(bits))?
+            }
+        };
+        Ok(Extremum { value, places: contenders.places(digits)? })
+    }
+
+    /// An enclosure of the extremum with a relative precision of about so many bits.
+    ///
+    /// # Errors
+    /// As [`Search::extremum`].
+    ///
+    /// # Cost
+    /// As [`Search::extremum`].
+    ///
+    /// ```
+    /// use std::collections::BTreeMap;
+    /// use wavestep::evaluate::{Goal, Search};
+    /// use wavestep::language::{Source, parse_number, read_recurrence};
+    /// use wavestep::solution::Solution;
+    ///
+    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    /// let values = BTreeMap::from([("mu".to_owned(), parse_number("1")?)]);
+    /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+    /// let f = solution.recurrence().observation("f").unwrap();
+    /// let window = [parse_number("1")?, parse_number("2")?];
+    /// let search = Search::of_recurrence(&solution, &f, [&window[0], &window[1]]).unwrap();
+    /// // A second front arrives at 2, where f jumps up; without that instant f is largest at 1.
+    /// let largest = search.half_open().enclose_extremum(Goal::Largest, 60).unwrap();
+    /// assert!(largest.to_string().starts_with("0.3678794411714423")); // exp(-1)
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Result<Ball, EvaluateError> {
+        let contenders = self.contenders(goal, 8 * bits)?;
+        for early in COMPARISONS.into_iter().filter(|early| *early < bits) {
+            contenders.compare(early)?;
+        }
+        contenders.enclose(bits)
+    }
+
+    fn contenders(&self, goal: Goal, limit_bits: u64) -> Result<Contenders<'_, 's>, EvaluateError> {
+        let limit_bits = limit_bits.max(self.bits.get());
+        self.work.set(0);
+        let (negative, zero) = (goal == Goal::Smallest, Rational::default());
+        let mut record = Record { negative, best: None };
+        let mut left = Vec::new();
+        let contenders = Contenders { search: self, goal, limit_bits, left: RefCell::default() };
+        let mut constant = Vec::new();
+        for stretch in 0..self.stretches.len() {
+            constant.push(!self.is_instant(stretch) && self.is_constant(stretch)?);
+            if constant[stretch] {
+                left.push(Candidate::Plateau { stretch });
+            } else {
+                left.push(Candidate::Limit { stretch, side: Side::Right });
+                if !self.is_instant(stretch) {
+                    left.push(Candidate::Limit { stretch, side: Side::Left });
+                }
+            }
+        }
+        for candidate in &left {
+            record.note(&contenders.value(&mut candidate.clone(), COMPARISONS[0])?);
+        }
+        let target = Target { order: 1, level: &zero, limit_bits };
+        for (stretch, constant) in constant.into_iter().enumerate() {
+            if self.is_instant(stretch) || constant {
+                continue;
+            }
+            self.critical_points(stretch, target, &mut record, &mut left)?;
+            if left.len() > MAX_PLACES + 2 * self.stretches.len() {
+                return Err(EvaluateError::TooManyRoots { limit: MAX_PLACES });
+            }
+        }
+        contenders.left.replace(left);
+        Ok(contenders)
+    }
+
+    fn critical_points(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        record: &mut Record,
+        left: &mut Vec<Candidate>,
+    ) -> Result<(), EvaluateError> {
+        let concave = if record.negative { Ordering::Greater } else { Ordering::Less };
+        let cells = self.cover(stretch, target, Some(record))?;
+        let count = cells.len();
+        for (i, cell) in cells.into_iter().enumerate() {
+            let open = match cell.finding {
+                Finding::Clear(_) | Finding::Low => false,
+                Finding::Open => true,
+                Finding::Monotone(sign) if sign != concave => false,
+                Finding::Monotone(_) => {
+                    // At the ends of the stretch itself, which the cell may reach beyond.
+                    let first = match i {
+                        0 => self.slope_sign(stretch, Err(Side::Right), target)?,
+                        _ => self.slope_sign(stretch, Ok(&cell.from), target)?,
+                    };
+                    let last = match i + 1 == count {
+                        true => self.slope_sign(stretch, Err(Side::Left), target)?,
+                        false => self.slope_sign(stretch, Ok(&cell.to), target)?,
+                    };
+                    match (first, last) {
+                        (Some(first), Some(last)) => {
+                            if first as i8 * last as i8 == -1 {
+                                let rises = last == Ordering::Greater;
+                                let (from, to) = (cell.from.clone(), cell.to.clone());
+                                left.push(Candidate::Critical(Isolated {
+                                    stretch,
+                                    from,
+                                    to,
+                                    rises,
+                                }));
+                            }
+                            false
+                        }
+                        // Exactly flat at an end: the limit there is the extremum of the run.
+                        (None, Some(_)) if i == 0 => !self.slope_vanishes(stretch, Side::Right)?,
+                        (Some(_), None) if i + 1 == count => {
+                            !self.slope_vanishes(stretch, Side::Left)?
+                        }
+                        _ => true,
+                    }
+                }
+            };
+            if open {
+                left.push(Candidate::Open { stretch, from: cell.from, to: cell.to });
+            }
+        }
+        Ok(())
+    }
+
+    /// The sign of the derivative at a time within a stretch, or in the limit at one of its ends.
+    fn slope_sign(
+        &self,
+        stretch: usize,
+        place: Result<&Rational, Side>,
+        target: Target<'_>,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        let limit_bits = target.limit_bits.min(SLOPE_BITS);
+        let mut bits = self.bits.get().min(limit_bits);
+        loop {
+            let slope = match place {
+                Ok(time) => self.at(stretch, 1, time, bits)?,
+                Err(side) => self.limit(stretch, 1, side, bits)?,
+            };
+            match sign_of(&slope) {
+                None if bits < limit_bits => bits = (2 * bits).min(limit_bits),
+                sign => return Ok(sign),
+            }
+        }
+    }
+}
+
+impl Contenders<'_, '_> {
+    /// The value at a candidate, of the observable or of its negative, so that the largest is
+    /// sought.
+    fn value(&self, candidate: &mut Candidate, bits: u64) -> Result<Ball, EvaluateError> {
+        let search = self.search;
+        let working = (bits + SPARE_BITS).max(search.bits.get());
+        let zero = Rational::default();
+        let target = Target { order: 0, level: &zero, limit_bits: self.limit_bits };
+        let value = match candidate {
+            Candidate::Limit { stretch, side } => search.limit(*stretch, 0, *side, working)?,
+            Candidate::Plateau { stretch } => search.limit(*stretch, 0, Side::Right, working)?,
+            Candidate::Critical(root) => {
+                let slope = Target { order: 1, ..target };
+                // The value is as flat as the square of what is unknown of the time.
+                search.narrow(root, slope, bits / 2 + 8)?;
+                let (middle, half) = middle_and_half(&root.from, &root.to);
+                let expanded = search.expand(root.stretch, target, (&middle, &half), 8, working)?;
+                range_of(&expanded)
+            }
+            Candidate::Open { stretch, from, to } => {
+                search.range(*stretch, target, (from, to), working)?
+            }
+        };
+        Ok(match self.goal {
+            Goal::Largest => value,
+            Goal::Smallest => value.negate(),
+        })
+    }
+
+    /// Drops those that are certainly smaller than another.
+    fn compare(&self, bits: u64) -> Result<(), EvaluateError> {
+        let mut left = self.left.borrow_mut();
+        if left.len() > 1 {
+            let values: Vec<Ball> = left
+                .iter_mut()
+                .map(|candidate| self.value(candidate, bits))
+                .collect::<Result<_, _>>()?;
+            let mut record = Record { negative: false, best: None };
+            values.iter().for_each(|value| record.note(value));
+            let mut values = values.iter();
+            left.retain(|_| !record.beats(values.next().expect("one value each")));
+        }
+        Ok(())
+    }
+
+    /// An enclosure of the extremum.
+    fn enclose(&self, bits: u64) -> Result<Ball, EvaluateError> {
+        let mut left = self.left.borrow_mut();
+        let mut bounds: Option<(Rational, Rational)> = None;
+        let mut only = None;
+        for candidate in left.iter_mut() {
+            let value = self.value(candidate, bits)?;
+            let (lower, upper) = rationals(&value);
+            only = Some(value);
+            bounds = Some(match bounds {
+                None => (lower, upper),
+                Some((a, b)) => (a.max(lower), b.max(upper)),
+            });
+        }
+        let (lower, upper) = bounds.expect("a window has ends");
+        let value = match (left.len(), only) {
+            (1, Some(value)) => value,
+            _ => Ball::between(&lower, &upper, bits + SPARE_BITS),
+        };
+        Ok(match self.goal {
+            Goal::Largest => value,
+            Goal::Smallest => value.negate(),
+        })
+    }
+
+    /// The extremum where it is the same rational number at all places that are left.
+    fn exact(&self) -> Result<Option<Rational>, EvaluateError> {
+        let mut common: Option<Rational> = None;
+        for candidate in &*self.left.borrow() {
+            let (stretch, side) = match candidate {
+                Candidate::Limit { stretch, side } => (*stretch, *side),
+                Candidate::Plateau { stretch } => (*stretch, Side::Right),
+                _ => return Ok(None),
+            };
+            let at = self.search.place(stretch, side).clone();
+            let Some(value) = self.search.exact_value(&at, side)? else { return Ok(None) };
+            if common.get_or_insert_with(|| value.clone()) != &value {
+                return Ok(None);
+            }
+        }
+        Ok(common)
+    }
+
+    fn places(&self, digits: usize) -> Result<Vec<Place>, EvaluateError> {
+        let search = self.search;
+        let zero = Rational::default();
+        let target = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
+        let exact = |time: &Rational| Determined::Digits(Value::Exact(time.clone()));
+        let last = search.stretches.len() - 1;
+        let end = |stretch: usize| match stretch == last {
+            true => Ok(exact(&search.window[1])),
+            false => search.beginning(stretch + 1, digits, self.limit_bits),
+        };
+        let mut found: Vec<(usize, u8, Place)> = Vec::new();
+        for candidate in &*self.left.borrow() {
+            found.push(match candidate {
+                Candidate::Limit { stretch, side: Side::Right } => {
+                    let time = search.beginning(*stretch, digits, self.limit_bits)?;
+                    let place = match stretch {
+                        0 => Place::End(time),
+                        _ => Place::Arrival { time, before: false, after: true },
+                    };
+                    (*stretch, 0, place)
+                }
+                Candidate::Limit { stretch, side: Side::Left } => {
+                    let time = end(*stretch)?;
+                    let at_end = *stretch == last && !search.arrives_at_end();
+                    let place = match at_end {
+                        true => Place::End(time),
+                        false => Place::Arrival { time, before: true, after: false },
+                    };
+                    (*stretch, 2, place)
+                }
+                Candidate::Critical(root) => {
+                    (root.stretch, 1, Place::Critical(search.root(root, target, digits)?))
+                }
+                Candidate::Plateau { stretch } => {
+                    let from = search.beginning(*stretch, digits, self.limit_bits)?;
+                    let closed = *stretch == last && !search.arrives_at_end();
+                    (*stretch, 1, Place::Plateau { from, to: end(*stretch)?, closed })
+                }
+                Candidate::Open { stretch, from, to } => {
+                    (*stretch, 1, Place::Undecided { from: from.clone(), to: to.clone() })
+                }
+            });
+        }
+        found.sort_by_key(|(stretch, rank, _)| (*stretch, *rank));
+        let mut places: Vec<Place> = Vec::new();
+        for (_, _, place) in found {
+            // Both limits at one arrival are one place.
+            if let (
+                Some(Place::Arrival { time: known, before: true, after }),
+                Place::Arrival { time, before: false, after: true },
+            ) = (places.last_mut(), &place)
+                && known == time
+            {
+                *after = true;
+                continue;
+            }
+            places.push(place);
+        }
+        Ok(places)
+    }
+}

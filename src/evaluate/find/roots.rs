@@ -1,0 +1,491 @@
+//! All roots of `f − v` in a window.
+//!
+//! Stretch by stretch, the cells of [`cover`](super::cover) leave runs on which `f − v` is strictly
+//! monotone. Such a run holds exactly one root where the signs at its ends differ, and none where
+//! they are the same. At an end of the stretch itself the limit counts; where it is exactly zero,
+//! the root is the arrival, and the run has no other. On what stays open nothing is proven, with
+//! two exceptions:
+//!
+//! - a stretch on which `f' = 0` coefficient by coefficient: `f` is constant, and one exact value
+//!   tells whether it is `v`; where waves cancel each other, several exact values tell;
+//! - an open cell at an arrival where `f − v` and `f'` both vanish exactly and `f''` has a sign on
+//!   all of the cell: `f − v` has that sign beside the arrival.
+//!
+//! Between stretches the two limits tell of jumps.
+
+use crate::ball::{Ball, Magnitude};
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
+use crate::evaluate::find::determined::Determined;
+use crate::evaluate::find::refine::Isolated;
+use crate::evaluate::find::search::{Search, rationals, sign_of};
+use crate::evaluate::value::Value;
+use crate::expression::{Field as _, Fraction};
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// The most roots of one window.
+///
+/// ```
+/// use wavestep::evaluate::{EvaluateError, MAX_ROOTS};
+///
+/// let error = EvaluateError::TooManyRoots { limit: MAX_ROOTS };
+/// assert_eq!(error.to_string(), "more than 10000 roots lie in this window");
+/// ```
+pub const MAX_ROOTS: usize = 10_000;
+
+/// A root of `f − v`, or where there may be one. Times are the user's.
+///
+/// ```
+/// use wavestep::evaluate::{Determined, Root, Search, Value};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
+/// let window = [parse_number("0")?, parse_number("3")?];
+/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+/// // Nothing is felt at the fixed end until the front is there, at 1.
+/// let found = search.roots(&parse_number("0")?, 9, 1 << 12).unwrap();
+/// let exactly = |time| Determined::Digits(Value::Exact(parse_number(time).unwrap()));
+/// let silence = Root::Interval { from: exactly("0"), to: exactly("1"), closed: false };
+/// assert_eq!(found.all, [silence]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Root {
+    /// A change of sign with a derivative that is not zero.
+    Simple {
+        /// When.
+        time: Determined,
+        /// Whether from below to above.
+        rises: bool,
+    },
+    /// `f = v` exactly at an end of the window.
+    End {
+        /// When.
+        time: Determined,
+    },
+    /// `f = v` exactly in a limit where an echo arrives.
+    Arrival {
+        /// When.
+        time: Determined,
+        /// Whether the limit from earlier times is v.
+        before: bool,
+        /// Whether the limit from later times, the value, is v.
+        after: bool,
+    },
+    /// A jump over v where an echo arrives; there is no root.
+    Jump {
+        /// When.
+        time: Determined,
+        /// The limits before and after, as they can be told.
+        limits: [Determined; 2],
+    },
+    /// `f = v` on all of an interval.
+    Interval {
+        /// Its first time, at which the value is v.
+        from: Determined,
+        /// Its last time.
+        to: Determined,
+        /// Whether the value is v at the last time as well.
+        closed: bool,
+    },
+    /// An interval that may hold roots.
+    Undecided {
+        /// Its first time, rounded down.
+        from: Rational,
+        /// Its last time, rounded up.
+        to: Rational,
+        /// All values of `f − v` there.
+        range: Ball,
+        /// Whether the signs at its ends differ, so that there is at least one root.
+        crosses: bool,
+    },
+}
+
+/// All roots of a window, in order.
+///
+/// ```
+/// use wavestep::evaluate::{Root, Search};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("velocity").unwrap();
+/// let window = [parse_number("0")?, parse_number("6")?];
+/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+/// // The mass comes to rest, and to rest again on its way back and forth.
+/// let found = search.roots(&parse_number("0")?, 9, 1 << 12).unwrap();
+/// let rises = |root: &Root| matches!(root, Root::Simple { rises: true, .. });
+/// assert_eq!(found.all.iter().map(rises).collect::<Vec<_>>(), [false, true]);
+/// assert_eq!(found.undecided(), 0);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+///
+/// # Invariants
+/// - `f − v` has no other roots in the window; no root is in two of these.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Roots {
+    /// What was found.
+    pub all: Vec<Root>,
+}
+
+impl Roots {
+    /// How many intervals stay undecided.
+    pub fn undecided(&self) -> usize {
+        self.all.iter().filter(|root| matches!(root, Root::Undecided { .. })).count()
+    }
+}
+
+/// The most exact zeros that are asked for to see whether a function vanishes.
+const MAX_ZEROS: usize = 48;
+
+/// The relative width in bits of an interval that stays undecided.
+const UNDECIDED_BITS: u64 = 80;
+
+/// What one search is about.
+#[derive(Clone, Copy)]
+struct Question<'a> {
+    target: Target<'a>,
+    digits: usize,
+}
+
+/// What is known of a stretch at its ends.
+struct Ends {
+    first: Option<Ordering>,
+    last: Option<Ordering>,
+    /// Whether the observable is v on all of it.
+    vanishes: bool,
+}
+
+impl Search<'_> {
+    /// All roots of `f − level` in the window, times with so many digits.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyRoots`], [`EvaluateError::TooManyCells`], and what stands in the way
+    /// of enclosures.
+    ///
+    /// # Panics
+    /// Where `digits` is zero.
+    ///
+    /// # Cost
+    /// A few tens of polynomials with 20 terms for each stretch and root, and a few values for each
+    /// doubling of the digits.
+    pub fn roots(
+        &self,
+        level: &Rational,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Roots, EvaluateError> {
+        let limit_bits = limit_bits.max(self.bits.get());
+        let target = Target { order: 0, level, limit_bits };
+        let question = Question { target, digits };
+        self.work.set(0);
+        let mut all = Vec::new();
+        let mut before: Option<Ends> = None;
+        for stretch in 0..self.stretches.len() {
+            let first = self.sign_of_limit(stretch, Side::Right, level, limit_bits)?;
+            if self.is_instant(stretch) {
+                let now = Ends { first, last: None, vanishes: false };
+                self.join(stretch, &question, before.take(), &now, &mut all)?;
+                return Ok(Roots { all });
+            }
+            let last = self.sign_of_limit(stretch, Side::Left, level, limit_bits)?;
+            let constant = self.is_constant(stretch)?;
+            let equal = Some(Ordering::Equal);
+            let vanishes = constant && (first == equal || last == equal);
+            let now = Ends { first, last, vanishes };
+            self.join(stretch, &question, before.take(), &now, &mut all)?;
+            if constant && first.is_none() {
+                let [from, to] = self.bounds(stretch)?;
+                self.leave(stretch, target, (from, to), false, &mut all)?;
+            } else if !constant {
+                self.roots_within(stretch, &question, &now, &mut all)?;
+            }
+            if all.len() > MAX_ROOTS {
+                return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });
+            }
+            before = Some(now);
+        }
+        let end = before.expect("a window has a stretch that is no instant");
+        match (end.vanishes, end.last) {
+            (true, _) => self.close_interval(&mut all, self.exact(&self.window[1]), true),
+            (false, Some(Ordering::Equal)) => {
+                all.push(Root::End { time: self.exact(&self.window[1]) });
+            }
+            _ => {}
+        }
+        Ok(Roots { all })
+    }
+
+    fn exact(&self, time: &Rational) -> Determined {
+        Determined::Digits(Value::Exact(time.clone()))
+    }
+
+    /// When a stretch begins.
+    pub(crate) fn beginning(
+        &self,
+        stretch: usize,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Determined, EvaluateError> {
+        if stretch == 0 {
+            return Ok(self.exact(&self.window[0]));
+        }
+        let at = self.place(stretch, Side::Right);
+        match self.exact_time(at) {
+            Some(time) => Ok(self.exact(&time)),
+            None => Determined::of(digits, limit_bits, |bits| self.time(at, bits)),
+        }
+    }
+
+    /// What happens where a stretch begins.
+    fn join(
+        &self,
+        stretch: usize,
+        question: &Question<'_>,
+        before: Option<Ends>,
+        now: &Ends,
+        all: &mut Vec<Root>,
+    ) -> Result<(), EvaluateError> {
+        let (equal, limit_bits) = (Some(Ordering::Equal), question.target.limit_bits);
+        let time = || self.beginning(stretch, question.digits, limit_bits);
+        let Some(before) = before else {
+            match now.vanishes {
+                true => all.push(Root::Interval { from: time()?, to: time()?, closed: true }),
+                false if now.first == equal => all.push(Root::End { time: time()? }),
+                false => {}
+            }
+            return Ok(());
+        };
+        match (before.vanishes, now.vanishes) {
+            (true, true) => return Ok(()),
+            (true, false) => {
+                self.close_interval(all, time()?, now.first == equal);
+                if now.first.is_some() {
+                    return Ok(());
+                }
+            }
+            (false, true) => {
+                all.push(Root::Interval { from: time()?, to: time()?, closed: true });
+                return Ok(());
+            }
+            (false, false) => {}
+        }
+        match (before.last, now.first) {
+            (Some(before), Some(after))
+                if before == Ordering::Equal || after == Ordering::Equal =>
+            {
+                let zero = Ordering::Equal;
+                let (before, after) = (before == zero, after == zero);
+                all.push(Root::Arrival { time: time()?, before, after });
+            }
+            (Some(before), Some(after)) if before != after => {
+                let limits = [
+                    self.limit_value(stretch - 1, Side::Left, question)?,
+                    self.limit_value(stretch, Side::Right, question)?,
+                ];
+                all.push(Root::Jump { time: time()?, limits });
+            }
+            (Some(_), Some(_)) => {}
+            _ => {
+                // A limit that cannot be told from v.
+                let from = self.bounds(stretch)?[0].clone();
+                let to = self.bounds(stretch - 1)?[1].clone();
+                let (from, to) = (from.clone().min(to.clone()), from.max(to));
+                self.leave(stretch, question.target, (from, to), false, all)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A limit with digits.
+    fn limit_value(
+        &self,
+        stretch: usize,
+        side: Side,
+        question: &Question<'_>,
+    ) -> Result<Determined, EvaluateError> {
+        if let Some(value) = self.exact_value(&self.place(stretch, side).clone(), side)? {
+            return Ok(Determined::Digits(Value::Exact(value)));
+        }
+        let limit_bits = question.target.limit_bits;
+        Determined::of(question.digits, limit_bits, |bits| self.limit(stretch, 0, side, bits))
+    }
+
+    fn close_interval(&self, all: &mut [Root], end: Determined, whole: bool) {
+        if let Some(Root::Interval { to, closed, .. }) = all.last_mut() {
+            (*to, *closed) = (end, whole);
+        }
+    }
+
+    /// Whether the observable is constant on a stretch: coefficient by coefficient, its derivative
+    /// having none but exact zeros; or since waves cancel each other, as exact values prove.
+    pub(crate) fn is_constant(&self, stretch: usize) -> Result<bool, EvaluateError> {
+        let [from, to] = self.bounds(stretch)?;
+        let (middle, half) = middle_and_half(&from, &to);
+        let bits = self.bits.get();
+        let slope = self.signal.taylor(&self.stretches[stretch], 1, (&middle, &half), 4, bits)?;
+        if slope.tail(0).is_zero() {
+            return Ok(true);
+        }
+        if !slope.coefficients.iter().all(Ball::contains_zero) {
+            return Ok(false);
+        }
+        let at = self.place(stretch, Side::Right).clone();
+        match self.exact_value(&at, Side::Right)? {
+            Some(value) => self.equals(stretch, &value),
+            None => Ok(false),
+        }
+    }
+
+    /// The roots within a stretch, its ends excluded.
+    fn roots_within(
+        &self,
+        stretch: usize,
+        question: &Question<'_>,
+        ends: &Ends,
+        all: &mut Vec<Root>,
+    ) -> Result<(), EvaluateError> {
+        let target = question.target;
+        let cells = self.cover(stretch, target, None)?;
+        let count = cells.len();
+        for (i, cell) in cells.iter().enumerate() {
+            let sign = |first: bool| match (first, i) {
+                (true, 0) => Ok(ends.first),
+                (false, i) if i + 1 == count => Ok(ends.last),
+                _ => {
+                    let at = if first { &cell.from } else { &cell.to };
+                    self.sign_at(stretch, at, target.level, target.limit_bits)
+                }
+            };
+            match cell.finding {
+                Finding::Clear(_) | Finding::Low => {}
+                Finding::Monotone(sign_of_slope) => match (sign(true)?, sign(false)?) {
+                    (Some(first), Some(last)) => {
+                        if first as i8 * last as i8 == -1 {
+                            let rises = last == Ordering::Greater;
+                            let (from, to) = (cell.from.clone(), cell.to.clone());
+                            let root = Isolated { stretch, from, to, rises };
+                            let time = self.root(&root, target, question.digits)?;
+                            all.push(Root::Simple { time, rises });
+                        }
+                    }
+                    _ => {
+                        // A value that cannot be told from v, and the root near it if there is one.
+                        let rises = sign_of_slope == Ordering::Greater;
+                        let (from, to) = (cell.from.clone(), cell.to.clone());
+                        let mut root = Isolated { stretch, from, to, rises };
+                        self.narrow(&mut root, target, UNDECIDED_BITS)?;
+                        if root.from <= root.to {
+                            self.leave(stretch, target, (root.from, root.to), false, all)?;
+                        }
+                    }
+                },
+                Finding::Open => {
+                    let (first, last) = (sign(true)?, sign(false)?);
+                    let equal = Some(Ordering::Equal);
+                    let starts = i == 0 && first == equal;
+                    let stops = i + 1 == count && last == equal;
+                    let lone = match (starts, stops) {
+                        (true, false) => self.touches(stretch, Side::Right, cell, target)?,
+                        (false, true) => self.touches(stretch, Side::Left, cell, target)?,
+                        _ => false,
+                    };
+                    if !lone {
+                        let crosses = first.zip(last).is_some_and(|(a, b)| a as i8 * b as i8 == -1);
+                        let place = (cell.from.clone(), cell.to.clone());
+                        self.leave(stretch, target, place, crosses, all)?;
+                    }
+                }
+            }
+            if all.len() > MAX_ROOTS {
+                return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether `f − v`, exactly zero at this end of the stretch, has no other root in the cell
+    /// beside it: `f' = 0` there exactly, and `f''` has a sign on all of the cell.
+    fn touches(
+        &self,
+        stretch: usize,
+        side: Side,
+        cell: &Cell,
+        target: Target<'_>,
+    ) -> Result<bool, EvaluateError> {
+        let curvature = Target { order: 2, ..target };
+        let range = self.range(stretch, curvature, (&cell.from, &cell.to), self.bits.get())?;
+        let sign = sign_of(&range);
+        Ok(sign.is_some_and(|sign| sign != Ordering::Equal)
+            && self.slope_vanishes(stretch, side)?)
+    }
+
+    /// Whether `f = v` on all of a stretch.
+    ///
+    /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which v is one, solves a
+    /// linear equation of order N with constant real coefficients. If it is not zero everywhere, it
+    /// has at most `N − 1` roots on any interval where λ are real (Pólya and Szegő, *Problems and
+    /// Theorems* V.75), and on intervals shorter than `π/ω` with `ω = max |Im λ|` otherwise: there
+    /// each factor `(d/dx − σ)² + ω²` has solutions without two roots, and so no product of factors
+    /// of order N has one with N roots. N exact zeros therefore prove it.
+    fn equals(&self, stretch: usize, level: &Rational) -> Result<bool, EvaluateError> {
+        let bits = self.bits.get();
+        let mut rates = self.signal.rates(&self.stretches[stretch], bits)?;
+        rates.entry(Fraction::zero()).or_insert(1);
+        let count: usize = rates.values().sum();
+        if count > MAX_ZEROS {
+            return Ok(false);
+        }
+        let field = self.signal.numbers().field(bits);
+        let mut fastest = Magnitude::ZERO;
+        for rate in rates.keys() {
+            fastest = fastest.max(field.embed(&rate.clone().into())?.imaginary().magnitude());
+        }
+        // Rates are those of the waves' own time.
+        let slowness = self.signal.numbers().enclose(self.signal.slowness(), bits)?.magnitude();
+        let fastest = Rational::from(&fastest.multiply(&slowness));
+        let [from, to] = self.bounds(stretch)?;
+        let mut length = &to - &from;
+        if fastest > Rational::default() {
+            length = length.min(Rational::from_integer(3.into()) / fastest);
+        }
+        for i in 1..=count {
+            let share = Rational::new(i.into(), (count + 1).into());
+            let at = self.signal.slowness().scale(&(&from + &length * share));
+            if self.exact_value(&at, Side::Right)?.as_ref() != Some(level) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Notes an interval on which nothing is proven, as one with that before it where they meet.
+    fn leave(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        (mut from, mut to): (Rational, Rational),
+        mut crosses: bool,
+        all: &mut Vec<Root>,
+    ) -> Result<(), EvaluateError> {
+        let bits = self.bits.get();
+        let mut range = self.range(stretch, target, (&from, &to), bits)?;
+        if let Some(Root::Undecided { from: first, to: last, range: known, .. }) = all.last()
+            && *last >= from
+        {
+            let ((a, b), (c, d)) = (rationals(known), rationals(&range));
+            range = Ball::between(&a.min(c), &b.max(d), bits);
+            (from, to, crosses) = (from.min(first.clone()), to.max(last.clone()), false);
+            all.pop();
+        }
+        all.push(Root::Undecided { from, to, range, crosses });
+        Ok(())
+    }
+}

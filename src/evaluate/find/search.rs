@@ -1,0 +1,423 @@
+//! A window of time in which roots and extrema of one observable are looked for.
+//!
+//! It holds the observable twice: as a [`Signal`], which is enclosed in balls, and as what is asked
+//! for exact values where a ball cannot decide because the answer is zero.
+
+use crate::ball::Ball;
+use crate::evaluate::evaluator::{EvaluateError, Evaluator, Side};
+use crate::evaluate::scene::SceneEvaluator;
+use crate::evaluate::signal::{Signal, Stretch};
+use crate::evaluate::value::Value;
+use crate::expression::Fraction;
+use crate::network::{Network, Observed, ObservedValue};
+use crate::recurrence::Observation;
+use crate::solution::Solution;
+use std::cell::{Cell, OnceCell};
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// The precision in bits that is begun with.
+const FIRST_BITS: u64 = 192;
+
+/// The precision in bits of times that are irrational, where they bound a cell.
+const BOUND_BITS: u64 = 320;
+
+/// The most bits of such times: more than it takes to tell two arrivals apart.
+const MAX_BOUND_BITS: u64 = 1 << 16;
+
+/// Of how many parts of a stretch its bounds may lie one beyond its ends.
+const BOUND_SHARE: u128 = 1 << 80;
+
+/// The most bits that a sign is tried with, unless fewer are allowed.
+pub(crate) const SIGN_BITS: u64 = 1 << 12;
+
+/// Digits of what is only compared with a rational number.
+const FEW_DIGITS: usize = 6;
+
+/// An observable on a window of the user's time.
+///
+/// # Invariants
+/// - the window is not empty; every symbol has a value; its arrivals are known.
+///
+/// ```
+/// use std::collections::BTreeMap;
+/// use wavestep::evaluate::{Determined, Goal, Root, Search};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep::solution::Solution;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1")?)]);
+/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+/// let strain = solution.recurrence().observation("strain_impact").unwrap();
+/// let window = [parse_number("2")?, parse_number("4")?];
+/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+/// // The mass leaves the bar at 3 + exp(-2)/2.
+/// let roots = search.roots(&parse_number("0")?, 15, 1 << 12).unwrap();
+/// let [Root::Simple { time, rises }, Root::Jump { .. }] = &roots.all[..] else {
+///     panic!("{roots:?}")
+/// };
+/// assert_eq!((time.to_text(15).as_str(), *rises), ("3.06766764161831", true));
+/// // The strain is largest where the window ends, just before the next front arrives.
+/// let largest = search.extremum(Goal::Largest, 6, 1 << 12).unwrap();
+/// assert_eq!(largest.value.to_text(6), "0.252355");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Search<'a> {
+    pub(crate) signal: Signal,
+    exact: Exact<'a>,
+    pub(crate) stretches: Vec<Stretch>,
+    pub(crate) window: [Rational; 2],
+    /// The precision that has done so far.
+    pub(crate) bits: Cell<u64>,
+    /// The cells looked at so far.
+    pub(crate) work: Cell<usize>,
+    /// Whether the end of the window, at which an echo arrives, is left out.
+    open: bool,
+}
+
+/// Where exact values come from.
+enum Exact<'a> {
+    Recurrence { evaluator: Box<Evaluator<'a>>, value: Observation },
+    Scene { network: &'a Network, observed: Box<Observed>, evaluator: OnceCell<Prepared<'a>> },
+}
+
+/// An evaluator, unless too many echoes arrive to make one.
+type Prepared<'a> = Option<Box<SceneEvaluator<'a>>>;
+
+impl<'a> Search<'a> {
+    /// A wave or observable of a recurrence on a window, both its ends included.
+    ///
+    /// # Errors
+    /// [`EvaluateError::EmptyWindow`]; [`EvaluateError::MissingValue`] where a symbol is left;
+    /// [`EvaluateError::TooManyEchoes`] where too many arrivals lie in the window.
+    pub fn of_recurrence(
+        solution: &'a Solution,
+        observation: &Observation,
+        window: [&Rational; 2],
+    ) -> Result<Search<'a>, EvaluateError> {
+        let signal = Signal::of_recurrence(solution.recurrence(), observation)?;
+        let evaluator = Box::new(Evaluator::new(solution)?);
+        Search::new(signal, Exact::Recurrence { evaluator, value: observation.clone() }, window)
+    }
+
+    /// An observable of a scene on a window in the user's time, both its ends included.
+    ///
+    /// # Errors
+    /// As [`Search::of_recurrence`]; [`EvaluateError::NotLinear`] for energies.
+    ///
+    /// ```
+    /// use wavestep::evaluate::{EvaluateError, Goal, Search};
+    /// use wavestep::language::{Source, parse_number, read_scene};
+    /// use wavestep::network::Network;
+    ///
+    /// let text = wavestep::scenes::find("pushed-bar").unwrap().text;
+    /// let scene = read_scene(&Source::new("pushed-bar", text)?, &Default::default()).unwrap();
+    /// let network = Network::new(&scene).unwrap();
+    /// let seen = |name| network.observables().iter().find(|seen| seen.name == name).unwrap();
+    /// let window = [parse_number("0")?, parse_number("9")?];
+    /// let search = |name| Search::of_scene(&network, seen(name), [&window[0], &window[1]]);
+    /// // Four times since the start the wave has come back, each time with 2 more.
+    /// let largest = search("velocity").unwrap().extremum(Goal::Largest, 6, 1 << 12).unwrap();
+    /// assert_eq!(largest.value.to_text(6), "9");
+    /// assert!(matches!(search("energy").err(), Some(EvaluateError::NotLinear(_))));
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn of_scene(
+        network: &'a Network,
+        observed: &Observed,
+        window: [&Rational; 2],
+    ) -> Result<Search<'a>, EvaluateError> {
+        let signal = Signal::of_scene(network, observed, window[1])?;
+        let observed = Box::new(observed.clone());
+        let exact = Exact::Scene { network, observed, evaluator: OnceCell::new() };
+        Search::new(signal, exact, window)
+    }
+
+    fn new(
+        signal: Signal,
+        exact: Exact<'a>,
+        [from, to]: [&Rational; 2],
+    ) -> Result<Search<'a>, EvaluateError> {
+        if to <= from || *from < Rational::default() {
+            return Err(EvaluateError::EmptyWindow);
+        }
+        let stretches = signal.audible(signal.stretches(from, to)?, FIRST_BITS)?;
+        let window = [from.clone(), to.clone()];
+        let (bits, work) = (Cell::new(FIRST_BITS), Cell::new(0));
+        Ok(Search { signal, exact, stretches, window, bits, work, open: false })
+    }
+
+    /// The same window without its end: an echo that arrives there does not count, the limit before
+    /// does.
+    ///
+    /// ```
+    /// use wavestep::evaluate::{Goal, Search};
+    /// use wavestep::language::{Source, parse_number, read_recurrence};
+    /// use wavestep::solution::Solution;
+    ///
+    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
+    /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
+    /// let strain = solution.recurrence().observation("f").unwrap();
+    /// let window = [parse_number("1")?, parse_number("2")?];
+    /// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
+    /// // A second front arrives at 2, where f jumps up. Before that f fades: it is largest at 1.
+    /// let largest = search.half_open().extremum(Goal::Largest, 6, 1 << 12).unwrap();
+    /// assert_eq!(largest.value.to_text(6), "0.367879"); // exp(-1)
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    #[must_use]
+    pub fn half_open(mut self) -> Search<'a> {
+        if self.stretches.len() > 1 && self.is_instant(self.stretches.len() - 1) {
+            self.stretches.pop();
+            self.open = true;
+        }
+        self
+    }
+
+    /// Whether an echo arrives at the end of the window.
+    pub(crate) fn arrives_at_end(&self) -> bool {
+        self.open
+    }
+
+    /// Whether a stretch is the last instant of the window alone, where an echo arrives.
+    pub(crate) fn is_instant(&self, stretch: usize) -> bool {
+        self.stretches[stretch].from() == self.stretches[stretch].to()
+    }
+
+    /// A limit at an end of a stretch: on the right side of its first time, the left of its last.
+    pub(crate) fn place(&self, stretch: usize, side: Side) -> &Fraction {
+        match side {
+            Side::Right => self.stretches[stretch].from(),
+            Side::Left => self.stretches[stretch].to(),
+        }
+    }
+
+    /// An enclosure of a derivative at a time of the user's.
+    pub(crate) fn at(
+        &self,
+        stretch: usize,
+        order: usize,
+        time: &Rational,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let at = self.signal.slowness().scale(time);
+        self.signal.enclose(&self.stretches[stretch], order, &at, bits)
+    }
+
+    /// An enclosure of a derivative at an end of a stretch.
+    pub(crate) fn limit(
+        &self,
+        stretch: usize,
+        order: usize,
+        side: Side,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let at = self.place(stretch, side);
+        self.signal.enclose(&self.stretches[stretch], order, at, bits)
+    }
+
+    /// The sign of `f − level` in the limit at an end of a stretch; `None` where it is not decided.
+    pub(crate) fn sign_of_limit(
+        &self,
+        stretch: usize,
+        side: Side,
+        level: &Rational,
+        limit_bits: u64,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        if self.stretches[stretch].is_silent() {
+            return Ok(Some(Rational::default().cmp(level)));
+        }
+        let place = self.place(stretch, side).clone();
+        self.sign(
+            limit_bits,
+            |bits| Ok(less(self.limit(stretch, 0, side, bits)?, level, bits)),
+            || Ok(self.exact_value(&place, side)?.map(|value| value.cmp(level))),
+        )
+    }
+
+    /// The sign of `f − level` at a time within a stretch.
+    pub(crate) fn sign_at(
+        &self,
+        stretch: usize,
+        time: &Rational,
+        level: &Rational,
+        limit_bits: u64,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        let at = self.signal.slowness().scale(time);
+        self.sign(
+            limit_bits,
+            |bits| Ok(less(self.at(stretch, 0, time, bits)?, level, bits)),
+            || Ok(self.exact_value(&at, Side::Right)?.map(|value| value.cmp(level))),
+        )
+    }
+
+    /// A sign by balls, and by an exact value where the first balls do not tell it.
+    fn sign(
+        &self,
+        limit_bits: u64,
+        enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
+        exact: impl Fn() -> Result<Option<Ordering>, EvaluateError>,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        let first = self.bits.get().min(limit_bits.min(SIGN_BITS));
+        let mut bits = first;
+        loop {
+            if let Some(sign) = sign_of(&enclosure(bits)?) {
+                return Ok(Some(sign));
+            }
+            if bits == first
+                && let Some(sign) = exact()?
+            {
+                return Ok(Some(sign));
+            }
+            if bits >= limit_bits.min(SIGN_BITS) {
+                return Ok(None);
+            }
+            bits = (2 * bits).min(limit_bits.min(SIGN_BITS));
+        }
+    }
+
+    /// The value at a time in the scale of the waves, where it is rational.
+    pub(crate) fn exact_value(
+        &self,
+        at: &Fraction,
+        side: Side,
+    ) -> Result<Option<Rational>, EvaluateError> {
+        let value = match &self.exact {
+            Exact::Recurrence { evaluator, value } => {
+                let Some(at) = at.as_constant() else { return Ok(None) };
+                evaluator.value(value, &at, side, FEW_DIGITS, SIGN_BITS)
+            }
+            Exact::Scene { network, observed, evaluator } => {
+                let last = self.signal.slowness().scale(&self.window[1]);
+                let evaluator = evaluator
+                    .get_or_init(|| SceneEvaluator::new(network, &last).ok().map(Box::new));
+                let value = evaluator
+                    .as_ref()
+                    .map(|known| known.value(observed, at, side, FEW_DIGITS, SIGN_BITS));
+                match value {
+                    Some(value @ Ok(Value::Exact(_))) => value,
+                    // With the echoes until then alone, exact arithmetic may be within reach.
+                    _ => SceneEvaluator::new(network, at).and_then(|evaluator| {
+                        evaluator.value(observed, at, side, FEW_DIGITS, SIGN_BITS)
+                    }),
+                }
+            }
+        };
+        match value {
+            Ok(Value::Exact(value)) => Ok(Some(value)),
+            Ok(Value::Certified(_))
+            | Err(
+                EvaluateError::AccuracyNotReached { .. }
+                | EvaluateError::TooManyPeriods { .. }
+                | EvaluateError::TooManyEchoes { .. }
+                | EvaluateError::Solve(_)
+                | EvaluateError::Network(_),
+            ) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Whether the derivative in the limit at an end of a stretch is exactly zero, where that can
+    /// be told: for observables that see no derivatives and no function of time themselves.
+    pub(crate) fn slope_vanishes(&self, stretch: usize, side: Side) -> Result<bool, EvaluateError> {
+        if !self.limit(stretch, 1, side, self.bits.get())?.contains_zero() {
+            return Ok(false);
+        }
+        let at = self.place(stretch, side);
+        let value = match &self.exact {
+            Exact::Recurrence { evaluator, value } => {
+                let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
+                    return Ok(false);
+                };
+                evaluator.value(&slope, &at, side, FEW_DIGITS, SIGN_BITS)
+            }
+            Exact::Scene { network, observed, .. } => {
+                let ObservedValue::Linear(value) = &observed.value else { return Ok(false) };
+                let Some(slope) = slope_of(value) else { return Ok(false) };
+                let slope =
+                    Observed { value: ObservedValue::Linear(slope), ..(**observed).clone() };
+                let Ok(evaluator) = SceneEvaluator::new(network, at) else { return Ok(false) };
+                evaluator.value(&slope, at, side, FEW_DIGITS, SIGN_BITS)
+            }
+        };
+        Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
+    }
+
+    /// A time of the waves in the user's time, where it is rational.
+    pub(crate) fn exact_time(&self, at: &Fraction) -> Option<Rational> {
+        if *at == self.signal.slowness().scale(&self.window[1]) {
+            return Some(self.window[1].clone());
+        }
+        if *at == self.signal.slowness().scale(&self.window[0]) {
+            return Some(self.window[0].clone());
+        }
+        Some(at.as_constant()? / self.signal.slowness().as_constant()?)
+    }
+
+    /// A time of the waves in the user's time.
+    pub(crate) fn time(&self, at: &Fraction, bits: u64) -> Result<Ball, EvaluateError> {
+        let numbers = self.signal.numbers();
+        let slowness = numbers.enclose(self.signal.slowness(), bits)?;
+        let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
+        Ok(numbers.enclose(at, bits)?.multiply(&inverse, bits))
+    }
+
+    /// Rational bounds of a stretch: its ends themselves where they are rational, else so little
+    /// beyond them that the middle of no cell lies outside.
+    pub(crate) fn bounds(&self, stretch: usize) -> Result<[Rational; 2], EvaluateError> {
+        let (from, to) = (self.stretches[stretch].from(), self.stretches[stretch].to());
+        let mut bits = BOUND_BITS;
+        loop {
+            let outer = |at: &Fraction| -> Result<(Rational, Rational), EvaluateError> {
+                if let Some(time) = self.exact_time(at) {
+                    return Ok((time.clone(), time));
+                }
+                Ok(rationals(&self.time(at, bits)?))
+            };
+            let ((first, after), (before, last)) = (outer(from)?, outer(to)?);
+            let slack = (&after - &first).max(&last - &before);
+            if slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after
+                || bits >= MAX_BOUND_BITS
+            {
+                return Ok([first, last]);
+            }
+            bits *= 4;
+        }
+    }
+}
+
+/// The observable's derivative between arrivals.
+fn slope_of(value: &Observation) -> Option<Observation> {
+    if !value.forcing.is_zero() || value.waves.iter().any(|seen| seen.slope) {
+        return None;
+    }
+    let mut slope = value.clone();
+    slope.waves.iter_mut().for_each(|seen| seen.slope = true);
+    Some(slope)
+}
+
+/// `f − level`.
+pub(crate) fn less(value: Ball, level: &Rational, bits: u64) -> Ball {
+    match *level == Rational::default() {
+        true => value,
+        false => value.subtract(&Ball::from_rational(level, bits), bits),
+    }
+}
+
+/// The sign of all points of a ball, where they have one.
+pub(crate) fn sign_of(ball: &Ball) -> Option<Ordering> {
+    if ball.is_exact() && ball.midpoint().is_zero() {
+        return Some(Ordering::Equal);
+    }
+    if ball.contains_zero() {
+        return None;
+    }
+    Some(if ball.midpoint().is_negative() { Ordering::Less } else { Ordering::Greater })
+}
+
+/// Two rationals with the ball between them.
+pub(crate) fn rationals(ball: &Ball) -> (Rational, Rational) {
+    let (lower, upper) = ball.endpoints();
+    (Rational::from(&lower), Rational::from(&upper))
+}

@@ -1,0 +1,591 @@
+//! Certified roots and extrema: known ones, and against values taken one by one.
+
+use num_rational::BigRational;
+use num_traits::Signed as _;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use wavestep::evaluate::{
+    Determined, EvaluateError, Evaluator, Extremum, Goal, Place, Root, Search, Side, Value,
+};
+use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
+use wavestep::network::Network;
+use wavestep::scenes;
+use wavestep::solution::Solution;
+
+const BITS: u64 = 1 << 12;
+
+fn number(text: &str) -> BigRational {
+    parse_number(text).unwrap()
+}
+
+/// A recurrence, built in or written out, with values for its symbols.
+fn solution(scene: &str, values: &[(&str, &str)]) -> Solution {
+    let text = scenes::find(scene).map_or(scene, |scene| scene.text);
+    let values = values.iter().map(|(name, value)| ((*name).to_owned(), number(value))).collect();
+    Solution::new(read_recurrence(&Source::new("scene", text).unwrap(), &values).unwrap())
+}
+
+/// A recurrence in which only functions of time are seen.
+fn of_time(function: &str) -> Solution {
+    solution(
+        &format!(
+            "recurrence \"Function\"\nperiod 2, local s, time t\nwave f\nequation f[n] = f[n-1]\n\
+             observe q = f[n] + {function}\n"
+        ),
+        &[],
+    )
+}
+
+fn roots(solution: &Solution, quantity: &str, window: [&str; 2], level: &str) -> Vec<Root> {
+    let observation = solution.recurrence().observation(quantity).unwrap();
+    let [from, to] = window.map(number);
+    let search = Search::of_recurrence(solution, &observation, [&from, &to]).unwrap();
+    search.roots(&number(level), 20, BITS).unwrap().all
+}
+
+fn extremum(solution: &Solution, quantity: &str, window: [&str; 2], goal: Goal) -> Extremum {
+    let observation = solution.recurrence().observation(quantity).unwrap();
+    let [from, to] = window.map(number);
+    let search = Search::of_recurrence(solution, &observation, [&from, &to]).unwrap();
+    search.extremum(goal, 20, BITS).unwrap()
+}
+
+/// A number, to the digits that are known of it.
+fn rational(found: &Determined) -> BigRational {
+    match found {
+        Determined::Digits(Value::Exact(value)) => value.clone(),
+        Determined::Digits(Value::Certified(certified)) => certified.decimal.to_rational(),
+        Determined::Enclosed(ball) => ball.to_decimal(40).midpoint().to_rational(),
+    }
+}
+
+fn exactly(text: &str) -> Determined {
+    Determined::Digits(Value::Exact(number(text)))
+}
+
+/// The sign of a value less a level, by the evaluator that adds up echoes exactly.
+fn sign(
+    evaluator: &Evaluator<'_>,
+    solution: &Solution,
+    quantity: &str,
+    at: &BigRational,
+    level: &BigRational,
+) -> Ordering {
+    value(evaluator, solution, quantity, at).cmp(level)
+}
+
+fn value(
+    evaluator: &Evaluator<'_>,
+    solution: &Solution,
+    quantity: &str,
+    at: &BigRational,
+) -> BigRational {
+    let observation = solution.recurrence().observation(quantity).unwrap();
+    match evaluator.value(&observation, at, Side::Right, 30, BITS).unwrap() {
+        Value::Exact(value) => value,
+        Value::Certified(certified) => certified.decimal.to_rational(),
+    }
+}
+
+// ---- Known roots --------------------------------------------------------------------------------
+
+/// The mass leaves the bar at `3 + e^{-2}/2`; `e^{-2}` is `f(2−)`.
+#[test]
+fn the_mass_leaves_when_the_formula_says() {
+    let solution = solution("rigid-mass", &[("mu", "1")]);
+    let observation = solution.recurrence().observation("strain_impact").unwrap();
+    let search =
+        Search::of_recurrence(&solution, &observation, [&number("2"), &number("7/2")]).unwrap();
+    for digits in [1, 5, 17, 60, 300] {
+        let found = search.roots(&number("0"), digits, BITS).unwrap().all;
+        let [Root::Simple { time: Determined::Digits(time), rises: true }] = &found[..] else {
+            panic!("{found:?}");
+        };
+        let evaluator = Evaluator::new(&solution).unwrap();
+        let f = solution.recurrence().observation("f").unwrap();
+        let e = evaluator.value(&f, &number("2"), Side::Left, digits + 10, BITS).unwrap();
+        let exact = number("3") + e.decimal(digits + 10).0.to_rational() / number("2");
+        let (told, _) = time.decimal(digits);
+        let (wanted, _) = wavestep::ball::Decimal::from_rational(&exact, digits);
+        assert_eq!(told.to_string(), wanted.to_string());
+    }
+}
+
+#[test]
+fn rational_roots_are_exact_and_arrivals_are_told() {
+    let cubic = of_time("(t - 1)*(t - 2)*(t - 5/2)");
+    let found = roots(&cubic, "q", ["0", "3"], "0");
+    let simple = |time, rises| Root::Simple { time: exactly(time), rises };
+    let arrival = Root::Arrival { time: exactly("2"), before: true, after: true };
+    assert_eq!(found, [simple("1", true), arrival, simple("5/2", true)]);
+    // Windows that begin and end at roots hold these, once each.
+    let found = roots(&cubic, "q", ["1", "5/2"], "0");
+    let end = |time| Root::End { time: exactly(time) };
+    let arrival = Root::Arrival { time: exactly("2"), before: true, after: true };
+    assert_eq!(found, [end("1"), arrival, end("5/2")]);
+    assert_eq!(roots(&cubic, "q", ["11/10", "19/10"], "0"), []);
+    // ln 2 and ln 3, with a level.
+    let sum = of_time("exp(-2*t)");
+    let found = roots(&sum, "q", ["0", "5"], "1/9");
+    let [Root::Simple { time, rises: false }] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(time.to_text(20), "1.0986122886681096914");
+    // Cosines have complex rates.
+    let found = roots(&of_time("cos(3*t)"), "q", ["0", "3"], "0");
+    let times: Vec<String> = found
+        .iter()
+        .map(|root| match root {
+            Root::Simple { time, .. } => time.to_text(20),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(times, ["0.52359877559829887308", "1.5707963267948966192", "2.6179938779914943654"]); // pi/6, pi/2, 5 pi/6
+}
+
+/// Two roots closer than cells are cut are not taken for one, nor a root for the fraction beside
+/// it.
+#[test]
+fn near_misses_are_kept_apart() {
+    let near = roots(&of_time("(t - 1/3 - 1e-30)*(t + 1)"), "q", ["0", "1"], "0");
+    let [Root::Simple { time, .. }] = &near[..] else { panic!("{near:?}") };
+    assert_eq!(time.to_text(20), "0.33333333333333333333");
+    let found = roots(&of_time("(t - 2)*(t - 2 - 1e-20)"), "q", ["0", "3"], "0");
+    let arrival = Root::Arrival { time: exactly("2"), before: true, after: true };
+    let [first, Root::Undecided { from, to, .. }] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(*first, arrival);
+    assert!(*from == number("2") && *to > number("2 + 1e-20") && *to < number("2 + 1e-15"));
+    // After many periods, where pieces need far more bits than at first.
+    let rigid = solution("rigid-mass", &[("mu", "1")]);
+    let evaluator = Evaluator::new(&rigid).unwrap();
+    let found = roots(&rigid, "f", ["400", "402"], "0");
+    assert!(found.len() > 1);
+    for root in &found {
+        let Root::Simple { time, .. } = root else { continue };
+        let time = rational(time);
+        let sides = [number("-1e-16"), number("1e-16")]
+            .map(|by| sign(&evaluator, &rigid, "f", &(&time + by), &number("0")));
+        assert_ne!(sides[0], sides[1]);
+    }
+    assert!(!found.iter().any(|root| matches!(root, Root::Undecided { .. })), "{found:?}");
+}
+
+#[test]
+fn even_roots_stay_undecided_with_what_is_known() {
+    let double = of_time("(t - 1/3)^2");
+    let found = roots(&double, "q", ["0", "3/2"], "0");
+    let [Root::Undecided { from, to, range, crosses: false }] = &found[..] else {
+        panic!("{found:?}");
+    };
+    let third = number("1/3");
+    assert!(*from <= third && third <= *to && to - from < number("1e-15"));
+    assert!(range.contains(&number("0")) && !range.contains(&number("1e-29")));
+    // A little above the level it has none, a little below two.
+    assert_eq!(roots(&double, "q", ["0", "3/2"], "-1e-20"), []);
+    let pair = roots(&double, "q", ["0", "3/2"], "1e-20");
+    let [Root::Simple { rises: false, time: first }, Root::Simple { rises: true, time: second }] =
+        &pair[..]
+    else {
+        panic!("{pair:?}");
+    };
+    assert_eq!(first.to_text(20), "0.33333333323333333333");
+    assert_eq!(second.to_text(20), "0.33333333343333333333");
+    // A triple root crosses.
+    let found = roots(&of_time("(t - 1/3)^3"), "q", ["0", "3/2"], "0");
+    assert!(matches!(&found[..], [Root::Undecided { crosses: true, .. }]), "{found:?}");
+}
+
+/// A force that changes its sign at every arrival, and one that stays zero.
+#[test]
+fn jumps_and_intervals() {
+    let bars = solution("two-bars", &[("r", "1/3")]);
+    let found = roots(&bars, "force", ["0", "7"], "0");
+    let jump = |time| {
+        found.iter().find_map(|root| match root {
+            Root::Jump { time: at, limits } if *at == exactly(time) => Some(limits.clone()),
+            _ => None,
+        })
+    };
+    assert_eq!(found.len(), 3, "{found:?}");
+    for time in ["2", "4", "6"] {
+        let [before, after] = jump(time).unwrap();
+        assert!(rational(&before).is_positive() != rational(&after).is_positive());
+    }
+    let bars = solution("two-bars", &[("r", "1")]);
+    let found = roots(&bars, "force", ["0", "7"], "0");
+    let whole = Root::Interval { from: exactly("2"), to: exactly("7"), closed: true };
+    assert_eq!(found, [whole]);
+    // The value that it has is an interval as well, half-open.
+    let rigid = solution("rigid-mass", &[("mu", "1")]);
+    let silent = Root::Interval { from: exactly("0"), to: exactly("1"), closed: false };
+    assert_eq!(roots(&rigid, "strain_fixed", ["0", "3"], "0"), [silent]);
+}
+
+/// Waves that cancel each other are told as zero, and as constant.
+#[test]
+fn cancelling_waves_vanish() {
+    let text = scenes::find("rigid-mass").unwrap().text;
+    let text = format!("{text}observe nothing = g[n] + f[n-1]\n");
+    let rigid = solution(&text, &[("mu", "1")]);
+    let whole = Root::Interval { from: exactly("0"), to: exactly("9"), closed: true };
+    assert_eq!(roots(&rigid, "nothing", ["0", "9"], "0"), [whole]);
+    let largest = extremum(&rigid, "nothing", ["0", "3"], Goal::Largest);
+    assert_eq!(largest.value, exactly("0"));
+    assert_eq!(largest.places.len(), 2);
+}
+
+// ---- Against values taken one by one ------------------------------------------------------------
+
+/// A small generator of numbers, the same on every machine.
+struct Draw(u64);
+
+impl Draw {
+    fn below(&mut self, limit: u64) -> u64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % limit
+    }
+
+    fn ratio(&mut self, largest: u64) -> BigRational {
+        let denominator = 1 + self.below(12);
+        BigRational::new((1 + self.below(largest * denominator)).into(), denominator.into())
+    }
+}
+
+/// Between two samples the count of changes of sign is odd exactly where the signs differ.
+#[test]
+fn no_change_of_sign_is_missed() {
+    let mut draw = Draw(7);
+    let (mut changes, mut compared) = (0, 0);
+    for (scene, symbol, quantities) in [
+        ("rigid-mass", "mu", &["f", "velocity", "strain_fixed", "strain_impact"][..]),
+        ("pulse-shape", "mu", &["force"][..]),
+        ("two-bars", "r", &["force"][..]),
+    ] {
+        for _ in 0..4 {
+            let value = draw.ratio(2);
+            let solution = solution(scene, &[(symbol, &value.to_string())]);
+            let evaluator = Evaluator::new(&solution).unwrap();
+            for quantity in quantities {
+                let level = draw.ratio(1) * number("1/7") - number("1/14");
+                let level = if draw.below(2) == 0 { number("0") } else { level };
+                let from = draw.ratio(2) * number("1/3");
+                let to = &from + draw.ratio(3) + number("4");
+                let observation = solution.recurrence().observation(quantity).unwrap();
+                let search = Search::of_recurrence(&solution, &observation, [&from, &to]).unwrap();
+                let found = search.roots(&level, 20, BITS).unwrap();
+                let mut exact = Vec::new();
+                let mut blind = Vec::new();
+                for root in &found.all {
+                    match root {
+                        Root::Simple { time, rises } => {
+                            let time = rational(time);
+                            let near = &time * number("1e-18");
+                            let sides = [&time - &near, &time + &near]
+                                .map(|at| sign(&evaluator, &solution, quantity, &at, &level));
+                            let rising = [Ordering::Less, Ordering::Greater];
+                            let falling = [Ordering::Greater, Ordering::Less];
+                            assert_eq!(sides, if *rises { rising } else { falling });
+                            exact.push(time);
+                        }
+                        Root::Jump { time, .. } => exact.push(rational(time)),
+                        Root::Interval { from, to, .. } => {
+                            blind.push((rational(from), rational(to)));
+                        }
+                        Root::End { time } | Root::Arrival { time, .. } => {
+                            blind.push((rational(time), rational(time)));
+                        }
+                        Root::Undecided { from, to, .. } => blind.push((from.clone(), to.clone())),
+                    }
+                }
+                let count = 60_u32;
+                let time =
+                    |i: u32| &from + (&to - &from) * BigRational::new(i.into(), count.into());
+                let mut before = sign(&evaluator, &solution, quantity, &from, &level);
+                for i in 0..count {
+                    let (a, b) = (time(i), time(i + 1));
+                    let after = sign(&evaluator, &solution, quantity, &b, &level);
+                    let within = |(from, to): &(BigRational, BigRational)| *from <= b && a <= *to;
+                    if !blind.iter().any(within) {
+                        let inside = exact.iter().filter(|at| a < **at && **at <= b).count();
+                        assert_eq!(
+                            inside % 2 == 1,
+                            before != after,
+                            "{scene} {symbol}={value} {quantity}={level} between {a} and {b}: \
+                             {found:?}"
+                        );
+                        changes += inside;
+                        compared += 1;
+                    }
+                    before = after;
+                }
+            }
+        }
+    }
+    assert!(changes > 40 && compared > 600, "{changes} {compared}");
+}
+
+/// No sample exceeds the extremum, and it is taken, or approached, where it is said to be.
+#[test]
+fn no_sample_exceeds_an_extremum() {
+    let mut draw = Draw(11);
+    let mut kinds = BTreeMap::new();
+    for (scene, quantity) in [
+        ("rigid-mass", "f"),
+        ("rigid-mass", "velocity"),
+        ("rigid-mass", "g"),
+        ("pulse-shape", "force"),
+    ] {
+        for goal in [Goal::Largest, Goal::Smallest] {
+            let solution = solution(scene, &[("mu", &draw.ratio(2).to_string())]);
+            let evaluator = Evaluator::new(&solution).unwrap();
+            let from = draw.ratio(3);
+            let to = &from + draw.ratio(6);
+            let observation = solution.recurrence().observation(quantity).unwrap();
+            let search = Search::of_recurrence(&solution, &observation, [&from, &to]).unwrap();
+            let found = search.extremum(goal, 20, BITS).unwrap();
+            let best = rational(&found.value);
+            let above = |value: &BigRational| match goal {
+                Goal::Largest => value - &best,
+                Goal::Smallest => &best - value,
+            };
+            for i in 0..=60_u32 {
+                let at = &from + (&to - &from) * BigRational::new(i.into(), 60.into());
+                assert!(above(&value(&evaluator, &solution, quantity, &at)) <= number("1e-18"));
+            }
+            assert_eq!(found.places.len(), 1, "{found:?}");
+            let (kind, at, side) = match &found.places[0] {
+                Place::Critical(time) => ("critical", time, Side::Right),
+                Place::End(time) => ("end", time, Side::Right),
+                Place::Arrival { time, after: true, .. } => ("after", time, Side::Right),
+                Place::Arrival { time, .. } => ("before", time, Side::Left),
+                Place::Plateau { from, .. } => ("plateau", from, Side::Right),
+                other => panic!("{other:?}"),
+            };
+            *kinds.entry(kind).or_insert(0) += 1;
+            let told = evaluator.value(&observation, &rational(at), side, 30, BITS).unwrap();
+            let told = told.decimal(30).0.to_rational();
+            assert!((told - &best).abs() <= number("1e-17"), "{found:?}");
+        }
+    }
+    assert!(kinds.len() >= 2, "{kinds:?}");
+}
+
+#[test]
+fn suprema_at_sides_and_ties() {
+    let rigid = solution("rigid-mass", &[("mu", "1")]);
+    let found = extremum(&rigid, "strain_impact", ["2", "4"], Goal::Largest);
+    let [place @ Place::Arrival { time, before: true, after: false }] = &found.places[..] else {
+        panic!("{found:?}");
+    };
+    assert!(*time == exactly("4") && !place.is_attained());
+    // Periodic: the same maximum three times, exactly.
+    let found = extremum(&of_time("cos(t)"), "q", ["0", "1"], Goal::Largest);
+    assert_eq!((found.value, found.places), (exactly("1"), vec![Place::End(exactly("0"))]));
+    let parabola = of_time("t*(1 - t)");
+    let found = extremum(&parabola, "q", ["0", "1"], Goal::Smallest);
+    let ends = vec![Place::End(exactly("0")), Place::End(exactly("1"))];
+    assert_eq!((found.value, found.places), (exactly("0"), ends));
+    let found = extremum(&parabola, "q", ["0", "1"], Goal::Largest);
+    let middle = vec![Place::Critical(exactly("1/2"))];
+    assert_eq!((found.value, found.places), (exactly("1/4"), middle));
+    let found = extremum(&of_time("t*(2/3 - t)"), "q", ["0", "1"], Goal::Largest);
+    let Determined::Digits(Value::Certified(value)) = &found.value else { panic!("{found:?}") };
+    assert!(value.ball.contains(&number("1/9")), "{found:?}");
+    // Two maxima of a symmetric quartic cannot be told apart, and both are listed.
+    let quartic = of_time("-((t - 1/3)^2 - 1/30)^2");
+    let found = extremum(&quartic, "q", ["0", "1"], Goal::Largest);
+    let times: Vec<String> = found
+        .places
+        .iter()
+        .map(|place| match place {
+            Place::Critical(time) => time.to_text(6),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(times, ["0.15075914749827796218", "0.51590751916838870449"]); // 1/3 ∓ 1/sqrt(30)
+    // Both limits at an arrival where it is continuous are one place.
+    let kink = of_time("4 - (t - 2)^2");
+    let found = extremum(&kink, "q", ["1", "3"], Goal::Largest);
+    let both = Place::Arrival { time: exactly("2"), before: true, after: true };
+    assert_eq!((found.value, found.places), (exactly("4"), vec![both]));
+    // A plateau.
+    let force = solution("constant-force", &[]);
+    let found = extremum(&force, "f", ["0", "5"], Goal::Largest);
+    let plateau = Place::Plateau { from: exactly("4"), to: exactly("5"), closed: true };
+    assert_eq!((found.value, found.places), (exactly("3"), vec![plateau]));
+}
+
+/// Arrivals at irrational times, in seconds.
+#[test]
+fn scenes_with_units_and_lattices() {
+    let network = |name: &str| {
+        let source = Source::new(name, scenes::find(name).unwrap().text).unwrap();
+        Network::new(&read_scene(&source, &BTreeMap::new()).unwrap()).unwrap()
+    };
+    for (scene, quantity, kinds) in [
+        ("hopkinson", "gauge_incident", "silent silent"),
+        ("incommensurate", "contact_force", "jump jump jump"),
+        ("percussive-drill", "penetration", "silent"),
+        ("pile", "penetration", "silent"),
+    ] {
+        let network = network(scene);
+        let observed = network.observables().iter().find(|seen| seen.name == quantity).unwrap();
+        let window = [number("0"), number("35e-5")];
+        let window = match scene {
+            "incommensurate" => [number("0"), number("5e-4")],
+            // Times without units. Where the wave is there, value and slope begin at zero.
+            "pile" => [number("0"), number("2")],
+            _ => window,
+        };
+        let search = Search::of_scene(&network, observed, [&window[0], &window[1]]).unwrap();
+        let found = search.roots(&number("0"), 12, BITS).unwrap().all;
+        let told: Vec<&str> = found
+            .iter()
+            .map(|root| match root {
+                Root::Interval { .. } => "silent",
+                Root::Jump { .. } => "jump",
+                Root::Simple { .. } => "simple",
+                _ => "other",
+            })
+            .collect();
+        assert_eq!(told.join(" "), kinds, "{scene}: {found:?}");
+    }
+    // An echo that is identically zero arrives within the plateau and does not divide it.
+    let network = network("incommensurate");
+    let observed = network.observables().iter().find(|seen| seen.name == "wall_force").unwrap();
+    let window = [number("0"), number("5e-4")];
+    let search = Search::of_scene(&network, observed, [&window[0], &window[1]]).unwrap();
+    let found = search.extremum(Goal::Smallest, 9, BITS).unwrap();
+    assert!(matches!(&found.places[..], [Place::Plateau { closed: false, .. }]), "{found:?}");
+    assert_eq!(found.value.to_text(9), "-53122.2775");
+}
+
+#[test]
+fn windows_and_energies_are_refused() {
+    let rigid = solution("rigid-mass", &[("mu", "1")]);
+    let f = rigid.recurrence().observation("f").unwrap();
+    let error = Search::of_recurrence(&rigid, &f, [&number("1"), &number("1")]).err();
+    assert_eq!(error, Some(EvaluateError::EmptyWindow));
+    let symbolic = solution("rigid-mass", &[]);
+    let error = Search::of_recurrence(&symbolic, &f, [&number("1"), &number("2")]).err();
+    assert!(matches!(error, Some(EvaluateError::MissingValue(_))));
+}
+
+// ---- The command --------------------------------------------------------------------------------
+
+fn command(line: &str) -> (i32, String, String) {
+    let arguments: Vec<&str> = line.split_whitespace().collect();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
+    command.current_dir(Path::new(env!("CARGO_TARGET_TMPDIR"))).stdin(Stdio::null());
+    let output = command.args(arguments).env("NO_COLOR", "1").output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn snapshot(name: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/find"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
+}
+
+#[test]
+fn answers_look_as_recorded() {
+    for (name, line) in [
+        ("roots", "rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4"),
+        ("silence", "rigid-mass --set mu=1 --zero strain_fixed --from 0 --to 6 --digits 9"),
+        ("level", "hopkinson --level force=10kN --from 0 --to 350us"),
+        ("csv", "rigid-mass --set mu=1 --level velocity=1/2 --from 0 --to 6 --format csv"),
+        ("side", "rigid-mass --set mu=1 --max strain_impact --from 2 --to 4 --digits 8"),
+        ("critical", "cushioned-impact --set mu=1 --max force --from 0 --to 8"),
+        ("plateau", "pushed-bar --max velocity --from 0 --to 9"),
+        (
+            "equal",
+            "rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu --digits 6",
+        ),
+    ] {
+        let (code, text, errors) = command(&format!("find {line}"));
+        assert_eq!((code, errors.as_str()), (0, ""), "{line}");
+        snapshot(name, &text);
+    }
+    let line = "find rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4 --format json";
+    let told: serde_json::Value = serde_json::from_str(&command(line).1).unwrap();
+    assert_eq!(told["roots"][0]["time"]["decimal"], "3.06766764161831");
+    assert_eq!(told["roots"][1]["time"]["exact"], "4");
+}
+
+/// `e^{−2μ} = 4μ` where the largest strains at the fixed end in two periods are equal.
+#[test]
+fn equal_extrema_meet_where_the_formula_says() {
+    let line = "find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu \
+                --digits 12 --format json";
+    let (code, text, _) = command(line);
+    assert_eq!(code, 0);
+    let told: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let [low, high] = ["low", "high"].map(|key| number(told[key].as_str().unwrap()));
+    // e^{−2μ} is f(2μ) before the first return.
+    let above = |mu: &BigRational| {
+        let rigid = solution("rigid-mass", &[("mu", &mu.to_string())]);
+        let evaluator = Evaluator::new(&rigid).unwrap();
+        let f = rigid.recurrence().observation("f").unwrap();
+        let e = evaluator.value(&f, &(mu * number("2")), Side::Left, 30, BITS).unwrap();
+        e.decimal(30).0.to_rational() > mu * number("4")
+    };
+    assert!(above(&low) && !above(&high));
+    assert!(&high - &low < &low * number("1e-12"));
+}
+
+#[test]
+fn undecided_roots_end_with_code_3_and_a_report() {
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("double.wave");
+    let text = "recurrence \"Double\"\nperiod 2, local s, time t\nwave f\nequation f[n] = f[n-1]\n\
+                observe q = f[n] + (t - 1/3)^2\n";
+    std::fs::write(file, text).unwrap();
+    let (code, text, errors) = command("find double.wave --zero q --from 0 --to 1");
+    assert_eq!(code, 3);
+    assert!(text.contains("undecided; the difference is") && text.contains("0 roots, 1 undecided"));
+    assert!(errors.contains("error: 1 interval stays undecided"));
+}
+
+#[test]
+fn mistakes_are_told_with_a_remedy() {
+    for (line, code, message, remedy) in [
+        ("rigid-mass --set mu=1 --zero f --from 4 --to 2", 2, "window", "--from before --to"),
+        ("rigid-mass --set mu=1 --zero f --from 2 --to 2", 2, "window", "--from before --to"),
+        (
+            "rigid-mass --set mu=1 --zero strain_fix --from 0 --to 2",
+            2,
+            "strain_fix",
+            "strain_fixed",
+        ),
+        ("rigid-mass --zero f --from 0 --to 2", 2, "mu has no value", "--set mu=1"),
+        ("rigid-mass --set mu=1 --level f --from 0 --to 2", 2, "no quantity", "QUANTITY=VALUE"),
+        ("rigid-mass --set mu=1 --level f= --from 0 --to 2", 2, "no quantity", "QUANTITY=VALUE"),
+        ("rigid-mass --set mu=1 --zero f --from 0 --to 1e9", 1, "echoes arrive", "earlier time"),
+        ("rigid-mass --set mu=1 --zero f --from -1 --to 1", 2, "before the start", "from 0 on"),
+        ("rigid-mass --set mu=1 --zero f --from 0 --to 1 --digits 0", 2, "0 significant", "1 to"),
+        ("rigid-mass --set mu=1 --zero f --max g --from 0 --to 1", 2, "cannot be used", "--help"),
+        ("rigid-mass --set mu=1 --from 0 --to 1", 2, "required", "--help"),
+        ("rigid-mass --set mu=1 --zero f", 2, "--from", "--help"),
+        ("pushed-bar --zero energy --from 0 --to 1", 1, "energy", "wavestep eval"),
+        ("hopkinson --level force=1mm --from 0 --to 1us", 2, "force", "N"),
+        ("rigid-mass --max f --equal mu --between 1,2,3", 2, "no symbol", "LOW..HIGH"),
+        ("rigid-mass --max f --equal mu=2..1 --between 1,2,3", 2, "empty", "lower bound"),
+        ("rigid-mass --max f --equal mu=1..2 --between 1,2", 2, "three times", "T1,T2,T3"),
+        ("rigid-mass --max f --equal mu=1..2 --between 3,2,4", 2, "do not ascend", "T1 before"),
+        ("rigid-mass --max f --equal mu=1..2 --between 1,2,x*mu", 2, "no number", "but mu"),
+        ("rigid-mass --max f --equal mu=1..2 --between 1/9,1/8,1/7", 2, "both ends", "a range in"),
+        (
+            "rigid-mass --max f --equal mu=1..2 --between 1,2,3 --digits 99",
+            2,
+            "too many",
+            "1 to 60",
+        ),
+    ] {
+        let (found, text, errors) = command(&format!("find {line}"));
+        assert_eq!((found, text.as_str()), (code, ""), "{line}: {errors}");
+        assert!(errors.contains(message) && errors.contains(remedy), "{line}: {errors}");
+    }
+}
