@@ -1,6 +1,6 @@
 //! What is asked for: an observable on a window of time.
 
-use crate::evaluate::{EvaluateError, Recogniser, Signal};
+use crate::evaluate::{EvaluateError, Marched, Method as _, Recogniser, Side, Signal};
 use crate::network::Network;
 use wavestep_polynomial::Rational;
 
@@ -41,7 +41,21 @@ impl Problem<'_> {
     /// # Errors
     /// [`EvaluateError`], where the window has too many arrivals.
     pub fn scale(&self) -> Result<f64, EvaluateError> {
-        crate::evaluate::scale(self.signal, &self.from, &self.to)
+        match crate::evaluate::scale(self.signal, &self.from, &self.to) {
+            // Too far for the exact form: a march tells how large values are.
+            Err(error @ EvaluateError::TooManyEchoes { .. }) => self.marched_scale().ok_or(error),
+            told => told,
+        }
+    }
+
+    fn marched_scale(&self) -> Option<f64> {
+        const SAMPLES: i64 = 40;
+        let marched = Marched::new(self.signal, &self.from, &self.to, false).ok()?;
+        let part = (&self.to - &self.from) / Rational::from_integer(SAMPLES.into());
+        let at = |i: i64| &self.from + &part * Rational::from_integer(i.into());
+        let times: Vec<Rational> = (0..=SAMPLES).map(at).collect();
+        let values = marched.exact_values(&times, Side::Right).ok()?;
+        Some(values.iter().map(|value| value.abs()).fold(0.0, f64::max))
     }
 
     /// How many reflections the window sees.

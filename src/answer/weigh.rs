@@ -3,7 +3,7 @@
 use crate::answer::cost::{Cost, Size};
 use crate::answer::problem::Problem;
 use crate::answer::way::Kind;
-use crate::evaluate::{EvaluateError, StablePrecision, Taps, unit_in_the_last_place};
+use crate::evaluate::{EvaluateError, MAX_PIECES, StablePrecision, Taps, unit_in_the_last_place};
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Kind; 7] = [
@@ -110,6 +110,10 @@ pub fn consider(
                 seconds,
                 verdict: format!("has no values: {reason}"),
             };
+        }
+        if order > MAX_PIECES && !needs_taps {
+            let verdict = format!("has no values: more than {MAX_PIECES} periods");
+            return Candidate { kind, promise: None, seconds, verdict };
         }
         let promise = match kind {
             Kind::Certified => Promise::Proven(ulp / 2.0),

@@ -24,7 +24,7 @@ const ORDERS: [usize; 14] = [1, 5, 10, 15, 20, 30, 40, 60, 80, 100, 120, 140, 17
 const FEW_ORDERS: [usize; 4] = [1, 5, 10, 20];
 
 /// Orders at which exponentials underflow.
-const HIGH_ORDERS: [usize; 7] = [10, 30, 100, 200, 400, 1000, 2000];
+const HIGH_ORDERS: [usize; 6] = [10, 30, 100, 200, 400, 800];
 
 /// Values of the parameter of maps: twelve from 1/100 to 10, a factor of about two apart.
 const PARAMETERS: [&str; 12] =

@@ -33,7 +33,7 @@ pub use method::{
     StablePrecision, instructions,
 };
 pub use scene::{MAX_ECHOES, SceneEvaluator};
-pub use signal::{Signal, Stretch};
+pub use signal::{MAX_PIECES, Signal, Stretch};
 pub use taps::{Extra, NoTaps, Tap, Taps};
 pub use value::Value;
 pub(crate) use value::unit_in_the_last_place;

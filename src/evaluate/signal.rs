@@ -23,8 +23,29 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
+/// The most periods whose pieces are held: their coefficients grow with the square of that.
+///
+/// ```
+/// use wavestep::evaluate::{EvaluateError, MAX_PIECES, Signal};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1/2")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let late = parse_number(&format!("{MAX_PIECES} + 2"))?;
+/// let stretches = signal.stretches(&(&late - parse_number("1/2")?), &late).unwrap();
+/// let refused = signal.enclose(&stretches[0], 0, stretches[0].from(), 64);
+/// assert!(matches!(refused, Err(EvaluateError::TooManyEchoes { limit: MAX_PIECES, .. })));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub const MAX_PIECES: usize = 2_000;
+
 /// The most stretches between arrivals of one window.
 const MAX_STRETCHES: usize = 200_000;
+
+/// At how many precisions the waves are held at once.
+const MAX_PRECISIONS: usize = 3;
 
 /// An observable with numbers in place of all symbols, as a function of the user's time.
 pub struct Signal {
@@ -308,7 +329,12 @@ impl Signal {
             }
         };
         let solved = Rc::new(RefCell::new(solved));
-        self.solved.borrow_mut().insert(bits, solved.clone());
+        let mut known = self.solved.borrow_mut();
+        // With more bits wanted, those with few have done their work.
+        while known.len() >= MAX_PRECISIONS {
+            known.pop_first();
+        }
+        known.insert(bits, solved.clone());
         Ok(solved)
     }
 
@@ -361,6 +387,10 @@ impl Signal {
         let wave = self.observation.waves[part.seen].wave;
         match &mut *solved.borrow_mut() {
             Solved::Periods(periods) => {
+                if part.number > MAX_PIECES {
+                    let (echoes, limit) = (part.number as u128, MAX_PIECES);
+                    return Err(EvaluateError::TooManyEchoes { echoes, limit });
+                }
                 periods.advance_to(part.number)?;
                 Ok(periods.piece(wave, part.number).clone())
             }
