@@ -1,4 +1,6 @@
 //! Echoes as rows of integers: the factored table from which pieces are streamed term by term.
+//!
+//! `docs/divided-powers.md` proves that they are integers, and counts them.
 
 use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate, WordRatio};
 

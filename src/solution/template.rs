@@ -7,6 +7,9 @@
 //! (p−a)^k / (p+b)^{k+1}   ↔   e^{−bx} L_k((a+b)x) = e^{−bx} Σ_j C(k,j) (−(a+b))^j x^j/j!
 //!       1 / (p+b)^{k+1}   ↔   e^{−bx} x^k/k!
 //! ```
+//!
+//! In divided powers `x^j/j!` the coefficients are integers over one denominator:
+//! `docs/divided-powers.md` proves it, and what follows for pieces.
 
 use crate::expression::{Assumptions, Expression, Fraction, Transform};
 use crate::recurrence::{LinearForm, Step, WaveIndex};

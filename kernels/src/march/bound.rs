@@ -3,6 +3,7 @@
 //! The doubles that a march computes are exact numbers: polynomials `p_n` and `u_n`, meant to be
 //! `y_n` and `v_n = y_n − ρ y_{n−1}`. A certificate takes them as they are, whoever made them,
 //! measures by how much they miss the equations, and bounds by how much they miss the wave.
+//! `docs/energy-bound.md` tells the same at more length, with what came out in practice.
 //!
 //! # What is measured
 //!

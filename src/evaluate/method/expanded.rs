@@ -1,7 +1,7 @@
 //! Expanded: the formula as it is printed, in doubles.
 //!
 //! Echoes in powers of time with alternating coefficients, by Horner's scheme, delays rounded. Terms
-//! reach about `e^{2√(2nx)}` before they cancel to a value of order 1, so that digits are lost from
+//! reach about `e^{2√(2nx)}`, for x small against n, before they cancel to a value of order 1, so that digits are lost from
 //! n = 15 or so on. It is here because it is what one would write, and to be measured.
 
 use super::echo_sums::EchoSums;

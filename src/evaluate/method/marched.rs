@@ -127,15 +127,18 @@ impl Marched {
         Ok(last)
     }
 
-    /// Marches to the end with a certificate. The bound of the response is `b`, and a place is off by
-    /// `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period turns into an
-    /// error of the value.
+    /// Marches to the end with a certificate. The bound of the response is the largest of all periods:
+    /// the proof's part never falls, but what evaluation rounds can, where the response dies away. A
+    /// place is off by `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period
+    /// turns into an error of the value.
     fn prove(&self, last: u64) -> Result<Option<f64>, MethodError> {
         let options = MarchOptions { bounds: Bounds::Proven, ..MarchOptions::default() };
         let mut march = March::new(&self.reflection, options).map_err(refused)?;
         let mut slope = 0.0_f64;
         let mut sum = 0.0_f64;
+        let mut bound = Some(0.0_f64);
         loop {
+            bound = bound.zip(march.bound()).map(|(before, here)| before.max(here));
             let mut steepest = 0.0;
             let mut total = 0.0;
             for (k, coefficient) in march.coefficients().iter().enumerate() {
@@ -150,12 +153,35 @@ impl Marched {
             }
             march.advance().map_err(refused)?;
         }
-        let Some(bound) = march.bound() else { return Ok(None) };
+        let Some(bound) = bound else { return Ok(None) };
         let weights = self.weights()?;
         let total: f64 = weights.iter().map(|weight| weight.abs()).sum();
-        // The weighted sum itself, with an eighth to spare for the rounding of this line.
-        let roundings = (weights.len() + self.taps.extras.len() + 4) as f64 * f64::EPSILON * sum;
-        Ok(Some((bound + slope * f64::EPSILON + roundings) * total * 1.125))
+        let Some(added) = self.largest_extra()? else { return Ok(None) };
+        // The weighted sum itself, with an eighth to spare for the rounding of these lines.
+        let terms = (weights.len() + self.taps.extras.len() + 4) as f64;
+        let response = (bound + slope * f64::EPSILON) * total;
+        Ok(Some((response + terms * f64::EPSILON * (sum * total + added)) * 1.125))
+    }
+
+    /// A bound on the sum of what is added to the taps, in the unit of the observable: constants and
+    /// decaying exponentials are at most their coefficients. `None` where anything else is added.
+    fn largest_extra(&self) -> Result<Option<f64>, MethodError> {
+        const BITS: u64 = 96;
+        let field = self.numbers.field(BITS);
+        let mut sum = 0.0;
+        for extra in &self.taps.extras {
+            for (pole, row) in Transform::of(&extra.function, &self.local).poles() {
+                let rate = field.embed(&pole.clone().into()).map_err(EvaluateError::from)?;
+                let grows = !pole.is_zero() && rate.real().midpoint_is_positive();
+                let [coefficient] = row else { return Ok(None) };
+                if grows || rate.real().contains_zero() && !pole.is_zero() {
+                    return Ok(None);
+                }
+                let coefficient = field.embed(coefficient).map_err(EvaluateError::from)?;
+                sum += coefficient.magnitude().multiply(&self.unit.magnitude()).to_double();
+            }
+        }
+        Ok(Some(sum))
     }
 
     /// The doubles of the window.
