@@ -64,7 +64,11 @@ impl FromStr for Tolerance {
 
     fn from_str(text: &str) -> Result<Tolerance, InvalidTolerance> {
         let invalid = || InvalidTolerance(text.to_owned());
-        let (kind, number) = text.split_once(':').unwrap_or(("", text));
+        let (kind, number) = match text.split_once(':') {
+            Some(("", _)) => return Err(invalid()),
+            Some(parts) => parts,
+            None => ("", text),
+        };
         let number: f64 = number.trim().parse().map_err(|_| invalid())?;
         if !(number.is_finite() && number > 0.0) {
             return Err(invalid());

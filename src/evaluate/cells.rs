@@ -10,6 +10,7 @@ use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{Signal, Stretch};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::Fraction;
+use num_traits::Signed as _;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -60,6 +61,8 @@ pub(crate) struct Cell {
 /// A signal on a window, with its cells made as they are asked for.
 pub(crate) struct Window<'a> {
     pub signal: &'a Signal,
+    /// Those of the window; before them the one that ends where an arrival begins the window, for the
+    /// limit from the left there.
     pub stretches: Vec<Stretch>,
     /// The smallest doubles of the stretches.
     firsts: Vec<f64>,
@@ -76,7 +79,10 @@ impl<'a> Window<'a> {
         from: &Rational,
         to: &Rational,
     ) -> Result<Window<'a>, EvaluateError> {
-        let stretches = signal.stretches(from, to)?;
+        let mut stretches = signal.stretches(from, to)?;
+        if let Some(before) = ending_at(signal, from)? {
+            stretches.insert(0, before);
+        }
         let mut firsts = Vec::with_capacity(stretches.len());
         for (i, stretch) in stretches.iter().enumerate() {
             firsts.push(match i {
@@ -266,6 +272,20 @@ impl<'a> Window<'a> {
 /// [`EvaluateError`], where the window has too many arrivals.
 pub fn scale(signal: &Signal, from: &Rational, to: &Rational) -> Result<f64, EvaluateError> {
     Ok(Window::new(signal, from, to)?.scale()?.to_double())
+}
+
+/// The stretch that an arrival ends at a time; `None` where nothing arrives then.
+fn ending_at(signal: &Signal, time: &Rational) -> Result<Option<Stretch>, EvaluateError> {
+    // However little earlier: the stretches from there on end with that of the arrival alone.
+    let little = (time.abs() + Rational::from_integer(1.into()))
+        / Rational::from_integer((1_u64 << 60).into());
+    let mut stretches = signal.stretches(&(time - little), time)?;
+    let last = stretches.pop().expect("a window has a stretch");
+    let scaled = signal.slowness().scale(time);
+    match signal.numbers().compare(last.from(), &scaled)? {
+        Ordering::Equal => Ok(stretches.pop()),
+        _ => Ok(None),
+    }
 }
 
 /// A finite double as a fraction.

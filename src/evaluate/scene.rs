@@ -255,7 +255,7 @@ impl<'a> SceneEvaluator<'a> {
         self.told(enclosure, || self.exact(&arrived, &forced), unit, digits, limit_bits)
     }
 
-    /// The value of what is linear in the waves where it is a rational number and the scene is one of
+    /// The value of what is linear in the waves where it is zero, or a rational number in a scene of
     /// rational numbers, decided exactly.
     ///
     /// # Errors
@@ -274,7 +274,14 @@ impl<'a> SceneEvaluator<'a> {
             return Ok(Some(Rational::zero()));
         }
         self.want_until_last(numbers, observation)?;
-        Ok(self.rational_value(&arrived, &forced, &observed.unit))
+        if let Some(value) = self.rational_value(&arrived, &forced, &observed.unit) {
+            return Ok(Some(value));
+        }
+        // Terms with irrational rates cancel where a front begins at zero.
+        let enclosure = |bits| patient(self.enclose(numbers, &arrived, &forced, bits), bits);
+        let zero = may_be_zero(enclosure, TIE_BITS)?
+            && self.exact(&arrived, &forced).is_some_and(|sum| sum.is_zero());
+        Ok(zero.then(Rational::zero))
     }
 
     /// A value by its enclosures. What may be zero, or half-way between two decimals, is looked at

@@ -577,6 +577,7 @@ impl Signal {
     }
 
     /// The last of the stretches whose first time is at or before a time; on the left side, before it.
+    /// The first of them where there is none such.
     ///
     /// # Errors
     /// [`EvaluateError`] where two times cannot be told apart.

@@ -77,6 +77,12 @@ impl Position {
         self.fraction
     }
 
+    /// The place on the period as a double from 0 to 1, off by `2^−53` of itself at most.
+    #[must_use]
+    pub fn local(&self) -> f64 {
+        self.fraction as f64 / END as f64
+    }
+
     /// Whether the place is not rounded.
     #[must_use]
     pub fn is_exact(&self) -> bool {

@@ -1,8 +1,8 @@
 //! Certified: the double nearest to the exact value, ties to even.
 //!
-//! A rational value is recognised exactly and rounded. Any other is irrational, so that no tie exists
-//! and Ziv's loop ends: it is enclosed in a ball, with precision doubled until both ends round to one
-//! double. Many values on a window come from polynomials whose low coefficients are pairs of doubles,
+//! A value is enclosed in a ball, with precision doubled until both ends round to one double: Ziv's
+//! loop. It ends, because zero and ties are rational numbers, and these are recognised exactly where a
+//! first ball does not decide; any other value is irrational. Many values on a window come from polynomials whose low coefficients are pairs of doubles,
 //! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
 //! enclosed one by one.
 
@@ -96,9 +96,6 @@ impl<'a> Certified<'a> {
 
     /// The value of a double's time that no table decides.
     fn alone(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
-        if let Some(value) = (self.recognise)(at, side)? {
-            return Ok(nearest(&value));
-        }
         let stretch = &self.window.stretches[self.window.stretch_at(at, side)?];
         let scaled = self.window.signal.slowness().scale(at);
         let mut bits = FIRST_BITS;
@@ -106,6 +103,12 @@ impl<'a> Certified<'a> {
             let ball = self.window.signal.enclose(stretch, 0, &scaled, bits)?;
             if let Some(value) = ball.rounded() {
                 return Ok(value);
+            }
+            // Rational numbers alone can be zero or half-way between two doubles.
+            if bits == FIRST_BITS
+                && let Some(value) = (self.recognise)(at, side)?
+            {
+                return Ok(nearest(&value));
             }
             if bits >= MAX_BITS {
                 let best = Box::new(ball);

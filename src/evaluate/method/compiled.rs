@@ -6,7 +6,7 @@
 
 use super::{Method, MethodError};
 use crate::ball::Magnitude;
-use crate::evaluate::cells::{Cell, Fit, Window};
+use crate::evaluate::cells::{Cell, Fit, Window, at_or_after, rational};
 use crate::evaluate::evaluator::Side;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::unit_in_the_last_place;
@@ -49,6 +49,10 @@ impl<'a> Compiled<'a> {
         to: &Rational,
         tolerance: Option<f64>,
     ) -> Result<Compiled<'a>, MethodError> {
+        // A window between two neighbouring doubles is begun at the lower one.
+        let first = at_or_after(from);
+        let lower = (rational(first) > *to).then(|| rational(first.next_down()));
+        let from = lower.as_ref().unwrap_or(from);
         let window = Window::new(signal, from, to)?.marching();
         let fine = window.scale()?.scale(-ERROR_BITS);
         let coarse = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 4.0));

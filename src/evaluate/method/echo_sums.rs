@@ -4,11 +4,13 @@
 use super::MethodError;
 use super::doubles::three;
 use crate::enclosure::Numbers;
+use crate::evaluate::cells::rational;
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::NoTaps;
 use crate::expression::{Expression, Fraction, Transform};
 use crate::solution::{EchoTemplate, Family, GeneralForm, Solution};
+use std::cmp::Ordering;
 use wavestep_kernels::echoes::{
     self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term, Time,
 };
@@ -21,12 +23,67 @@ const MAX_ECHOES: usize = 5_000;
 struct Seen {
     weight: f64,
     delay: [f64; 2],
+    exact_delay: Fraction,
     sum: EchoSum,
+}
+
+/// When echoes arrive, exactly and in doubles.
+///
+/// Delays in doubles are off by some `2^−100` of themselves, so that they cannot tell on which side of
+/// an arrival a time lies that falls on it: a whole front would be lost. Times so near are ordered
+/// exactly, and moved to their side.
+struct Arrivals {
+    numbers: Numbers,
+    slowness: Fraction,
+    exact_period: Fraction,
+    period: [f64; 3],
+}
+
+impl Arrivals {
+    /// How near to an arrival times are ordered exactly, and how far from it they are kept, as parts
+    /// of the time: more than what delays in doubles are off, and nothing to the value.
+    const NEAR: f64 = 1.0 / (1_u64 << 60) as f64 / (1_u64 << 26) as f64;
+    const KEPT: f64 = Self::NEAR / 256.0;
+
+    /// The number of the arrival that a time since a delay is so near to, and the distance from it;
+    /// the time is the sum of two doubles, off by some parts of `size`.
+    fn near(&self, (high, low): (f64, f64), size: f64) -> Option<(f64, f64)> {
+        let [period, rest, _] = self.period;
+        let number = (high / period).round();
+        let product = number * period;
+        let error = number.mul_add(period, -product) + number * rest;
+        let distance = (high - product) + (low - error);
+        (number >= 0.0 && distance.abs() <= Self::NEAR * (size + period))
+            .then_some((number, distance))
+    }
+
+    /// A time since a delay, moved to its side of an arrival that it falls on.
+    fn sided(
+        &self,
+        since: (f64, f64),
+        size: f64,
+        delay: &Fraction,
+        (at, side): (&dyn Fn() -> Rational, Side),
+    ) -> Result<(f64, f64), MethodError> {
+        let Some((number, distance)) = self.near(since, size) else { return Ok(since) };
+        let count = Rational::from_integer((number as u64).into());
+        let arrival = delay + &self.exact_period.scale(&count);
+        let order = self.numbers.compare(&self.slowness.scale(&at()), &arrival);
+        let after = match order.map_err(EvaluateError::from)? {
+            Ordering::Greater => true,
+            Ordering::Less => false,
+            Ordering::Equal => side == Side::Right,
+        };
+        let kept = Self::KEPT * (size + self.period[0]);
+        let wanted = if after { distance.max(kept) } else { distance.min(-kept) };
+        Ok((since.0, since.1 + (wanted - distance)))
+    }
 }
 
 /// An observable by its echoes.
 pub(super) struct EchoSums {
     seen: Vec<Seen>,
+    arrivals: Arrivals,
     /// What is added from the start, as sums of polynomials times exponentials.
     added: Vec<ExponentialPolynomial>,
     unit: f64,
@@ -49,7 +106,7 @@ impl EchoSums {
         if order > MAX_ECHOES {
             return Err(MethodError::TooManyPeriods { periods: order, limit: MAX_ECHOES });
         }
-        let numbers = signal.numbers();
+        let numbers = Numbers::new(signal.recurrence().constants());
         let solution = Solution::new(signal.recurrence().clone());
         let recurrence = solution.recurrence();
         let statement = recurrence.statement();
@@ -64,29 +121,38 @@ impl EchoSums {
                 Ok(GeneralForm::Geometric(_)) => return Err(NoTaps::Sequence(name()).into()),
                 Err(_) => return Err(NoTaps::NoForm(name()).into()),
             };
-            let echoes = in_doubles(template, &statement.period, &statement.local, numbers)?;
+            let echoes = in_doubles(template, &statement.period, &statement.local, &numbers)?;
             let weight = wave.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
-            let [high, low, _] = three(numbers, &wave.delay).map_err(EvaluateError::from)?;
+            let [high, low, _] = three(&numbers, &wave.delay).map_err(EvaluateError::from)?;
             seen.push(Seen {
-                weight: three(numbers, &weight).map_err(EvaluateError::from)?[0],
+                weight: three(&numbers, &weight).map_err(EvaluateError::from)?[0],
                 delay: [high, low],
+                exact_delay: wave.delay.clone(),
                 sum: EchoSum::new(echoes, order.max(1)).map_err(refused)?,
             });
         }
         let forcing = &signal.observation().forcing;
-        let added = exponential_polynomials(forcing, &statement.time, numbers)?;
+        let added = exponential_polynomials(forcing, &statement.time, &numbers)?;
         let unit = numbers.enclose_root(signal.unit(), 128).map_err(EvaluateError::from)?;
-        let [high, low, _] = three(numbers, signal.slowness()).map_err(EvaluateError::from)?;
+        let [high, low, _] = three(&numbers, signal.slowness()).map_err(EvaluateError::from)?;
         let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
         let (unit, slowness) = (unit.to_double().0, [high, low]);
-        Ok(EchoSums { seen, added, unit, slowness, from: end(from), to: end(to) })
+        let arrivals = Arrivals {
+            slowness: signal.slowness().clone(),
+            exact_period: statement.period.clone(),
+            period: three(&numbers, &statement.period).map_err(EvaluateError::from)?,
+            numbers,
+        };
+        let (from, to) = (end(from), end(to));
+        Ok(EchoSums { seen, arrivals, added, unit, slowness, from, to })
     }
 
-    /// The value at the sum of two doubles.
+    /// The value at a time as the sum of two doubles; exactly it is `at`.
     pub(super) fn value(
         &self,
         method: echoes::Method,
         (high, low): (f64, f64),
+        at: &dyn Fn() -> Rational,
         side: Side,
     ) -> Result<f64, MethodError> {
         if !(high >= self.from && high <= self.to) {
@@ -98,9 +164,11 @@ impl EchoSums {
         let low = high.mul_add(rate, -time) + (high * rest + low * rate);
         let arriving = side == Side::Right;
         let mut sum = 0.0;
-        for Seen { weight, delay, sum: echoes } in &self.seen {
+        for Seen { weight, delay, exact_delay, sum: echoes } in &self.seen {
             let (since, error) = difference(time, delay[0]);
-            let since = Time::new(since, error + (low - delay[1])).map_err(refused)?;
+            let since = (since, error + (low - delay[1]));
+            let (since, rest) = self.arrivals.sided(since, time.abs(), exact_delay, (at, side))?;
+            let since = Time::new(since, rest).map_err(refused)?;
             if since.high() < 0.0 || (since.high() == 0.0 && since.low() < 0.0) {
                 continue;
             }
@@ -128,7 +196,7 @@ impl EchoSums {
         let mut part = vec![0.0; at.len()];
         let mut shifted = vec![0.0; at.len()];
         values.fill(0.0);
-        for Seen { weight, delay, sum } in &self.seen {
+        for Seen { weight, delay, sum, .. } in &self.seen {
             // A delay that does not subtract without error would cost digits behind fronts.
             if *delay != [0.0, 0.0] {
                 return None;
@@ -140,6 +208,15 @@ impl EchoSums {
             values.iter_mut().zip(&part).for_each(|(value, part)| *value += weight * part);
         }
         values.iter_mut().for_each(|value| *value *= self.unit);
+        for (time, value) in at.iter().zip(values) {
+            if self.arrivals.near((*time, 0.0), time.abs()).is_some() {
+                let method = echoes::Method::Scaled;
+                match self.value(method, (*time, 0.0), &|| rational(*time), Side::Right) {
+                    Ok(exact) => *value = exact,
+                    Err(error) => return Some(Err(error)),
+                }
+            }
+        }
         Some(Ok(()))
     }
 }

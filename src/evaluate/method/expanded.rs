@@ -8,6 +8,7 @@ use super::echo_sums::EchoSums;
 use super::printed::PrintedEchoes;
 use super::{Method, MethodError};
 use crate::ball::Ball;
+use crate::evaluate::cells::rational;
 use crate::evaluate::evaluator::Side;
 use crate::evaluate::signal::Signal;
 use wavestep_kernels::echoes;
@@ -61,9 +62,9 @@ impl Expanded {
         Ok(Expanded { sums })
     }
 
-    fn at(&self, time: f64, side: Side) -> Result<f64, MethodError> {
+    fn at(&self, time: f64, exact: &dyn Fn() -> Rational, side: Side) -> Result<f64, MethodError> {
         match &self.sums {
-            Sums::Closed(sums) => sums.value(echoes::Method::Expanded, (time, 0.0), side),
+            Sums::Closed(sums) => sums.value(echoes::Method::Expanded, (time, 0.0), exact, side),
             Sums::Derived(echoes) => Ok(echoes.value(time, side)),
         }
     }
@@ -84,13 +85,13 @@ impl Method for Expanded {
 
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
         let high = Ball::from_rational(at, 128).to_double().0;
-        self.at(high, side)
+        self.at(high, &|| at.clone(), side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         for (time, value) in at.iter().zip(values) {
-            *value = self.at(*time, Side::Right)?;
+            *value = self.at(*time, &|| rational(*time), Side::Right)?;
         }
         Ok(())
     }

@@ -7,14 +7,14 @@
 
 use super::doubles::near;
 use super::{Method, MethodError};
-use crate::ball::{Ball, ComplexBall};
+use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::{at_or_after, rational};
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::Taps;
 use crate::evaluate::transforms::value_at;
-use crate::expression::{Field as _, Fraction, Transform};
+use crate::expression::{Field as _, Fraction, Root, Transform};
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_kernels::fixed::{self, Reduction};
 use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection};
@@ -23,8 +23,8 @@ use wavestep_polynomial::{Rational, Symbol};
 /// The most periods that are marched through.
 const MAX_PERIODS: u64 = 10_000_000;
 
-/// What a place on a period is counted in: `2^120` to the period.
-const POSITION_UNITS: f64 = (1_u128 << 120) as f64;
+/// Bits of the sum of the response and what is added, whatever their sizes.
+const SUM_BITS: u64 = 1 << 12;
 
 /// An observable on a window by a march.
 ///
@@ -48,7 +48,7 @@ pub struct Marched {
     local: Symbol,
     reflection: Reflection,
     slowness: Fraction,
-    unit: Ball,
+    unit: Root,
     from: Rational,
     to: Rational,
     /// The proven bound on the window, where one is asked for and proven.
@@ -93,14 +93,13 @@ impl Marched {
             let zero = parameter(&(&taps.zero * &taps.period))?;
             Reflection::new(rate, zero, parameter(&taps.ratio)?).map_err(refused)?
         };
-        let unit = numbers.enclose_root(signal.unit(), 128).map_err(EvaluateError::from)?;
         let mut marched = Marched {
             taps,
             numbers,
             local: signal.recurrence().statement().local.clone(),
             reflection,
             slowness: signal.slowness().clone(),
-            unit,
+            unit: signal.unit().clone(),
             from: from.clone(),
             to: to.clone(),
             bound: None,
@@ -127,18 +126,16 @@ impl Marched {
         Ok(last)
     }
 
-    /// Marches to the end with a certificate. The bound of the response is the largest of all periods:
-    /// the proof's part never falls, but what evaluation rounds can, where the response dies away. A
-    /// place is off by `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period
-    /// turns into an error of the value.
+    /// Marches to the end with a certificate. The bound of the response is `b`, and a place is off by
+    /// `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period turns into an
+    /// error of the value.
     fn prove(&self, last: u64) -> Result<Option<f64>, MethodError> {
         let options = MarchOptions { bounds: Bounds::Proven, ..MarchOptions::default() };
         let mut march = March::new(&self.reflection, options).map_err(refused)?;
         let mut slope = 0.0_f64;
         let mut sum = 0.0_f64;
-        let mut bound = Some(0.0_f64);
+        let mut bound = 0.0_f64;
         loop {
-            bound = bound.zip(march.bound()).map(|(before, here)| before.max(here));
             let mut steepest = 0.0;
             let mut total = 0.0;
             for (k, coefficient) in march.coefficients().iter().enumerate() {
@@ -148,52 +145,30 @@ impl Marched {
             }
             slope = slope.max(steepest);
             sum = sum.max(total);
+            // Evaluation loses most where the polynomial is largest, which need not be at the end.
+            match march.bound() {
+                Some(here) => bound = bound.max(here),
+                None => return Ok(None),
+            }
             if march.period() as u64 >= last {
                 break;
             }
             march.advance().map_err(refused)?;
         }
-        let Some(bound) = bound else { return Ok(None) };
         let weights = self.weights()?;
         let total: f64 = weights.iter().map(|weight| weight.abs()).sum();
-        let Some(added) = self.largest_extra()? else { return Ok(None) };
-        // The weighted sum itself, with an eighth to spare for the rounding of these lines.
-        let terms = (weights.len() + self.taps.extras.len() + 4) as f64;
-        let response = (bound + slope * f64::EPSILON) * total;
-        Ok(Some((response + terms * f64::EPSILON * (sum * total + added)) * 1.125))
-    }
-
-    /// A bound on the sum of what is added to the taps, in the unit of the observable: constants and
-    /// decaying exponentials are at most their coefficients. `None` where anything else is added.
-    fn largest_extra(&self) -> Result<Option<f64>, MethodError> {
-        const BITS: u64 = 96;
-        let field = self.numbers.field(BITS);
-        let mut sum = 0.0;
-        for extra in &self.taps.extras {
-            for (pole, row) in Transform::of(&extra.function, &self.local).poles() {
-                let rate = field.embed(&pole.clone().into()).map_err(EvaluateError::from)?;
-                let grows = !pole.is_zero() && rate.real().midpoint_is_positive();
-                let [coefficient] = row else { return Ok(None) };
-                if grows || rate.real().contains_zero() && !pole.is_zero() {
-                    return Ok(None);
-                }
-                let coefficient = field.embed(coefficient).map_err(EvaluateError::from)?;
-                sum += coefficient.magnitude().multiply(&self.unit.magnitude()).to_double();
-            }
-        }
-        Ok(Some(sum))
-    }
-
-    /// The doubles of the window.
-    fn doubles(&self) -> std::ops::RangeInclusive<f64> {
-        at_or_after(&self.from)..=-at_or_after(&-&self.to)
+        // The weighted sum itself, with an eighth to spare for the rounding of this line, and for the
+        // enclosure of what is added.
+        let roundings = (weights.len() + 4) as f64 * f64::EPSILON * sum;
+        Ok(Some((bound + slope * f64::EPSILON + roundings) * total * 1.125))
     }
 
     /// The weights of the taps in the unit of the observable.
     fn weights(&self) -> Result<Vec<f64>, MethodError> {
+        let unit = self.numbers.enclose_root(&self.unit, 128).map_err(EvaluateError::from)?;
         let weight = |tap: &crate::evaluate::taps::Tap| {
             let weight = self.numbers.enclose(&tap.weight, 128).map_err(EvaluateError::from)?;
-            Ok(weight.multiply(&self.unit, 128).to_double().0)
+            Ok(weight.multiply(&unit, 128).to_double().0)
         };
         self.taps.taps.iter().map(weight).collect()
     }
@@ -205,6 +180,8 @@ impl Marched {
         at: &Rational,
         side: Side,
     ) -> Result<Option<(u64, f64)>, MethodError> {
+        let limit = usize::try_from(MAX_PERIODS).unwrap_or(usize::MAX);
+        let too_many = || MethodError::TooManyPeriods { periods: usize::MAX, limit };
         let since = &self.slowness.scale(at) - delay;
         let period = &self.taps.period;
         if let (Some(since), Some(period)) = (since.as_constant(), period.as_constant()) {
@@ -217,7 +194,8 @@ impl Marched {
                 return Ok(None);
             }
             let local = Ball::from_rational(&(periods - &whole), 64).to_double().0;
-            return Ok(whole.to_integer().to_u64().map(|whole| (whole, local)));
+            let whole = whole.to_integer().to_u64().ok_or_else(too_many)?;
+            return Ok(Some((whole, local)));
         }
         // Irrational: never on a joint, unless as an expression.
         let compare = |n: u64| {
@@ -232,7 +210,8 @@ impl Marched {
             return Ok(None);
         }
         // The joint at or before: one of three.
-        let near = near.to_u64().unwrap_or(0);
+        let near =
+            near.max(0.into()).to_u64().filter(|near| *near < u64::MAX).ok_or_else(too_many)?;
         for whole in [near + 1, near, near.saturating_sub(1)] {
             let order = compare(whole)?;
             if order.is_gt() || (order.is_eq() && side == Side::Right) {
@@ -244,10 +223,24 @@ impl Marched {
         Ok(None)
     }
 
-    /// What is added to the taps at a time.
-    fn extras(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
-        const BITS: u64 = 96;
-        let field = self.numbers.field(BITS);
+    /// What is added to the taps at a time, in a ball whose radius is less than `2^−10` of the bound.
+    fn extras(&self, at: &Rational, side: Side) -> Result<Ball, MethodError> {
+        const FIRST_BITS: u64 = 128;
+        const MAX_BITS: u64 = 1 << 12;
+        let allowed = self.bound.map(|bound| Magnitude::from_double(bound).scale(-10));
+        let mut bits = FIRST_BITS;
+        loop {
+            let sum = self.extras_in(at, side, bits)?;
+            if bits >= MAX_BITS || allowed.is_none_or(|allowed| *sum.radius() <= allowed) {
+                return Ok(sum);
+            }
+            bits *= 2;
+        }
+    }
+
+    /// The same with so many bits.
+    fn extras_in(&self, at: &Rational, side: Side, bits: u64) -> Result<Ball, MethodError> {
+        let field = self.numbers.field(bits);
         let mut sum = Ball::zero();
         for extra in &self.taps.extras {
             let since = &self.slowness.scale(at) - &extra.origin;
@@ -260,10 +253,11 @@ impl Marched {
             let function =
                 Transform::<ComplexBall>::embedded(&exact, &field).map_err(EvaluateError::from)?;
             let x = field.embed(&since.into()).map_err(EvaluateError::from)?;
-            let value = value_at(&function, &x, &self.numbers, BITS)?;
-            sum = sum.add(value.real(), BITS);
+            let value = value_at(&function, &x, &self.numbers, bits)?;
+            sum = sum.add(value.real(), bits);
         }
-        Ok(sum.multiply(&self.unit, BITS).to_double().0)
+        let unit = self.numbers.enclose_root(&self.unit, bits).map_err(EvaluateError::from)?;
+        Ok(sum.multiply(&unit, bits))
     }
 
     /// The values at times: one march through all periods that are seen.
@@ -272,10 +266,8 @@ impl Marched {
             return Err(MethodError::Outside);
         }
         let weights = self.weights()?;
-        let mut values = Vec::with_capacity(times.len());
         let mut places = Vec::new();
         for (value, at) in times.iter().enumerate() {
-            values.push(self.extras(at, side)?);
             for (tap, weight) in self.taps.taps.iter().zip(&weights) {
                 let seen = self.place(&tap.since, at, side)?;
                 let found = self.place(&tap.delay, at, side)?;
@@ -285,7 +277,15 @@ impl Marched {
                 }
             }
         }
-        self.march(places, values)
+        let mut values = self.march(places, times.len())?;
+        if !self.taps.extras.is_empty() {
+            // What is added can be much larger than the response: the sum is rounded once.
+            for (value, at) in values.iter_mut().zip(times) {
+                let response = Ball::from_rational(&rational(*value), 64);
+                *value = response.add(&self.extras(at, side)?, SUM_BITS).to_double().0;
+            }
+        }
+        Ok(values)
     }
 
     /// The same for doubles, just after arrivals, where periods and delays are rational numbers and
@@ -314,16 +314,16 @@ impl Marched {
                 let Some(position) = reduction.of_double(*time, fixed::Side::Right).ok()? else {
                     continue;
                 };
-                let local = position.fraction() as f64 / POSITION_UNITS;
-                let period = position.period() as usize;
+                let (period, local) = (position.period() as usize, position.local());
                 places.push(Place { period, local, value, weight: *weight });
             }
         }
-        Some(self.march(places, vec![0.0; times.len()]))
+        Some(self.march(places, times.len()))
     }
 
-    /// Adds the response at all places to values.
-    fn march(&self, mut places: Vec<Place>, mut values: Vec<f64>) -> Result<Vec<f64>, MethodError> {
+    /// The weighted sums of the response at all places, for so many values.
+    fn march(&self, mut places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError> {
+        let mut values = vec![0.0; count];
         places.sort_by_key(|place| place.period);
         let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
         let mut march = March::new(&self.reflection, options).map_err(refused)?;
@@ -375,7 +375,7 @@ impl Method for Marched {
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
-        let window = self.doubles();
+        let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
         if !at.iter().all(|time| window.contains(time)) {
             return Err(MethodError::Outside);
         }

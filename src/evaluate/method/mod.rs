@@ -126,6 +126,9 @@ impl fmt::Display for MethodError {
             MethodError::Table(error) => error.fmt(f),
             MethodError::Kernel(reason) => f.write_str(reason),
             MethodError::Outside => f.write_str("a time outside the window"),
+            MethodError::TooManyPeriods { periods: usize::MAX, limit } => {
+                write!(f, "far more periods than the {limit} that this method takes at most")
+            }
             MethodError::TooManyPeriods { periods, limit } => {
                 write!(f, "{periods} periods, where this method takes at most {limit}")
             }

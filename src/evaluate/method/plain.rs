@@ -7,6 +7,7 @@
 use super::echo_sums::EchoSums;
 use super::{Method, MethodError};
 use crate::ball::Ball;
+use crate::evaluate::cells::rational;
 use crate::evaluate::evaluator::Side;
 use crate::evaluate::signal::Signal;
 use wavestep_kernels::echoes;
@@ -61,13 +62,14 @@ impl Method for Plain {
 
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
         let high = Ball::from_rational(at, 128).to_double().0;
-        self.sums.value(echoes::Method::Plain, (high, 0.0), side)
+        self.sums.value(echoes::Method::Plain, (high, 0.0), &|| at.clone(), side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         for (time, value) in at.iter().zip(values) {
-            *value = self.sums.value(echoes::Method::Plain, (*time, 0.0), Side::Right)?;
+            let exact = || rational(*time);
+            *value = self.sums.value(echoes::Method::Plain, (*time, 0.0), &exact, Side::Right)?;
         }
         Ok(())
     }

@@ -7,6 +7,7 @@
 use super::echo_sums::EchoSums;
 use super::{Method, MethodError};
 use crate::ball::Ball;
+use crate::evaluate::cells::rational;
 use crate::evaluate::evaluator::Side;
 use crate::evaluate::signal::Signal;
 use wavestep_kernels::echoes;
@@ -93,7 +94,7 @@ impl Method for Stable {
             StablePrecision::DoubleDouble => echoes::Method::DoubleDouble,
         };
         let (high, rest) = Ball::from_rational(at, 128).split();
-        self.sums.value(method, (high, rest.midpoint().to_double()), side)
+        self.sums.value(method, (high, rest.midpoint().to_double()), &|| at.clone(), side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
@@ -108,7 +109,7 @@ impl Method for Stable {
             StablePrecision::DoubleDouble => echoes::Method::DoubleDouble,
         };
         for (time, value) in at.iter().zip(values) {
-            *value = self.sums.value(method, (*time, 0.0), Side::Right)?;
+            *value = self.sums.value(method, (*time, 0.0), &|| rational(*time), Side::Right)?;
         }
         Ok(())
     }

@@ -1,0 +1,372 @@
+//! The built command in doubles: tolerances that are kept, methods by name, what is refused and how,
+//! and C files.
+
+use num_rational::BigRational;
+use num_traits::{FromPrimitive as _, Signed as _};
+use proptest::prelude::RngExt as _;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use wavestep::language::parse_number;
+
+/// A folder of its own for the files of a test, empty.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("answer-command-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The command with the words of a line as arguments.
+fn command(line: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
+    command.args(line.split_whitespace()).stdin(Stdio::null());
+    command.env("COLUMNS", "100").env("NO_COLOR", "1");
+    command
+}
+
+/// Standard output and standard error of a command that does its work.
+fn both(line: &str) -> (String, String) {
+    let Output { status, stdout, stderr } = command(line).output().unwrap();
+    let stderr = String::from_utf8(stderr).unwrap();
+    assert!(status.success(), "{line}: {stderr}");
+    (String::from_utf8(stdout).unwrap(), stderr)
+}
+
+/// The value that a line of output ends with.
+fn printed(line: &str) -> f64 {
+    line.trim().rsplit(' ').next().unwrap().parse().unwrap_or_else(|_| panic!("{line}"))
+}
+
+/// The same value in forty digits, and what its rounding may be.
+fn in_digits(line: &str) -> (BigRational, BigRational) {
+    let (stdout, _) = both(&format!("{line} --digits 40 --format json"));
+    let document: Value = serde_json::from_str(&stdout).unwrap();
+    let value = document["values"][0]["value"].as_str().unwrap();
+    let value = parse_number(value).unwrap();
+    let rounding = value.abs() / BigRational::from_integer(10_u64.pow(18).into());
+    let rounding = rounding / BigRational::from_integer(10_u64.pow(18).into());
+    (value, rounding)
+}
+
+fn exact(value: f64) -> BigRational {
+    BigRational::from_f64(value).expect("a number")
+}
+
+// ---- What is asked for is given -----------------------------------------------------------------
+
+/// Values within tolerances at random, absolute ones, against forty digits.
+#[test]
+fn tolerances_are_honoured() {
+    let mut random = TestRng::from_seed(RngAlgorithm::ChaCha, &[81; 32]);
+    let mut compared = 0;
+    for scene in [
+        "rigid-mass --set mu=2/3 --quantity velocity",
+        "rigid-mass --set mu=1/7 --quantity strain_fixed",
+        "pulse-shape --set mu=3 --quantity force",
+        "mass-between-bars --set m=2 --quantity force_wall",
+        "stepped-striker --quantity pulse",
+    ] {
+        for side in ["left", "right"] {
+            for _ in 0..3 {
+                let time = format!("{}/8", random.random_range(0..48));
+                let tolerance = 10f64.powf(random.random_range(-14.5..-1.0));
+                let line = format!("eval {scene} --at {time} --side {side}");
+                let (stdout, stderr) = both(&format!("{line} --tol abs:{tolerance:e}"));
+                assert!(stderr.is_empty(), "{line}: {stderr}");
+                let (value, rounding) = in_digits(&line);
+                let error = (exact(printed(&stdout)) - value).abs();
+                assert!(error <= exact(tolerance) + rounding, "{line} {tolerance:e}");
+                compared += 1;
+            }
+        }
+    }
+    println!("tolerances of the command: {compared} comparisons");
+    assert_eq!(compared, 30);
+}
+
+/// A window that begins with an arrival has both limits there, by every method.
+#[test]
+fn left_limits_at_the_first_time() {
+    for method in ["certified", "compiled", "marched", "stable", "double-double"] {
+        for (mu, time) in [("1", "2"), ("1/3", "2/3"), ("1/10", "1")] {
+            for side in ["left", "right"] {
+                let line =
+                    format!("eval rigid-mass --set mu={mu} --quantity f --at {time} --side {side}");
+                let (stdout, _) = both(&format!("{line} --method {method}"));
+                let (value, _) = in_digits(&line);
+                let error = (exact(printed(&stdout)) - value).abs();
+                assert!(error < exact(1e-14), "{line} --method {method}: {stdout}");
+            }
+        }
+    }
+    // The front of the spring at the toe begins at zero, where irrational terms cancel.
+    let (stdout, _) = both("eval pile --quantity toe_force --at 1 --method certified");
+    assert_eq!(stdout, "toe_force(1) = 0\n");
+}
+
+#[test]
+fn the_way_is_explained() {
+    let line = "eval rigid-mass --set mu=1 --quantity f --from 0 --to 80";
+    let picked = |rest: &str| {
+        let (stdout, stderr) = both(&format!("{line} {rest} --explain"));
+        assert!(stdout.starts_with("f(0) = 1\n"), "{stdout}");
+        let mut rows = stderr.lines().skip(2);
+        let first = rows.next().unwrap().trim_start().to_owned();
+        assert!(first.contains("the cheapest that is proven to be good enough"), "{stderr}");
+        assert_eq!(rows.count(), 5, "{stderr}");
+        first.split(' ').next().unwrap().to_owned()
+    };
+    assert_eq!(picked("--points 2 --tol 1e-16"), "certified");
+    assert_eq!(picked("--points 12000 --tol 1e-15"), "compiled");
+    let (_, stderr) = both(&format!("{line} --points 2 --method compiled --explain"));
+    assert!(stderr.starts_with("compiled, as asked for: at most "), "{stderr}");
+    assert!(stderr.contains("proven"), "{stderr}");
+}
+
+#[test]
+fn formats_hold_the_method_and_its_bound() {
+    let line = "eval rigid-mass --set mu=1 --quantity f --from 0 --to 5 --points 3";
+    let (stdout, _) = both(&format!("{line} --method compiled --format json"));
+    let document: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!(document["method"], "compiled");
+    assert!(document["bound"].as_f64().unwrap() < 1e-15);
+    let by_json: Vec<f64> = document["values"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|v| v["value"].as_f64().unwrap())
+        .collect();
+    let (stdout, _) = both(&format!("{line} --method compiled --format csv"));
+    let mut rows = stdout.lines();
+    assert_eq!(rows.next(), Some("time,time_decimal,value"));
+    let by_csv: Vec<f64> =
+        rows.map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(by_json, by_csv);
+    let (stdout, _) = both(&format!("{line} --method stable --format json"));
+    let document: Value = serde_json::from_str(&stdout).unwrap();
+    assert!(document["bound"].is_null(), "what is measured is no bound");
+    assert!(document["law"].as_str().unwrap().contains("measured"));
+}
+
+/// Methods that are forced give their values, and say on standard error what these are worth.
+#[test]
+fn forced_methods_warn() {
+    let line = "eval rigid-mass --set mu=1 --quantity f --at 80";
+    let warned = |rest: &str, expected: &str| {
+        let (stdout, stderr) = both(&format!("{line} {rest}"));
+        assert!(stdout.starts_with("f(80) = 1.07"), "{stdout}");
+        assert!(stderr.contains(expected), "{rest}: {stderr}");
+    };
+    warned("--method expanded --tol 1e-12", "warning: expanded is off by ");
+    warned("--method stable --tol 1e-9", "note: stable is off by at most ");
+    warned("--method compiled --tol 1e-18", "warning: compiled is proven to be within ");
+    warned("--method marched --tol ulp:4", "not within 4 units in the last place");
+    let model = "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 3 --method";
+    let (_, stderr) = both(&format!("{model} modes:4 --tol 1e-9"));
+    assert!(stderr.starts_with("warning: modes:4 is off by "), "{stderr}");
+    let (_, stderr) = both(&format!("{model} modes:400 --tol 1e-2"));
+    assert!(stderr.starts_with("note: modes:400 is off by at most "), "{stderr}");
+    let (_, stderr) = both(&format!("{model} modes:4"));
+    assert_eq!(stderr, "", "nothing is compared where nothing is asked for");
+}
+
+// ---- What is refused ----------------------------------------------------------------------------
+
+/// Lines with the exit code, the message and the remedy, which may go on.
+const REFUSALS: [(&str, i32, &str, &str); 20] = [
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-20",
+        3,
+        "no double is proven to be within 1e-20 of the largest value",
+        "ask for digits instead: --digits 25",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --tol abs:1e-17",
+        3,
+        "no double is proven to be within 1e-17",
+        "ask for digits instead",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --tol ulp:0.49",
+        3,
+        "no double is proven to be within 0.49 units in the last place of the largest value",
+        "ask for digits instead",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --method magic",
+        2,
+        "there is no method `magic`",
+        "give one of certified, compiled, marched, marched-unproven, stable, double-double, expanded, \
+         rigid, third, modes:N, leapfrog:CELLS,CFL, steps:TOL",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes:few",
+        2,
+        "`few` is no setting of modes",
+        "give one of",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --method compiled:4",
+        2,
+        "`4` is no setting of compiled",
+        "give one of",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --tol often",
+        2,
+        "`often` is no tolerance",
+        "write 1e-9 (of the largest value), abs:1e-9 or ulp:4",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --tol rel:1e-9",
+        2,
+        "`rel:1e-9` is no tolerance",
+        "write 1e-9",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes",
+        1,
+        "modes models a scene of bars, and this is a recurrence",
+        "describe it by its parts: see docs/scene-language.md",
+    ),
+    (
+        "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --side left --method modes",
+        1,
+        "modes gives values just after arrivals only",
+        "leave out --side left",
+    ),
+    (
+        "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --method rigid",
+        1,
+        "the model \"rigid body\" does not represent this",
+        "use another model, or a method on the exact solution",
+    ),
+    (
+        "eval pile --quantity energy --at 2 --tol 1e-9",
+        1,
+        "energy is an energy, quadratic in the waves",
+        "ask for digits by `wavestep eval`, without --tol",
+    ),
+    (
+        "eval incommensurate --quantity wall_force --at 100us --method stable",
+        1,
+        "echoes arrive on no common grid",
+        "use --method compiled or certified",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 100000000 --method marched",
+        1,
+        "50000000 periods, where this method takes at most 10000000",
+        "ask for a shorter window, or use --method certified",
+    ),
+    (
+        "eval rigid-mass --quantity f --at 2 --tol 1e-9",
+        2,
+        "the symbol mu has no value",
+        "give it one: --set mu=1",
+    ),
+    (
+        "eval rigid-mass --set mu=1 --quantity f --at 2 --explain",
+        2,
+        "--explain tells how values in doubles are computed",
+        "give --tol or --method as well",
+    ),
+    (
+        "export rigid-mass --set mu=1 --as c --quantity f --from 3 --to 2",
+        2,
+        "the window from 3 to 2 is empty",
+        "give --from before --to",
+    ),
+    (
+        "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1e-20",
+        3,
+        "doubles are proven to be within ",
+        "give a larger --tol",
+    ),
+    (
+        "export pile --as c --quantity energy --to 2",
+        1,
+        "energy is an energy, quadratic in the waves",
+        "ask for digits",
+    ),
+    (
+        "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1%",
+        2,
+        "`1%` is no tolerance",
+        "write 1e-9",
+    ),
+];
+
+#[test]
+fn refusals_say_what_is_wrong_and_what_helps() {
+    for (line, code, message, remedy) in REFUSALS {
+        let Output { status, stdout, stderr } = command(line).output().unwrap();
+        let stderr = String::from_utf8(stderr).unwrap();
+        assert_eq!(status.code(), Some(code), "{line}: {stderr}");
+        assert!(stdout.is_empty(), "{line}");
+        assert!(stderr.starts_with(&format!("error: {message}")), "{line}: {stderr}");
+        assert!(stderr.contains(&format!("\nhelp: {remedy}")), "{line}: {stderr}");
+    }
+}
+
+#[test]
+fn options_that_contradict_each_other_are_usage() {
+    let line = "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-9";
+    for other in ["--digits 20", "--stats", "--max-bits 100"] {
+        let Output { status, stderr, .. } = command(&format!("{line} {other}")).output().unwrap();
+        let stderr = String::from_utf8(stderr).unwrap();
+        assert_eq!(status.code(), Some(2), "{other}");
+        assert!(stderr.contains("cannot be used with"), "{other}: {stderr}");
+    }
+}
+
+/// More output than a pipe holds, to a reader that is gone.
+#[test]
+fn a_reader_that_goes_away_ends_it_quietly() {
+    let line = "eval pushed-bar --quantity velocity --from 0 --to 10 --points 50000 --tol 1e-9";
+    let mut child = command(line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let Output { status, stderr, .. } = child.wait_with_output().unwrap();
+    assert_eq!(status.code(), Some(0));
+    assert_eq!(String::from_utf8(stderr).unwrap(), "");
+}
+
+// ---- C files ------------------------------------------------------------------------------------
+
+/// The file names the command that writes it, its bound is within the tolerance, and the command that
+/// it names writes the same file.
+#[test]
+fn a_c_file_tells_how_it_was_written() {
+    let folder = folder("c");
+    let file = folder.join("gauge.c");
+    let line = "export hopkinson --as c --quantity gauge_output --to 500us --tol 1e-6";
+    let (stdout, _) = both(&format!("{line} -o {}", file.display()));
+    let text = fs::read_to_string(&file).unwrap();
+    assert_eq!(stdout, format!("{}: {} bytes\n", file.display(), text.len()));
+    let stated = text.lines().find_map(|l| l.strip_prefix(" *   wavestep ")).unwrap();
+    assert_eq!(
+        stated,
+        "export hopkinson --as c --quantity gauge_output --from 0 --to 500us --tol 1e-6"
+    );
+    let (again, _) = both(stated);
+    assert_eq!(again, text);
+    let bound = text.lines().find_map(|l| l.strip_prefix("#define WAVESTEP_GAUGE_OUTPUT_BOUND "));
+    let bound: f64 = bound.unwrap().parse().unwrap();
+    // The strain behind a striker of 10 m/s is about V/(2c): some 1e-3.
+    assert!(bound > 0.0 && bound <= 1e-6 * 2e-3, "{bound:e}");
+    assert!(text.contains("in s;"), "the unit of time");
+}
+
+/// A file that cannot be written is a fault of usage, and no part of it is left.
+#[test]
+fn a_file_is_written_whole_or_not_at_all() {
+    let folder = folder("nowhere");
+    let file = folder.join("missing").join("f.c");
+    let line = "export rigid-mass --set mu=1 --as c --quantity f --to 2 -o";
+    let output = command(&format!("{line} {}", file.display())).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
