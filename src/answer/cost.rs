@@ -30,6 +30,19 @@ pub struct Size {
 }
 
 /// What a way costs, in seconds.
+///
+/// ```
+/// use wavestep::answer::{Cost, Kind, Size};
+///
+/// let size = Size { order: 10, points: 1000, marches: true };
+/// let stable = Cost::of("stable".parse().unwrap(), size).unwrap();
+/// let pairs = Cost::of("double-double".parse().unwrap(), size).unwrap();
+/// // Pairs of doubles cost more a value, and neither needs preparation.
+/// assert!(pairs.point > stable.point && stable.setup == 0.0 && pairs.setup == 0.0);
+/// assert_eq!(Cost { setup: 1.0, point: 0.5 }.seconds(4), 3.0);
+/// // A model is never picked by its cost.
+/// assert_eq!(Cost::of(Kind::Rigid, size), None);
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Cost {
     /// Before the first value.
@@ -76,7 +89,7 @@ impl Cost {
         Some(Cost { setup, point })
     }
 
-    /// The cost of so many values.
+    /// The cost of so many values, in seconds: `setup + points · point`.
     pub fn seconds(&self, points: usize) -> f64 {
         self.setup + self.point * points as f64
     }

@@ -14,5 +14,5 @@ mod weigh;
 pub use cost::{Cost, Size};
 pub use problem::Problem;
 pub use tolerance::{InvalidTolerance, Tolerance};
-pub use way::{InvalidWay, Kind, Way, WayError, Ways};
+pub use way::{InvalidWay, Kind, Way, WayError};
 pub use weigh::{Candidate, Promise, Weighed, consider};

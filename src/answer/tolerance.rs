@@ -13,8 +13,8 @@ use std::str::FromStr;
 /// ```
 /// use wavestep::answer::Tolerance;
 ///
-/// let absolute = |text: &str| text.parse::<Tolerance>().map(|t| t.absolute(6.0));
-/// assert_eq!(absolute("1e-9"), Ok(6e-9));
+/// let absolute = |text: &str| text.parse::<Tolerance>().map(|t| t.absolute(4.0));
+/// assert_eq!(absolute("1e-9"), Ok(4e-9));
 /// assert_eq!(absolute("abs:1e-9"), Ok(1e-9));
 /// assert_eq!(absolute("ulp:4"), Ok(2f64.powi(-48)));
 /// assert!(absolute("-1").is_err() && absolute("rel:1").is_err());

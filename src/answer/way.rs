@@ -19,10 +19,18 @@ use wavestep_polynomial::Rational;
 /// use wavestep::answer::Kind;
 ///
 /// assert_eq!("modes:1000".parse(), Ok(Kind::Modes { count: 1000 }));
+/// assert!(Kind::Rigid.is_model() && !Kind::Plain.is_model());
 /// assert_eq!("leapfrog:400,0.9".parse(), Ok(Kind::Leapfrog { cells: 400, courant: 0.9 }));
 /// assert_eq!("compiled".parse::<Kind>().unwrap().to_string(), "compiled");
 /// let error = "modes:few".parse::<Kind>().unwrap_err();
 /// assert_eq!(error.to_string(), "`few` is no setting of modes");
+/// let modes = Kind::Modes { count: 30 };
+/// assert_eq!((modes.name(), modes.setting().as_str()), ("modes", "30"));
+/// // Every name in the list is read, and gives itself.
+/// for (written, _) in Kind::NAMES {
+///     let name = written.split(':').next().unwrap();
+///     assert_eq!(name.parse::<Kind>().unwrap().name(), name);
+/// }
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Kind {
@@ -231,7 +239,9 @@ impl fmt::Display for WayError {
             WayError::NeedsScene(name) => {
                 write!(f, "{name} models a scene of bars, and this is a recurrence")
             }
-            WayError::LeftLimit(name) => write!(f, "{name} gives values just after arrivals only"),
+            WayError::LeftLimit(name) => {
+                write!(f, "{name} is a model, and has no limits from one side")
+            }
         }
     }
 }
@@ -251,7 +261,7 @@ impl From<ModelError> for WayError {
 }
 
 /// A way that is ready to give values.
-pub enum Ways<'a> {
+enum Ways<'a> {
     /// A method on the exact solution.
     Method(Box<dyn Method + 'a>),
     /// A model, and the place of the observable in the scene.
@@ -262,7 +272,7 @@ pub enum Ways<'a> {
 ///
 /// ```
 /// use wavestep::answer::{Kind, Problem, Way};
-/// use wavestep::evaluate::Signal;
+/// use wavestep::evaluate::{Side, Signal};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -273,6 +283,13 @@ pub enum Ways<'a> {
 /// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
 /// let way = Way::new(Kind::Compiled, &problem, None).unwrap();
 /// assert!((way.values(&[1.0]).unwrap()[0] - (-1f64).exp()).abs() <= way.bound().unwrap() + 1e-16);
+/// assert_eq!(way.kind(), Kind::Compiled);
+/// assert!(way.law().contains("proven"));
+/// // The echo at 2 is a jump by 1, seen in limits from both sides.
+/// let two = parse_number("2")?;
+/// let [left, right] = [Side::Left, Side::Right].map(|side| way.value(&two, side).unwrap());
+/// assert!((right - left - 1.0).abs() < 1e-15);
+/// assert_eq!(way.exact_values(&[two], Side::Left).unwrap(), [left]);
 /// assert!(Way::new(Kind::Rigid, &problem, None).is_err());
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```

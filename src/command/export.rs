@@ -7,9 +7,12 @@ use super::input;
 use super::output;
 use super::problem::{is_dimensional, with_problem};
 use super::progress;
+use num_rational::BigRational;
+use num_traits::ToPrimitive as _;
 use wavestep::answer::Tolerance;
 use wavestep::evaluate::{Compiled, Method as _};
 use wavestep::export::{CHeading, to_c};
+use wavestep::language;
 
 /// Writes the program that is asked for.
 pub fn run(options: &Export) -> Result<String, Failure> {
@@ -22,6 +25,9 @@ pub fn run(options: &Export) -> Result<String, Failure> {
         let message = format!("the window from {from} to {to} is empty");
         return Err(Failure::usage(message, "give --from before --to"));
     }
+    // The double nearest to the end belongs to the window, also where it lies beyond.
+    let nearest = to.to_f64().and_then(BigRational::from_float);
+    let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));
     let text = with_problem(subject, &options.quantity, (from, to), |problem, titles| {
         let spinner = progress::spinner("expanding the observable");
         let absolute = tolerance.absolute(problem.scale()?);
@@ -38,7 +44,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
         let tol = options.tol.as_ref().map_or(String::new(), |tol| format!(" --tol {tol}"));
         let heading = CHeading {
             title: titles.title.clone(),
-            quantity: options.quantity.clone(),
+            quantity: language::normalise_name(&options.quantity),
             unit: titles.unit.clone(),
             time_unit: titles.time_unit.clone(),
             command: format!(

@@ -144,7 +144,7 @@ impl From<EvaluateError> for Failure {
                 Failure::Computation(message, "ask for an earlier time".to_owned())
             }
             EvaluateError::NotLinear(_) => {
-                let remedy = "ask for a force or a velocity, or for digits with `wavestep eval`";
+                let remedy = "ask for a force or a velocity, or for digits: `eval` without --tol and --method";
                 Failure::Computation(message, remedy.to_owned())
             }
             EvaluateError::EmptyWindow => Failure::usage(message, "give --from before --to"),

@@ -7,7 +7,7 @@
 use crate::ball::{Ball, Binary, Magnitude};
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::marched_pieces::MarchedPieces;
-use crate::evaluate::signal::{Signal, Stretch};
+use crate::evaluate::signal::{MAX_PIECES, Signal, Stretch};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::Fraction;
 use num_traits::Signed as _;
@@ -79,6 +79,11 @@ impl<'a> Window<'a> {
         from: &Rational,
         to: &Rational,
     ) -> Result<Window<'a>, EvaluateError> {
+        let order = signal.order(to)?;
+        if signal.is_on_grid() && order > MAX_PIECES {
+            let (echoes, limit) = (order as u128, MAX_PIECES);
+            return Err(EvaluateError::TooManyEchoes { echoes, limit });
+        }
         let mut stretches = signal.stretches(from, to)?;
         if let Some(before) = ending_at(signal, from)? {
             stretches.insert(0, before);
@@ -99,6 +104,26 @@ impl<'a> Window<'a> {
     pub(crate) fn marching(mut self) -> Window<'a> {
         self.marched = MarchedPieces::of(self.signal, &self.from, &self.to);
         self
+    }
+
+    /// The double nearest to the value at a time of a stretch, or next to it where that is not decided:
+    /// balls with bits enough for all but ties.
+    pub(crate) fn enclosed(&self, at: &Rational, stretch: usize) -> Result<f64, EvaluateError> {
+        const BITS: [u64; 4] = [128, 256, 512, 1024];
+        let at = self.signal.slowness().scale(at);
+        let mut near = 0.0;
+        for bits in BITS {
+            let ball = self.signal.enclose(&self.stretches[stretch], 0, &at, bits)?;
+            if let Some(value) = ball.rounded() {
+                return Ok(value);
+            }
+            near = ball.midpoint().to_double();
+            // An exact zero, or a tie: nothing is gained by more bits.
+            if *ball.radius() <= ball.midpoint().magnitude().scale(-200) {
+                break;
+            }
+        }
+        Ok(near)
     }
 
     /// Correctly rounded values from a march, where there is one that gives them, and the places of
@@ -228,10 +253,11 @@ impl<'a> Window<'a> {
         (fit, bits): (Fit, u64),
     ) -> Result<Option<Cell>, EvaluateError> {
         let middle = first + (last - first) / 2.0;
-        // The difference of two doubles may be rounded: the next one is large enough. A cell of one
-        // double is as wide as its distance to the next one.
-        let half = (last - middle).max(middle - first).next_up();
-        let half = half.max(middle.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
+        // The difference of two doubles may be rounded: the next one is large enough. Times between
+        // the cell's doubles and the next ones belong to it as well.
+        let beside = first.abs().max(last.abs()) * f64::EPSILON;
+        let half = (last - middle).max(middle - first).next_up() + beside;
+        let half = half.max(f64::MIN_POSITIVE);
         let mut taylor = self.expand(stretch, (middle, half), (fit, bits))?;
         let loses = |most| first < last && taylor.rounding() > most;
         if taylor.remainder > fit.error || fit.rounding.is_some_and(loses) {
@@ -270,7 +296,7 @@ impl<'a> Window<'a> {
 ///
 /// # Errors
 /// [`EvaluateError`], where the window has too many arrivals.
-pub fn scale(signal: &Signal, from: &Rational, to: &Rational) -> Result<f64, EvaluateError> {
+pub(crate) fn scale(signal: &Signal, from: &Rational, to: &Rational) -> Result<f64, EvaluateError> {
     Ok(Window::new(signal, from, to)?.scale()?.to_double())
 }
 

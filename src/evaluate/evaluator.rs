@@ -320,6 +320,9 @@ type Row = Vec<(Rational, Rc<Univariate>)>;
 /// let value = evaluator.value(&f, &parse_number("33/10")?, Side::Right, 30, 1000).unwrap();
 /// let Value::Certified(certified) = value else { panic!("f is irrational there") };
 /// assert_eq!(certified.decimal.to_string(), "0.305385264408791064086396952466");
+/// // f starts at 1, a rational number.
+/// let rational = |at| evaluator.rational(&f, &parse_number(at).unwrap(), Side::Right).unwrap();
+/// assert_eq!((rational("0"), rational("33/10")), (Some(parse_number("1")?), None));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub struct Evaluator<'a> {

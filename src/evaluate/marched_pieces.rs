@@ -17,7 +17,7 @@ use wavestep_kernels::fixed::{self, DelayEquation, March, MarchOptions};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The bits below the point of the march.
-const FRACTION_BITS: i64 = 112;
+const FRACTION_BITS: i64 = fixed::FRACTION_BITS as i64;
 
 /// The most periods that are marched through: some hundred kilobytes each hundred.
 const MAX_PERIODS: u32 = 4_000;
@@ -69,6 +69,16 @@ impl MarchedPieces {
         let last = taps.iter().map(|tap| (to * &slowness - &tap.delay) / &period).max()?;
         let periods = last.floor().to_integer().to_u32()?.checked_add(1)?;
         if periods > MAX_PERIODS {
+            return None;
+        }
+        // What is added must be known by its numbers, too.
+        let numbers = Numbers::new(&[]);
+        let is_known = |extra: &Extra| {
+            let function = Transform::of(&extra.function, &signal.recurrence().statement().local);
+            let known = Transform::<ComplexBall>::embedded(&function, &numbers.field(64)).is_ok();
+            known && extra.origin.as_constant().is_some()
+        };
+        if !extras.iter().all(is_known) {
             return None;
         }
         let equation = DelayEquation::new(&period, &rate, &zero, &ratio).ok()?;

@@ -85,6 +85,10 @@ pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 /// };
 /// // In N, and in J: half of 0.74 kg times (10 m/s)², whatever the time.
 /// assert_eq!((value(0).as_str(), value(1).as_str()), ("29714.1576", "36.9922535"));
+/// // Nothing is felt before the strike; an energy is not linear in the waves.
+/// let start = network.scaled_time(&parse_number("0")?);
+/// let rational = |i: usize| evaluator.rational(&network.observables()[i], &start, Side::Left);
+/// assert_eq!((rational(0), rational(1)), (Ok(Some(parse_number("0")?)), Ok(None)));
 /// // Two echoes of each wave can be there: the first, and one from the far end of the striker.
 /// assert!(evaluator.expanded() <= evaluator.needed());
 /// # Ok::<(), wavestep::language::Diagnostic>(())

@@ -20,6 +20,22 @@ use wavestep_polynomial::Rational;
 const MAX_FIRST: usize = 4;
 
 /// `weight · Y(T − delay)`, from a time on.
+///
+/// ```
+/// use wavestep::evaluate::{Tap, Taps};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("g").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// // g[n] = −f[n−1]: minus the response, one period later.
+/// let [Tap { weight, delay, since }] = &Taps::of(&signal).unwrap().taps[..] else { panic!() };
+/// assert_eq!((weight.to_string(), delay.to_string()), ("-1".to_owned(), "2".to_owned()));
+/// assert_eq!(since, delay);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Tap {
     /// The weight.
@@ -31,6 +47,15 @@ pub struct Tap {
 }
 
 /// A function that is added from a time on: `function(T − origin)`, in the local time.
+///
+/// ```
+/// use wavestep::evaluate::Extra;
+/// use wavestep::expression::{Expression, Fraction};
+///
+/// // 1 from the beginning on.
+/// let step = Extra { function: Expression::one(), origin: Fraction::zero() };
+/// assert!(step.function.is_one() && step.origin.is_zero());
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Extra {
     /// The exponential polynomial.
@@ -74,6 +99,25 @@ pub struct Taps {
 }
 
 /// Why an observable is no sum of taps.
+///
+/// ```
+/// use wavestep::evaluate::{NoTaps, Signal, Taps};
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let source = Source::new("two poles", r#"
+///     recurrence "Two poles"
+///     period 2, local s, time t
+///     wave h, f
+///     equation h[n]' + h[n] = h[n-1]' - h[n-1]
+///     equation f[n]' + 2*f[n] = h[n]
+///     continuous h[n] - h[n-1] starts at 1
+///     continuous f[n] starts at 0
+/// "#)?;
+/// let recurrence = read_recurrence(&source, &Default::default())?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// assert_eq!(Taps::of(&signal), Err(NoTaps::NoForm("f".to_owned())));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum NoTaps {
     /// Echoes arrive on no grid.

@@ -181,6 +181,7 @@ impl Taylor {
     }
 
     /// An enclosure of the function at all `u` of a ball within `|u| ≤ 1`.
+    #[cfg(test)]
     pub(crate) fn value(&self, u: &Ball, bits: u64) -> Ball {
         let horner = |value: Ball, c: &Ball| value.multiply(u, bits).add(c, bits);
         let value = self.coefficients.iter().rev().fold(Ball::zero(), horner);

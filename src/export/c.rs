@@ -8,6 +8,20 @@ use crate::evaluate::{Compiled, Method as _};
 use std::fmt::Write as _;
 
 /// What a C file says of itself.
+///
+/// ```
+/// use wavestep::export::CHeading;
+///
+/// let heading = CHeading {
+///     title: "Rigid mass on a fixed bar".into(),
+///     quantity: "velocity".into(),
+///     unit: "V".into(),
+///     time_unit: "L/(mu c)".into(),
+///     command: "wavestep export rigid-mass".into(),
+/// };
+/// // The function of the file is `wavestep_velocity`: a name in C.
+/// assert!(heading.quantity.chars().all(|c| c.is_alphanumeric() || c == '_'));
+/// ```
 #[derive(Clone, Debug)]
 pub struct CHeading {
     /// The title of the scene.
@@ -77,7 +91,10 @@ pub fn to_c(compiled: &Compiled<'_>, heading: &CHeading) -> String {
     let end = table.end();
     let length = table.degree() + 1;
     let count = (2 * pieces.len()).next_power_of_two();
-    let (name, bound) = (&heading.quantity, number(compiled.bound().unwrap_or(f64::INFINITY)));
+    // An identifier, whatever the observable is called.
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let name: String = heading.quantity.chars().map(letter).collect();
+    let bound = number(compiled.bound().unwrap_or(f64::INFINITY));
     // What ends a comment would end this one.
     let plain = |text: &str| text.replace("*/", "* /").replace(['\n', '\r'], " ");
     let unit = |unit: &str| if unit.is_empty() { "1".to_owned() } else { plain(unit) };

@@ -26,6 +26,17 @@ const LAST: i64 = 10;
 ///
 /// # Errors
 /// [`PlotError`], where nothing was measured.
+///
+/// ```
+/// use wavestep::plot::Caption;
+/// use wavestep::study::near_confluence;
+///
+/// // At a distance of 1/10 and 1/100 the formula loses digits, the polynomials do not.
+/// let chart = near_confluence(2, Caption::default()).unwrap();
+/// let [expanded, compiled] = chart.curves() else { panic!("two methods") };
+/// assert_eq!(expanded.points.len(), 3);
+/// assert!(expanded.points[2].1 > 1e3 * compiled.points[2].1);
+/// ```
 pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, PlotError> {
     let kinds = [Kind::Expanded, Kind::Compiled];
     let mut curves = kinds.map(|kind| Curve { name: kind.to_string(), points: Vec::new() });

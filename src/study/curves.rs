@@ -8,6 +8,13 @@ use crate::study::reference::{Reference, Sampling};
 use wavestep_polynomial::Rational;
 
 /// The methods in doubles whose errors are followed.
+///
+/// ```
+/// use wavestep::study::DOUBLES;
+///
+/// // Only one of them fails before long: the formula as printed.
+/// assert_eq!(DOUBLES[0].to_string(), "expanded");
+/// ```
 pub const DOUBLES: [Kind; 6] = [
     Kind::Expanded,
     Kind::Plain,
@@ -17,8 +24,17 @@ pub const DOUBLES: [Kind; 6] = [
     Kind::Compiled,
 ];
 
-/// An error from which on a result is of no use, and one at which half of the digits are lost.
+/// An error, in parts of the largest value, from which on a result is of no use.
+///
+/// ```
+/// use wavestep::study::USELESS;
+///
+/// // A thousandth: a line that is as wide in a chart.
+/// assert_eq!(USELESS, 1.0 / 1000.0);
+/// ```
 pub const USELESS: f64 = 1e-3;
+
+/// An error at which half of the digits are lost.
 const HALF: f64 = 1e-8;
 
 /// A curve, with what a way refused as a remark.
@@ -59,6 +75,31 @@ fn levelled(
 ///
 /// # Errors
 /// [`PlotError`], where no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::plot::{Axis, Caption};
+/// use wavestep::study::{Reference, Sampling, over_time};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("60")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 60.0);
+/// let reference = Reference::new(&problem, &times).unwrap();
+/// let axis = Axis::linear("time t");
+/// let chart = over_time(&reference, &problem, axis, 10, Caption::default()).unwrap();
+/// let error = |name: &str| {
+///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
+///     curve.points.last().unwrap().1
+/// };
+/// // By n = 30 the formula as printed has lost what the stable sum keeps.
+/// assert!(error("expanded") > 1e-8 && error("stable") < 1e-13);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn over_time(
     reference: &Reference,
     problem: &Problem<'_>,
@@ -84,6 +125,27 @@ pub fn over_time(
 ///
 /// # Errors
 /// [`PlotError`], where no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::plot::Caption;
+/// use wavestep::study::{Reference, Sampling, near_zeros};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 20.0);
+/// let reference = Reference::new(&problem, &times).unwrap();
+/// let chart = near_zeros(&reference, &problem, Caption::default()).unwrap();
+/// // Sizes are parts of the largest value, so that none is above 1, but for the width of a decade.
+/// let mut sizes = chart.curves().iter().flat_map(|curve| &curve.points);
+/// assert!(sizes.all(|(size, error)| *size < 4.0 && *error >= 0.0));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn near_zeros(
     reference: &Reference,
     problem: &Problem<'_>,
@@ -118,6 +180,26 @@ fn larger(worst: Option<f64>, error: f64) -> Option<f64> {
 ///
 /// # Errors
 /// [`PlotError`], where no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::plot::Caption;
+/// use wavestep::study::at_arrivals;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("9")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let chart = at_arrivals(&problem, 100, Caption::default()).unwrap();
+/// // Arrivals at 2, 4, 6 and 8.
+/// let compiled = chart.curves().iter().find(|curve| curve.name == "compiled").unwrap();
+/// assert!(compiled.points.iter().map(|(n, _)| *n).eq([1.0, 2.0, 3.0, 4.0]));
+/// assert!(compiled.points.iter().all(|(_, error)| *error < 1e-15));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn at_arrivals(
     problem: &Problem<'_>,
     most: usize,
@@ -149,6 +231,27 @@ pub fn at_arrivals(
 ///
 /// # Errors
 /// [`PlotError`], where no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::plot::Caption;
+/// use wavestep::study::over_order;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let chart = over_order(&problem, 2.0, &[5, 40], Caption::default()).unwrap();
+/// let error = |name: &str| {
+///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
+///     curve.points.last().unwrap().1
+/// };
+/// assert!(error("expanded") > 1e-3 && error("double-double") < 1e-15);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn over_order(
     problem: &Problem<'_>,
     period: f64,
@@ -171,6 +274,28 @@ pub fn over_order(
 ///
 /// # Errors
 /// [`PlotError`], where modes have no values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::plot::Caption;
+/// use wavestep::study::near_jump;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_scene};
+/// # use wavestep::network::Network;
+/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
+/// # let network = Network::new(&scene).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("9")?);
+/// # let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
+/// # let scene = Some((&network, 1));
+/// # let problem = Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to };
+/// let chart = near_jump(&problem, "", Caption::default()).unwrap();
+/// // Thirty modes miss part of the jump that three thousand follow at a distance.
+/// let [few, _, many] = chart.curves() else { panic!("three sums") };
+/// assert!(few.points.first().unwrap().1 > many.points.last().unwrap().1);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn near_jump(
     problem: &Problem<'_>,
     unit: &str,
@@ -204,6 +329,32 @@ pub fn near_jump(
 ///
 /// # Errors
 /// [`PlotError`], where finite differences have no values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::plot::Caption;
+/// use wavestep::study::{Reference, Sampling, over_courant};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_scene};
+/// # use wavestep::network::Network;
+/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
+/// # let network = Network::new(&scene).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
+/// # let scene = Some((&network, 1));
+/// # let problem = Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to };
+/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 8.0);
+/// let reference = Reference::new(&problem, &times).unwrap();
+/// let chart = over_courant(&problem, (&reference, 50), Caption::default()).unwrap();
+/// let mean = &chart.curves()[0];
+/// assert_eq!(mean.name, "50 cells, mean");
+/// // Best where a step of time takes a wave through one cell: at Courant's number 1.
+/// let (last, others) = mean.points.split_last().unwrap();
+/// assert!(last.0 == 1.0 && others.iter().all(|(_, error)| *error > last.1));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn over_courant(
     problem: &Problem<'_>,
     (reference, most_cells): (&Reference, usize),
@@ -238,6 +389,28 @@ pub fn over_courant(
 ///
 /// # Errors
 /// [`PlotError`], where nothing was measured.
+///
+/// ```
+/// use std::time::Duration;
+/// use wavestep::answer::Problem;
+/// use wavestep::plot::Caption;
+/// use wavestep::study::{Settings, cost_over_order};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let settings = Settings { runs: 1, time: Duration::ZERO };
+/// let chart = cost_over_order(&problem, 2.0, &[1, 4], settings, Caption::default()).unwrap();
+/// let curve = |name: &str| chart.curves().iter().find(|curve| curve.name == name);
+/// assert!(curve("compiled, preparation of one period").is_some());
+/// let certified = curve("certified, a value").unwrap();
+/// assert!(certified.points.iter().all(|(_, seconds)| *seconds > 0.0));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn cost_over_order(
     problem: &Problem<'_>,
     period: f64,

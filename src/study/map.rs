@@ -12,6 +12,29 @@ const TIMES: usize = 8;
 
 /// One row of a map: the largest error on each of some periods, for each of some ways; `None` where a
 /// way has no values.
+///
+/// ```
+/// use wavestep::answer::{Kind, Problem};
+/// use wavestep::study::errors_by_order;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let kinds = [Kind::Expanded, Kind::Compiled, Kind::Rigid];
+/// let [expanded, compiled, rigid] = &errors_by_order(&problem, 2.0, &[1, 30], &kinds)[..] else {
+///     panic!("a row for each")
+/// };
+/// // The formula as printed loses its digits with the order; polynomials do not.
+/// assert!(expanded[0].unwrap() < 1e-14 && expanded[1].unwrap() > 1e-8);
+/// assert!(compiled.iter().all(|error| error.unwrap() < 1e-15));
+/// // A model has no values without a scene.
+/// assert_eq!(*rigid, [None, None]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub fn errors_by_order(
     problem: &Problem<'_>,
     period: f64,
@@ -40,6 +63,18 @@ pub fn errors_by_order(
 ///
 /// # Errors
 /// [`PlotError`], where there are no rows.
+///
+/// ```
+/// use wavestep::answer::Kind;
+/// use wavestep::plot::Caption;
+/// use wavestep::study::order_map;
+///
+/// let rows = [(0.25, vec![Some(1e-16), Some(1e-9)]), (1.0, vec![Some(1e-14), None])];
+/// let map = order_map(Kind::Expanded, "mu", &[10, 40], &rows, Caption::default())?;
+/// // Columns are orders, rows values of the parameter.
+/// assert_eq!((map.cell(1, 0), map.cell(1, 1)), (Some(1e-9), None));
+/// # Ok::<(), wavestep::plot::PlotError>(())
+/// ```
 pub fn order_map(
     kind: Kind,
     parameter: &str,

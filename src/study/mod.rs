@@ -18,4 +18,4 @@ pub use curves::{
 pub use harness::{Measured, Settings, errors, measure, worst};
 pub use map::{errors_by_order, order_map};
 pub use reference::{Reference, Sampling};
-pub use work::{LADDER, Outcome, ladder, work_precision};
+pub use work::{LADDER, Outcome, Step, ladder, work_precision};

@@ -27,7 +27,19 @@ const MAX_BITS: u64 = 1 << 13;
 /// From how many values on polynomials pay: about what they cost over what a ball costs.
 const MANY: usize = 2_000;
 
-/// Tells a value that is a rational number.
+/// Tells a value that is a rational number: it gives the number at a time and a side, or nothing.
+///
+/// ```
+/// use wavestep::evaluate::{Recogniser, Side};
+/// use wavestep::language::parse_number;
+///
+/// // For sin t, which is rational at 0 alone of all rational times.
+/// let sine: &Recogniser = &|at, _| Ok((*at == Default::default()).then(Default::default));
+/// let zero = parse_number("0")?;
+/// assert_eq!(sine(&zero, Side::Right), Ok(Some(zero.clone())));
+/// assert_eq!(sine(&parse_number("1/2")?, Side::Right), Ok(None));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub type Recogniser<'a> = dyn Fn(&Rational, Side) -> Result<Option<Rational>, EvaluateError> + 'a;
 
 /// Correctly rounded values of an observable on a window.
@@ -49,6 +61,8 @@ pub type Recogniser<'a> = dyn Fn(&Rational, Side) -> Result<Option<Rational>, Ev
 /// // At 0 the value is 1, exactly; at 1 it is 1/e, correctly rounded.
 /// let at = |t| certified.value(&parse_number(t).unwrap(), Side::Right).unwrap();
 /// assert_eq!((at("0"), at("1")), (1.0, 0.36787944117144233));
+/// // Many values come from a table whose pieces are far finer than doubles.
+/// assert!(certified.table().unwrap().certified_bound() < 1e-25);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub struct Certified<'a> {

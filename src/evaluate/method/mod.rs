@@ -97,6 +97,21 @@ pub fn instructions() -> String {
 }
 
 /// Why a method has no value.
+///
+/// ```
+/// use wavestep::evaluate::{Compiled, Method as _, MethodError};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("2")?);
+/// let compiled = Compiled::new(&signal, &from, &to, None).unwrap();
+/// let late = compiled.values(&[1.0, 3.0], &mut [0.0; 2]);
+/// assert_eq!(late, Err(MethodError::Outside));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub enum MethodError {
     /// The exact solution cannot be had.

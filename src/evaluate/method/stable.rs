@@ -14,6 +14,25 @@ use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
 /// In which numbers echoes are summed.
+///
+/// ```
+/// use wavestep::evaluate::{Method as _, Stable, StablePrecision};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("60")?);
+/// let with = |precision| Stable::new(&signal, &from, &to, precision).unwrap();
+/// let (single, pairs) = (with(StablePrecision::Double), with(StablePrecision::DoubleDouble));
+/// assert_eq!((single.name(), pairs.name()), ("stable", "double-double"));
+/// let (mut fast, mut fine) = ([0.0; 2], [0.0; 2]);
+/// single.values(&[7.5, 59.5], &mut fast).unwrap();
+/// pairs.values(&[7.5, 59.5], &mut fine).unwrap();
+/// assert!(fast.iter().zip(fine).all(|(fast, fine)| (fast - fine).abs() < 64.0 * f64::EPSILON));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum StablePrecision {
     /// Doubles.

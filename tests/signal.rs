@@ -1,0 +1,63 @@
+//! Signals against values of scenes, which are had in another way.
+//!
+//! A signal is enclosed from pieces of waves, or from the echoes that have arrived; a scene's value
+//! from its echoes one by one, exactly where it is rational.
+
+use num_traits::Signed as _;
+use std::collections::BTreeMap;
+use wavestep::ball::Ball;
+use wavestep::evaluate::{SceneEvaluator, Side, Signal, Value};
+use wavestep::language::{Source, parse_number, read_scene};
+use wavestep::network::Network;
+use wavestep::scenes::SCENES;
+use wavestep_polynomial::Rational;
+
+/// The shipped scenes with numbers for their symbols.
+fn networks() -> impl Iterator<Item = (&'static str, Network)> {
+    let scenes = SCENES.iter().filter(|scene| scene.text.lines().any(|l| l.starts_with("scene ")));
+    scenes.map(|scene| {
+        let third = parse_number("4/3").unwrap();
+        let values = ["mu", "r", "m"].map(|name| (name.to_owned(), third.clone()));
+        let named = |name: &str| scene.text.contains(&format!("symbol {name} "));
+        let values: BTreeMap<_, _> = values.into_iter().filter(|(name, _)| named(name)).collect();
+        let source = Source::new(scene.name, scene.text).unwrap();
+        (scene.name, Network::new(&read_scene(&source, &values).unwrap()).unwrap())
+    })
+}
+
+/// Both enclose the same number, to forty bits at least.
+#[test]
+fn signals_enclose_the_values_of_scenes() {
+    let mut compared = 0;
+    let fine = Rational::new(1.into(), (1_i64 << 40).into());
+    for (name, network) in networks() {
+        let unit =
+            Rational::new(1.into(), if network.scene().dimensional { 5000 } else { 1 }.into());
+        let last = &unit * Rational::from_integer(7.into());
+        let evaluator = SceneEvaluator::new(&network, &network.scaled_time(&last)).unwrap();
+        for observed in network.observables() {
+            let Ok(signal) = Signal::of_scene(&network, observed, &last) else { continue };
+            let stretches = signal.stretches(&Rational::default(), &last).unwrap();
+            for i in 0..12 {
+                let at = &last * Rational::new((7 * i + 1).into(), 80.into());
+                let scaled = network.scaled_time(&at);
+                let stretch = &stretches[signal.stretch_at(&stretches, &at, Side::Right).unwrap()];
+                let value = signal.enclose(stretch, 0, &scaled, 200).unwrap();
+                let told = evaluator.value(observed, &scaled, Side::Right, 30, 1 << 12).unwrap();
+                let told = match told {
+                    Value::Exact(exact) => Ball::from_rational(&exact, 300),
+                    Value::Certified(certified) => certified.ball,
+                };
+                let place = format!("{name} {} {at}", observed.name);
+                assert!(value.subtract(&told, 200).contains(&Rational::default()), "{place}");
+                // An enclosure that is wide would agree with anything.
+                let decimals = value.to_decimal(100);
+                let radius = decimals.radius().to_rational();
+                let size = decimals.midpoint().to_rational().abs().max(fine.clone());
+                assert!(radius <= size * &fine, "{place} {value}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 300, "{compared}");
+}
