@@ -116,7 +116,7 @@ fn the_way_is_explained() {
         let mut rows = stderr.lines().skip(2);
         let first = rows.next().unwrap().trim_start().to_owned();
         assert!(first.contains("the cheapest that is proven to be good enough"), "{stderr}");
-        assert_eq!(rows.count(), 5, "{stderr}");
+        assert_eq!(rows.count(), 6, "{stderr}");
         first.split(' ').next().unwrap().to_owned()
     };
     assert_eq!(picked("--points 2 --tol 1e-16"), "certified");
@@ -199,8 +199,8 @@ const REFUSALS: [(&str, i32, &str, &str); 20] = [
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method magic",
         2,
         "there is no method `magic`",
-        "give one of certified, compiled, marched, marched-unproven, stable, double-double, expanded, \
-         rigid, third, modes:N, leapfrog:CELLS,CFL, steps:TOL",
+        "give one of certified, compiled, marched, marched-unproven, stable, double-double, plain, \
+         expanded, rigid, third, modes:N, leapfrog:CELLS,CFL, steps:TOL",
     ),
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --method modes:few",
@@ -248,7 +248,7 @@ const REFUSALS: [(&str, i32, &str, &str); 20] = [
         "eval pile --quantity energy --at 2 --tol 1e-9",
         1,
         "energy is an energy, quadratic in the waves",
-        "ask for digits by `wavestep eval`, without --tol",
+        "ask for a force or a velocity, or for digits: `eval` without --tol and --method",
     ),
     (
         "eval incommensurate --quantity wall_force --at 100us --method stable",
@@ -290,7 +290,7 @@ const REFUSALS: [(&str, i32, &str, &str); 20] = [
         "export pile --as c --quantity energy --to 2",
         1,
         "energy is an energy, quadratic in the waves",
-        "ask for digits",
+        "ask for a force or a velocity",
     ),
     (
         "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1%",

@@ -86,7 +86,7 @@ fn snapshot(name: &str, text: &str) {
 #[test]
 fn help_is_as_recorded() {
     snapshot("help", &output("--help"));
-    for subcommand in ["derive", "eval", "find", "check", "scenes"] {
+    for subcommand in ["derive", "eval", "find", "export", "chart", "check", "scenes"] {
         let help = output(&format!("{subcommand} --help"));
         assert_eq!(help, output(&format!("help {subcommand}")));
         snapshot(&format!("help-{subcommand}"), &help);
@@ -417,7 +417,7 @@ fn term((exponent, value): (&BigRational, &BigRational)) -> f64 {
 #[test]
 fn completions_and_the_manual_name_every_subcommand() {
     const SUBCOMMANDS: [&str; 7] =
-        ["derive", "eval", "find", "check", "lock", "scenes", "generate"];
+        ["derive", "eval", "find", "export", "chart", "check", "lock", "scenes", "generate"];
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = output(&format!("generate {shell}"));
         for name in SUBCOMMANDS {

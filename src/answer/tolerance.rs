@@ -86,9 +86,11 @@ impl fmt::Display for Tolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Tolerance::Absolute(tolerance) => write!(f, "{tolerance:e}"),
-            Tolerance::Relative(tolerance) => write!(f, "{tolerance:e} of the largest value"),
+            Tolerance::Relative(tolerance) => {
+                write!(f, "{tolerance:e} of the largest value on the window")
+            }
             Tolerance::Ulps(tolerance) => {
-                write!(f, "{tolerance} units in the last place of the largest value")
+                write!(f, "{tolerance} units in the last place of the largest value on the window")
             }
         }
     }

@@ -133,10 +133,13 @@ fn command(options: &Options, quantity: &str) -> String {
     )
 }
 
+/// The norm of most charts.
+const NORM: &str = "the largest |computed − exact|, in parts of the largest value";
+
 fn caption(options: &Options, command: &str, sampling: String) -> Caption {
     let level = wavestep::evaluate::instructions();
     Caption {
-        norm: "the largest |computed − exact|, in parts of the largest value".to_owned(),
+        norm: NORM.to_owned(),
         sampling,
         versions: vec![
             ("wavestep".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
@@ -160,6 +163,11 @@ fn on_problem(
     let ends = [&problem.from, &problem.to].map(|end| end.to_f64().unwrap_or(f64::NAN));
     let reference = Reference::new(problem, &sampling.times(ends[0], ends[1]))?;
     let caption = || caption(options, command, sampling.law());
+    let other = |norm: &str, sampling: &str| Caption {
+        norm: norm.to_owned(),
+        sampling: sampling.to_owned(),
+        ..caption()
+    };
     let settings = match options.quick {
         true => Settings { runs: 1, time: std::time::Duration::ZERO },
         false => Settings::default(),
@@ -193,13 +201,21 @@ fn on_problem(
         "error-at-arrivals",
         "Just after an echo has arrived, a rounding of its delay costs a method that rounds delays as \
          many units as echoes have arrived.",
-        study::at_arrivals(problem, if options.quick { 10 } else { 100 }, caption()),
+        study::at_arrivals(
+            problem,
+            if options.quick { 10 } else { 100 },
+            other(NORM, "the first double at each arrival, and the next one"),
+        ),
     );
     add(
         "error-near-zeros",
         "Relative to the value itself: methods with an absolute error lose a digit for each power of ten \
          that the value is smaller than the largest.",
-        study::near_zeros(&reference, problem, caption()),
+        study::near_zeros(
+            &reference,
+            problem,
+            other("the largest |computed − exact| / |exact| in each power of ten", &sampling.law()),
+        ),
     );
     if problem.scene.is_some() {
         tick("models");
@@ -215,8 +231,9 @@ fn on_problem(
         );
         add(
             "modes-near-a-jump",
-            "A sum of modes converges like one over their number, and not at all at a jump.",
-            study::near_jump(problem, unit, caption()),
+            "After an arrival in the middle of the window. The nearer to a jump, of the quantity or of \
+             its slope, the more modes it takes; at a jump of the quantity they give its mean.",
+            study::near_jump(problem, unit, other(NORM, "60 times after one arrival")),
         );
     }
     if let Some(period) = problem.signal.period() {
@@ -227,13 +244,19 @@ fn on_problem(
             "error-at-high-orders",
             "At n = 400 the exponential of an echo is below all doubles long before the echo is: methods \
              that carry its exponent apart do not notice.",
-            study::over_order(problem, period, high, caption()),
+            study::over_order(problem, period, high, other(NORM, "8 times on each period")),
         );
         add(
             "cost-by-order",
-            "Sums of echoes cost the square of the order; polynomials cost the same at any order, once \
-             they are made.",
-            study::cost_over_order(problem, period, orders, settings, caption()),
+            "Sums of echoes cost the square of the order in the end; polynomials cost the same at any \
+             order, once they are made.",
+            study::cost_over_order(
+                problem,
+                period,
+                orders,
+                settings,
+                other("seconds, the least of several runs", "64 times on each period"),
+            ),
         );
     }
     tick("near equal poles");
@@ -241,7 +264,10 @@ fn on_problem(
         "error-near-equal-poles",
         "With two poles the formula holds powers of one over their distance, which cancel; polynomials \
          are made from balls that have the bits for it.",
-        study::near_confluence(if options.quick { 2 } else { 12 }, caption()),
+        study::near_confluence(
+            if options.quick { 2 } else { 12 },
+            other(NORM, "50 times on five periods"),
+        ),
     );
     Ok((figures, table))
 }

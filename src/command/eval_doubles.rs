@@ -34,6 +34,10 @@ pub fn run(subject: Subject, options: &Eval) -> Result<String, Failure> {
             None => picked(problem, times.len(), tolerance.expect("one of both"), options.explain)?,
         };
         let values = way.exact_values(&times, side)?;
+        if let Some(i) = values.iter().position(|value| !value.is_finite()) {
+            let message = format!("{} gives no number at {}", way.kind(), in_decimals(&times[i]));
+            return Err(Failure::Computation(message, "use --method certified".to_owned()));
+        }
         if let Some(kind) = kind.filter(|_| way.bound().is_none()) {
             compare(kind, problem, tolerance, (&times, side, &values))?;
         }
@@ -124,7 +128,7 @@ fn explained(weighed: &Weighed, points: usize, tolerance: Tolerance, absolute: f
         "{points} value{} within {tolerance}, that is {absolute:.1e}\n",
         if points == 1 { "" } else { "s" }
     );
-    let _ = writeln!(text, "  {:<14} {:>12} {:>10}", "method", "error", "seconds");
+    let _ = writeln!(text, "  {:<14} {:>12} {:>10}", "method", "expected", "seconds");
     for Candidate { kind, promise, seconds, verdict } in &weighed.candidates {
         let promise = match promise {
             Some(Promise::Proven(bound)) => format!("≤ {bound:.1e}"),
@@ -178,6 +182,12 @@ fn compare(
     Ok(())
 }
 
+/// Half a unit in the last place of the largest of some values.
+fn half_a_unit(values: &[f64]) -> f64 {
+    let largest = values.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    (largest.next_up() - largest) / 2.0
+}
+
 /// A double so that it reads back as it is.
 pub fn double(value: f64) -> String {
     match value.abs() {
@@ -226,7 +236,7 @@ fn written(
                 "side": if options.side == SideOption::Left { "left" } else { "right" },
                 "method": way.kind().to_string(),
                 "law": way.law(),
-                "bound": way.bound(),
+                "bound": way.bound().map(|bound| bound + half_a_unit(values)),
                 "tolerance": options.tol,
                 "values": rows.map(row).collect::<Vec<_>>(),
             });

@@ -158,7 +158,12 @@ impl<'a> Window<'a> {
         const SAMPLES: usize = 40;
         let stride = self.stretches.len().div_ceil(SAMPLES);
         let mut scale = Magnitude::ZERO;
-        for stretch in self.stretches.iter().step_by(stride) {
+        // What ends where the window begins is seen from the left only.
+        let from = self.signal.slowness().scale(&self.from);
+        let numbers = self.signal.numbers();
+        let ended = numbers.compare(self.stretches[0].to(), &from)? != Ordering::Greater;
+        let outside = usize::from(ended && self.stretches.len() > 1);
+        for stretch in self.stretches.iter().skip(outside).step_by(stride) {
             let middle = (stretch.from() + stretch.to()).scale(&Rational::new(1.into(), 2.into()));
             for at in [stretch.from(), &middle, stretch.to()] {
                 let value = self.refined(Magnitude::ZERO, |bits| {

@@ -228,6 +228,12 @@ impl fmt::Display for EvaluateError {
                 best.radius()
             ),
             EvaluateError::Ball(error) => error.fmt(f),
+            EvaluateError::TooManyEchoes { echoes: u128::MAX, limit } => {
+                write!(
+                    f,
+                    "far more echoes arrive until this time than the {limit} that are worked out"
+                )
+            }
             EvaluateError::TooManyEchoes { echoes, limit } => write!(
                 f,
                 "about {echoes} echoes arrive until this time, and at most {limit} are worked out"

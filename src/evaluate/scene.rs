@@ -149,7 +149,11 @@ impl<'a> SceneEvaluator<'a> {
         let mut bounds = Vec::new();
         for (period, lag) in network.lattice().periods().iter().zip(network.largest_lags()) {
             // In a direction without lags nothing arrives but at once.
-            bounds.push(if lag == 0 { 0 } else { whole_periods(&numbers, &latest, period)? });
+            bounds.push(if lag == 0 {
+                0
+            } else {
+                whole_periods(&numbers, &latest, period, MAX_ECHOES)?
+            });
         }
         let total =
             bounds.iter().fold(1_u128, |product, bound| product.saturating_mul(*bound as u128 + 1));
@@ -588,10 +592,14 @@ fn negligible() -> Magnitude {
 }
 
 /// How many whole periods fit into a time, or one more.
+///
+/// # Errors
+/// [`EvaluateError::TooManyEchoes`] beyond the limit.
 pub(crate) fn whole_periods(
     numbers: &Numbers,
     time: &Fraction,
     period: &Fraction,
+    limit: usize,
 ) -> Result<usize, EvaluateError> {
     let time = numbers.enclose(time, 64)?;
     let inverse = numbers.enclose(period, 64)?.reciprocal(64).map_err(EvaluateError::Ball)?;
@@ -600,8 +608,8 @@ pub(crate) fn whole_periods(
     if periods.is_negative() {
         return Ok(0);
     }
-    periods.to_usize().filter(|periods| *periods <= MAX_ECHOES).ok_or_else(|| {
+    periods.to_usize().filter(|periods| *periods <= limit).ok_or_else(|| {
         let echoes = periods.to_u128().unwrap_or(u128::MAX).saturating_add(u128::one());
-        EvaluateError::TooManyEchoes { echoes, limit: MAX_ECHOES }
+        EvaluateError::TooManyEchoes { echoes, limit }
     })
 }

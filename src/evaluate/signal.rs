@@ -44,6 +44,9 @@ pub const MAX_PIECES: usize = 2_000;
 /// The most stretches between arrivals of one window.
 const MAX_STRETCHES: usize = 200_000;
 
+/// The most periods that are counted.
+const MAX_ORDER: usize = 1_000_000_000;
+
 /// At how many precisions the waves are held at once.
 const MAX_PRECISIONS: usize = 3;
 
@@ -292,17 +295,17 @@ impl Signal {
     /// arrived.
     ///
     /// # Errors
-    /// [`EvaluateError::TooManyEchoes`] beyond [`MAX_ECHOES`].
+    /// [`EvaluateError::TooManyEchoes`] beyond a thousand million.
     pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
         let at = self.slowness.scale(at);
         match &self.lattice {
             None => {
                 // A wave may be seen before its own clock.
                 let period = &self.recurrence.statement().period;
-                let mut order = whole_periods(&self.numbers, &at, period)?;
+                let mut order = whole_periods(&self.numbers, &at, period, MAX_ORDER)?;
                 for seen in &self.observation.waves {
                     let since = &at - &seen.delay;
-                    order = order.max(whole_periods(&self.numbers, &since, period)?);
+                    order = order.max(whole_periods(&self.numbers, &since, period, MAX_ORDER)?);
                 }
                 Ok(order)
             }
@@ -335,7 +338,9 @@ impl Signal {
                 None => {
                     // The last piece that is there at `from` is the only one that still counts.
                     let first =
-                        whole_periods(&self.numbers, &(from - &wave.delay), period)?.max(1) - 1;
+                        whole_periods(&self.numbers, &(from - &wave.delay), period, MAX_ECHOES)?
+                            .max(1)
+                            - 1;
                     for n in first.. {
                         let delay = period.scale(&Rational::from_integer(n.into()));
                         if n > MAX_ECHOES {

@@ -12,6 +12,7 @@
 
 use crate::evaluate::signal::Signal;
 use crate::expression::{Expression, Fraction};
+use crate::recurrence::ObservedWave;
 use crate::solution::{EchoTemplate, Family, GeneralForm, Solution};
 use std::fmt;
 use wavestep_polynomial::Rational;
@@ -172,14 +173,7 @@ impl Taps {
         let mut sum: Option<Taps> = None;
         for seen in &observation.waves {
             let name = || recurrence.wave_name(seen.wave);
-            if seen.slope {
-                return Err(NoTaps::Slope(name()));
-            }
-            let template = match solution.general(seen.wave) {
-                Ok(GeneralForm::Echoes(template)) => template,
-                Ok(GeneralForm::Geometric(_)) => return Err(NoTaps::Sequence(name())),
-                Err(_) => return Err(NoTaps::NoForm(name())),
-            };
+            let template = closed_form(&solution, seen)?;
             let Family::Laguerre(scale) = template.family() else {
                 return Err(NoTaps::Powers(name()));
             };
@@ -278,5 +272,21 @@ impl Taps {
         }
         self.extras.extend(extras);
         Some(())
+    }
+}
+
+/// The closed form of the echoes of what is seen.
+pub(crate) fn closed_form<'a>(
+    solution: &'a Solution,
+    seen: &ObservedWave,
+) -> Result<&'a EchoTemplate, NoTaps> {
+    let name = || solution.recurrence().wave_name(seen.wave);
+    if seen.slope {
+        return Err(NoTaps::Slope(name()));
+    }
+    match solution.general(seen.wave) {
+        Ok(GeneralForm::Echoes(template)) => Ok(template),
+        Ok(GeneralForm::Geometric(_)) => Err(NoTaps::Sequence(name())),
+        Err(_) => Err(NoTaps::NoForm(name())),
     }
 }

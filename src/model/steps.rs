@@ -39,7 +39,7 @@ const NAME: &str = "method of steps";
 /// assert!(matches!(refused, Some(ModelError::TooMuch { what: "periods of nodes", .. })));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub const MAX_NODE_PERIODS: f64 = 1e6;
+pub const MAX_NODE_PERIODS: f64 = 2e4;
 
 /// How often a period is halved before its solution is given up.
 const MAX_HALVINGS: u32 = 40;

@@ -90,5 +90,6 @@ pub fn order_map(
     let map = Map::new(&format!("Error of {kind} by order and {parameter}"), x, y, cells, caption)?;
     let half = Level { value: 1e-8, name: "8 digits lost".to_owned() };
     let useless = Level { value: USELESS, name: "useful no longer".to_owned() };
-    map.level(half)?.level(useless)?.decades(-17, 1)
+    let all = Level { value: 1.0, name: "all digits lost".to_owned() };
+    map.level(half)?.level(useless)?.level(all)?.decades(-17, 1)
 }

@@ -23,7 +23,7 @@ fn is_cheapest(problem: &Problem<'_>, weighed: &Weighed, points: usize, toleranc
     let proven = |promise: &Option<Promise>| matches!(promise, Some(Promise::Proven(bound)) if *bound <= tolerance);
     let good: Vec<_> = weighed.candidates.iter().filter(|c| proven(&c.promise)).collect();
     assert_eq!(weighed.met, !good.is_empty());
-    assert_eq!(weighed.candidates.len(), 6, "every method is weighed");
+    assert_eq!(weighed.candidates.len(), 7, "every method is weighed");
     assert!(problem.order().unwrap() < 1000);
     if let Some(least) = good.iter().map(|c| c.seconds).min_by(f64::total_cmp) {
         let first = &weighed.candidates[0];

@@ -68,7 +68,7 @@ pub type Recogniser<'a> = dyn Fn(&Rational, Side) -> Result<Option<Rational>, Ev
 pub struct Certified<'a> {
     window: Window<'a>,
     recognise: &'a Recogniser<'a>,
-    table: OnceCell<Option<Table>>,
+    table: OnceCell<Table>,
 }
 
 impl<'a> Certified<'a> {
@@ -93,11 +93,11 @@ impl<'a> Certified<'a> {
     /// # Errors
     /// [`MethodError`], where the window is too long.
     pub fn table(&self) -> Result<&Table, MethodError> {
-        if self.table.get().is_none() {
-            let table = self.make_table()?;
-            let _ = self.table.set(Some(table));
+        if let Some(table) = self.table.get() {
+            return Ok(table);
         }
-        self.table.get().and_then(Option::as_ref).ok_or(MethodError::Outside)
+        let table = self.make_table()?;
+        Ok(self.table.get_or_init(|| table))
     }
 
     fn make_table(&self) -> Result<Table, MethodError> {

@@ -7,9 +7,9 @@ use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::signal::Signal;
-use crate::evaluate::taps::NoTaps;
+use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
-use crate::solution::{EchoTemplate, Family, GeneralForm, Solution};
+use crate::solution::{EchoTemplate, Family, Solution};
 use std::cmp::Ordering;
 use wavestep_kernels::echoes::{
     self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term, Time,
@@ -112,15 +112,7 @@ impl EchoSums {
         let statement = recurrence.statement();
         let mut seen = Vec::new();
         for wave in &signal.observation().waves {
-            let name = || recurrence.wave_name(wave.wave);
-            if wave.slope {
-                return Err(NoTaps::Slope(name()).into());
-            }
-            let template = match solution.general(wave.wave) {
-                Ok(GeneralForm::Echoes(template)) => template,
-                Ok(GeneralForm::Geometric(_)) => return Err(NoTaps::Sequence(name()).into()),
-                Err(_) => return Err(NoTaps::NoForm(name()).into()),
-            };
+            let template = closed_form(&solution, wave)?;
             let echoes = in_doubles(template, &statement.period, &statement.local, &numbers)?;
             let weight = wave.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
             let [high, low, _] = three(&numbers, &wave.delay).map_err(EvaluateError::from)?;

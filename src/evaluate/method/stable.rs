@@ -79,6 +79,14 @@ impl Stable {
     ) -> Result<Stable, MethodError> {
         Ok(Stable { sums: EchoSums::new(signal, from, to)?, precision })
     }
+
+    /// How the kernel sums.
+    fn sum(&self) -> echoes::Method {
+        match self.precision {
+            StablePrecision::Double => echoes::Method::Scaled,
+            StablePrecision::DoubleDouble => echoes::Method::DoubleDouble,
+        }
+    }
 }
 
 impl Method for Stable {
@@ -108,12 +116,8 @@ impl Method for Stable {
     }
 
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
-        let method = match self.precision {
-            StablePrecision::Double => echoes::Method::Scaled,
-            StablePrecision::DoubleDouble => echoes::Method::DoubleDouble,
-        };
         let (high, rest) = Ball::from_rational(at, 128).split();
-        self.sums.value(method, (high, rest.midpoint().to_double()), &|| at.clone(), side)
+        self.sums.value(self.sum(), (high, rest.midpoint().to_double()), &|| at.clone(), side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
@@ -123,12 +127,8 @@ impl Method for Stable {
         {
             return done;
         }
-        let method = match self.precision {
-            StablePrecision::Double => echoes::Method::Scaled,
-            StablePrecision::DoubleDouble => echoes::Method::DoubleDouble,
-        };
         for (time, value) in at.iter().zip(values) {
-            *value = self.sums.value(method, (*time, 0.0), &|| rational(*time), Side::Right)?;
+            *value = self.sums.value(self.sum(), (*time, 0.0), &|| rational(*time), Side::Right)?;
         }
         Ok(())
     }
