@@ -416,7 +416,7 @@ fn term((exponent, value): (&BigRational, &BigRational)) -> f64 {
 
 #[test]
 fn completions_and_the_manual_name_every_subcommand() {
-    const SUBCOMMANDS: [&str; 7] =
+    const SUBCOMMANDS: [&str; 9] =
         ["derive", "eval", "find", "export", "chart", "check", "lock", "scenes", "generate"];
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = output(&format!("generate {shell}"));
