@@ -126,14 +126,6 @@ impl<'a> Window<'a> {
         Ok(near)
     }
 
-    /// Correctly rounded values from a march, where there is one that gives them, and the places of
-    /// those that it does not decide.
-    pub(crate) fn certified(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
-        let (from, to) = (at_or_after(&self.from), -at_or_after(&-&self.to));
-        let inside = times.iter().all(|time| (from..=to).contains(time));
-        self.marched.as_ref().filter(|_| inside)?.certified(times)
-    }
-
     /// The doubles of a stretch, the first and the last; `None` where there are none.
     fn doubles(&self, stretch: usize) -> Option<(f64, f64)> {
         let first = self.firsts[stretch];

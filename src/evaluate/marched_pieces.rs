@@ -13,6 +13,7 @@ use crate::evaluate::taps::{Extra, Taps};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::{Field as _, Transform};
 use num_traits::{Signed as _, ToPrimitive as _};
+use std::cell::OnceCell;
 use wavestep_kernels::fixed::{self, DelayEquation, March, MarchOptions};
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -27,7 +28,10 @@ const MAX_TAPS: usize = 8;
 
 /// A signal on a window, from a march.
 pub(crate) struct MarchedPieces {
-    march: March,
+    /// Made when pieces are first asked for.
+    march: OnceCell<Option<March>>,
+    periods: u32,
+    response: DelayEquation,
     /// The same in the user's time.
     equation: DelayEquation,
     taps: Vec<RationalTap>,
@@ -82,12 +86,22 @@ impl MarchedPieces {
             return None;
         }
         let equation = DelayEquation::new(&period, &rate, &zero, &ratio).ok()?;
-        let march = March::new(&equation, periods, &MarchOptions::default()).ok()?;
         // In the user's time rates are larger by the slowness, and the period shorter.
         let (period_there, rate, zero) = (&period / &slowness, rate * &slowness, zero * &slowness);
         let there = DelayEquation::new(&period_there, &rate, &zero, &ratio).ok()?;
         let local = signal.recurrence().statement().local.clone();
-        Some(MarchedPieces { march, equation: there, taps, extras, local, period, slowness, unit })
+        Some(MarchedPieces {
+            march: OnceCell::new(),
+            periods,
+            response: equation,
+            equation: there,
+            taps,
+            extras,
+            local,
+            period,
+            slowness,
+            unit,
+        })
     }
 
     /// Correctly rounded values at doubles, just after arrivals, and the places of those that the bound
@@ -105,21 +119,28 @@ impl MarchedPieces {
         Some((found.values, found.undecided))
     }
 
-    /// Whether the proven bound is good enough for polynomials with such an error.
-    pub(crate) fn serves(&self, error: Magnitude) -> bool {
-        self.bound().scale(3) <= error
+    /// The march; `None` where it fails.
+    fn march(&self) -> Option<&March> {
+        let make = || March::new(&self.response, self.periods, &MarchOptions::default()).ok();
+        self.march.get_or_init(make).as_ref()
     }
 
-    fn bound(&self) -> Magnitude {
+    /// Whether the proven bound is good enough for polynomials with such an error.
+    pub(crate) fn serves(&self, error: Magnitude) -> bool {
+        self.march().is_some_and(|march| self.bound(march).scale(3) <= error)
+    }
+
+    fn bound(&self, march: &March) -> Magnitude {
         let weights = self.taps.iter().map(|tap| Magnitude::from_rational(&tap.weight));
         let sum = weights.fold(Magnitude::ZERO, |sum, weight| sum.add(&weight));
         let unit = Magnitude::from_rational(&self.unit);
-        sum.multiply(&unit).multiply(&Magnitude::from_double(self.march.bound()))
+        sum.multiply(&unit).multiply(&Magnitude::from_double(march.bound()))
     }
 
     /// A range of doubles cut where pieces of the march meet.
     pub(crate) fn spans(&self, (first, last): (f64, f64)) -> Vec<(f64, f64)> {
-        let pieces = Rational::from_integer(self.march.pieces_per_period().into());
+        let Some(march) = self.march() else { return vec![(first, last)] };
+        let pieces = Rational::from_integer(march.pieces_per_period().into());
         let length = &self.period / pieces;
         let (from, to) = (rational(first) * &self.slowness, rational(last) * &self.slowness);
         let mut starts = vec![first];
@@ -149,7 +170,8 @@ impl MarchedPieces {
         bits: u64,
     ) -> Result<Taylor, EvaluateError> {
         let (middle, half) = (middle * &self.slowness, half * &self.slowness);
-        let pieces = self.march.pieces_per_period();
+        let march = self.march().ok_or(EvaluateError::AfterLast)?;
+        let pieces = march.pieces_per_period();
         let doubled = Rational::from_integer((2 * pieces).into());
         let mut sum = Taylor { coefficients: Vec::new(), remainder: Magnitude::ZERO };
         for tap in &self.taps {
@@ -163,7 +185,7 @@ impl MarchedPieces {
             let piece = (&x * Rational::from_integer(pieces.into())).floor().to_integer();
             let piece = piece.to_u32().expect("a piece of a period");
             let period = period.to_integer().to_u32().expect("a period of the march");
-            let Some(coefficients) = self.march.piece(period, piece) else {
+            let Some(coefficients) = march.piece(period, piece) else {
                 return Err(EvaluateError::AfterLast);
             };
             // u of the piece is 2Sx − (2q + 1).
@@ -172,11 +194,21 @@ impl MarchedPieces {
             let ball = |value: &i128| {
                 Ball::new(Binary::new((*value).into(), -FRACTION_BITS), Magnitude::ZERO)
             };
-            let coefficients = coefficients.iter().map(ball).collect();
-            let bound = self.march.bound_of(period).unwrap_or(f64::INFINITY);
-            let part = Taylor { coefficients, remainder: Magnitude::from_double(bound) };
+            let part = match march.part(period, piece, &a, &b) {
+                Some(part) => Taylor {
+                    coefficients: part.coefficients.iter().map(ball).collect(),
+                    remainder: Magnitude::from_integer(&part.radius.into(), -FRACTION_BITS),
+                },
+                // As large as the piece, or larger by a rounding.
+                None => {
+                    let coefficients = coefficients.iter().map(ball).collect();
+                    let bound = march.bound_of(period).unwrap_or(f64::INFINITY);
+                    let remainder = Magnitude::from_double(bound);
+                    Taylor { coefficients, remainder }.part(&a, &b, bits)
+                }
+            };
             let weight = Ball::from_rational(&(&tap.weight * &self.unit), bits);
-            sum.add(part.part(&a, &b, bits).scaled(&weight, bits), bits);
+            sum.add(part.scaled(&weight, bits), bits);
         }
         let numbers = Numbers::new(&[]);
         let field = numbers.field(bits);

@@ -127,6 +127,11 @@ impl March {
         self.proofs.get(period as usize).map(|proof| units_upwards(proof.bound))
     }
 
+    /// The same in units of `2^−112`.
+    pub(super) fn bound_in_units(&self, period: u32) -> Option<u128> {
+        self.proofs.get(period as usize).map(|proof| proof.bound)
+    }
+
     /// The coefficients `c_m` of piece q of period n in units of `2^−112`: there `p = Σ c_m u^m`,
     /// with the place `x = (2q + 1 + u)/(2S)` in parts of the period. None if there is no such
     /// piece.

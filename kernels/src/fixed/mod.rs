@@ -84,6 +84,7 @@ mod equation;
 mod error;
 mod march;
 mod multiplier;
+mod part;
 mod position;
 mod product;
 #[cfg(test)]
@@ -96,6 +97,7 @@ pub use certified::{CertifiedDoubles, Tap, certified};
 pub use equation::DelayEquation;
 pub use error::FixedError;
 pub use march::{FRACTION_BITS, March};
+pub use part::Part;
 pub use position::{Position, Reduction, Side};
 pub use scheme::MarchOptions;
 pub use value::{FixedValue, round_to_double};

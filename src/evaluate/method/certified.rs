@@ -7,8 +7,9 @@
 //! enclosed one by one.
 
 use super::{Method, MethodError};
-use crate::evaluate::cells::{Cell, Fit, Window, rational};
+use crate::evaluate::cells::{Cell, Fit, Window, at_or_after, rational};
 use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::Signal;
 use std::cell::OnceCell;
 use wavestep_kernels::{Piece, Table};
@@ -66,7 +67,13 @@ pub type Recogniser<'a> = dyn Fn(&Rational, Side) -> Result<Option<Rational>, Ev
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub struct Certified<'a> {
-    window: Window<'a>,
+    signal: &'a Signal,
+    from: Rational,
+    to: Rational,
+    /// Pieces from a march, where there is one.
+    marched: Option<MarchedPieces>,
+    /// Made when values are asked for that no march decides.
+    window: OnceCell<Window<'a>>,
     recognise: &'a Recogniser<'a>,
     table: OnceCell<Table>,
 }
@@ -84,8 +91,30 @@ impl<'a> Certified<'a> {
         to: &Rational,
         recognise: &'a Recogniser<'a>,
     ) -> Result<Certified<'a>, MethodError> {
-        let window = Window::new(signal, from, to)?.marching();
-        Ok(Certified { window, recognise, table: OnceCell::new() })
+        let marched = MarchedPieces::of(signal, from, to);
+        let (from, to) = (from.clone(), to.clone());
+        let (window, table) = (OnceCell::new(), OnceCell::new());
+        let certified = Certified { signal, from, to, marched, window, recognise, table };
+        if certified.marched.is_none() {
+            certified.window()?;
+        }
+        Ok(certified)
+    }
+
+    fn window(&self) -> Result<&Window<'a>, MethodError> {
+        if let Some(window) = self.window.get() {
+            return Ok(window);
+        }
+        let window = Window::new(self.signal, &self.from, &self.to)?;
+        let window = if self.marched.is_some() { window.marching() } else { window };
+        Ok(self.window.get_or_init(|| window))
+    }
+
+    /// Values that a march gives, and the places of those that it does not decide.
+    fn by_march(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
+        let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
+        let inside = times.iter().all(|time| window.contains(time));
+        self.marched.as_ref().filter(|_| inside)?.certified(times)
     }
 
     /// The polynomials in pairs of doubles, made when they are first asked for.
@@ -101,8 +130,9 @@ impl<'a> Certified<'a> {
     }
 
     fn make_table(&self) -> Result<Table, MethodError> {
-        let error = self.window.scale()?.scale(-ERROR_BITS);
-        let cells = self.window.cells(Fit { degree: DEGREE, error, rounding: None })?;
+        let window = self.window()?;
+        let error = window.scale()?.scale(-ERROR_BITS);
+        let cells = window.cells(Fit { degree: DEGREE, error, rounding: None })?;
         let pieces: Vec<Piece> = cells.iter().map(in_pairs).collect();
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         Ok(Table::new(&pieces, end)?)
@@ -110,11 +140,12 @@ impl<'a> Certified<'a> {
 
     /// The value of a double's time that no table decides.
     fn alone(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
-        let stretch = &self.window.stretches[self.window.stretch_at(at, side)?];
-        let scaled = self.window.signal.slowness().scale(at);
+        let window = self.window()?;
+        let stretch = &window.stretches[window.stretch_at(at, side)?];
+        let scaled = self.signal.slowness().scale(at);
         let mut bits = FIRST_BITS;
         loop {
-            let ball = self.window.signal.enclose(stretch, 0, &scaled, bits)?;
+            let ball = self.signal.enclose(stretch, 0, &scaled, bits)?;
             if let Some(value) = ball.rounded() {
                 return Ok(value);
             }
@@ -181,7 +212,7 @@ impl Method for Certified<'_> {
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         let undecided: Vec<usize> = match at.len() {
-            0..MANY => match self.window.certified(at) {
+            0..MANY => match self.by_march(at) {
                 Some((found, undecided)) => {
                     values.copy_from_slice(&found);
                     undecided

@@ -1,0 +1,106 @@
+//! A piece on a part of where it holds: `p(a + bu)` in fixed-point numbers.
+
+use num_rational::BigRational;
+
+use super::march::March;
+use super::multiplier::Multiplier;
+
+/// A polynomial on a part of a piece, in units of `2^−112`.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep_kernels::fixed::{DelayEquation, FRACTION_BITS, March, MarchOptions};
+/// let one = BigRational::from(num_bigint::BigInt::from(1));
+/// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
+/// let march = March::new(&equation, 1, &MarchOptions { pieces: Some(8), terms: None }).unwrap();
+/// // The left half of the first piece is exp(−x) on [0, 1/16]: in its middle e^(−1/32).
+/// let half = BigRational::new(1.into(), 2.into());
+/// let part = march.part(0, 0, &-&half, &half).unwrap();
+/// let unit = (FRACTION_BITS as f64).exp2();
+/// assert!((part.coefficients[0] as f64 / unit - (-1.0 / 32.0_f64).exp()).abs() < 1e-15);
+/// assert!(part.radius < 1 << 20);
+/// // A part that is no smaller than the piece is none.
+/// assert_eq!(march.part(0, 0, &half, &one), None);
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Part {
+    /// The coefficients of powers of u.
+    pub coefficients: Vec<i128>,
+    /// How far the polynomial can be from the solution, in units: the bound of the march, and the
+    /// rounding here.
+    pub radius: u128,
+}
+
+impl March {
+    /// The piece q of the period n at `a + bu`, for numbers below 1 in size; none if there is no such
+    /// piece, or a number leaves the range.
+    ///
+    /// The error holds where `|a + bu| ≤ 1`. With `x = a + bu`, stage s of the shift has turned the
+    /// polynomial into `Σ_{i<s} c_i (x−a)^i + (x−a)^s q_s(x)`. A product there is off by less than a
+    /// unit, and what it is off by is multiplied with `(x−a)^s x^j`, which is at most 1: there are
+    /// `M(M−1)/2` of them. Scaling by `b^m` takes m products, together as many.
+    ///
+    /// # Cost
+    /// A product of 128 bits for each pair of terms.
+    #[must_use]
+    pub fn part(&self, period: u32, piece: u32, a: &BigRational, b: &BigRational) -> Option<Part> {
+        let mut coefficients = self.piece(period, piece)?.to_vec();
+        let (a, b) = (Multiplier::near(a)?, Multiplier::near(b)?);
+        let terms = coefficients.len();
+        for stage in 0..terms {
+            for m in (stage..terms.saturating_sub(1)).rev() {
+                coefficients[m] = coefficients[m].checked_add(a.times(coefficients[m + 1]))?;
+                // Products are right up to this size.
+                if coefficients[m].unsigned_abs() >> 126 != 0 {
+                    return None;
+                }
+            }
+        }
+        for (m, coefficient) in coefficients.iter_mut().enumerate() {
+            for _ in 0..m {
+                *coefficient = b.times(*coefficient);
+            }
+        }
+        let radius = self.bound_in_units(period)? + (terms * terms) as u128;
+        Some(Part { coefficients, radius })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixed::{DelayEquation, FRACTION_BITS, MarchOptions};
+    use num_bigint::BigInt;
+    use num_traits::Signed as _;
+
+    /// The part and the piece have the same values, but for the rounding that is told.
+    #[test]
+    fn parts_are_the_piece_elsewhere() {
+        let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+        let equation =
+            DelayEquation::new(&ratio(2, 1), &ratio(1, 1), &ratio(1, 1), &ratio(1, 1)).unwrap();
+        let march = March::new(&equation, 12, &MarchOptions::default()).unwrap();
+        let value = |coefficients: &[i128], u: &BigRational| {
+            let terms = coefficients.iter().rev();
+            terms.fold(ratio(0, 1), |sum, c| sum * u + BigRational::from(BigInt::from(*c)))
+        };
+        let mut compared = 0;
+        for (period, piece) in [(0, 0), (3, 1), (11, 0), (11, march.pieces_per_period() - 1)] {
+            let whole = march.piece(period, piece).unwrap();
+            for (a, b) in [((-3, 4), (1, 4)), ((1, 3), (2, 3)), ((0, 1), (9, 10)), ((7, 8), (1, 9))]
+            {
+                let (a, b) = (ratio(a.0, a.1), ratio(b.0, b.1));
+                let part = march.part(period, piece, &a, &b).unwrap();
+                let rounding = part.radius - march.bound_in_units(period).unwrap();
+                for u in -4..=4 {
+                    let u = ratio(u, 4);
+                    let difference = value(&part.coefficients, &u) - value(whole, &(&a + &b * &u));
+                    let allowed = BigRational::from(BigInt::from(rounding));
+                    assert!(difference.abs() <= allowed, "{period} {piece} {a} {b} {u}");
+                    compared += 1;
+                }
+            }
+        }
+        assert_eq!((compared, FRACTION_BITS), (144, 112));
+    }
+}
