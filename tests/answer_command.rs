@@ -235,7 +235,7 @@ const REFUSALS: [(&str, i32, &str, &str); 20] = [
     (
         "eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 2 --side left --method modes",
         1,
-        "modes gives values just after arrivals only",
+        "modes is a model, and has no limits from one side",
         "leave out --side left",
     ),
     (

@@ -150,6 +150,9 @@ impl<'a> Window<'a> {
         const SAMPLES: usize = 40;
         let stride = self.stretches.len().div_ceil(SAMPLES);
         let mut scale = Magnitude::ZERO;
+        if let Some(found) = self.marched.as_ref().and_then(|marched| self.marched_scale(marched)) {
+            return Ok(found);
+        }
         // What ends where the window begins is seen from the left only.
         let from = self.signal.slowness().scale(&self.from);
         let numbers = self.signal.numbers();
@@ -168,6 +171,16 @@ impl<'a> Window<'a> {
             }
         }
         Ok(scale)
+    }
+
+    /// The same from a march: at the first, middle and last doubles of all stretches.
+    fn marched_scale(&self, marched: &MarchedPieces) -> Option<Magnitude> {
+        let stretches = (0..self.stretches.len()).filter_map(|stretch| self.doubles(stretch));
+        let times: Vec<f64> = stretches
+            .flat_map(|(first, last)| [first, first + (last - first) / 2.0, last])
+            .collect();
+        let (values, _) = marched.certified(&times)?;
+        Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
     }
 
     /// What `compute` gives with the fewest bits with which it is fine; bits double.

@@ -72,11 +72,12 @@ impl<'a> Compiled<'a> {
         let lower = (rational(first) > *to).then(|| rational(first.next_down()));
         let from = lower.as_ref().unwrap_or(from);
         let window = Window::new(signal, from, to)?.marching();
-        let fine = window.scale()?.scale(-ERROR_BITS);
+        let scale = window.scale()?;
+        let fine = scale.scale(-ERROR_BITS);
         let coarse = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 4.0));
         let error = coarse.map_or(fine, |coarse| coarse.max(fine));
         // Half of a tolerance, but the units that are always kept.
-        let ulp = Magnitude::from_double(unit_in_the_last_place(window.scale()?.to_double()));
+        let ulp = Magnitude::from_double(unit_in_the_last_place(scale.to_double()));
         let kept = ulp.multiply(&Magnitude::from_u64(5)).scale(-1);
         let allowed = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 2.0));
         let rounding = Some(allowed.map_or(kept, |allowed| allowed.max(kept)));
