@@ -116,7 +116,7 @@ pub enum Seen {
         /// The scene.
         network: Box<Network>,
         /// What is seen of it.
-        observed: Observed,
+        observed: Box<Observed>,
     },
 }
 
@@ -132,7 +132,7 @@ impl Seen {
                 Ok(Seen::Recurrence(Box::new(Solution::new(*recurrence)), observation))
             }
             Subject::Scene(network) => {
-                let observed = quantity::of_scene(&network, quantity)?;
+                let observed = Box::new(quantity::of_scene(&network, quantity)?);
                 Ok(Seen::Scene { network, observed })
             }
         }

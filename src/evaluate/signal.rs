@@ -130,7 +130,7 @@ struct Scattered {
 
 /// The waves, in balls.
 enum Solved {
-    Periods(Periods),
+    Periods(Box<Periods>),
     Echoes(Rc<Echoes>),
 }
 
@@ -410,7 +410,11 @@ impl Signal {
             return Ok(known.clone());
         }
         let solved = match &self.lattice {
-            None => Solved::Periods(Periods::new(&self.recurrence, self.numbers.clone(), bits)?),
+            None => Solved::Periods(Box::new(Periods::new(
+                &self.recurrence,
+                self.numbers.clone(),
+                bits,
+            )?)),
             Some(lattice) => {
                 let demand = self.demand(&lattice.arrivals);
                 let (echoes, _) = solve_in(&self.recurrence, self.numbers.field(bits), demand)?;

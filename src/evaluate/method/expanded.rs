@@ -42,7 +42,7 @@ pub struct Expanded {
 
 /// Echoes with one pole in closed form, or any others as they are derived.
 enum Sums {
-    Closed(EchoSums),
+    Closed(Box<EchoSums>),
     Derived(PrintedEchoes),
 }
 
@@ -57,7 +57,7 @@ impl Expanded {
     pub fn new(signal: &Signal, from: &Rational, to: &Rational) -> Result<Expanded, MethodError> {
         let sums = match EchoSums::new(signal, from, to) {
             Err(MethodError::NoTaps(_)) => Sums::Derived(PrintedEchoes::new(signal, to)?),
-            sums => Sums::Closed(sums?),
+            sums => Sums::Closed(Box::new(sums?)),
         };
         Ok(Expanded { sums })
     }

@@ -18,10 +18,17 @@ type Complex = (f64, f64);
 /// `e^{λx} Σ_j c_j x^j` by poles.
 type Function = Vec<(Complex, Vec<Complex>)>;
 
+/// A wave that is seen.
+struct Seen {
+    weight: f64,
+    delay: f64,
+    /// Its echoes, each with its delay.
+    echoes: Vec<(f64, Function)>,
+}
+
 /// The echoes of all that is seen, in powers of time.
 pub(super) struct PrintedEchoes {
-    /// By what is seen: weight, delay, and echoes with theirs.
-    seen: Vec<(f64, f64, Vec<(f64, Function)>)>,
+    seen: Vec<Seen>,
     added: Function,
     unit: f64,
     slowness: f64,
@@ -66,7 +73,9 @@ impl PrintedEchoes {
                     row.push((number(&delay.clone().into())?.0, echo));
                 }
             }
-            seen.push((number(&wave.coefficient)?.0, number(&wave.delay.clone().into())?.0, row));
+            let weight = number(&wave.coefficient)?.0;
+            let delay = number(&wave.delay.clone().into())?.0;
+            seen.push(Seen { weight, delay, echoes: row });
         }
         let forcing =
             Transform::of(&signal.observation().forcing, &signal.recurrence().statement().time);
@@ -84,7 +93,7 @@ impl PrintedEchoes {
         let time = at * self.slowness;
         let counts = |since: f64| since > 0.0 || (since == 0.0 && side == Side::Right);
         let mut sum = if counts(time) { evaluate(&self.added, time) } else { 0.0 };
-        for (weight, delay, echoes) in &self.seen {
+        for Seen { weight, delay, echoes } in &self.seen {
             let arrived = echoes.iter().map(|(since, echo)| (time - delay - since, echo));
             let arrived = arrived.filter(|(since, _)| counts(*since));
             sum += weight * arrived.map(|(since, echo)| evaluate(echo, since)).sum::<f64>();
