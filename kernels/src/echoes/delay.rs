@@ -3,7 +3,7 @@
 
 use super::error::EchoError;
 use super::expansion::Expansion;
-use super::pair::{Pair, quick_two_sum, two_sum};
+use super::pair::{Pair, fast_two_sum, two_sum};
 
 /// A time as the sum of two doubles.
 ///
@@ -110,7 +110,7 @@ pub(super) fn since(delay: [f64; 3], time: Pair) -> Pair {
     let (low, last) = two_sum(low + error, rest - delay[2]);
     // The sum may have cancelled down to the low part: put the larger first again.
     let (high, low) = two_sum(high, low);
-    let (low, _) = quick_two_sum(low, last);
+    let (low, _) = fast_two_sum(low, last);
     let (high, low) = two_sum(high, low);
     Pair { high, low }
 }

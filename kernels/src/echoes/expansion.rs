@@ -2,7 +2,7 @@
 //! `μ = 1/3` is kept to some 159 bits, so that the time since an echo arrived loses nothing.
 
 use super::error::EchoError;
-use super::pair::{Pair, quick_two_sum, split, two_product, two_sum};
+use super::pair::{Pair, fast_two_sum, split, two_product, two_sum};
 use std::cmp::Ordering;
 
 /// The sum `a + b + c` of three doubles, never evaluated.
@@ -63,7 +63,7 @@ impl Expansion {
         let mut parts = [0.0; 3];
         let (mut place, mut carried) = (0, doubles[0]);
         for &double in &doubles[1..] {
-            let (high, low) = quick_two_sum(carried, double);
+            let (high, low) = fast_two_sum(carried, double);
             if low == 0.0 {
                 carried = high;
             } else if place < 2 {

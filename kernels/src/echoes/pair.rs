@@ -1,6 +1,7 @@
 //! Sums of two doubles: error-free sums and products, and the little arithmetic on pairs that the
 //! echoes need. A pair carries about 106 bits.
 
+pub(super) use crate::double_double::{fast_two_sum, two_sum};
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// The unevaluated sum `high + low` with `|low| ≤ ulp(high)/2`.
@@ -8,21 +9,6 @@ use std::ops::{Add, Mul, Neg, Sub};
 pub(super) struct Pair {
     pub high: f64,
     pub low: f64,
-}
-
-/// `(s, e)` with `s = fl(a + b)` and `s + e = a + b` exactly.
-#[inline(always)]
-pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
-}
-
-/// As [`two_sum`], where `|a| ≥ |b|` or `a = 0`.
-#[inline(always)]
-pub(super) fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    (sum, b - (sum - a))
 }
 
 /// `(p, e)` with `p = fl(ab)` and `p + e = ab` exactly, unless something underflows.
@@ -39,7 +25,7 @@ impl Pair {
     /// The sum of two doubles, the first not the smaller.
     #[inline(always)]
     pub fn quick(a: f64, b: f64) -> Pair {
-        let (high, low) = quick_two_sum(a, b);
+        let (high, low) = fast_two_sum(a, b);
         Pair { high, low }
     }
 
@@ -90,7 +76,7 @@ impl Add for Pair {
     fn add(self, other: Pair) -> Pair {
         let (high, error) = two_sum(self.high, other.high);
         let (low, rest) = two_sum(self.low, other.low);
-        let (high, error) = quick_two_sum(high, error + low);
+        let (high, error) = fast_two_sum(high, error + low);
         Pair::quick(high, error + rest)
     }
 }

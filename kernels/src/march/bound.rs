@@ -79,9 +79,8 @@
 
 use super::compensated::{Ends, Pair, ends};
 use super::reflection::{Parameter, Reflection};
+use crate::double_double::UNIT;
 
-/// Half the distance from 1 to the next double: the relative error of one operation.
-const UNIT: f64 = f64::EPSILON / 2.0;
 /// More than all relative errors of sums of non-negative numbers.
 const SLACK: f64 = 1.0 + 1.0 / (1 << 20) as f64;
 /// More than all that a period's measurement loses below the normal doubles.

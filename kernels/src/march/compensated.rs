@@ -1,6 +1,8 @@
 //! Sums carried in two doubles, as far as the ends of a polynomial need them: jumps between periods
 //! are differences of nearly equal sums, and their errors add up over a million periods.
 
+use crate::double_double::two_sum;
+
 /// An unevaluated sum of two doubles. `high` is usually the sum rounded; nothing depends on it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pair {
@@ -38,13 +40,6 @@ impl Pair {
         let (high, low) = two_sum(product, low);
         Pair { high, low }
     }
-}
-
-/// `a + b` rounded, and what the rounding lost, exactly (Knuth).
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let second = sum - a;
-    (sum, (a - (sum - second)) + (b - second))
 }
 
 /// `a · b` rounded, and what the rounding lost, exactly where nothing underflows.

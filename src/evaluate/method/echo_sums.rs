@@ -11,6 +11,7 @@ use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
 use crate::solution::{EchoTemplate, Family, Solution};
 use std::cmp::Ordering;
+use wavestep_kernels::double_double::two_sum;
 use wavestep_kernels::echoes::{
     self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term, Time,
 };
@@ -157,7 +158,7 @@ impl EchoSums {
         let arriving = side == Side::Right;
         let mut sum = 0.0;
         for Seen { weight, delay, exact_delay, sum: echoes } in &self.seen {
-            let (since, error) = difference(time, delay[0]);
+            let (since, error) = two_sum(time, -delay[0]);
             let since = (since, error + (low - delay[1]));
             let (since, rest) = self.arrivals.sided(since, time.abs(), exact_delay, (at, side))?;
             let since = Time::new(since, rest).map_err(refused)?;
@@ -211,13 +212,6 @@ impl EchoSums {
         }
         Some(Ok(()))
     }
-}
-
-/// `a − b` and its rounding error.
-fn difference(a: f64, b: f64) -> (f64, f64) {
-    let sum = a - b;
-    let virtual_b = a - sum;
-    (sum, (a - (sum + virtual_b)) + (virtual_b - b))
 }
 
 /// What the kernel says, in the words of this layer.
