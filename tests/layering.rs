@@ -8,8 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 17] = [
+const LAYERS: [(&str, &[&str]); 18] = [
     ("ball", &[]),
+    ("hertz", &["ball"]),
     ("plot", &[]),
     ("expression", &[]),
     ("enclosure", &["ball", "expression"]),

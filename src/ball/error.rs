@@ -19,6 +19,8 @@ pub enum BallError {
     ArgumentTooLarge,
     /// A divisor may be zero: its enclosure contains it.
     DivisorMayBeZero,
+    /// A number whose logarithm or root is taken may not be positive: its enclosure contains others.
+    NotPositive,
 }
 
 impl fmt::Display for BallError {
@@ -31,6 +33,8 @@ impl fmt::Display for BallError {
             Self::DivisorMayBeZero => {
                 formatter.write_str("the enclosure of a divisor contains zero")
             }
+            Self::NotPositive => formatter
+                .write_str("the enclosure of a number whose logarithm is taken is not positive"),
         }
     }
 }

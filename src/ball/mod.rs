@@ -19,6 +19,7 @@ mod double;
 mod enclosure;
 mod error;
 mod exponential;
+mod logarithm;
 mod magnitude;
 mod root;
 #[cfg(test)]

@@ -1,0 +1,256 @@
+//! Enclosures of the natural logarithm, of rational powers, and of the arctangent.
+//!
+//! A logarithm is the root of an exponential, found by Newton's method and proven by one more
+//! exponential; a power is an exponential of a logarithm; an arctangent is a Taylor sum after its
+//! argument has been halved.
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::ball::Ball;
+use super::binary::{Binary, LEAST_PRECISION};
+use super::error::BallError;
+use super::magnitude::Magnitude;
+
+/// Good bits of a first guess in doubles, with a wide margin.
+const GUESS_BITS: u64 = 40;
+
+/// How often the argument of an arctangent is halved.
+const HALVINGS: u32 = 5;
+
+/// A double near `ln m` for a positive number: off by less than `2^−40 (1 + |ln m|)`.
+fn guess(m: &Binary) -> Binary {
+    let (top, bits) = (m.top().expect("not zero"), m.mantissa().bits());
+    // m = f·2^top with f from 1/2 to 1.
+    let mantissa = m.mantissa();
+    let kept = if bits > 60 { mantissa >> (bits - 60) } else { mantissa << (60 - bits) };
+    let fraction = kept.to_f64().unwrap_or(1.0) / 60_f64.exp2();
+    let value = fraction.ln() + top as f64 * std::f64::consts::LN_2;
+    Binary::from_double(value).unwrap_or_else(Binary::zero)
+}
+
+/// `ln m` for a positive number.
+///
+/// With `y` any number, `ln m = y + ln(1 + δ)`, `δ = m e^{−y} − 1`, and `|ln(1 + δ) − δ| ≤ δ²` for
+/// `|δ| ≤ 1/2`. Each round squares the distance.
+fn logarithm(m: &Binary, precision: u64) -> Result<Ball, BallError> {
+    let one = Ball::from_integer(&BigInt::one());
+    let number = Ball::new(m.clone(), Magnitude::ZERO);
+    let mut near = guess(m);
+    let mut good = GUESS_BITS;
+    loop {
+        good = (2 * good - 8).min(precision);
+        let working = good + 16;
+        let minus = Ball::new(near.clone().negate(), Magnitude::ZERO);
+        let delta = number.multiply(&minus.exp(working)?, working).subtract(&one, working);
+        if delta.magnitude() > Magnitude::power_of_two(-1) {
+            // The guess was useless, as that of a number beyond all doubles.
+            return Err(BallError::ArgumentTooLarge);
+        }
+        let square = delta.magnitude().multiply(&delta.magnitude());
+        let ball = Ball::new(near, Magnitude::ZERO).add(&delta, working).widened(&square);
+        if good == precision {
+            return Ok(ball);
+        }
+        near = ball.midpoint().clone();
+    }
+}
+
+impl Ball {
+    /// `ln x` over a ball of positive numbers. With the midpoint `m` and the radius `r`,
+    /// `|ln x − ln m| ≤ r/(m − r)`.
+    ///
+    /// # Errors
+    /// [`BallError::NotPositive`] where a number of the ball may not be positive,
+    /// [`BallError::ArgumentTooLarge`] where its logarithm exceeds what exponentials take.
+    ///
+    /// # Cost
+    /// Some two exponentials of the precision asked for.
+    ///
+    /// ```
+    /// use wavestep::ball::{Ball, BallError};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let two = Ball::from_rational(&Rational::from_integer(2.into()), 100);
+    /// assert!(two.ln(100)?.to_string().starts_with("0.693147180559945309417232121"));
+    /// // It undoes the exponential.
+    /// assert!(two.ln(100)?.exp(100)?.contains(&Rational::from_integer(2.into())));
+    /// let zero = two.subtract(&two, 100);
+    /// assert_eq!(zero.ln(100), Err(BallError::NotPositive));
+    /// # Ok::<(), BallError>(())
+    /// ```
+    pub fn ln(&self, precision: u64) -> Result<Ball, BallError> {
+        if self.contains_zero() || self.midpoint().is_negative() {
+            return Err(BallError::NotPositive);
+        }
+        let precision = precision.max(LEAST_PRECISION);
+        let ball = logarithm(self.midpoint(), precision)?;
+        if self.is_exact() {
+            return Ok(ball);
+        }
+        let (lower, _) = self.endpoints();
+        let lower = Ball::new(lower, Magnitude::ZERO);
+        let inverse = lower.reciprocal(LEAST_PRECISION).map_err(|_| BallError::NotPositive)?;
+        Ok(ball.widened(&self.radius().multiply(&inverse.magnitude())))
+    }
+
+    /// `x^q = e^{q ln x}` over a ball of positive numbers.
+    ///
+    /// # Errors
+    /// Those of [`ln`](Self::ln) and [`exp`](Self::exp).
+    ///
+    /// ```
+    /// use wavestep::ball::{Ball, BallError};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let eight = Ball::from_rational(&Rational::from_integer(8.into()), 100);
+    /// let root = eight.power(&Rational::new((-2).into(), 3.into()), 100)?;
+    /// assert!(root.contains(&Rational::new(1.into(), 4.into())));
+    /// # Ok::<(), BallError>(())
+    /// ```
+    pub fn power(&self, exponent: &BigRational, precision: u64) -> Result<Ball, BallError> {
+        if exponent.is_zero() {
+            return Ok(Ball::from_integer(&BigInt::one()));
+        }
+        // The exponential turns the error of its argument into a relative one.
+        let logarithm = self.ln(precision)?;
+        let size = logarithm.magnitude().multiply(&Magnitude::from_rational(exponent));
+        let more = size.top().unwrap_or(0).max(0) as u64 + 4;
+        let logarithm = if self.is_exact() { self.ln(precision + more)? } else { logarithm };
+        logarithm.multiply_rational(exponent, precision + more).exp(precision)
+    }
+
+    /// `arctan x` over a ball: it moves by no more than its argument.
+    ///
+    /// Five times `arctan x = 2 arctan(x/(1 + √(1 + x²)))`, then `x − x³/3 + …`; the sum stops where the
+    /// next term, which bounds what is left out of an alternating sum with falling terms, is
+    /// negligible.
+    ///
+    /// # Errors
+    /// None for finite balls but those of the operations it is made of.
+    ///
+    /// ```
+    /// use wavestep::ball::{Ball, BallError};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let one = Ball::from_rational(&Rational::from_integer(1.into()), 100);
+    /// let quarter = Ball::pi(110).multiply_rational(&Rational::new(1.into(), 4.into()), 110);
+    /// let both = one.arctan(100)?.subtract(&quarter, 100);
+    /// assert!(both.contains(&Rational::from_integer(0.into())));
+    /// # Ok::<(), BallError>(())
+    /// ```
+    pub fn arctan(&self, precision: u64) -> Result<Ball, BallError> {
+        let working = precision.max(LEAST_PRECISION) + 16;
+        let one = Ball::from_integer(&BigInt::one());
+        let mut x = Ball::new(self.midpoint().clone(), Magnitude::ZERO);
+        for _ in 0..HALVINGS {
+            let root = x.square(working).add(&one, working);
+            let root = root.sqrt(working).ok_or(BallError::NotPositive)?;
+            x = x.multiply(&root.add(&one, working).reciprocal(working)?, working);
+        }
+        // Now |x| < 1/20: the fifth half of π/2 is below 0.0491, and its tangent as well.
+        let square = x.square(working).negate();
+        let (mut power, mut sum, mut odd) = (x.clone(), x, 1_u32);
+        loop {
+            power = power.multiply(&square, working);
+            odd += 2;
+            let term = power
+                .multiply_rational(&BigRational::new(BigInt::one(), BigInt::from(odd)), working);
+            let size = term.magnitude();
+            if size.is_zero() || size <= sum.magnitude().scale(-(working as i64)) {
+                let sum = sum.widened(&size);
+                let factor = BigRational::from_integer(BigInt::one() << HALVINGS);
+                return Ok(sum.multiply_rational(&factor, working).widened(self.radius()));
+            }
+            sum = sum.add(&term, working);
+        }
+    }
+
+    /// Whether all numbers of the ball are less than all of another one.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let third = Ball::from_rational(&Rational::new(1.into(), 3.into()), 20);
+    /// let larger = Ball::from_rational(&Rational::new(334.into(), 1000.into()), 20);
+    /// assert!(third.is_below(&larger) && !larger.is_below(&third) && !third.is_below(&third));
+    /// ```
+    #[must_use]
+    pub fn is_below(&self, other: &Ball) -> bool {
+        self.endpoints().1 < other.endpoints().0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use astro_float::RoundingMode;
+    use num_traits::Signed as _;
+    use proptest::prelude::*;
+
+    use super::super::samples::{self, includes};
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn logarithms_agree_with_another_library(
+            mantissa in samples::integer(12), exponent in -300_i64..300, precision in 2_u64..400,
+        ) {
+            let x = Binary::new(mantissa.abs(), exponent);
+            prop_assume!(!x.is_zero());
+            let bits = precision as usize + 128;
+            let opinion = samples::second_opinion(&x, bits, |x, constants| {
+                x.ln(bits, RoundingMode::ToEven, constants)
+            });
+            let ball = Ball::new(x.clone(), Magnitude::ZERO).ln(precision).unwrap();
+            let both = ball.subtract(&opinion, 2 * bits as u64);
+            prop_assert!(both.contains_zero(), "{x:?} {ball} {opinion}");
+            // Small against 1 and against the value, except where that is near zero.
+            let allowed = Magnitude::from_u64(1).add(&ball.magnitude()).scale(-(precision as i64));
+            prop_assert!(*ball.radius() <= allowed.scale(1), "{ball}");
+        }
+
+        #[test]
+        fn arctangents_agree_with_another_library(
+            mantissa in samples::integer(12), exponent in -150_i64..60, precision in 2_u64..400,
+        ) {
+            let x = Binary::new(mantissa, exponent);
+            prop_assume!(!x.is_zero());
+            let bits = precision as usize + 128;
+            let opinion = samples::second_opinion(&x, bits, |x, constants| {
+                x.atan(bits, RoundingMode::ToEven, constants)
+            });
+            let ball = Ball::new(x.clone(), Magnitude::ZERO).arctan(precision).unwrap();
+            let both = ball.subtract(&opinion, 2 * bits as u64);
+            prop_assert!(both.contains_zero(), "{x:?} {ball} {opinion}");
+            prop_assert!(*ball.radius() <= ball.magnitude().scale(2 - precision as i64), "{ball}");
+        }
+
+        #[test]
+        fn balls_hold_the_values_of_their_points(
+            (ball, point) in samples::ball_and_point(), precision in 2_u64..200,
+        ) {
+            let fine = 2 * precision + 300;
+            let point = Ball::from_rational(&point, fine);
+            prop_assert!(includes(&ball.arctan(precision).unwrap(), &point.arctan(fine).unwrap()));
+            if let Ok(logarithm) = ball.ln(precision) {
+                prop_assert!(includes(&logarithm, &point.ln(fine).unwrap()));
+            } else {
+                prop_assert!(ball.contains_zero() || ball.midpoint().is_negative());
+            }
+        }
+
+        #[test]
+        fn powers_of_powers_are_the_number(
+            q in samples::rational(8), a in 1_i64..9, b in 1_i64..9, precision in 20_u64..200,
+        ) {
+            prop_assume!(q.is_positive());
+            let number = Ball::from_rational(&q, precision + 64);
+            let there = number.power(&BigRational::new(a.into(), b.into()), precision + 64).unwrap();
+            let back = there.power(&BigRational::new(b.into(), a.into()), precision).unwrap();
+            prop_assert!(back.contains(&q), "{q} {back}");
+            prop_assert!(*back.radius() <= back.magnitude().scale(4 - precision as i64), "{back}");
+        }
+    }
+}
