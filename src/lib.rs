@@ -26,6 +26,7 @@ pub mod enclosure;
 pub mod evaluate;
 pub mod export;
 pub mod expression;
+pub mod figures;
 pub mod hertz;
 pub mod language;
 pub mod lock;

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 18] = [
+const LAYERS: [(&str, &[&str]); 19] = [
     ("ball", &[]),
     ("hertz", &["ball"]),
     ("plot", &[]),
@@ -29,6 +29,7 @@ const LAYERS: [(&str, &[&str]); 18] = [
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
     ("study", &["answer", "evaluate", "language", "plot"]),
     ("scenes", &[]),
+    ("figures", &["ball", "enclosure", "expression", "language", "scenes", "solution"]),
     (
         "command",
         &[

@@ -6,8 +6,10 @@
 mod error;
 mod expression;
 mod numbers;
+mod zero;
 
 pub use error::EnclosureError;
 pub use expression::enclose_expression;
 pub use numbers::Numbers;
 pub(crate) use numbers::real_part;
+pub use zero::{ZeroError, enclose_zero};

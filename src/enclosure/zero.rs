@@ -1,0 +1,233 @@
+//! The zero of an exact expression of one symbol, enclosed by Newton's method with balls.
+
+use super::error::EnclosureError;
+use super::expression::enclose_expression;
+use super::numbers::real_part;
+use crate::ball::Ball;
+use crate::expression::Expression;
+use std::cmp::Ordering;
+use std::fmt;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// Bits of the first look at a sign, and of the last one.
+const FIRST_BITS: u64 = 64;
+const LAST_BITS: u64 = 1 << 12;
+
+/// How often an interval is halved until the derivative has one sign on it.
+const MAX_HALVINGS: u32 = 200;
+
+/// Why no zero is enclosed.
+///
+/// ```
+/// use wavestep::enclosure::{ZeroError, enclose_zero};
+/// use wavestep::expression::Expression;
+/// use wavestep_polynomial::{Rational, Symbol};
+///
+/// let x = Symbol::new("x").unwrap();
+/// let bounds = [1, 2].map(|end| Rational::from_integer(end.into()));
+/// // 1 is nowhere zero.
+/// assert_eq!(enclose_zero(&Expression::one(), &x, &bounds, 60), Err(ZeroError::SameSign));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ZeroError {
+    /// The expression has the same sign at both ends, or none that can be told.
+    SameSign,
+    /// The derivative has no certain sign on any interval that was tried: the zero may be double.
+    NotSimple,
+    /// An enclosure failed.
+    Enclosure(EnclosureError),
+}
+
+impl fmt::Display for ZeroError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SameSign => f.write_str(
+                "the expression has no certain change of sign between these bounds; take others",
+            ),
+            Self::NotSimple => {
+                f.write_str("the zero may be double, and cannot be enclosed by signs")
+            }
+            Self::Enclosure(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ZeroError {}
+
+impl From<EnclosureError> for ZeroError {
+    fn from(error: EnclosureError) -> ZeroError {
+        ZeroError::Enclosure(error)
+    }
+}
+
+/// An expression of one symbol with its derivative.
+struct Function<'a> {
+    value: &'a Expression,
+    slope: Expression,
+    symbol: &'a Symbol,
+}
+
+impl Function<'_> {
+    fn enclose(&self, expression: &Expression, x: &Ball, bits: u64) -> Result<Ball, ZeroError> {
+        let at = |symbol: &Symbol, _| (symbol == self.symbol).then(|| x.clone());
+        Ok(real_part(enclose_expression(expression, &at, bits)?)?)
+    }
+
+    /// The sign at a number; `None` where it cannot be told.
+    fn sign(&self, x: &Rational) -> Result<Option<Ordering>, ZeroError> {
+        let mut bits = FIRST_BITS;
+        while bits <= LAST_BITS {
+            let value = self.enclose(self.value, &Ball::from_rational(x, bits), bits)?;
+            if !value.contains_zero() {
+                let negative = value.midpoint().is_negative();
+                return Ok(Some(if negative { Ordering::Less } else { Ordering::Greater }));
+            }
+            bits *= 2;
+        }
+        Ok(None)
+    }
+}
+
+/// The ball of all numbers between two.
+fn between(low: &Rational, high: &Rational, bits: u64) -> Ball {
+    let two = Rational::from_integer(2.into());
+    let middle = Ball::from_rational(&((low + high) / &two), bits);
+    middle.add(&Ball::symmetric(&((high - low) / two)), bits)
+}
+
+/// A zero between two bounds at which an expression has different signs, to about `bits` bits.
+///
+/// The interval is halved, keeping a change of sign, until the derivative has one sign on it: it then
+/// holds exactly one zero. From there on `m − f(m)/f'(X)` encloses that zero, by the mean value
+/// theorem, and is about twice as exact as the interval X around m. That there is only one zero
+/// between the given bounds is not proven.
+///
+/// # Errors
+/// [`ZeroError`]: no change of sign, a zero that may be double, or a symbol without a value.
+///
+/// ```
+/// use wavestep::enclosure::enclose_zero;
+/// use wavestep::expression::{Expression, Fraction};
+/// use wavestep_polynomial::{Polynomial, Rational, Symbol};
+///
+/// // x e^x = 1 has the omega constant for its solution.
+/// let x = Symbol::new("x").unwrap();
+/// let power = Expression::exponential(Fraction::symbol(&x)).times(&Fraction::symbol(&x));
+/// let bounds = [0, 1].map(|end| Rational::from_integer(end.into()));
+/// let omega = enclose_zero(&(&power - &Expression::one()), &x, &bounds, 100).unwrap();
+/// assert!(omega.to_string().starts_with("0.567143290409783872999968662"));
+/// ```
+pub fn enclose_zero(
+    expression: &Expression,
+    symbol: &Symbol,
+    [low, high]: &[Rational; 2],
+    bits: u64,
+) -> Result<Ball, ZeroError> {
+    let function = Function { value: expression, slope: expression.derivative(symbol), symbol };
+    let (mut low, mut high) = (low.clone(), high.clone());
+    let first = function.sign(&low)?.ok_or(ZeroError::SameSign)?;
+    if function.sign(&high)? != Some(first.reverse()) {
+        return Err(ZeroError::SameSign);
+    }
+    let mut interval = between(&low, &high, FIRST_BITS);
+    let mut halvings = 0;
+    loop {
+        // Between balls that hold zero the quotient is unknown, and the interval still too long.
+        if let Ok(slope) = function.enclose(&function.slope, &interval, FIRST_BITS)
+            && !slope.contains_zero()
+        {
+            break;
+        }
+        if halvings == MAX_HALVINGS {
+            return Err(ZeroError::NotSimple);
+        }
+        halvings += 1;
+        // A zero in the middle itself is met by cutting elsewhere.
+        let cuts = [(1, 2), (3, 7)].map(|(a, b)| Rational::new(a.into(), b.into()));
+        let signed = cuts.iter().find_map(|share| {
+            let cut = &low + (&high - &low) * share;
+            match function.sign(&cut) {
+                Ok(Some(sign)) => Some(Ok((cut, sign))),
+                Ok(None) => None,
+                Err(error) => Some(Err(error)),
+            }
+        });
+        let (cut, sign) = signed.ok_or(ZeroError::NotSimple)??;
+        if sign == first {
+            low = cut
+        } else {
+            high = cut
+        }
+        interval = between(&low, &high, FIRST_BITS);
+    }
+    let mut working = FIRST_BITS;
+    loop {
+        let middle = Rational::from(interval.midpoint());
+        let point = Ball::from_rational(&middle, 2 * working + 64);
+        let slope = function.enclose(&function.slope, &interval, working)?;
+        let inverse = slope.reciprocal(working).map_err(EnclosureError::Ball)?;
+        let value = function.enclose(expression, &point, 2 * working)?;
+        let next = point.subtract(&value.multiply(&inverse, 2 * working), 2 * working + 32);
+        let is_smaller = next.radius().scale(1) < *interval.radius();
+        if is_smaller {
+            interval = next;
+        }
+        let fine = interval.magnitude().scale(-(bits as i64));
+        if *interval.radius() <= fine {
+            return Ok(interval);
+        }
+        match (is_smaller, working < 2 * bits + LAST_BITS) {
+            (_, true) => working *= 2,
+            (true, false) => {}
+            (false, false) => return Err(ZeroError::NotSimple),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::Fraction;
+
+    fn x() -> Symbol {
+        Symbol::new("x").unwrap()
+    }
+
+    fn ends(low: i64, high: i64) -> [Rational; 2] {
+        [low, high].map(|end| Rational::from_integer(end.into()))
+    }
+
+    fn polynomial(text: &str) -> Expression {
+        let read: wavestep_polynomial::Polynomial = text.parse().unwrap();
+        Expression::from(Fraction::from(read))
+    }
+
+    #[test]
+    fn roots_of_polynomials_are_enclosed() {
+        let zero = enclose_zero(&polynomial("x^2 - 2"), &x(), &ends(1, 2), 300).unwrap();
+        let root = Ball::square_root(&Rational::from_integer(2.into()), 400).unwrap();
+        assert!(zero.subtract(&root, 400).contains_zero());
+        assert!(*zero.radius() <= zero.magnitude().scale(-300) && !zero.contains(&ends(1, 2)[0]));
+        // A zero in the middle, where no sign can be told.
+        let zero = enclose_zero(
+            &polynomial("x^3 - x"),
+            &x(),
+            &ends(-1, 3).map(|end| end / Rational::from_integer(2.into())),
+            80,
+        );
+        assert!(zero.is_ok());
+    }
+
+    #[test]
+    fn double_roots_and_none_are_refused() {
+        assert_eq!(
+            enclose_zero(&polynomial("x^2 + 1"), &x(), &ends(0, 1), 60),
+            Err(ZeroError::SameSign)
+        );
+        let triple = enclose_zero(&polynomial("3*x^3 - 3*x^2 + x - 1/9"), &x(), &ends(0, 1), 60);
+        assert_eq!(triple, Err(ZeroError::NotSimple));
+        let two = Expression::symbol(&Symbol::new("y").unwrap());
+        assert!(matches!(enclose_zero(&two, &x(), &ends(0, 1), 60), Err(ZeroError::Enclosure(_))));
+    }
+}

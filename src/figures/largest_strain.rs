@@ -1,0 +1,136 @@
+//! The period in which the strain at the fixed end is largest, when a rigid mass strikes a bar
+//! (figure 6.22).
+//!
+//! A front leaves the struck end at the beginning of each period and doubles at the fixed end: the
+//! strain is there largest in that period, `2 f_n(0) V/c`, as long as the contact pushes. The larger the
+//! striking mass, the later the period in which that is largest of all.
+
+use crate::ball::Ball;
+use crate::enclosure::{ZeroError, enclose_expression, enclose_zero};
+use crate::expression::Expression;
+use crate::language::{self, Source};
+use crate::solution::Solution;
+use num_traits::One as _;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The most periods: each needs a longer expression.
+const MAX_PERIODS: usize = 60;
+
+/// The strains at the fixed end at the beginnings of periods, as exact functions of the mass ratio.
+///
+/// ```
+/// use wavestep::figures::LargestStrain;
+/// use wavestep_polynomial::Rational;
+///
+/// let strains = LargestStrain::new(3).unwrap();
+/// // Equal masses, μ = 1: 2 V/c, then 2 (1 + e^(−2)) V/c, twice 1.1353….
+/// let one = Rational::from_integer(1.into());
+/// assert!(strains.strain(0, &one, 60).contains(&Rational::from_integer(2.into())));
+/// assert!(strains.strain(1, &one, 60).to_string().starts_with("2.27067056647322"));
+/// // A mass of 5.686 bars strains the bar most in the third period, no longer in the second.
+/// let ratio = strains.overtaking(1, 60).unwrap();
+/// assert!(ratio.to_string().starts_with("5.68611974353"));
+/// ```
+pub struct LargestStrain {
+    mu: Symbol,
+    strains: Vec<Expression>,
+}
+
+impl LargestStrain {
+    /// The strains of the periods 0 … `last`, from the derived wave functions.
+    ///
+    /// # Errors
+    /// [`ZeroError::NotSimple`] never; text where there are more periods than 60.
+    ///
+    /// # Panics
+    /// Never: the scene is built in.
+    pub fn new(last: usize) -> Option<LargestStrain> {
+        if last > MAX_PERIODS {
+            return None;
+        }
+        let text = crate::scenes::find("rigid-mass").expect("a built-in scene").text;
+        let source = Source::new("rigid-mass", text).expect("a short text");
+        let recurrence = language::read_recurrence(&source, &Default::default());
+        let recurrence = recurrence.expect("a built-in scene");
+        let local = recurrence.statement().local.clone();
+        let wave = 0;
+        let pieces = Solution::new(recurrence).pieces(wave, 0, last);
+        let two = Rational::from_integer(2.into());
+        let strains =
+            pieces.expect("a wave with pieces").iter().map(|f| f.at_zero(&local).scale(&two));
+        Some(LargestStrain { mu: Symbol::new("mu").expect("a name"), strains: strains.collect() })
+    }
+
+    /// `2 f_n(0)`, the strain over `V/c` at the beginning of a period, where the bar has a share μ of the
+    /// striking mass.
+    ///
+    /// # Panics
+    /// If there is no such period.
+    pub fn strain(&self, period: usize, mu: &Rational, bits: u64) -> Ball {
+        self.enclose(&self.strains[period], mu, bits)
+    }
+
+    fn enclose(&self, expression: &Expression, mu: &Rational, bits: u64) -> Ball {
+        // Terms of size e^{2√(2nx)} cancel: so many bits more are enough for 60 periods.
+        let working = bits + 256;
+        let at =
+            |symbol: &Symbol, bits| (*symbol == self.mu).then(|| Ball::from_rational(mu, bits));
+        let value = enclose_expression(expression, &at, working).expect("a value for the symbol");
+        value.real().clone()
+    }
+
+    /// The largest ratio `1/μ` of the striking mass to that of the bar at which the strains of a period
+    /// and the next one are equal: for larger masses the next one is larger. `None` where there is no
+    /// such ratio up to `4 (n + 2)²`, or no such period.
+    ///
+    /// A change of sign is looked for from large masses downwards; the zero is enclosed with proof, that
+    /// there is no larger one is not proven.
+    pub fn overtaking(&self, period: usize, bits: u64) -> Option<Ball> {
+        let next = self.strains.get(period + 1)?;
+        let difference = next - &self.strains[period];
+        let is_overtaken = |ratio: &Rational| {
+            let value = self.enclose(&difference, &ratio.recip(), 64);
+            !value.contains(&Rational::default())
+                && Ball::from_rational(&Rational::default(), 8).is_below(&value)
+        };
+        let count = i64::try_from(period + 2).ok()?;
+        let mut high = Rational::from_integer((4 * count * count).into());
+        if !is_overtaken(&high) {
+            return None;
+        }
+        let shrink = Rational::new(15.into(), 16.into());
+        loop {
+            let low = &high * &shrink;
+            if low < Rational::new(1.into(), 8.into()) {
+                return None;
+            }
+            if !is_overtaken(&low) {
+                let bounds = [high.recip(), low.recip()];
+                let mu = enclose_zero(&difference, &self.mu, &bounds, bits + 8);
+                return match mu {
+                    Ok(mu) => mu.reciprocal(bits + 8).ok(),
+                    Err(ZeroError::SameSign | ZeroError::NotSimple | ZeroError::Enclosure(_)) => {
+                        None
+                    }
+                };
+            }
+            high = low;
+        }
+    }
+
+    /// `[1 + (1/μ + 1/3)^{1/2}]`, the estimate 6.86 in `V/c`.
+    ///
+    /// ```
+    /// use wavestep::figures::LargestStrain;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// // 1/μ = 2/3: twice V/c.
+    /// let estimate = LargestStrain::estimate(&Rational::new(2.into(), 3.into()), 60);
+    /// assert!(estimate.contains(&Rational::from_integer(2.into())));
+    /// ```
+    pub fn estimate(ratio: &Rational, bits: u64) -> Ball {
+        let third = Rational::new(1.into(), 3.into());
+        let root = Ball::square_root(&(ratio + third), bits).expect("a positive number");
+        root.add(&Ball::from_rational(&Rational::one(), bits), bits)
+    }
+}

@@ -1,0 +1,5 @@
+//! What the source's figures show, computed from the derived forms.
+
+mod largest_strain;
+
+pub use largest_strain::LargestStrain;
