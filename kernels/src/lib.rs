@@ -8,7 +8,7 @@
 //! |---|---|
 //! | [`Table`], [`Evaluator`] | polynomials piece by piece, at memory speed, also correctly rounded |
 //! | [`echoes`] | sums of Laguerre polynomials, stable and as printed |
-//! | [`march`] | a delay equation on Chebyshev coefficients, with a proven bound |
+//! | [`march`] | a delay equation on Chebyshev coefficients, with a proven bound; systems of them, without |
 //! | [`fixed`] | the same in integers, with some thirty proven digits |
 
 mod bounds;

@@ -66,6 +66,8 @@ const PAIR_STEP: f64 = 3e-8;
 /// A Chebyshev coefficient of a march, without and with a bound.
 const COEFFICIENT: f64 = 2e-9;
 const PROVEN_COEFFICIENT: f64 = 1.2e-8;
+/// A wave on a period, in a march of all waves.
+const WAVE: f64 = 5e-6;
 
 impl Cost {
     /// The cost of a method; `None` for models, which are never picked.
@@ -87,6 +89,19 @@ impl Cost {
             _ => return None,
         };
         Some(Cost { setup, point })
+    }
+
+    /// The cost of a march of so many waves without a bound.
+    ///
+    /// ```
+    /// use wavestep::answer::{Cost, Size};
+    ///
+    /// let size = Size { order: 100, points: 1, marches: false };
+    /// assert!(Cost::of_waves(size, 2).setup < Cost::of_waves(size, 20).setup);
+    /// ```
+    pub fn of_waves(size: Size, waves: usize) -> Cost {
+        let one = (size.order as f64 + 1.0) * WAVE;
+        Cost { setup: one * waves as f64, point: LOOKUP }
     }
 
     /// The cost of so many values, in seconds: `setup + points · point`.

@@ -1,6 +1,6 @@
 //! What is asked for: an observable on a window of time.
 
-use crate::evaluate::{EvaluateError, Marched, Method as _, Recogniser, Side, Signal};
+use crate::evaluate::{EvaluateError, Marched, Method as _, Recogniser, Side, Signal, Taps};
 use crate::network::Network;
 use wavestep_polynomial::Rational;
 
@@ -56,6 +56,8 @@ impl Problem<'_> {
 
     fn marched_scale(&self) -> Option<f64> {
         const SAMPLES: i64 = 40;
+        // Tolerances are relative to this: it does not rest on a march that has no proof at all.
+        Taps::of(self.signal).ok()?;
         let marched = Marched::new(self.signal, &self.from, &self.to, false).ok()?;
         let part = (&self.to - &self.from) / Rational::from_integer(SAMPLES.into());
         let at = |i: i64| &self.from + &part * Rational::from_integer(i.into());

@@ -38,9 +38,9 @@ pub enum Kind {
     Certified,
     /// Polynomials with a proven bound.
     Compiled,
-    /// A march on Chebyshev coefficients; proven where asked for.
+    /// A march on Chebyshev coefficients; proven where asked for, with one pole and one lag.
     Marched {
-        /// Whether a bound is proven.
+        /// Whether a bound is proven, where it can be.
         proven: bool,
     },
     /// The stable sum of echoes.
@@ -77,7 +77,10 @@ impl Kind {
     pub const NAMES: [(&'static str, &'static str); 13] = [
         ("certified", "correctly rounded"),
         ("compiled", "polynomials with a proven bound"),
-        ("marched", "Chebyshev coefficients period by period, with a proven bound"),
+        (
+            "marched",
+            "Chebyshev coefficients period by period, with a proven bound for one pole and one lag",
+        ),
         ("marched-unproven", "the same without"),
         ("stable", "echoes summed by differences"),
         ("double-double", "the same in pairs of doubles"),

@@ -3,7 +3,9 @@
 use crate::answer::cost::{Cost, Size};
 use crate::answer::problem::Problem;
 use crate::answer::way::Kind;
-use crate::evaluate::{EvaluateError, MAX_PIECES, StablePrecision, Taps, unit_in_the_last_place};
+use crate::evaluate::{
+    EvaluateError, MAX_PIECES, NoTaps, StablePrecision, Taps, unit_in_the_last_place,
+};
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Kind; 7] = [
@@ -22,6 +24,9 @@ const COMPILED_ULPS: f64 = 4.0;
 
 /// What a march with a proven bound loses a period, in units in the last place of the largest value.
 const MARCHED_ULPS: f64 = 40.0;
+
+/// What a march with several poles or lags was off by at most, relative to the largest value.
+const MARCHED_WAVES: f64 = 1e-13;
 
 /// How far off a way can be, as known before it is tried.
 ///
@@ -130,9 +135,20 @@ pub fn consider(
     let size = Size { order, points, marches };
     let ulp = unit_in_the_last_place(scale);
     let candidate = |kind: Kind| {
-        let seconds = Cost::of(kind, size).map_or(f64::INFINITY, |cost| cost.seconds(points));
+        let cost = match (&kind, &taps) {
+            (Kind::Marched { .. }, Err(_)) => {
+                Some(Cost::of_waves(size, problem.signal.recurrence().wave_count()))
+            }
+            _ => Cost::of(kind, size),
+        };
+        let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));
         let needs_taps = !matches!(kind, Kind::Certified | Kind::Compiled | Kind::Expanded);
         if let (true, Err(reason)) = (needs_taps, &taps) {
+            if matches!(kind, Kind::Marched { .. }) && *reason != NoTaps::NoGrid {
+                let promise = Some(Promise::Measured(MARCHED_WAVES * scale));
+                let verdict = "it has no bound here: its error is measured, not proven".to_owned();
+                return Candidate { kind, promise, seconds, verdict };
+            }
             return Candidate {
                 kind,
                 promise: None,

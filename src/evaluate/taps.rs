@@ -8,7 +8,8 @@
 //!
 //! the solution of `(d/dT + b) Y(T) = ρ (d/dT − a) Y(T − D) + δ(T)`. A term `c_i L_{k−i}` of a wave's
 //! echoes is `c_i ρ^i Y(T − iD)`, so that all waves and observables are sums of *taps* `w Y(T − d)`, up
-//! to finitely many exponential polynomials. Methods for doubles need to know how to compute `Y` alone.
+//! to finitely many exponential polynomials. Methods for doubles need to know how to compute `Y` alone;
+//! where there are no taps, [`Marched`](crate::evaluate::Marched) takes the steps of all waves.
 
 use crate::evaluate::signal::Signal;
 use crate::expression::{Expression, Fraction};

@@ -54,11 +54,11 @@ impl LargestStrain {
         let recurrence = recurrence.expect("a built-in scene");
         let local = recurrence.statement().local.clone();
         let wave = 0;
-        let pieces = Solution::new(recurrence).pieces(wave, 0, last);
+        let solution = Solution::new(recurrence);
+        let pieces = solution.pieces(wave, 0, last).expect("a wave with pieces");
         let two = Rational::from_integer(2.into());
-        let strains =
-            pieces.expect("a wave with pieces").iter().map(|f| f.at_zero(&local).scale(&two));
-        Some(LargestStrain { mu: Symbol::new("mu").expect("a name"), strains: strains.collect() })
+        let strains = pieces.iter().map(|f| f.at_zero(&local).scale(&two)).collect();
+        Some(LargestStrain { mu: Symbol::new("mu").expect("a name"), strains })
     }
 
     /// `2 f_n(0)`, the strain over `V/c` at the beginning of a period, where the bar has a share μ of the

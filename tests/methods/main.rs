@@ -10,6 +10,7 @@ mod chooser;
 mod compiled;
 mod inclusion;
 mod marched;
+mod marched_waves;
 mod precision;
 mod response;
 mod stable;

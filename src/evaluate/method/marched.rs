@@ -1,30 +1,15 @@
 //! Marched: the recurrence on Chebyshev coefficients, period by period, for millions of reflections.
 //!
-//! The impulse response is a polynomial on each period, whose length grows as the fronts sharpen. A
-//! certificate looks at the polynomials alone and proves how far they are from the exact response
-//! ([`wavestep_kernels::march`]); the bound of an observable is that, times the sum of the weights with
-//! which the response is seen.
+//! Where all that is seen has one pole and one lag it is made of delayed copies of one impulse response,
+//! and a bound can be proven. All other recurrences are marched through wave by wave, without a bound.
 
-use super::doubles::near;
+use super::marched_response::MarchedResponse;
+use super::marched_waves::MarchedWaves;
 use super::{Method, MethodError};
-use crate::ball::{Ball, ComplexBall, Magnitude};
-use crate::enclosure::Numbers;
-use crate::evaluate::cells::{at_or_after, rational};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::Side;
 use crate::evaluate::signal::Signal;
-use crate::evaluate::taps::Taps;
-use crate::evaluate::transforms::value_at;
-use crate::expression::{Field as _, Fraction, Root, Transform};
-use num_traits::{Signed as _, ToPrimitive as _};
-use wavestep_kernels::fixed::{self, Reduction};
-use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection};
-use wavestep_polynomial::{Rational, Symbol};
-
-/// The most periods that are marched through.
-const MAX_PERIODS: u64 = 10_000_000;
-
-/// Bits of the sum of the response and what is added, whatever their sizes.
-const SUM_BITS: u64 = 1 << 12;
+use crate::evaluate::taps::{NoTaps, Taps};
+use wavestep_polynomial::Rational;
 
 /// An observable on a window by a march.
 ///
@@ -42,311 +27,85 @@ const SUM_BITS: u64 = 1 << 12;
 /// assert!((value - (-1f64).exp()).abs() <= marched.bound().unwrap() + 1e-16);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
+///
+/// Waves with several poles have values without a bound:
+///
+/// ```
+/// use wavestep::evaluate::{Marched, Method, Side, Signal};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let source = Source::new("two poles", r#"
+///     recurrence "Two poles"
+///     period 2, local s, time t
+///     wave h, f
+///     equation h[n]' + h[n] = h[n-1]' - h[n-1]
+///     equation f[n]' + 2*f[n] = h[n]
+///     continuous h[n] - h[n-1] starts at 1
+///     continuous f[n] starts at 0
+/// "#)?;
+/// let recurrence = read_recurrence(&source, &Default::default())?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// let marched = Marched::new(&signal, &from, &to, true).unwrap();
+/// assert_eq!(marched.bound(), None);
+/// assert!(marched.law().contains("no bound"));
+/// // On the first period f = e^{−t} − e^{−2t}.
+/// let value = marched.value(&parse_number("1")?, Side::Right).unwrap();
+/// assert!((value - (-1f64).exp() + (-2f64).exp()).abs() < 1e-15);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
 pub struct Marched {
-    taps: Taps,
-    numbers: Numbers,
-    local: Symbol,
-    reflection: Reflection,
-    slowness: Fraction,
-    unit: Root,
-    from: Rational,
-    to: Rational,
-    /// The proven bound on the window, where one is asked for and proven.
-    bound: Option<f64>,
+    march: Inner,
 }
 
-/// A place at which the response is asked for.
-struct Place {
-    period: usize,
-    /// In parts of the period.
-    local: f64,
-    /// Which of the values it is for, and the weight there.
-    value: usize,
-    weight: f64,
+/// What is marched through.
+enum Inner {
+    /// One impulse response.
+    Response(Box<MarchedResponse>),
+    /// All waves.
+    Waves(Box<MarchedWaves>),
 }
 
 impl Marched {
-    /// The response until the end of the window; where `proven`, it is marched through at once and
-    /// a bound is proven.
+    /// The waves until the end of the window; where `proven`, they are marched through at once and
+    /// a bound is proven, where there is one pole and one lag.
     ///
     /// # Errors
-    /// [`MethodError::NoTaps`], where waves have not one pole and one lag; [`MethodError::Kernel`]
-    /// where they grow without bound.
+    /// [`MethodError::NoTaps`], where arrivals lie on no common grid; [`MethodError::TooManyPeriods`];
+    /// [`MethodError::Kernel`], where a number is none that doubles can hold.
     ///
     /// # Cost
-    /// For each period some hundred operations a coefficient, of which there are about `√(2nD)`; ten
-    /// times as many with a bound.
+    /// With one pole and one lag some hundred operations a coefficient for each period, of which there
+    /// are about `√(2nD)`; ten times as many with a bound. Otherwise that for each term of each step.
     pub fn new(
         signal: &Signal,
         from: &Rational,
         to: &Rational,
         proven: bool,
     ) -> Result<Marched, MethodError> {
-        let taps = Taps::of(signal)?;
-        let numbers = Numbers::new(signal.recurrence().constants());
-        let reflection = {
-            let parameter = |value: &Fraction| -> Result<Parameter, MethodError> {
-                let (value, radius) = near(&numbers, value).map_err(EvaluateError::from)?;
-                Parameter::within(value, radius).map_err(refused)
-            };
-            let rate = parameter(&(&taps.rate * &taps.period))?;
-            let zero = parameter(&(&taps.zero * &taps.period))?;
-            Reflection::new(rate, zero, parameter(&taps.ratio)?).map_err(refused)?
+        let waves = || -> Result<Marched, MethodError> {
+            let march = Inner::Waves(Box::new(MarchedWaves::new(signal, from, to)?));
+            Ok(Marched { march })
         };
-        let mut marched = Marched {
-            taps,
-            numbers,
-            local: signal.recurrence().statement().local.clone(),
-            reflection,
-            slowness: signal.slowness().clone(),
-            unit: signal.unit().clone(),
-            from: from.clone(),
-            to: to.clone(),
-            bound: None,
+        let taps = match Taps::of(signal) {
+            Ok(taps) => taps,
+            Err(NoTaps::NoGrid) => return Err(NoTaps::NoGrid.into()),
+            Err(_) => return waves(),
         };
-        let last = marched.last_period()?;
-        if last > MAX_PERIODS {
-            let periods = usize::try_from(last).unwrap_or(usize::MAX);
-            return Err(MethodError::TooManyPeriods { periods, limit: MAX_PERIODS as usize });
-        }
-        if proven {
-            marched.bound = marched.prove(last)?;
-        }
-        Ok(marched)
-    }
-
-    /// The last period of the response that is seen.
-    fn last_period(&self) -> Result<u64, MethodError> {
-        let mut last = 0;
-        for tap in &self.taps.taps {
-            if let Some((period, _)) = self.place(&tap.delay, &self.to, Side::Right)? {
-                last = last.max(period);
-            }
-        }
-        Ok(last)
-    }
-
-    /// Marches to the end with a certificate. The bound of the response is `b`, and a place is off by
-    /// `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period turns into an
-    /// error of the value.
-    fn prove(&self, last: u64) -> Result<Option<f64>, MethodError> {
-        let options = MarchOptions { bounds: Bounds::Proven, ..MarchOptions::default() };
-        let mut march = March::new(&self.reflection, options).map_err(refused)?;
-        let mut slope = 0.0_f64;
-        let mut sum = 0.0_f64;
-        let mut bound = 0.0_f64;
-        loop {
-            let mut steepest = 0.0;
-            let mut total = 0.0;
-            for (k, coefficient) in march.coefficients().iter().enumerate() {
-                let k = k as f64;
-                steepest += 2.0 * k * k * coefficient.abs();
-                total += coefficient.abs();
-            }
-            slope = slope.max(steepest);
-            sum = sum.max(total);
-            // Evaluation loses most where the polynomial is largest, which need not be at the end.
-            match march.bound() {
-                Some(here) => bound = bound.max(here),
-                None => return Ok(None),
-            }
-            if march.period() as u64 >= last {
-                break;
-            }
-            march.advance().map_err(refused)?;
-        }
-        let weights = self.weights()?;
-        let total: f64 = weights.iter().map(|weight| weight.abs()).sum();
-        // The weighted sum itself, with an eighth to spare for the rounding of this line, and for the
-        // enclosure of what is added.
-        let roundings = (weights.len() + 4) as f64 * f64::EPSILON * sum;
-        Ok(Some((bound + slope * f64::EPSILON + roundings) * total * 1.125))
-    }
-
-    /// The weights of the taps in the unit of the observable.
-    fn weights(&self) -> Result<Vec<f64>, MethodError> {
-        let unit = self.numbers.enclose_root(&self.unit, 128).map_err(EvaluateError::from)?;
-        let weight = |tap: &crate::evaluate::taps::Tap| {
-            let weight = self.numbers.enclose(&tap.weight, 128).map_err(EvaluateError::from)?;
-            Ok(weight.multiply(&unit, 128).to_double().0)
-        };
-        self.taps.taps.iter().map(weight).collect()
-    }
-
-    /// The period and the place on it of a time that is seen with a delay; `None` before the start.
-    fn place(
-        &self,
-        delay: &Fraction,
-        at: &Rational,
-        side: Side,
-    ) -> Result<Option<(u64, f64)>, MethodError> {
-        let limit = usize::try_from(MAX_PERIODS).unwrap_or(usize::MAX);
-        let too_many = || MethodError::TooManyPeriods { periods: usize::MAX, limit };
-        let since = &self.slowness.scale(at) - delay;
-        let period = &self.taps.period;
-        if let (Some(since), Some(period)) = (since.as_constant(), period.as_constant()) {
-            let periods = since / period;
-            let mut whole = periods.floor();
-            if side == Side::Left && whole == periods {
-                whole -= Rational::from_integer(1.into());
-            }
-            if whole.is_negative() {
-                return Ok(None);
-            }
-            let local = Ball::from_rational(&(periods - &whole), 64).to_double().0;
-            let whole = whole.to_integer().to_u64().ok_or_else(too_many)?;
-            return Ok(Some((whole, local)));
-        }
-        // Irrational: never on a joint, unless as an expression.
-        let compare = |n: u64| {
-            let joint = period.scale(&Rational::from_integer(n.into()));
-            self.numbers.compare(&since, &joint).map_err(EvaluateError::from)
-        };
-        let ball = |value: &Fraction| self.numbers.enclose(value, 192).map_err(EvaluateError::from);
-        let inverse = ball(period)?.reciprocal(192).map_err(EvaluateError::Ball)?;
-        let periods = ball(&since)?.multiply(&inverse, 192);
-        let near = Rational::from(periods.midpoint()).floor().to_integer();
-        if near < (-1).into() {
-            return Ok(None);
-        }
-        // The joint at or before: one of three.
-        let near =
-            near.max(0.into()).to_u64().filter(|near| *near < u64::MAX).ok_or_else(too_many)?;
-        for whole in [near + 1, near, near.saturating_sub(1)] {
-            let order = compare(whole)?;
-            if order.is_gt() || (order.is_eq() && side == Side::Right) {
-                let offset = Ball::from_rational(&Rational::from_integer(whole.into()), 192);
-                let local = periods.subtract(&offset, 192).to_double().0;
-                return Ok(Some((whole, local.clamp(0.0, 1.0))));
-            }
-        }
-        Ok(None)
-    }
-
-    /// What is added to the taps at a time, in a ball whose radius is less than `2^−10` of the bound.
-    fn extras(&self, at: &Rational, side: Side) -> Result<Ball, MethodError> {
-        const FIRST_BITS: u64 = 128;
-        const MAX_BITS: u64 = 1 << 12;
-        let allowed = self.bound.map(|bound| Magnitude::from_double(bound).scale(-10));
-        let mut bits = FIRST_BITS;
-        loop {
-            let sum = self.extras_in(at, side, bits)?;
-            if bits >= MAX_BITS || allowed.is_none_or(|allowed| *sum.radius() <= allowed) {
-                return Ok(sum);
-            }
-            bits *= 2;
+        match MarchedResponse::new(taps, signal, from, to, proven) {
+            Ok(response) => Ok(Marched { march: Inner::Response(Box::new(response)) }),
+            // Growing reflections have no certificate; their waves have values as others have.
+            Err(error @ MethodError::Kernel(_)) => waves().map_err(|_| error),
+            Err(error) => Err(error),
         }
     }
 
-    /// The same with so many bits.
-    fn extras_in(&self, at: &Rational, side: Side, bits: u64) -> Result<Ball, MethodError> {
-        let field = self.numbers.field(bits);
-        let mut sum = Ball::zero();
-        for extra in &self.taps.extras {
-            let since = &self.slowness.scale(at) - &extra.origin;
-            let order =
-                self.numbers.compare(&since, &Fraction::zero()).map_err(EvaluateError::from)?;
-            if order.is_lt() || (order.is_eq() && side == Side::Left) {
-                continue;
-            }
-            let exact = Transform::of(&extra.function, &self.local);
-            let function =
-                Transform::<ComplexBall>::embedded(&exact, &field).map_err(EvaluateError::from)?;
-            let x = field.embed(&since.into()).map_err(EvaluateError::from)?;
-            let value = value_at(&function, &x, &self.numbers, bits)?;
-            sum = sum.add(value.real(), bits);
+    fn method(&self) -> &dyn Method {
+        match &self.march {
+            Inner::Response(response) => response.as_ref(),
+            Inner::Waves(waves) => waves.as_ref(),
         }
-        let unit = self.numbers.enclose_root(&self.unit, bits).map_err(EvaluateError::from)?;
-        Ok(sum.multiply(&unit, bits))
     }
-
-    /// The values at times: one march through all periods that are seen.
-    fn at(&self, times: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
-        if times.iter().any(|at| *at < self.from || *at > self.to) {
-            return Err(MethodError::Outside);
-        }
-        let weights = self.weights()?;
-        let mut places = Vec::new();
-        for (value, at) in times.iter().enumerate() {
-            for (tap, weight) in self.taps.taps.iter().zip(&weights) {
-                let seen = self.place(&tap.since, at, side)?;
-                let found = self.place(&tap.delay, at, side)?;
-                if let (Some(_), Some((period, local))) = (seen, found) {
-                    let period = usize::try_from(period).unwrap_or(usize::MAX);
-                    places.push(Place { period, local, value, weight: *weight });
-                }
-            }
-        }
-        let mut values = self.march(places, times.len())?;
-        if !self.taps.extras.is_empty() {
-            // What is added can be much larger than the response: the sum is rounded once.
-            for (value, at) in values.iter_mut().zip(times) {
-                let response = Ball::from_rational(&rational(*value), 64);
-                *value = response.add(&self.extras(at, side)?, SUM_BITS).to_double().0;
-            }
-        }
-        Ok(values)
-    }
-
-    /// The same for doubles, just after arrivals, where periods and delays are rational numbers and
-    /// nothing is added: their places are found in integers.
-    fn at_doubles(&self, times: &[f64]) -> Option<Result<Vec<f64>, MethodError>> {
-        let slowness = self.slowness.as_constant()?;
-        let period = self.taps.period.as_constant()? / &slowness;
-        if !self.taps.extras.is_empty() {
-            return None;
-        }
-        let mut reductions = Vec::new();
-        for tap in &self.taps.taps {
-            let delay = tap.delay.as_constant()? / &slowness;
-            if tap.since != tap.delay {
-                return None;
-            }
-            reductions.push(Reduction::new(&period, &delay).ok()?);
-        }
-        let weights = match self.weights() {
-            Ok(weights) => weights,
-            Err(error) => return Some(Err(error)),
-        };
-        let mut places = Vec::with_capacity(times.len() * weights.len());
-        for (value, time) in times.iter().enumerate() {
-            for (reduction, weight) in reductions.iter().zip(&weights) {
-                let Some(position) = reduction.of_double(*time, fixed::Side::Right).ok()? else {
-                    continue;
-                };
-                let (period, local) = (position.period() as usize, position.local());
-                places.push(Place { period, local, value, weight: *weight });
-            }
-        }
-        Some(self.march(places, times.len()))
-    }
-
-    /// The weighted sums of the response at all places, for so many values.
-    fn march(&self, mut places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError> {
-        let mut values = vec![0.0; count];
-        places.sort_by_key(|place| place.period);
-        let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
-        let mut march = March::new(&self.reflection, options).map_err(refused)?;
-        let (mut points, mut found) = (Vec::new(), Vec::new());
-        for group in places.chunk_by(|a, b| a.period == b.period) {
-            while march.period() < group[0].period {
-                march.advance().map_err(refused)?;
-            }
-            points.clear();
-            points.extend(group.iter().map(|place| place.local));
-            found.resize(points.len(), 0.0);
-            march.values(&points, &mut found);
-            for (place, response) in group.iter().zip(&found) {
-                values[place.value] += place.weight * response;
-            }
-        }
-        Ok(values)
-    }
-}
-
-/// What the kernel says, in the words of this layer.
-fn refused(error: impl std::fmt::Display) -> MethodError {
-    MethodError::Kernel(error.to_string())
 }
 
 impl Method for Marched {
@@ -355,35 +114,22 @@ impl Method for Marched {
     }
 
     fn law(&self) -> String {
-        match self.bound {
-            Some(bound) => format!("at most {bound:.1e} everywhere on the window, proven"),
-            None => "no bound; about 1e-15 √n, measured".to_owned(),
-        }
+        self.method().law()
     }
 
     fn bound(&self) -> Option<f64> {
-        self.bound
+        self.method().bound()
     }
 
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
-        Ok(self.at(std::slice::from_ref(at), side)?[0])
+        self.method().value(at, side)
     }
 
     fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
-        self.at(at, side)
+        self.method().exact_values(at, side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
-        assert_eq!(at.len(), values.len(), "a place for each value");
-        let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
-        if !at.iter().all(|time| window.contains(time)) {
-            return Err(MethodError::Outside);
-        }
-        let found = self.at_doubles(at).unwrap_or_else(|| {
-            let times: Vec<Rational> = at.iter().map(|time| rational(*time)).collect();
-            self.at(&times, Side::Right)
-        });
-        values.copy_from_slice(&found?);
-        Ok(())
+        self.method().values(at, values)
     }
 }

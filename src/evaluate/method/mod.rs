@@ -4,17 +4,21 @@
 //! |---|---|---|
 //! | [`Certified`] | correctly rounded | every observable that is linear in the waves |
 //! | [`Compiled`] | proven bound, the same on the whole window | the same |
-//! | [`Marched`] | proven bound for passive reflections | waves with one pole and one lag |
-//! | [`Stable`] | measured: some units in the last place of the largest value | the same |
+//! | [`Marched`] | proven bound for passive reflections with one pole and one lag; else measured, without a bound | every observable that is linear in the waves, on a grid |
+//! | [`Stable`] | measured: some units in the last place of the largest value | waves with one pole and one lag |
 //! | [`Plain`] | measured: some thousand units by n = 200 | the same |
 //! | [`Expanded`] | measured: grows without bound | every observable that is linear in the waves |
 
 mod certified;
+mod clock;
 mod compiled;
 mod doubles;
 mod echo_sums;
 mod expanded;
+mod march_system;
 mod marched;
+mod marched_response;
+mod marched_waves;
 mod plain;
 mod printed;
 mod stable;

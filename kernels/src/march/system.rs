@@ -1,0 +1,277 @@
+//! What several waves obey that drive each other with delays of whole periods.
+//!
+//! Time is counted in periods. On the `n`-th period, with `x` from 0 to 1, each wave is a sum of earlier
+//! pieces, of their derivatives, and of a state of its own that obeys a differential equation of first
+//! order:
+//!
+//! ```text
+//! w[n] = z[n] + Σ value · v[n−lag] + Σ slope · v'[n−lag],     z[n]' = λ z[n] + Σ drive · v[n−lag]
+//! z[n](0) = z[n−1](1) + Σ jump · (v[n−lag](0) − v[n−lag−1](1)),     z[−1](1) = initial
+//! ```
+//!
+//! Waves are zero for negative periods. Poles of any multiplicity are chains of such states, functions
+//! of time that act from outside are states that nothing drives, and pairs of complex poles are states
+//! with complex numbers.
+
+use num_complex::Complex64;
+use num_traits::{NumAssign, Zero as _};
+use std::fmt;
+use std::ops::Neg;
+
+/// A number that waves are made of: real or complex.
+///
+/// ```
+/// use num_complex::Complex64;
+/// use wavestep_kernels::march::Scalar;
+///
+/// assert_eq!(2.0.parts(), (2.0, 0.0));
+/// let z = Complex64::new(3.0, -4.0);
+/// assert_eq!((z.parts(), z.size()), ((3.0, -4.0), 5.0));
+/// ```
+pub trait Scalar: NumAssign + Neg<Output = Self> + Copy + From<f64> + fmt::Debug {
+    /// The real and the imaginary part.
+    fn parts(self) -> (f64, f64);
+
+    /// The absolute value.
+    fn size(self) -> f64 {
+        let (real, imaginary) = self.parts();
+        real.hypot(imaginary)
+    }
+}
+
+impl Scalar for f64 {
+    fn parts(self) -> (f64, f64) {
+        (self, 0.0)
+    }
+
+    fn size(self) -> f64 {
+        self.abs()
+    }
+}
+
+impl Scalar for Complex64 {
+    fn parts(self) -> (f64, f64) {
+        (self.re, self.im)
+    }
+}
+
+/// `weight · v[n−lag]`, or the same of `v'`.
+///
+/// ```
+/// use wavestep_kernels::march::Term;
+///
+/// // Half of the first wave, two periods ago.
+/// let term = Term { wave: 0, lag: 2, weight: 0.5 };
+/// assert_eq!(term.lag, 2);
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Term<T> {
+    /// Which wave.
+    pub wave: usize,
+    /// By how many periods it is delayed.
+    pub lag: usize,
+    /// The factor.
+    pub weight: T,
+}
+
+/// The state of a wave: `z' = λ z + Σ drive`.
+///
+/// ```
+/// use wavestep_kernels::march::State;
+///
+/// // e^{−x}, on and on.
+/// let decay = State { rate: -1.0, drive: vec![], jumps: vec![], initial: 1.0 };
+/// assert_eq!(decay.rate, -1.0);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct State<T> {
+    /// The pole `λ`, a period.
+    pub rate: T,
+    /// What drives it.
+    pub drive: Vec<Term<T>>,
+    /// With what weights it jumps where waves do.
+    pub jumps: Vec<Term<T>>,
+    /// Its value before the first jump.
+    pub initial: T,
+}
+
+/// How one wave follows from others.
+///
+/// ```
+/// use wavestep_kernels::march::{Term, WaveStep};
+///
+/// // v[n] = −w[n−1].
+/// let back = Term { wave: 1, lag: 1, weight: -1.0 };
+/// let step = WaveStep { wave: 0, values: vec![back], slopes: vec![], state: None };
+/// assert!(step.state.is_none() && step.values[0].wave == 1);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct WaveStep<T> {
+    /// Which wave.
+    pub wave: usize,
+    /// The pieces that it holds.
+    pub values: Vec<Term<T>>,
+    /// The derivatives that it holds, by period.
+    pub slopes: Vec<Term<T>>,
+    /// Its state, where it has one.
+    pub state: Option<State<T>>,
+}
+
+/// Waves in the order in which they follow from each other.
+///
+/// # Invariants
+/// - each wave has one step, and waves are numbered from 0 without a gap;
+/// - a step names waves at lag 0 only of steps before it;
+/// - all numbers are finite, and there is one wave at least.
+///
+/// ```
+/// use wavestep_kernels::march::{State, SystemError, Term, WaveStep, WaveSystem};
+///
+/// // w' = −2 w + v and v[n] = w[n]: each needs the other first.
+/// let term = |wave| vec![Term { wave, lag: 0, weight: 1.0 }];
+/// let state = State { rate: -2.0, drive: term(1), jumps: vec![], initial: 1.0 };
+/// let w = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
+/// let v = WaveStep { wave: 1, values: term(0), slopes: vec![], state: None };
+/// let refused = WaveSystem::new(vec![w.clone(), v.clone()]);
+/// assert_eq!(refused, Err(SystemError::NotYetKnown { wave: 0, other: 1 }));
+/// // One period later it is known.
+/// let mut later = w;
+/// later.state.as_mut().unwrap().drive[0].lag = 1;
+/// let system = WaveSystem::new(vec![later, v]).unwrap();
+/// assert_eq!((system.waves(), system.largest_lag()), (2, 1));
+/// assert_eq!(system.steps().len(), 2);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct WaveSystem<T> {
+    steps: Vec<WaveStep<T>>,
+}
+
+/// Why steps make no system.
+///
+/// ```
+/// use wavestep_kernels::march::{SystemError, WaveSystem};
+///
+/// let refused = WaveSystem::<f64>::new(vec![]).unwrap_err();
+/// assert_eq!(refused, SystemError::Empty);
+/// assert_eq!(refused.to_string(), "there are no waves; give one step at least");
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SystemError {
+    /// There are no waves.
+    Empty,
+    /// This wave has not one step, or is named and has none.
+    Steps(usize),
+    /// The step of a wave names another one that is known only after it.
+    NotYetKnown {
+        /// Whose step it is.
+        wave: usize,
+        /// What it names.
+        other: usize,
+    },
+    /// The step of this wave holds an infinity, or what is no number.
+    NotFinite(usize),
+}
+
+impl fmt::Display for SystemError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SystemError::Empty => f.write_str("there are no waves; give one step at least"),
+            SystemError::Steps(wave) => write!(f, "give exactly one step for wave {wave}"),
+            SystemError::NotYetKnown { wave, other } => write!(
+                f,
+                "wave {wave} follows from wave {other} of the same period; put the step of that \
+                 one before it"
+            ),
+            SystemError::NotFinite(wave) => {
+                write!(f, "wave {wave} is given by numbers that are too large; change the units")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SystemError {}
+
+impl<T: Scalar> WaveSystem<T> {
+    /// A system of steps in the order in which they are taken. O(terms).
+    ///
+    /// # Errors
+    /// [`SystemError`], where an invariant does not hold.
+    pub fn new(steps: Vec<WaveStep<T>>) -> Result<WaveSystem<T>, SystemError> {
+        if steps.is_empty() {
+            return Err(SystemError::Empty);
+        }
+        let mut known = vec![false; steps.len()];
+        for step in &steps {
+            let wave = step.wave;
+            if wave >= steps.len() || known[wave] {
+                return Err(SystemError::Steps(wave));
+            }
+            let finite = |value: T| value.size().is_finite();
+            for term in step.terms() {
+                match known.get(term.wave) {
+                    None => return Err(SystemError::Steps(term.wave)),
+                    Some(false) if term.lag == 0 => {
+                        return Err(SystemError::NotYetKnown { wave, other: term.wave });
+                    }
+                    Some(_) if !finite(term.weight) => return Err(SystemError::NotFinite(wave)),
+                    Some(_) => {}
+                }
+            }
+            if step.state.as_ref().is_some_and(|s| !finite(s.rate) || !finite(s.initial)) {
+                return Err(SystemError::NotFinite(wave));
+            }
+            known[wave] = true;
+        }
+        Ok(WaveSystem { steps })
+    }
+
+    /// The steps, in order.
+    pub fn steps(&self) -> &[WaveStep<T>] {
+        &self.steps
+    }
+
+    /// How many waves there are.
+    pub fn waves(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// The largest lag that is named.
+    pub fn largest_lag(&self) -> usize {
+        self.steps.iter().flat_map(WaveStep::terms).map(|term| term.lag).max().unwrap_or(0)
+    }
+}
+
+impl<T: Scalar> WaveStep<T> {
+    /// All terms of the step.
+    fn terms(&self) -> impl Iterator<Item = &Term<T>> {
+        let state = self.state.iter().flat_map(|state| state.drive.iter().chain(&state.jumps));
+        self.values.iter().chain(&self.slopes).chain(state)
+    }
+}
+
+impl WaveSystem<Complex64> {
+    /// The same in real numbers, where no number has an imaginary part: a quarter of the work.
+    pub fn real(&self) -> Option<WaveSystem<f64>> {
+        let real = |value: Complex64| value.im.is_zero().then_some(value.re);
+        let terms = |terms: &[Term<Complex64>]| -> Option<Vec<Term<f64>>> {
+            let term = |t: &Term<Complex64>| {
+                Some(Term { wave: t.wave, lag: t.lag, weight: real(t.weight)? })
+            };
+            terms.iter().map(term).collect()
+        };
+        let step = |step: &WaveStep<Complex64>| {
+            let state = match &step.state {
+                None => None,
+                Some(state) => Some(State {
+                    rate: real(state.rate)?,
+                    drive: terms(&state.drive)?,
+                    jumps: terms(&state.jumps)?,
+                    initial: real(state.initial)?,
+                }),
+            };
+            let (values, slopes) = (terms(&step.values)?, terms(&step.slopes)?);
+            Some(WaveStep { wave: step.wave, values, slopes, state })
+        };
+        Some(WaveSystem { steps: self.steps.iter().map(step).collect::<Option<_>>()? })
+    }
+}

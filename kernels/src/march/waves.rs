@@ -1,0 +1,437 @@
+//! Several waves with several poles and lags, period by period on Chebyshev coefficients.
+//!
+//! Each period is cut into equal spans so short that no pole turns by more than about 1 on a span. On
+//! each span every wave is a polynomial whose degree follows what it has to hold: what is `2^−66` of the
+//! largest coefficient of that wave so far is dropped. Only as many periods are kept as the largest lag
+//! needs. Nothing is proven of the results: they are compared with exact ones, in the tests.
+
+use super::chebyshev;
+use super::first_order::{FirstOrder, differentiate, value_at_one, value_at_zero};
+use super::system::{Scalar, State, Term, WaveStep, WaveSystem};
+use std::collections::VecDeque;
+use std::fmt;
+
+/// Trailing coefficients of this size are dropped, relative to the largest of a wave so far.
+const THRESHOLD: f64 = 1.0 / (1u128 << 66) as f64;
+
+/// The most spans of a period.
+const MAX_SPANS: usize = 1 << 12;
+
+/// The most coefficients of a polynomial.
+const MAX_COEFFICIENTS: usize = 1 << 13;
+
+/// Why a march cannot go on.
+///
+/// ```
+/// use wavestep_kernels::march::{State, WaveMarch, WaveMarchError, WaveStep, WaveSystem};
+///
+/// // It grows by e^{500} a period.
+/// let state = State { rate: 500.0, drive: vec![], jumps: vec![], initial: 1.0 };
+/// let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
+/// let mut march = WaveMarch::new(WaveSystem::new(vec![step])?)?;
+/// assert_eq!(march.advance(), Err(WaveMarchError::Overflow { period: 1 }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum WaveMarchError {
+    /// A pole turns so often in a period that more spans were needed than are taken.
+    TooManySpans {
+        /// The most that are taken.
+        limit: usize,
+    },
+    /// A polynomial of this period needs more coefficients than are taken.
+    TooManyCoefficients {
+        /// Which period.
+        period: usize,
+        /// The most that are taken.
+        limit: usize,
+    },
+    /// Waves of this period are too large for a double.
+    Overflow {
+        /// Which period.
+        period: usize,
+    },
+}
+
+impl fmt::Display for WaveMarchError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WaveMarchError::TooManySpans { limit } => write!(
+                f,
+                "a wave turns or grows so often in a period that more than {limit} spans were needed"
+            ),
+            WaveMarchError::TooManyCoefficients { period, limit } => write!(
+                f,
+                "period {period} needs more than {limit} coefficients; ask for an earlier time"
+            ),
+            WaveMarchError::Overflow { period } => {
+                write!(f, "waves of period {period} are too large for doubles")
+            }
+        }
+    }
+}
+
+impl std::error::Error for WaveMarchError {}
+
+/// A wave on a period.
+struct Piece<T> {
+    /// The coefficients, span by span.
+    spans: Vec<Vec<T>>,
+    /// The limits at the ends of the period.
+    start: T,
+    end: T,
+}
+
+/// The waves of a [`WaveSystem`] on the current period.
+///
+/// ```
+/// use wavestep_kernels::march::{State, Term, WaveMarch, WaveStep, WaveSystem};
+///
+/// // w' = w(t − 1), w = 1 at the start: 1, then 1 + x, then 2 + x + x²/2.
+/// let drive = vec![Term { wave: 0, lag: 1, weight: 1.0 }];
+/// let state = State { rate: 0.0, drive, jumps: vec![], initial: 1.0 };
+/// let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
+/// let mut march = WaveMarch::new(WaveSystem::new(vec![step])?)?;
+/// march.advance()?;
+/// march.advance()?;
+/// assert_eq!((march.period(), march.spans()), (2, 1));
+/// let (mut real, mut imaginary) = ([0.0; 2], [1.0; 2]);
+/// march.values(0, false, &[0.5, 1.0], &mut real, &mut imaginary);
+/// assert!((real[0] - 2.625).abs() < 1e-15 && (real[1] - 3.5).abs() < 1e-15);
+/// assert_eq!(imaginary, [0.0; 2]);
+/// assert!((2.0..4.0).contains(&march.largest(0)));
+/// march.values(0, true, &[0.5, 1.0], &mut real, &mut imaginary);
+/// assert!((real[0] - 1.5).abs() < 1e-14 && (real[1] - 2.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct WaveMarch<T> {
+    system: WaveSystem<T>,
+    /// By step, where it has a state: how it is solved on a span, and `z` at the end of the last one.
+    states: Vec<Option<(FirstOrder<T>, T)>>,
+    spans: usize,
+    period: usize,
+    /// The pieces of this period, then of those before: `kept[lag][wave]`.
+    kept: VecDeque<Vec<Piece<T>>>,
+    depth: usize,
+    /// The largest coefficient of each wave so far.
+    largest: Vec<f64>,
+    scratch: Scratch<T>,
+}
+
+/// Room for one span.
+struct Scratch<T> {
+    right: Vec<T>,
+    state: Vec<T>,
+    slope: Vec<T>,
+}
+
+impl<T: Scalar> WaveMarch<T> {
+    /// The march on its first period, 0. The cost is that of [`WaveMarch::advance`].
+    ///
+    /// # Errors
+    /// [`WaveMarchError`], where the first period cannot be held.
+    pub fn new(system: WaveSystem<T>) -> Result<WaveMarch<T>, WaveMarchError> {
+        let fastest = system.steps().iter().filter_map(|step| step.state.as_ref());
+        let fastest = fastest.map(|state| turning(state.rate)).fold(0.0, f64::max);
+        if fastest > MAX_SPANS as f64 {
+            return Err(WaveMarchError::TooManySpans { limit: MAX_SPANS });
+        }
+        // A power of two: places on spans follow from those on periods without rounding.
+        let spans = (fastest.ceil() as usize).next_power_of_two();
+        let part = T::from(1.0 / spans as f64);
+        let state = |step: &WaveStep<T>| {
+            let state = step.state.as_ref()?;
+            Some((FirstOrder::new(state.rate * part), state.initial))
+        };
+        let mut march = WaveMarch {
+            states: system.steps().iter().map(state).collect(),
+            spans,
+            period: 0,
+            kept: VecDeque::new(),
+            // A jump needs the end of the period before.
+            depth: system.largest_lag() + 2,
+            largest: vec![0.0; system.waves()],
+            scratch: Scratch { right: Vec::new(), state: Vec::new(), slope: Vec::new() },
+            system,
+        };
+        march.solve()?;
+        Ok(march)
+    }
+
+    /// The number of the current period.
+    pub fn period(&self) -> usize {
+        self.period
+    }
+
+    /// How many spans a period is cut into.
+    pub fn spans(&self) -> usize {
+        self.spans
+    }
+
+    /// The largest coefficient of a wave so far, its state's included: what its roundings are relative
+    /// to.
+    ///
+    /// # Panics
+    /// Where there is no such wave.
+    pub fn largest(&self, wave: usize) -> f64 {
+        self.largest[wave]
+    }
+
+    /// Goes on to the next period. O(SMN) for `S` spans, `M` terms and polynomials of degree `N`.
+    ///
+    /// # Errors
+    /// [`WaveMarchError`]; the march is then of no further use.
+    pub fn advance(&mut self) -> Result<(), WaveMarchError> {
+        self.period += 1;
+        self.solve()
+    }
+
+    /// The values of a wave, or its slopes by period, at places on the current period from 0 to 1, as
+    /// their real and imaginary parts. O(N) a point.
+    ///
+    /// # Panics
+    /// Where there is no such wave, or not as many places for values as points.
+    pub fn values(
+        &self,
+        wave: usize,
+        slope: bool,
+        points: &[f64],
+        real: &mut [f64],
+        imaginary: &mut [f64],
+    ) {
+        assert_eq!(points.len(), real.len(), "a place for each real part");
+        assert_eq!(points.len(), imaginary.len(), "a place for each imaginary part");
+        let count = self.spans as f64;
+        let span_of = |point: f64| ((point * count) as usize).min(self.spans - 1);
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by_key(|place| span_of(points[*place]));
+        let (mut local, mut found) = (Vec::new(), Vec::new());
+        let mut derivative = Vec::new();
+        for group in order.chunk_by(|a, b| span_of(points[*a]) == span_of(points[*b])) {
+            let span = span_of(points[group[0]]);
+            let mut coefficients = self.kept[0][wave].spans[span].as_slice();
+            if slope {
+                differentiate(coefficients, &mut derivative);
+                derivative.iter_mut().for_each(|c| *c *= T::from(count));
+                coefficients = &derivative;
+            }
+            local.clear();
+            local.extend(group.iter().map(|place| points[*place] * count - span as f64));
+            found.resize(local.len(), 0.0);
+            let parts: [fn((f64, f64)) -> f64; 2] = [|(real, _)| real, |(_, imaginary)| imaginary];
+            for (part, values) in parts.into_iter().zip([&mut *real, &mut *imaginary]) {
+                let c: Vec<f64> = coefficients.iter().map(|c| part(c.parts())).collect();
+                chebyshev::values(&c, &local, &mut found);
+                group.iter().zip(&found).for_each(|(place, value)| values[*place] = *value);
+            }
+        }
+    }
+
+    /// The piece of a wave some periods ago; there is none before the first.
+    fn piece(&self, wave: usize, lag: usize) -> Option<&Piece<T>> {
+        self.kept.get(lag)?.get(wave)
+    }
+
+    /// All waves on the current period, in the order of the steps.
+    fn solve(&mut self) -> Result<(), WaveMarchError> {
+        self.kept.truncate(self.depth - 1);
+        let empty = || Piece { spans: Vec::new(), start: T::zero(), end: T::zero() };
+        let pieces = (0..self.system.waves()).map(|_| empty()).collect();
+        self.kept.push_front(pieces);
+        for place in 0..self.system.waves() {
+            let mut scratch = std::mem::replace(&mut self.scratch, Scratch::empty());
+            let mut state = self.states[place].take();
+            let step = &self.system.steps()[place];
+            let wave = step.wave;
+            let solved = self.wave(step, state.as_mut(), self.largest[wave], &mut scratch);
+            (self.scratch, self.states[place]) = (scratch, state);
+            let (piece, largest) = solved?;
+            self.largest[wave] = largest;
+            self.kept[0][wave] = piece;
+        }
+        Ok(())
+    }
+
+    /// A wave on the current period, and its largest coefficient so far.
+    fn wave(
+        &self,
+        step: &WaveStep<T>,
+        state: Option<&mut (FirstOrder<T>, T)>,
+        mut largest: f64,
+        Scratch { right, state: z, slope }: &mut Scratch<T>,
+    ) -> Result<(Piece<T>, f64), WaveMarchError> {
+        let mut state = step.state.as_ref().zip(state);
+        if let Some((State { jumps, .. }, (_, end))) = &mut state {
+            *end += self.jump(jumps);
+        }
+        let mut piece =
+            Piece { spans: Vec::with_capacity(self.spans), start: T::zero(), end: T::zero() };
+        // The limits are sums of those of the parts: what is continuous then has no jump at all.
+        let mut limits = (state.as_ref().map_or(T::zero(), |(_, (_, z))| *z), T::zero());
+        for term in &step.values {
+            if let Some(other) = self.piece(term.wave, term.lag) {
+                limits.0 += other.start * term.weight;
+                limits.1 += other.end * term.weight;
+            }
+        }
+        let per_period = self.spans as f64;
+        for span in 0..self.spans {
+            let mut coefficients = vec![T::zero()];
+            self.add(&step.values, span, &mut coefficients);
+            for term in &step.slopes {
+                let Some(other) = self.piece(term.wave, term.lag) else { continue };
+                differentiate(&other.spans[span], slope);
+                let weight = term.weight * T::from(per_period);
+                if span == 0 {
+                    limits.0 += value_at_zero(slope) * weight;
+                }
+                if span + 1 == self.spans {
+                    limits.1 += value_at_one(slope) * weight;
+                }
+                add_scaled(&mut coefficients, slope, weight);
+            }
+            if let Some((State { drive, .. }, (equation, end))) = &mut state {
+                right.clear();
+                right.push(T::zero());
+                self.add(drive, span, right);
+                right.iter_mut().for_each(|c| *c /= T::from(per_period));
+                equation.solve(right, *end, THRESHOLD * largest.max(end.size()), z);
+                *end = value_at_one(z);
+                add_scaled(&mut coefficients, z, T::one());
+            }
+            // Where parts cancel, their roundings are the noise.
+            let sizes = coefficients.iter().chain(z.iter().filter(|_| state.is_some()));
+            for size in sizes.map(|c| c.size()) {
+                if !size.is_finite() {
+                    return Err(WaveMarchError::Overflow { period: self.period });
+                }
+                largest = largest.max(size);
+            }
+            while coefficients.len() > 1
+                && coefficients.last().is_some_and(|c| c.size() <= THRESHOLD * largest)
+            {
+                coefficients.pop();
+            }
+            if coefficients.len() > MAX_COEFFICIENTS {
+                let (period, limit) = (self.period, MAX_COEFFICIENTS);
+                return Err(WaveMarchError::TooManyCoefficients { period, limit });
+            }
+            piece.spans.push(coefficients);
+        }
+        if let Some((_, (_, end))) = &state {
+            limits.1 += *end;
+        }
+        (piece.start, piece.end) = limits;
+        Ok((piece, largest))
+    }
+
+    /// By how much a state jumps at the start of the current period.
+    fn jump(&self, jumps: &[Term<T>]) -> T {
+        let mut sum = T::zero();
+        for term in jumps {
+            let start = self.piece(term.wave, term.lag).map_or(T::zero(), |piece| piece.start);
+            let end = self.piece(term.wave, term.lag + 1).map_or(T::zero(), |piece| piece.end);
+            sum += (start - end) * term.weight;
+        }
+        sum
+    }
+
+    /// Adds pieces on a span of the current period.
+    fn add(&self, terms: &[Term<T>], span: usize, sum: &mut Vec<T>) {
+        for term in terms {
+            if let Some(piece) = self.piece(term.wave, term.lag) {
+                add_scaled(sum, &piece.spans[span], term.weight);
+            }
+        }
+    }
+}
+
+impl<T> Scratch<T> {
+    fn empty() -> Scratch<T> {
+        Scratch { right: Vec::new(), state: Vec::new(), slope: Vec::new() }
+    }
+}
+
+/// How many spans of a period a pole needs: decay needs none, its polynomials are as short.
+fn turning<T: Scalar>(rate: T) -> f64 {
+    let (real, imaginary) = rate.parts();
+    imaginary.abs().max(if real > 0.0 { rate.size() } else { 0.0 })
+}
+
+/// `sum += other · weight`.
+fn add_scaled<T: Scalar>(sum: &mut Vec<T>, other: &[T], weight: T) {
+    if sum.len() < other.len() {
+        sum.resize(other.len(), T::zero());
+    }
+    for (sum, other) in sum.iter_mut().zip(other) {
+        *sum += *other * weight;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn term(wave: usize, lag: usize, weight: f64) -> Term<f64> {
+        Term { wave, lag, weight }
+    }
+
+    /// A rigid mass on a fixed bar: `v' + v = −2 y`, one period ago, `y[n] = y[n−1] + v[n]`, for a
+    /// period of 2. The same response as of the march with a proven bound, through 1000 periods.
+    #[test]
+    fn one_pole_is_as_proven() {
+        use crate::march::{Bounds, March, MarchOptions, Reflection};
+        let state =
+            State { rate: -2.0, drive: vec![term(1, 1, -4.0)], jumps: vec![], initial: 1.0 };
+        let v = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
+        let values = vec![term(0, 0, 1.0), term(1, 1, 1.0)];
+        let y = WaveStep { wave: 1, values, slopes: vec![], state: None };
+        let mut waves = WaveMarch::new(WaveSystem::new(vec![v, y]).unwrap()).unwrap();
+        let reflection = Reflection::exact(2.0, 2.0, 1.0).unwrap();
+        let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
+        let mut proven = March::new(&reflection, options).unwrap();
+        let points: Vec<f64> = (0..=40).map(|i| f64::from(i) / 40.0).collect();
+        let (mut real, mut imaginary) = (vec![0.0; 41], vec![1.0; 41]);
+        let (mut worst, begun) = (0.0_f64, std::time::Instant::now());
+        for _ in 0..1000 {
+            waves.values(1, false, &points, &mut real, &mut imaginary);
+            for (x, value) in points.iter().zip(&real) {
+                worst = worst.max((value - proven.value(*x)).abs());
+            }
+            waves.advance().unwrap();
+            proven.advance().unwrap();
+        }
+        println!("1000 periods: {worst:e}, {:?}", begun.elapsed());
+        assert!(worst < 1e-13, "{worst:e}");
+        assert!(imaginary.iter().all(|part| *part == 0.0));
+    }
+
+    /// `u'' + (2π)² u = 0` as two waves that turn into each other comes back after each period.
+    #[test]
+    fn spans_are_short_enough_for_turning() {
+        use num_complex::Complex64;
+        let rate = Complex64::new(0.0, std::f64::consts::TAU);
+        let state = State { rate, drive: vec![], jumps: vec![], initial: Complex64::ONE };
+        let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
+        let mut march = WaveMarch::new(WaveSystem::new(vec![step]).unwrap()).unwrap();
+        assert_eq!(march.spans(), 8);
+        (0..50).for_each(|_| march.advance().unwrap());
+        let (mut real, mut imaginary) = ([0.0; 3], [0.0; 3]);
+        march.values(0, false, &[0.0, 0.25, 0.625], &mut real, &mut imaginary);
+        let half = 0.5f64.sqrt();
+        for (found, exact) in real.iter().zip([1.0, 0.0, -half]) {
+            assert!((found - exact).abs() < 1e-13, "{found}");
+        }
+        for (found, exact) in imaginary.iter().zip([0.0, 1.0, -half]) {
+            assert!((found - exact).abs() < 1e-13, "{found}");
+        }
+    }
+
+    #[test]
+    fn what_turns_too_fast_is_refused() {
+        let state = State { rate: 1e5, drive: vec![], jumps: vec![], initial: 1.0 };
+        let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
+        let refused = WaveMarch::new(WaveSystem::new(vec![step]).unwrap()).err();
+        assert_eq!(refused, Some(WaveMarchError::TooManySpans { limit: MAX_SPANS }));
+    }
+}
