@@ -86,7 +86,8 @@ fn snapshot(name: &str, text: &str) {
 #[test]
 fn help_is_as_recorded() {
     snapshot("help", &output("--help"));
-    for subcommand in ["derive", "eval", "find", "export", "chart", "check", "scenes"] {
+    for subcommand in ["derive", "eval", "find", "export", "chart", "dispersion", "check", "scenes"]
+    {
         let help = output(&format!("{subcommand} --help"));
         assert_eq!(help, output(&format!("help {subcommand}")));
         snapshot(&format!("help-{subcommand}"), &help);

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
 
-const DOCUMENTS: [&str; 5] = [
+const DOCUMENTS: [&str; 6] = [
     "README.md",
+    "docs/dispersion.md",
     "docs/language.md",
     "docs/output.md",
     "docs/scene-language.md",

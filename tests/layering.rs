@@ -8,12 +8,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 19] = [
+const LAYERS: [(&str, &[&str]); 20] = [
     ("ball", &[]),
     ("hertz", &["ball"]),
     ("plot", &[]),
     ("expression", &[]),
     ("enclosure", &["ball", "expression"]),
+    ("dispersion", &["ball", "expression"]),
     ("scene", &["expression"]),
     ("recurrence", &["enclosure", "expression"]),
     ("network", &["enclosure", "expression", "recurrence", "scene"]),
@@ -24,8 +25,11 @@ const LAYERS: [(&str, &[&str]); 19] = [
         &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"],
     ),
     ("answer", &["evaluate", "model", "network"]),
-    ("export", &["evaluate", "expression", "network", "recurrence", "scene", "solution"]),
-    ("language", &["expression", "recurrence", "scene"]),
+    (
+        "export",
+        &["dispersion", "evaluate", "expression", "network", "recurrence", "scene", "solution"],
+    ),
+    ("language", &["dispersion", "expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
     ("study", &["answer", "evaluate", "language", "plot"]),
     ("scenes", &[]),
@@ -35,6 +39,7 @@ const LAYERS: [(&str, &[&str]); 19] = [
         &[
             "answer",
             "ball",
+            "dispersion",
             "enclosure",
             "evaluate",
             "export",
@@ -57,7 +62,7 @@ const LAYERS: [(&str, &[&str]); 19] = [
 const FOR_UNIT_TESTS: [&str; 2] = ["language", "scenes"];
 
 /// What may stand in one layer only.
-const CONFINED: [(&str, &str); 10] = [
+const CONFINED: [(&str, &str); 11] = [
     ("nom::", "language"),
     ("nom_locate", "language"),
     ("annotate_snippets", "language"),
@@ -68,6 +73,7 @@ const CONFINED: [(&str, &str); 10] = [
     ("std::process", "command"),
     ("wavestep_kernels", "evaluate"),
     ("ode_solvers", "model"),
+    ("rustfft", "dispersion"),
 ];
 
 const MAX_LINES: usize = 800;

@@ -11,6 +11,7 @@ mod check;
 mod derive;
 mod derive_recurrence;
 mod derive_scene;
+mod dispersion;
 mod eval;
 mod eval_doubles;
 mod eval_recurrence;
@@ -57,6 +58,7 @@ pub fn run() -> ExitCode {
         Subcommand::Chart(options) => chart::run(options),
         Subcommand::Export(options) => export::run(options),
         Subcommand::Find(options) => find::run(options),
+        Subcommand::Dispersion(options) => dispersion::run(options),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),
         Subcommand::Scenes(options) => scenes(options),

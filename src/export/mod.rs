@@ -7,6 +7,7 @@
 
 mod arrangement;
 mod c;
+mod dispersion;
 mod explain;
 mod formula;
 mod general;
@@ -18,6 +19,7 @@ mod oscillation;
 mod source;
 
 pub use c::{CHeading, to_c};
+pub use dispersion::{dispersion_latex, dispersion_text};
 pub use explain::Derivation;
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,

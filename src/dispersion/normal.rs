@@ -1,0 +1,300 @@
+//! The form that formulas are kept in: like terms collected, powers of one base joined, small
+//! products multiplied out, and what all terms of a sum are divided by written once.
+//!
+//! The last rule makes group velocities readable: the derivative of `k/sqrt(1 + k²)` is
+//! `1/(1 + k²)^(3/2)`, not the difference of two quotients.
+
+use std::collections::BTreeMap;
+
+use num_traits::{One, Signed, ToPrimitive as _, Zero};
+use wavestep_polynomial::Rational;
+
+use super::formula::{Formula, Function, Node, rational_power};
+
+/// The largest power of a sum that is multiplied out.
+const MAX_EXPANDED_POWER: u32 = 16;
+/// The most terms that multiplying out may make before collection.
+const MAX_EXPANDED_TERMS: usize = 512;
+
+/// The sum of terms.
+pub(super) fn sum(terms: impl IntoIterator<Item = Formula>) -> Formula {
+    let mut collected: BTreeMap<Formula, Rational> = BTreeMap::new();
+    for term in terms {
+        let parts = match term.node() {
+            Node::Sum(parts) => &parts[..],
+            _ => std::slice::from_ref(&term),
+        };
+        for part in parts {
+            let (coefficient, rest) = split(part);
+            *collected.entry(rest).or_insert_with(Rational::zero) += coefficient;
+        }
+    }
+    collected.retain(|_, coefficient| !coefficient.is_zero());
+    let terms: Vec<Formula> =
+        collected.iter().map(|(rest, coefficient)| scaled(coefficient, rest)).collect();
+    match terms.len() {
+        0 => Formula::zero(),
+        1 => terms.into_iter().next().expect("one term"),
+        _ => over_common_power(&terms).unwrap_or_else(|| Formula::new(Node::Sum(terms))),
+    }
+}
+
+/// The number in front, and the rest, which is 1 for a number.
+fn split(term: &Formula) -> (Rational, Formula) {
+    match term.node() {
+        Node::Number(value) => (value.clone(), Formula::one()),
+        Node::Product(factors) => match factors[0].node() {
+            Node::Number(value) if factors.len() == 2 => (value.clone(), factors[1].clone()),
+            Node::Number(value) => {
+                (value.clone(), Formula::new(Node::Product(factors[1..].to_vec())))
+            }
+            _ => (Rational::one(), term.clone()),
+        },
+        _ => (Rational::one(), term.clone()),
+    }
+}
+
+/// A number, not zero, times what [`split`] left.
+fn scaled(coefficient: &Rational, rest: &Formula) -> Formula {
+    if coefficient.is_one() {
+        return rest.clone();
+    }
+    match rest.node() {
+        Node::Number(value) => Formula::number(&(coefficient * value)),
+        Node::Product(factors) => {
+            let mut all = vec![Formula::number(coefficient)];
+            all.extend(factors.iter().cloned());
+            Formula::new(Node::Product(all))
+        }
+        _ => Formula::new(Node::Product(vec![Formula::number(coefficient), rest.clone()])),
+    }
+}
+
+/// A factor as a base and its exponent.
+fn base_and_exponent(factor: &Formula) -> (Formula, Rational) {
+    match factor.node() {
+        Node::Power(base, exponent) => (base.clone(), exponent.clone()),
+        _ => (factor.clone(), Rational::one()),
+    }
+}
+
+fn factors_of(term: &Formula) -> &[Formula] {
+    match term.node() {
+        Node::Product(factors) => factors,
+        _ => std::slice::from_ref(term),
+    }
+}
+
+/// The terms as `B^e (…)`, where each of them holds a power of the sum `B`, the exponents differ by
+/// whole numbers, and not all are whole and positive.
+fn over_common_power(terms: &[Formula]) -> Option<Formula> {
+    let exponent_in = |term: &Formula, base: &Formula| {
+        let mut pairs = factors_of(term).iter().map(base_and_exponent);
+        pairs.find(|(other, _)| other == base).map(|(_, exponent)| exponent)
+    };
+    for factor in factors_of(&terms[0]) {
+        let (base, first) = base_and_exponent(factor);
+        if !matches!(base.node(), Node::Sum(_)) {
+            continue;
+        }
+        let exponents: Option<Vec<Rational>> =
+            terms.iter().map(|term| exponent_in(term, &base)).collect();
+        let Some(exponents) = exponents else { continue };
+        let whole = exponents.iter().all(|exponent| (exponent - &first).is_integer());
+        let least = exponents.iter().min().expect("terms").clone();
+        if !whole || least.is_integer() && least.is_positive() {
+            continue;
+        }
+        // Not multiplied out: it is to cancel.
+        let inverse = raw_power(base.clone(), -&least);
+        let rest = sum(terms.iter().map(|term| product([term.clone(), inverse.clone()])));
+        return Some(product([power(&base, &least), rest]));
+    }
+    None
+}
+
+/// The product of factors.
+pub(super) fn product(factors: impl IntoIterator<Item = Formula>) -> Formula {
+    let mut coefficient = Rational::one();
+    let mut powers: BTreeMap<Formula, Rational> = BTreeMap::new();
+    let mut exponents = Vec::new();
+    for factor in factors {
+        for part in factors_of(&factor) {
+            match part.node() {
+                Node::Number(value) => coefficient *= value,
+                Node::Function(Function::Exponential, z) => exponents.push(z.clone()),
+                _ => {
+                    let (base, exponent) = base_and_exponent(part);
+                    *powers.entry(base).or_insert_with(Rational::zero) += exponent;
+                }
+            }
+        }
+    }
+    if coefficient.is_zero() {
+        return Formula::zero();
+    }
+    powers.retain(|_, exponent| !exponent.is_zero());
+    // A root of a number or of a product may have become a whole power.
+    let unfinished = |(base, exponent): &(&Formula, &Rational)| {
+        exponent.is_integer()
+            && matches!(base.node(), Node::Number(_) | Node::Product(_) | Node::Power(..))
+    };
+    if powers.iter().any(|pair| unfinished(&pair)) {
+        let mut again = vec![Formula::number(&coefficient)];
+        again.extend(powers.iter().map(|(base, exponent)| power(base, exponent)));
+        again.extend(exponents.into_iter().map(|z| z.apply(Function::Exponential)));
+        return product(again);
+    }
+    let small = |base: &Formula, exponent: &Rational| match base.node() {
+        Node::Sum(terms) if exponent.is_integer() && exponent.is_positive() => {
+            let power = exponent.to_integer().to_u32().filter(|e| *e <= MAX_EXPANDED_POWER);
+            power.map(|power| (power, terms.len()))
+        }
+        _ => None,
+    };
+    let count: f64 = powers
+        .iter()
+        .filter_map(|(base, exponent)| small(base, exponent))
+        .map(|(exponent, terms)| (terms as f64).powi(exponent as i32))
+        .product();
+    let expand = count > 1.0 && count <= MAX_EXPANDED_TERMS as f64;
+    let (mut simple, mut sums, mut others) = (Vec::new(), Vec::new(), Vec::new());
+    for (base, exponent) in powers {
+        match (base.node(), small(&base, &exponent)) {
+            (Node::Symbol(_), _) => simple.push(raw_power(base, exponent)),
+            (_, Some((count, _))) if expand => {
+                sums.extend(std::iter::repeat_n(base, count as usize))
+            }
+            _ => others.push(raw_power(base, exponent)),
+        }
+    }
+    let exponent = sum(exponents);
+    if !exponent.is_zero() {
+        others.push(exponent.apply(Function::Exponential));
+    }
+    let monomial = joined(&coefficient, simple);
+    if sums.is_empty() {
+        return joined(&Rational::one(), factors_of(&monomial).iter().cloned().chain(others));
+    }
+    let expanded = sums.iter().fold(monomial, |left, right| {
+        let Node::Sum(right) = right.node() else { unreachable!("sums alone are expanded") };
+        let left = match left.node() {
+            Node::Sum(terms) => terms.clone(),
+            _ => vec![left],
+        };
+        let pairs = left.iter().flat_map(|a| right.iter().map(move |b| (a.clone(), b.clone())));
+        sum(pairs.map(|(a, b)| product([a, b])).collect::<Vec<_>>())
+    });
+    match expanded.node() {
+        _ if others.is_empty() => expanded,
+        Node::Sum(_) => joined(&Rational::one(), others.into_iter().chain([expanded])),
+        _ => product(others.into_iter().chain([expanded])),
+    }
+}
+
+/// Factors with different bases, sorted, after a number.
+fn joined(coefficient: &Rational, factors: impl IntoIterator<Item = Formula>) -> Formula {
+    let (mut number, mut all) = (coefficient.clone(), Vec::new());
+    for factor in factors {
+        match factor.node() {
+            Node::Number(value) => number *= value,
+            _ => all.push(factor),
+        }
+    }
+    all.sort();
+    if all.is_empty() {
+        return Formula::number(&number);
+    }
+    if !number.is_one() {
+        all.insert(0, Formula::number(&number));
+    }
+    if all.len() == 1 { all.remove(0) } else { Formula::new(Node::Product(all)) }
+}
+
+fn raw_power(base: Formula, exponent: Rational) -> Formula {
+    if exponent.is_one() { base } else { Formula::new(Node::Power(base, exponent)) }
+}
+
+/// A power; the base is not zero where the exponent is negative.
+pub(super) fn power(base: &Formula, exponent: &Rational) -> Formula {
+    if exponent.is_zero() {
+        return Formula::one();
+    }
+    if exponent.is_one() {
+        return base.clone();
+    }
+    match base.node() {
+        Node::Number(value) => match rational_power(value, exponent) {
+            Some(power) => Formula::number(&power),
+            None => Formula::new(Node::Power(base.clone(), exponent.clone())),
+        },
+        Node::Symbol(_) => raw_power(base.clone(), exponent.clone()),
+        // Symbols are positive, and so is what a root was taken of.
+        Node::Power(inner, first)
+            if exponent.is_integer()
+                || !first.is_integer()
+                || matches!(inner.node(), Node::Symbol(_)) =>
+        {
+            power(inner, &(first * exponent))
+        }
+        Node::Power(..) => raw_power(base.clone(), exponent.clone()),
+        Node::Product(factors) if exponent.is_integer() => {
+            product(factors.iter().map(|factor| power(factor, exponent)))
+        }
+        Node::Product(factors) => {
+            // Positive factors come out of the root.
+            let positive = |factor: &&Formula| match factor.node() {
+                Node::Number(value) => value.is_positive(),
+                Node::Symbol(_) | Node::Function(Function::Exponential, _) => true,
+                Node::Power(inner, _) => matches!(inner.node(), Node::Symbol(_)),
+                _ => false,
+            };
+            let (outside, inside): (Vec<&Formula>, Vec<&Formula>) =
+                factors.iter().partition(positive);
+            let inside = product(inside.into_iter().cloned());
+            let inside = match inside.node() {
+                Node::Product(_) => raw_power(inside, exponent.clone()),
+                _ => power(&inside, exponent),
+            };
+            let outside = outside.into_iter().map(|factor| power(factor, exponent));
+            product(outside.chain([inside]).collect::<Vec<_>>())
+        }
+        Node::Function(Function::Exponential, z) => {
+            z.multiply(&Formula::number(exponent)).apply(Function::Exponential)
+        }
+        Node::Function(..) => raw_power(base.clone(), exponent.clone()),
+        Node::Sum(_) if exponent.is_integer() && exponent.is_positive() => {
+            product([raw_power(base.clone(), exponent.clone())])
+        }
+        Node::Sum(terms) => match common_monomial(terms) {
+            None => raw_power(base.clone(), exponent.clone()),
+            Some(monomial) => {
+                let inverse = power(&monomial, &-Rational::one());
+                let rest = sum(terms.iter().map(|term| product([term.clone(), inverse.clone()])));
+                product([power(&monomial, exponent), raw_power(rest, exponent.clone())])
+            }
+        },
+    }
+}
+
+/// The powers of symbols, which are positive, that all terms hold: `k²` of `k² + k³`.
+fn common_monomial(terms: &[Formula]) -> Option<Formula> {
+    let powers_of = |term: &Formula| -> BTreeMap<Formula, Rational> {
+        let pairs = factors_of(term).iter().map(base_and_exponent);
+        pairs.filter(|(base, _)| matches!(base.node(), Node::Symbol(_))).collect()
+    };
+    let mut common = powers_of(&terms[0]);
+    for term in &terms[1..] {
+        let powers = powers_of(term);
+        common.retain(|base, exponent| match powers.get(base) {
+            Some(other) => {
+                *exponent = exponent.clone().min(other.clone());
+                true
+            }
+            None => false,
+        });
+    }
+    let factors: Vec<Formula> =
+        common.iter().map(|(base, exponent)| power(base, exponent)).collect();
+    (!factors.is_empty()).then(|| product(factors))
+}
