@@ -22,6 +22,7 @@ struct Readme;
 
 pub mod answer;
 pub mod ball;
+pub mod book;
 pub mod dispersion;
 pub mod enclosure;
 pub mod evaluate;

@@ -417,8 +417,9 @@ fn term((exponent, value): (&BigRational, &BigRational)) -> f64 {
 
 #[test]
 fn completions_and_the_manual_name_every_subcommand() {
-    const SUBCOMMANDS: [&str; 9] =
-        ["derive", "eval", "find", "export", "chart", "check", "lock", "scenes", "generate"];
+    const SUBCOMMANDS: [&str; 10] = [
+        "derive", "eval", "find", "export", "chart", "book", "check", "lock", "scenes", "generate",
+    ];
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = output(&format!("generate {shell}"));
         for name in SUBCOMMANDS {

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 20] = [
+const LAYERS: [(&str, &[&str]); 21] = [
     ("ball", &[]),
     ("hertz", &["ball"]),
     ("plot", &[]),
@@ -35,10 +35,26 @@ const LAYERS: [(&str, &[&str]); 20] = [
     ("scenes", &[]),
     ("figures", &["ball", "enclosure", "expression", "language", "scenes", "solution"]),
     (
+        "book",
+        &[
+            "ball",
+            "enclosure",
+            "evaluate",
+            "export",
+            "expression",
+            "language",
+            "network",
+            "recurrence",
+            "scenes",
+            "solution",
+        ],
+    ),
+    (
         "command",
         &[
             "answer",
             "ball",
+            "book",
             "dispersion",
             "enclosure",
             "evaluate",
@@ -318,6 +334,8 @@ fn breaches_are_found() {
         ("src/export/x.rs", "use nom::IResult;", "nom:: belongs to language"),
         ("src/solution/x.rs", "use clap::Parser;", "clap belongs to command"),
         ("src/evaluate/x.rs", "    println!(\"x\");", "println! belongs to command"),
+        ("src/book/x.rs", "use crate::command;", "book must not use command"),
+        ("src/export/x.rs", "use crate::book::find;", "export must not use book"),
         ("src/novel/x.rs", "", "`novel` is no known layer"),
     ] {
         let found = complaints(path, text);

@@ -37,6 +37,8 @@ pub enum Subcommand {
     Find(Find),
     /// Velocities of crests, groups and pulses for a dispersion relation omega(k)
     Dispersion(Dispersion),
+    /// List the equations of the source with what is found about each, or show one of them
+    Book(Book),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
     /// Lock derived forms and certified values in a file, for `check --locked`
@@ -423,6 +425,35 @@ pub struct Chart {
 pub struct Scenes {
     /// Show the text of this scene, with its units and sources
     pub name: Option<String>,
+}
+
+/// Options of `book`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep book\n  \
+    wavestep book 6.75\n  \
+    wavestep book 6.80 --format latex\n\n\
+    The source is Harrison and Nettleton, Advanced Engineering Dynamics, sections 6.6 to 6.11. Every\n\
+    equation is held against what is derived from the scene it is about.")]
+pub struct Book {
+    /// Show the equation of this number: as read, as derived, and the proof
+    pub number: Option<String>,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = BookFormat::Text)]
+    pub format: BookFormat,
+}
+
+/// How equations of the source are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum BookFormat {
+    /// Plain text
+    Text,
+    /// LaTeX with amsmath
+    Latex,
+    /// With verdict, derived form and steps
+    Json,
+    /// The page docs/equations.md
+    Markdown,
 }
 
 /// Options of `check`.

@@ -4,6 +4,7 @@
 //! 0 done, 1 could not compute or not as locked, 2 usage or bad scene, 3 accuracy not reached.
 
 mod arguments;
+mod book;
 mod bounds;
 mod chart;
 mod chart_page;
@@ -59,6 +60,7 @@ pub fn run() -> ExitCode {
         Subcommand::Export(options) => export::run(options),
         Subcommand::Find(options) => find::run(options),
         Subcommand::Dispersion(options) => dispersion::run(options),
+        Subcommand::Book(options) => book::run(options),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),
         Subcommand::Scenes(options) => scenes(options),

@@ -198,46 +198,7 @@ impl Derivation {
     fn recurrence(&mut self, network: &Network, writer: &Writer<'_>) {
         self.parts.push(Part::Heading("The recurrence"));
         self.sentence("Solved for one wave after another:");
-        let shown = network.waves().len();
-        let mut equations = Vec::new();
-        let mut starts = Vec::new();
-        let mut explicit: Vec<(usize, LinearForm)> = Vec::new();
-        let time = &writer.recurrence.statement().time;
-        for step in writer.recurrence.steps() {
-            let added = step.wave >= writer.recurrence.statement().waves.len();
-            if step.wave >= shown && !added {
-                continue;
-            }
-            // Waves that are given by others are put in.
-            let mut equation = step.equation.clone();
-            for (wave, solved) in explicit.iter().rev() {
-                let mut put_in = equation.clone();
-                if put_in.replace(*wave, solved, time) {
-                    equation = put_in;
-                }
-            }
-            let (mut left, mut right) = (LinearForm::zero(), -&equation);
-            let own = match &step.start {
-                None => vec![(LinearForm::wave(step.wave, 0), Expression::one())],
-                Some(start) => vec![
-                    (LinearForm::slope(step.wave, 0), Expression::one()),
-                    (LinearForm::wave(step.wave, 0), start.rate.clone().into()),
-                ],
-            };
-            for (form, factor) in own {
-                left.add_scaled(&form, &factor, 0);
-                right.add_scaled(&form, &factor, 0);
-            }
-            if step.start.is_none() && !right.operators().any(|(wave, _)| wave == step.wave) {
-                explicit.push((step.wave, right.clone()));
-            }
-            equations.push(writer.equation(&left, &right));
-            if let Some(start) = &step.start {
-                let head = writer.written(&start.continuous);
-                let right = Right::Terms(arrange(&start.initial, None));
-                starts.push(Formula { head, right, remark: None });
-            }
-        }
+        let (equations, starts) = writer.solved(network.waves().len());
         self.parts.push(Part::Equations(equations));
         if !starts.is_empty() {
             self.sentence("These are continuous from period to period, and start at");
@@ -277,6 +238,64 @@ impl Derivation {
         }
         out
     }
+}
+
+/// The equations of a recurrence, solved for one wave after another, waves that are given by others
+/// put in; then what is continuous from period to period, with the value at which it starts.
+///
+/// ```
+/// use wavestep::export::solved_equations;
+/// use wavestep::language::{Source, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let (equations, starts) = solved_equations(&recurrence);
+/// assert_eq!(equations[0].to_line(), "g[n] = -f[n-1]");
+/// assert_eq!(equations[1].to_line(), "f[n]' + f[n] = f[n-1]' - f[n-1]");
+/// assert_eq!(starts[0].to_line(), "f[n] - f[n-1] = 1");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[must_use]
+pub fn solved_equations(recurrence: &Recurrence) -> (Vec<Formula>, Vec<Formula>) {
+    Writer::new(recurrence).solved(recurrence.statement().waves.len())
+}
+
+/// A linear form in the waves of a recurrence on the n-th period, as text; sums over earlier periods are
+/// left out.
+///
+/// ```
+/// use wavestep::expression::Expression;
+/// use wavestep::export::form_text;
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep::recurrence::LinearForm;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let mut form = LinearForm::slope(0, 0);
+/// form.add_scaled(&LinearForm::wave(1, 1), &Expression::integer(-2), 0);
+/// assert_eq!(form_text(&recurrence, &form), "f[n]' - 2*g[n-1]");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[must_use]
+pub fn form_text(recurrence: &Recurrence, form: &LinearForm) -> String {
+    match Writer::new(recurrence).written(form) {
+        Head::Written(text, _) => text,
+        _ => String::new(),
+    }
+}
+
+/// A name as LaTeX: Greek letters as such, one letter in italics, a word upright, `a_1` with a
+/// subscript, `a_tilde` with an accent; with an index beside the subscript where one is given.
+///
+/// ```
+/// use wavestep::export::latex_name;
+///
+/// assert_eq!(latex_name("alpha_tilde", Some("n")), "\\tilde{\\alpha}_{n}");
+/// assert_eq!(latex_name("c_2", None), "c_{2}");
+/// ```
+#[must_use]
+pub fn latex_name(name: &str, index: Option<&str>) -> String {
+    index.map_or_else(|| Latex::name(name), |index| Latex::indexed(name, index))
 }
 
 impl<'a> Writer<'a> {
@@ -352,6 +371,51 @@ impl<'a> Writer<'a> {
             terms.extend(arrange(&function, Some(time)));
         }
         terms
+    }
+
+    /// The recurrence solved for one wave after another, and what is continuous with its start, of
+    /// the first `shown` waves and those that were added to uncouple them.
+    fn solved(&self, shown: usize) -> (Vec<Formula>, Vec<Formula>) {
+        let mut equations = Vec::new();
+        let mut starts = Vec::new();
+        let mut explicit: Vec<(usize, LinearForm)> = Vec::new();
+        let time = &self.recurrence.statement().time;
+        for step in self.recurrence.steps() {
+            let added = step.wave >= self.recurrence.statement().waves.len();
+            if step.wave >= shown && !added {
+                continue;
+            }
+            // Waves that are given by others are put in.
+            let mut equation = step.equation.clone();
+            for (wave, solved) in explicit.iter().rev() {
+                let mut put_in = equation.clone();
+                if put_in.replace(*wave, solved, time) {
+                    equation = put_in;
+                }
+            }
+            let (mut left, mut right) = (LinearForm::zero(), -&equation);
+            let own = match &step.start {
+                None => vec![(LinearForm::wave(step.wave, 0), Expression::one())],
+                Some(start) => vec![
+                    (LinearForm::slope(step.wave, 0), Expression::one()),
+                    (LinearForm::wave(step.wave, 0), start.rate.clone().into()),
+                ],
+            };
+            for (form, factor) in own {
+                left.add_scaled(&form, &factor, 0);
+                right.add_scaled(&form, &factor, 0);
+            }
+            if step.start.is_none() && !right.operators().any(|(wave, _)| wave == step.wave) {
+                explicit.push((step.wave, right.clone()));
+            }
+            equations.push(self.equation(&left, &right));
+            if let Some(start) = &step.start {
+                let head = self.written(&start.continuous);
+                let right = Right::Terms(arrange(&start.initial, None));
+                starts.push(Formula { head, right, remark: None });
+            }
+        }
+        (equations, starts)
     }
 
     fn equation(&self, left: &LinearForm, right: &LinearForm) -> Formula {

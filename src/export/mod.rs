@@ -20,7 +20,7 @@ mod source;
 
 pub use c::{CHeading, to_c};
 pub use dispersion::{dispersion_latex, dispersion_text};
-pub use explain::Derivation;
+pub use explain::{Derivation, form_text, latex_name, solved_equations};
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,
 };

@@ -6,6 +6,7 @@
 //! speaks for both. [`GeneralForm`]
 //! holds what is known for every n at once. [`Solution`] puts them together.
 
+mod consequence;
 mod demand;
 mod echo;
 mod elimination;
