@@ -16,7 +16,8 @@ pub struct Scene {
 }
 
 /// Every scene: recurrences in the order of the source's sections, then the same four described by
-/// their parts, then others of bars and what joins them.
+/// their parts, then others of bars and what joins them, and last those with a local contact, which have values and
+/// no recurrence.
 ///
 /// ```
 /// use wavestep::language::{Kind, Source, kind, read_recurrence, read_scene};
@@ -32,7 +33,7 @@ pub struct Scene {
 /// }
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub const SCENES: [Scene; 15] = [
+pub const SCENES: [Scene; 17] = [
     Scene { name: "two-bars", text: include_str!("../scenes/two-bars.wave") },
     Scene { name: "constant-force", text: include_str!("../scenes/constant-force.wave") },
     Scene { name: "pulse-shape", text: include_str!("../scenes/pulse-shape.wave") },
@@ -48,7 +49,25 @@ pub const SCENES: [Scene; 15] = [
     Scene { name: "pile", text: include_str!("../scenes/pile.wave") },
     Scene { name: "percussive-drill", text: include_str!("../scenes/percussive-drill.wave") },
     Scene { name: "incommensurate", text: include_str!("../scenes/incommensurate.wave") },
+    Scene { name: "local-contact", text: include_str!("../scenes/local-contact.wave") },
+    Scene { name: "hertz-striker", text: include_str!("../scenes/hertz-striker.wave") },
 ];
+
+impl Scene {
+    /// Whether all its laws are linear. A scene with a local contact has no recurrence, and is for
+    /// models.
+    ///
+    /// ```
+    /// use wavestep::scenes::{SCENES, find};
+    ///
+    /// assert!(find("pile").unwrap().is_linear());
+    /// let names = SCENES.iter().filter(|scene| !scene.is_linear()).map(|scene| scene.name);
+    /// assert_eq!(names.collect::<Vec<_>>(), ["local-contact", "hertz-striker"]);
+    /// ```
+    pub fn is_linear(&self) -> bool {
+        self.text.lines().all(|line| !line.starts_with("hertz "))
+    }
+}
 
 /// The scene called `name`.
 ///

@@ -11,7 +11,7 @@ use serde_json::Value;
 use wavestep::language::{Source, read_listing};
 use wavestep_polynomial::Symbol;
 
-const SCENES: [&str; 15] = [
+const SCENES: [&str; 17] = [
     "two-bars",
     "constant-force",
     "pulse-shape",
@@ -27,6 +27,8 @@ const SCENES: [&str; 15] = [
     "pile",
     "percussive-drill",
     "incommensurate",
+    "local-contact",
+    "hertz-striker",
 ];
 
 /// A folder of its own for the files of a test, empty.
@@ -100,8 +102,8 @@ fn scenes_are_listed_and_correct() {
     let list = output("scenes");
     assert_eq!(list.lines().map(|line| split(line)[0]).collect::<Vec<_>>(), SCENES);
     snapshot("scenes", &list);
-    // In the last one nothing has a common measure.
-    for scene in &SCENES[..SCENES.len() - 1] {
+    // In `incommensurate` nothing has a common measure, and the two behind it are not linear.
+    for scene in &SCENES[..SCENES.len() - 3] {
         let report = output(&format!("check {scene}"));
         let derived = ["derived in two ways, equal on periods 0 to", "derived echo by echo"];
         assert!(derived.iter().any(|told| report.contains(told)), "{report}");

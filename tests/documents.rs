@@ -14,6 +14,7 @@ const DOCUMENTS: [&str; 6] = [
     "README.md",
     "docs/dispersion.md",
     "docs/language.md",
+    "docs/local-contact.md",
     "docs/output.md",
     "docs/scene-language.md",
     "docs/tutorial.md",

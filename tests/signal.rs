@@ -12,9 +12,10 @@ use wavestep::network::Network;
 use wavestep::scenes::SCENES;
 use wavestep_polynomial::Rational;
 
-/// The shipped scenes with numbers for their symbols.
+/// The shipped linear scenes with numbers for their symbols.
 fn networks() -> impl Iterator<Item = (&'static str, Network)> {
-    let scenes = SCENES.iter().filter(|scene| scene.text.lines().any(|l| l.starts_with("scene ")));
+    let described = |text: &str| text.lines().any(|line| line.starts_with("scene "));
+    let scenes = SCENES.iter().filter(move |scene| described(scene.text) && scene.is_linear());
     scenes.map(|scene| {
         let third = parse_number("4/3").unwrap();
         let values = ["mu", "r", "m"].map(|name| (name.to_owned(), third.clone()));

@@ -8,6 +8,7 @@ use crate::evaluate::{
 use crate::model::{
     Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
 };
+use crate::network::ScaledScene;
 use num_traits::ToPrimitive as _;
 use std::fmt;
 use std::str::FromStr;
@@ -230,6 +231,8 @@ pub enum WayError {
     Model(ModelError),
     /// A model has no scene to be made of.
     NeedsScene(&'static str),
+    /// A method computes from the recurrence of a scene that has none.
+    NeedsRecurrence(&'static str),
     /// Models have values after arrivals only.
     LeftLimit(&'static str),
 }
@@ -242,6 +245,10 @@ impl fmt::Display for WayError {
             WayError::NeedsScene(name) => {
                 write!(f, "{name} models a scene of bars, and this is a recurrence")
             }
+            WayError::NeedsRecurrence(name) => write!(
+                f,
+                "{name} computes from the exact solution, and none is known with a local contact"
+            ),
             WayError::LeftLimit(name) => {
                 write!(f, "{name} is a model, and has no limits from one side")
             }
@@ -313,7 +320,6 @@ impl<'a> Way<'a> {
         tolerance: Option<f64>,
     ) -> Result<Way<'a>, WayError> {
         let Problem { signal, from, to, .. } = problem;
-        let scene = || problem.scene.ok_or(WayError::NeedsScene(kind.name()));
         let inner = match kind {
             Kind::Certified => {
                 Ways::Method(Box::new(Certified::new(signal, from, to, problem.recognise)?))
@@ -327,29 +333,53 @@ impl<'a> Way<'a> {
             }
             Kind::Plain => Ways::Method(Box::new(Plain::new(signal, from, to)?)),
             Kind::Expanded => Ways::Method(Box::new(Expanded::new(signal, from, to)?)),
-            Kind::Rigid => {
-                let (network, place) = scene()?;
-                Ways::Model(Box::new(RigidBody::new(network)?), place)
-            }
-            Kind::Third => {
-                let (network, place) = scene()?;
-                let start = StartingVelocity::ByMomentum;
-                Ways::Model(Box::new(ThirdOfMass::new(network, start)?), place)
-            }
-            Kind::Modes { count } => {
-                let (network, place) = scene()?;
-                Ways::Model(Box::new(Modes::new(network, count)?), place)
-            }
-            Kind::Leapfrog { cells, courant } => {
-                let (network, place) = scene()?;
-                Ways::Model(Box::new(Leapfrog::new(network, cells, courant)?), place)
-            }
-            Kind::Steps { tolerance } => {
-                let (network, place) = scene()?;
-                Ways::Model(Box::new(Steps::new(network, tolerance)?), place)
+            Kind::Rigid
+            | Kind::Third
+            | Kind::Modes { .. }
+            | Kind::Leapfrog { .. }
+            | Kind::Steps { .. } => {
+                let scene = problem.scene.ok_or(WayError::NeedsScene(kind.name()));
+                let (network, place) = scene?;
+                return Way::of_model(kind, network, place);
             }
         };
         Ok(Way { kind, inner })
+    }
+
+    /// A model made ready for the observable at this place of a scene, which needs no recurrence.
+    ///
+    /// ```
+    /// use wavestep::answer::{Kind, Way};
+    /// use wavestep::language::{Source, read_scene};
+    /// use wavestep::network::ScaledScene;
+    ///
+    /// let text = wavestep::scenes::find("hertz-striker").unwrap().text;
+    /// let scene = read_scene(&Source::new("hertz-striker", text)?, &Default::default()).unwrap();
+    /// let scaled = ScaledScene::of(&scene).unwrap();
+    /// // Before a wave returns the force comes near to Z V/2 = 63.8 kN, and stays below.
+    /// let steps = Way::of_model("steps:1e-8".parse().unwrap(), &scaled, 0).unwrap();
+    /// assert!((63e3..63.8e3).contains(&steps.values(&[6e-5]).unwrap()[0]));
+    /// assert!(Way::of_model(Kind::Compiled, &scaled, 0).is_err());
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`WayError::NeedsRecurrence`] for methods on the exact solution; [`WayError::Model`] where the
+    /// model refuses the scene.
+    pub fn of_model(
+        kind: Kind,
+        scene: &impl AsRef<ScaledScene>,
+        place: usize,
+    ) -> Result<Way<'a>, WayError> {
+        let model: Box<dyn Model> = match kind {
+            Kind::Rigid => Box::new(RigidBody::new(scene)?),
+            Kind::Third => Box::new(ThirdOfMass::new(scene, StartingVelocity::ByMomentum)?),
+            Kind::Modes { count } => Box::new(Modes::new(scene, count)?),
+            Kind::Leapfrog { cells, courant } => Box::new(Leapfrog::new(scene, cells, courant)?),
+            Kind::Steps { tolerance } => Box::new(Steps::new(scene, tolerance)?),
+            _ => return Err(WayError::NeedsRecurrence(kind.name())),
+        };
+        Ok(Way { kind, inner: Ways::Model(model, place) })
     }
 
     /// Its name and settings.

@@ -1,16 +1,20 @@
 //! `eval`: values with proven digits, of a recurrence or of a scene.
 
 use super::arguments::Eval;
+use super::eval_contact;
 use super::eval_doubles;
 use super::eval_recurrence::of_recurrence;
 use super::eval_scene;
 use super::failure::Failure;
-use super::input::{self, Subject};
+use super::input::{self, Readable, Subject};
 
 /// Evaluates what is asked for.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let subject = input::subject(&options.scene)?;
+    let subject = match input::readable(&options.scene)? {
+        Readable::WithoutRecurrence(scaled) => return eval_contact::run(&scaled, options),
+        Readable::Subject(subject) => subject,
+    };
     if options.tol.is_some() || options.method.is_some() {
         return eval_doubles::run(subject, options);
     }

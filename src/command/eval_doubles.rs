@@ -45,7 +45,8 @@ pub fn run(subject: Subject, options: &Eval) -> Result<String, Failure> {
     })
 }
 
-fn method(text: &str) -> Result<Kind, Failure> {
+/// A method by its name and settings.
+pub fn method(text: &str) -> Result<Kind, Failure> {
     text.parse().map_err(|error| {
         let names: Vec<&str> = Kind::NAMES.iter().map(|(name, _)| *name).collect();
         Failure::usage(format!("{error}"), format!("give one of {}", names.join(", ")))
@@ -197,7 +198,8 @@ pub fn double(value: f64) -> String {
     }
 }
 
-fn written(
+/// Values in the format asked for.
+pub fn written(
     way: &Way<'_>,
     titles: &Titles,
     (times, values): (&[BigRational], &[f64]),

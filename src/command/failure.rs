@@ -123,6 +123,7 @@ impl From<NetworkError> for Failure {
                 "give values with --set; or state the elements by their rates a and b, or sigma and \
                  omega, as docs/scene-language.md shows"
             }
+            NetworkError::NotLinear(_) => "ask for values, with `eval`",
             NetworkError::Recurrence(_) => {
                 "what has no mass cannot be forced or held against a spring or a moving bar: put a \
                  mass there"
@@ -176,6 +177,7 @@ impl From<WayError> for Failure {
                 return Failure::usage(message, format!("give it one: --set {symbol}=1"));
             }
             WayError::Model(_) => "use another model, or a method on the exact solution",
+            WayError::NeedsRecurrence(_) => "leave out --method, or ask for `--method steps:1e-10`",
             WayError::NeedsScene(_) => "describe it by its parts: see docs/scene-language.md",
             WayError::LeftLimit(_) => "leave out --side left",
         };

@@ -1,6 +1,7 @@
 //! What the arguments point at: scenes, values, times.
 
 use super::arguments::Scene;
+use super::eval_contact;
 use super::failure::Failure;
 use num_rational::BigRational;
 use num_traits::Signed as _;
@@ -8,7 +9,7 @@ use std::collections::BTreeMap;
 use std::io::Read as _;
 use wavestep::evaluate::MAX_DIGITS;
 use wavestep::language::{self, MAX_SOURCE_BYTES, Source};
-use wavestep::network::Network;
+use wavestep::network::{Network, ScaledScene};
 use wavestep::recurrence::Recurrence;
 use wavestep::scene::Dimension;
 use wavestep::scenes;
@@ -19,6 +20,14 @@ pub enum Subject {
     Recurrence(Box<Recurrence>),
     /// A scene, as a network.
     Scene(Box<Network>),
+}
+
+/// What can be read: a subject, or a scene with a local contact, of which models alone are made.
+pub enum Readable {
+    /// What has a recurrence.
+    Subject(Subject),
+    /// A scene in its own scales.
+    WithoutRecurrence(Box<ScaledScene>),
 }
 
 impl Subject {
@@ -36,6 +45,11 @@ pub fn subject(arguments: &Scene) -> Result<Subject, Failure> {
     subject_with(&arguments.scene, &values(&arguments.set)?)
 }
 
+/// Reads what the arguments name, with the values put in, be it linear or not.
+pub fn readable(arguments: &Scene) -> Result<Readable, Failure> {
+    readable_with(&arguments.scene, &values(&arguments.set)?)
+}
+
 /// Reads a scene with values put in, as a recurrence.
 pub fn recurrence_with(
     scene: &str,
@@ -45,15 +59,26 @@ pub fn recurrence_with(
 }
 
 fn subject_with(scene: &str, values: &BTreeMap<String, BigRational>) -> Result<Subject, Failure> {
+    match readable_with(scene, values)? {
+        Readable::Subject(subject) => Ok(subject),
+        Readable::WithoutRecurrence(scaled) => Err(eval_contact::refused(&scaled)),
+    }
+}
+
+fn readable_with(scene: &str, values: &BTreeMap<String, BigRational>) -> Result<Readable, Failure> {
     let source = source(scene)?;
     match language::kind(&source) {
         language::Kind::Recurrence => {
             let recurrence = language::read_recurrence(&source, values)?;
-            Ok(Subject::Recurrence(Box::new(recurrence)))
+            Ok(Readable::Subject(Subject::Recurrence(Box::new(recurrence))))
         }
         language::Kind::Scene => {
             let scene = language::read_scene(&source, values).map_err(Failure::Texts)?;
-            Ok(Subject::Scene(Box::new(Network::new(&scene)?)))
+            let scaled = ScaledScene::of(&scene)?;
+            Ok(match scaled.local_contact() {
+                Some(_) => Readable::WithoutRecurrence(Box::new(scaled)),
+                None => Readable::Subject(Subject::Scene(Box::new(scaled.network()?))),
+            })
         }
     }
 }

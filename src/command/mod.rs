@@ -14,6 +14,7 @@ mod derive_recurrence;
 mod derive_scene;
 mod dispersion;
 mod eval;
+mod eval_contact;
 mod eval_doubles;
 mod eval_recurrence;
 mod eval_scene;

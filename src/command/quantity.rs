@@ -5,7 +5,7 @@ use wavestep::expression::{Expression, Fraction, Root};
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::recurrence::{Observation, ObservedWave, Recurrence};
-use wavestep::scene::Dimension;
+use wavestep::scene::{Dimension, Scene};
 
 /// Refuses a quantity that is none of these.
 fn unknown(names: &[&str], quantity: &str) -> Failure {
@@ -27,6 +27,13 @@ pub fn of_recurrence(recurrence: &Recurrence, quantity: &str) -> Result<Observat
             statement.waves.iter().map(String::as_str).chain(observables).collect();
         unknown(&names, quantity)
     })
+}
+
+/// The place of an observable in a scene without a recurrence.
+pub fn of_model(scene: &Scene, quantity: &str) -> Result<usize, Failure> {
+    let name = language::normalise_name(quantity);
+    let names: Vec<&str> = scene.observables.iter().map(|seen| seen.name.as_str()).collect();
+    names.iter().position(|known| *known == name).ok_or_else(|| unknown(&names, quantity))
 }
 
 /// An observable of a scene, or a wave in its scale.

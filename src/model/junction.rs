@@ -2,11 +2,11 @@
 //!
 //! With `w` the whole wave that arrives in a bar of impedance `Z`, the force of the bar on the node is
 //! `Z (2w − v)`, and what leaves is `v − w`: no derivative of a delayed function occurs. The state
-//! holds the velocities of what has a mass, the compressions of springs and the displacements of
-//! supports; velocities of what has no mass follow from a balance of forces.
+//! holds the velocities of what has a mass, the compressions of springs and local contacts, and the
+//! displacements of supports; velocities of what has no mass follow from a balance of forces.
 
 use crate::model::error::ModelError;
-use crate::model::line::{Bar, Law, Node};
+use crate::model::line::{Bar, Law, LocalContact, Node};
 use crate::network::Side;
 use crate::scene::Drive;
 
@@ -24,19 +24,38 @@ pub(crate) struct Junction {
     resistance: Vec<Vec<f64>>,
     massless: Vec<usize>,
     inverse: Vec<Vec<f64>>,
-    /// Of each state behind the velocities: its stiffness, and the run that it presses on; springs
-    /// press on the next one too.
+    /// Of each state behind the velocities: its law, and the run that it presses on; what parts the
+    /// node presses on the next one too.
     yields: Vec<Yield>,
     /// The impedance at the left and at the right; zero where there is no bar.
     pub impedance: [f64; 2],
 }
 
-/// What has a displacement: a spring or a support.
+/// What has a displacement: a spring, a local contact or a support.
 #[derive(Clone, Copy, Debug)]
 struct Yield {
     run: usize,
-    stiffness: f64,
-    spring: bool,
+    press: Press,
+    /// Whether it presses on the next run too.
+    between: bool,
+    /// Displacements are kept in this time, as velocities, so that one tolerance suits all states.
+    time: f64,
+}
+
+/// How a force follows from a displacement.
+#[derive(Clone, Copy, Debug)]
+enum Press {
+    Linear(f64),
+    Hertz(LocalContact),
+}
+
+impl Press {
+    fn force(&self, displacement: f64) -> f64 {
+        match self {
+            Press::Linear(stiffness) => stiffness * displacement,
+            Press::Hertz(contact) => contact.force_at(displacement),
+        }
+    }
 }
 
 /// What acts on a node at a time.
@@ -77,15 +96,27 @@ fn inverse(mut matrix: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
 }
 
 impl Junction {
-    /// The system of a node.
+    /// The system of a node, in a line whose velocities are about `speed`.
     ///
     /// # Errors
     /// [`ModelError::Refused`] where something has no mass and nothing resists its motion.
-    pub fn of(model: &'static str, node: &Node, bars: &[Bar]) -> Result<Junction, ModelError> {
+    pub fn of(
+        model: &'static str,
+        node: &Node,
+        bars: &[Bar],
+        speed: f64,
+    ) -> Result<Junction, ModelError> {
         let runs = node.runs;
         let mut held: Vec<bool> = (0..runs).map(|run| node.is_held(run)).collect();
         let mut resistance = vec![vec![0.0; runs]; runs];
         let mut yields = Vec::new();
+        let mut impedance = [0.0; 2];
+        for (i, (side, run)) in [(node.left, 0), (node.right, runs - 1)].into_iter().enumerate() {
+            if let Side::Bar(bar) = side {
+                impedance[i] = bars[bar].impedance;
+                resistance[run][run] += impedance[i];
+            }
+        }
         for lump in &node.lumps {
             let run = lump.run;
             match lump.law {
@@ -94,21 +125,29 @@ impl Junction {
                         resistance[row][row] += damping;
                         resistance[row][column] -= damping;
                     }
-                    yields.push(Yield { run, stiffness, spring: true });
+                    yields.push(Yield {
+                        run,
+                        press: Press::Linear(stiffness),
+                        between: true,
+                        time: 1.0,
+                    });
+                }
+                Law::Hertz(contact) => {
+                    let press = Press::Hertz(contact);
+                    let time = contact.time(impedance[0] + impedance[1], speed);
+                    yields.push(Yield { run, press, between: true, time });
                 }
                 Law::Support { stiffness, damping } => {
                     resistance[run][run] += damping;
-                    yields.push(Yield { run, stiffness, spring: false });
+                    yields.push(Yield {
+                        run,
+                        press: Press::Linear(stiffness),
+                        between: false,
+                        time: 1.0,
+                    });
                 }
                 Law::Load { drive: Drive::Velocity, .. } => held[run] = true,
                 _ => {}
-            }
-        }
-        let mut impedance = [0.0; 2];
-        for (i, (side, run)) in [(node.left, 0), (node.right, runs - 1)].into_iter().enumerate() {
-            if let Side::Bar(bar) = side {
-                impedance[i] = bars[bar].impedance;
-                resistance[run][run] += impedance[i];
             }
         }
         let (mut mass, mut start) = (Vec::new(), Vec::new());
@@ -134,7 +173,7 @@ impl Junction {
         self.mass.len()
     }
 
-    /// How many springs and supports there are.
+    /// How many springs, local contacts and supports there are.
     pub fn yields(&self) -> usize {
         self.yields.len()
     }
@@ -151,9 +190,14 @@ impl Junction {
         state
     }
 
-    /// The displacement of the n-th spring or support.
+    /// The displacement of the n-th of what yields.
     pub fn displacement(&self, state: &[f64], number: usize) -> f64 {
-        state[self.heavy().count() + number]
+        state[self.heavy().count() + number] * self.yields[number].time
+    }
+
+    /// The time in which the n-th of what yields is kept.
+    pub fn time(&self, number: usize) -> f64 {
+        self.yields[number].time
     }
 
     /// The forces on all runs but those that resist their velocities.
@@ -163,10 +207,11 @@ impl Junction {
         pressed[0] += 2.0 * self.impedance[0] * acting.arriving[0];
         pressed[last] += 2.0 * self.impedance[1] * acting.arriving[1];
         let first = self.heavy().count();
-        for (own, displacement) in self.yields.iter().zip(&state[first..]) {
-            pressed[own.run] -= own.stiffness * displacement;
-            if own.spring {
-                pressed[own.run + 1] += own.stiffness * displacement;
+        for (own, kept) in self.yields.iter().zip(&state[first..]) {
+            let force = own.press.force(kept * own.time);
+            pressed[own.run] -= force;
+            if own.between {
+                pressed[own.run + 1] += force;
             }
         }
         pressed
@@ -206,8 +251,8 @@ impl Junction {
             *slopes.next().expect("a state") = force / self.mass[run];
         }
         for own in &self.yields {
-            let next = if own.spring { velocities[own.run + 1] } else { 0.0 };
-            *slopes.next().expect("a state") = velocities[own.run] - next;
+            let next = if own.between { velocities[own.run + 1] } else { 0.0 };
+            *slopes.next().expect("a state") = (velocities[own.run] - next) / own.time;
         }
     }
 }

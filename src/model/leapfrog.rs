@@ -21,7 +21,7 @@ use crate::model::Model;
 use crate::model::chain::{Chain, Tap};
 use crate::model::error::ModelError;
 use crate::model::line::Line;
-use crate::network::Network;
+use crate::network::ScaledScene;
 
 pub(crate) const NAME: &str = "leapfrog";
 
@@ -90,7 +90,11 @@ impl Leapfrog {
     /// [`ModelError::Refused`] where no bar is finite, and where something moves that has no mass;
     /// [`ModelError::TooMuch`] for more cells than [`MAX_CELL_UPDATES`];
     /// [`ModelError::MissingValue`] for symbols without values.
-    pub fn new(network: &Network, cells: usize, courant: f64) -> Result<Leapfrog, ModelError> {
+    pub fn new(
+        scene: &impl AsRef<ScaledScene>,
+        cells: usize,
+        courant: f64,
+    ) -> Result<Leapfrog, ModelError> {
         let setting = |reason: String| Err(ModelError::Setting { model: NAME, reason });
         if cells == 0 {
             return setting("it takes at least one cell".to_owned());
@@ -106,7 +110,7 @@ impl Leapfrog {
                 "the Courant number {courant} is not positive; take 1 or less"
             ));
         }
-        let line = Line::of(network)?;
+        let line = Line::linear(NAME, scene.as_ref())?;
         let chain = Chain::of(&line, cells, courant)?;
         let unit = line.scaled(&[1.0])?[0];
         Ok(Leapfrog { line, chain, unit })

@@ -4,8 +4,9 @@
 use crate::enclosure::Numbers;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::ModelError;
-use crate::network::{Layout, ModelLump, Network, Side, bar_roots};
+use crate::network::{Layout, ModelLump, ScaledScene, Side, bar_roots};
 use crate::scene::{Body, Drive, ElementIndex, Kind, Measure, Place, Position};
+use num_traits::ToPrimitive as _;
 
 /// A bar in doubles.
 #[derive(Clone, PartialEq, Debug)]
@@ -36,13 +37,68 @@ impl Bar {
     }
 }
 
+/// A local contact in doubles: `X = F_0 (α/α_0)^m` for `α > 0`, else 0.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct LocalContact {
+    /// `F_0`
+    pub force: f64,
+    /// `α_0`
+    pub compression: f64,
+    /// `m`
+    pub exponent: f64,
+}
+
+impl LocalContact {
+    /// The force at a compression `α`.
+    pub fn force_at(&self, compression: f64) -> f64 {
+        match compression > 0.0 {
+            true => self.force * (compression / self.compression).powf(self.exponent),
+            false => 0.0,
+        }
+    }
+
+    /// About the time in which the contact is pressed together: that in which the velocity `V` makes
+    /// the compression of the force `Z V`. Without an impedance it is 1.
+    pub fn time(&self, impedance: f64, velocity: f64) -> f64 {
+        let share = impedance * velocity / self.force;
+        let time = self.compression * share.powf(1.0 / self.exponent) / velocity;
+        // Powers with small exponents may be beyond all doubles.
+        if time > 0.0 && time.is_finite() { time } else { 1.0 }
+    }
+
+    /// The stiffness `k_1` of the linear spring that lets the force rise in about the same time where
+    /// bars with `S = 1/Z_1 + 1/Z_2` meet with the velocity `V`.
+    ///
+    /// With `k = F_0/α_0^m` and `h = kS` the law `α' + h α^m = V` has one time, that in which `V`
+    /// makes the compression at which it ends, `(V/h)^{1/m}/V`; that of a spring is `1/h_1`,
+    /// `h_1 = k_1 S`. So `h_1 = h^{1/m} V^{1 − 1/m}`, which is 6.57 for `m = 3/2`.
+    pub fn equivalent_stiffness(&self, compliance: f64, velocity: f64) -> f64 {
+        let power = 1.0 / self.exponent;
+        (self.force * compliance).powf(power) / self.compression * velocity.powf(1.0 - power)
+            / compliance
+    }
+}
+
 /// What a lumped element does.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Law {
     Mass { mass: f64, velocity: f64 },
     Spring { stiffness: f64, damping: f64 },
+    Hertz(LocalContact),
     Support { stiffness: f64, damping: f64 },
     Load { drive: Drive, course: Course, from: f64, until: f64 },
+}
+
+impl Law {
+    /// Whether it stands between two places that move apart from each other.
+    pub fn parts_places(&self) -> bool {
+        matches!(self, Law::Spring { .. } | Law::Hertz(_))
+    }
+
+    /// Whether it has a displacement or a compression of its own.
+    pub fn yields(&self) -> bool {
+        self.parts_places() || matches!(self, Law::Support { .. })
+    }
 }
 
 /// A lumped element in doubles.
@@ -50,14 +106,14 @@ pub(crate) enum Law {
 pub(crate) struct Lump {
     pub name: String,
     pub law: Law,
-    /// The run of its node that it moves with; of a spring the one at its left.
+    /// The run of its node that it moves with; of what parts the node the one at its left.
     pub run: usize,
 }
 
 /// The elements between two bars, or between a bar and an end.
 ///
 /// # Invariants
-/// Springs part the node into `runs` places with one velocity each, numbered from the left.
+/// Springs and local contacts part the node into `runs` places with one velocity each, numbered from the left.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Node {
     pub left: Side,
@@ -79,10 +135,15 @@ impl Node {
         self.sides(run).any(|side| side == Side::Fixed)
     }
 
-    /// The lumped elements of a run; springs are in none.
+    /// Whether a run is fixed, or moves as a load says.
+    pub fn is_imposed(&self, run: usize) -> bool {
+        let imposes = |lump: &Lump| matches!(lump.law, Law::Load { drive: Drive::Velocity, .. });
+        self.is_held(run) || self.lumps_of(run).any(imposes)
+    }
+
+    /// The lumped elements of a run; springs and local contacts are in none.
     pub fn lumps_of(&self, run: usize) -> impl Iterator<Item = &Lump> {
-        let spring = |lump: &Lump| matches!(lump.law, Law::Spring { .. });
-        self.lumps.iter().filter(move |lump| lump.run == run && !spring(lump))
+        self.lumps.iter().filter(move |lump| lump.run == run && !lump.law.parts_places())
     }
 
     /// The mass of the lumped masses of a run, and their momentum at the start.
@@ -150,24 +211,44 @@ pub(crate) struct Line {
 
 /// Reads a network.
 struct Reader<'a> {
-    network: &'a Network,
+    scaled: &'a ScaledScene,
     layout: Layout,
     numbers: Numbers,
 }
 
 impl Line {
-    /// The line of a network.
+    /// The line of a scene.
     ///
     /// # Errors
     /// [`ModelError::MissingValue`] for a symbol without a value.
-    pub fn of(network: &Network) -> Result<Line, ModelError> {
-        let numbers = Numbers::new(&network.model().constants);
-        let mut symbols = network.model().assumptions.symbols().map(|(symbol, _)| symbol);
+    pub fn of(scaled: &ScaledScene) -> Result<Line, ModelError> {
+        let numbers = Numbers::new(&scaled.model().constants);
+        let mut symbols = scaled.model().assumptions.symbols().map(|(symbol, _)| symbol);
         if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
             return Err(ModelError::MissingValue(symbol.clone()));
         }
-        let layout = Layout::of(network.scene());
-        Reader { network, layout, numbers }.line()
+        let layout = Layout::of(scaled.scene());
+        Reader { scaled, layout, numbers }.line()
+    }
+
+    /// The line of a scene, for a model that takes linear laws.
+    ///
+    /// # Errors
+    /// As [`Line::of`]; [`ModelError::Refused`] for a line with a local contact.
+    pub fn linear(model: &'static str, scaled: &ScaledScene) -> Result<Line, ModelError> {
+        let line = Line::of(scaled)?;
+        let mut lumps = line.nodes.iter().flat_map(|node| &node.lumps);
+        match lumps.find(|lump| matches!(lump.law, Law::Hertz(_))) {
+            None => Ok(line),
+            Some(contact) => {
+                let reason = format!(
+                    "it takes linear laws, and the force in the local contact {} is a power of its \
+                     compression; the method of steps takes it",
+                    contact.name
+                );
+                Err(ModelError::Refused { model, reason })
+            }
+        }
     }
 
     /// Times in the scale of the line.
@@ -214,6 +295,20 @@ impl Line {
         Err(ModelError::Refused { model, reason })
     }
 
+    /// The largest velocity at the start, of a wave or of what has a mass and is not held, or 1.
+    pub fn speed(&self) -> f64 {
+        let masses = self.nodes.iter().flat_map(|node| {
+            let free = (0..node.runs).filter(|run| !node.is_imposed(*run));
+            free.map(|run| node.mass_of(run))
+        });
+        let velocities = masses.filter(|(mass, _)| *mass > 0.0).map(|(mass, own)| own / mass);
+        let waves = self.bars.iter().flat_map(Bar::before);
+        match velocities.chain(waves).map(f64::abs).fold(0.0, f64::max) {
+            most if most > 0.0 => most,
+            _ => 1.0,
+        }
+    }
+
     /// The first endless bar.
     pub fn endless(&self) -> Option<&Bar> {
         self.bars.iter().find(|bar| bar.travel.is_none())
@@ -224,14 +319,14 @@ impl Line {
     ///
     /// # Errors
     /// [`ModelError::Value`] where they are no numbers.
-    pub fn units_of(&self, network: &Network, bar: usize) -> Result<(f64, f64), ModelError> {
-        let numbers = Numbers::new(&network.model().constants);
-        let layout = Layout::of(network.scene());
-        let Kind::Bar(data) = &network.scene().elements[layout.bars[bar]].kind else {
+    pub fn units_of(&self, scaled: &ScaledScene, bar: usize) -> Result<(f64, f64), ModelError> {
+        let numbers = Numbers::new(&scaled.model().constants);
+        let layout = Layout::of(scaled.scene());
+        let Kind::Bar(data) = &scaled.scene().elements[layout.bars[bar]].kind else {
             unreachable!("a bar of the line")
         };
         let (_, _, stiffness) = bar_roots(&data.body).expect("the network has read this bar");
-        let force = double_root(&numbers, &network.model().scale.force())?;
+        let force = double_root(&numbers, &scaled.model().scale.force())?;
         let strain = self.bars[bar].impedance * force / double_root(&numbers, &stiffness)?;
         Ok((1.0 / self.slowness, strain))
     }
@@ -241,10 +336,10 @@ impl Reader<'_> {
     fn line(&self) -> Result<Line, ModelError> {
         let mut bars = Vec::new();
         for (element, nodes) in self.layout.bars.iter().zip(&self.layout.ends) {
-            let data = &self.network.model().bars[element];
+            let data = &self.scaled.model().bars[element];
             let double = |value| double(&self.numbers, value);
             bars.push(Bar {
-                name: self.network.scene().elements[*element].name.clone(),
+                name: self.scaled.scene().elements[*element].name.clone(),
                 impedance: double(&data.impedance)?,
                 travel: data.travel.as_ref().map(double).transpose()?,
                 velocity: double(&data.velocity)?,
@@ -254,7 +349,7 @@ impl Reader<'_> {
         }
         let nodes = (0..self.layout.nodes.len()).map(|node| self.node(node));
         let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
-        let scene = self.network.scene();
+        let scene = self.scaled.scene();
         let mut observables = Vec::new();
         for observable in &scene.observables {
             let mut terms = Vec::new();
@@ -275,23 +370,28 @@ impl Reader<'_> {
             }
             observables.push(Observable { name: observable.name.clone(), terms });
         }
-        let slowness = double(&self.numbers, &self.network.model().slowness)?;
+        let slowness = double(&self.numbers, &self.scaled.model().slowness)?;
         Ok(Line { bars, nodes, observables, slowness })
     }
 
     fn node(&self, index: usize) -> Result<Node, ModelError> {
-        let scene = self.network.scene();
+        let scene = self.scaled.scene();
         let node = &self.layout.nodes[index];
         let double = |value| double(&self.numbers, value);
         let (mut lumps, mut runs) = (Vec::new(), 1);
         for element in &node.elements {
-            let law = match &self.network.model().lumps[element] {
+            let law = match &self.scaled.model().lumps[element] {
                 ModelLump::Mass(mass, velocity) => {
                     Law::Mass { mass: double(mass)?, velocity: double(velocity)? }
                 }
                 ModelLump::Spring(k, d) => {
                     Law::Spring { stiffness: double(k)?, damping: double(d)? }
                 }
+                ModelLump::Hertz(force, compression, exponent) => Law::Hertz(LocalContact {
+                    force: double(force)?,
+                    compression: double(compression)?,
+                    exponent: exponent.to_f64().unwrap_or(f64::NAN),
+                }),
                 ModelLump::Support(k, d) => {
                     Law::Support { stiffness: double(k)?, damping: double(d)? }
                 }
@@ -303,7 +403,7 @@ impl Reader<'_> {
                 },
             };
             let run = runs - 1;
-            runs += usize::from(matches!(law, Law::Spring { .. }));
+            runs += usize::from(law.parts_places());
             lumps.push(Lump { name: scene.elements[*element].name.clone(), law, run });
         }
         Ok(Node { left: node.left, right: node.right, lumps, runs })
@@ -317,7 +417,7 @@ impl Reader<'_> {
         bars: &[Bar],
     ) -> Result<Term, ModelError> {
         let root = |root| double_root(&self.numbers, root);
-        let scale = &self.network.model().scale;
+        let scale = &self.scaled.model().scale;
         let (time, velocity) = (root(&scale.time)?, root(&scale.velocity)?);
         let force = root(&scale.force())?;
         let (quantity, unit) = match measure {
@@ -365,7 +465,7 @@ impl Reader<'_> {
     }
 
     fn body(&self, element: ElementIndex) -> &Body {
-        match &self.network.scene().elements[element].kind {
+        match &self.scaled.scene().elements[element].kind {
             Kind::Bar(bar) => &bar.body,
             _ => unreachable!("sections are in bars"),
         }

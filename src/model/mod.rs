@@ -6,6 +6,7 @@
 
 mod chain;
 mod course;
+mod equivalent;
 mod error;
 mod junction;
 mod leapfrog;
@@ -17,6 +18,7 @@ mod steps;
 mod third;
 mod track;
 
+pub use equivalent::equivalent_stiffness;
 pub use error::ModelError;
 pub use leapfrog::{Leapfrog, MAX_CELL_UPDATES};
 pub use modes::{MAX_MODE_TERMS, MAX_MODES, Modes};

@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::model::error::ModelError;
 use crate::model::line::{Law, Line, Quantity, Spot, Term};
 use crate::model::shape::{Part, Shape, frequency};
-use crate::network::{Network, Side};
+use crate::network::{ScaledScene, Side};
 
 const NAME: &str = "modes of vibration";
 
@@ -114,6 +114,7 @@ fn parts(line: &Line) -> Result<Vec<Part>, ModelError> {
                 Law::Load { .. } => {
                     return refuse(format!("load {} acts from outside", lump.name));
                 }
+                Law::Hertz(_) => unreachable!("the line is linear"),
                 Law::Mass { mass, .. } => Part::Mass { mass },
                 Law::Spring { stiffness, .. } => Part::Spring { stiffness },
                 Law::Support { stiffness, .. } => Part::Support { stiffness },
@@ -134,7 +135,7 @@ impl Modes {
     /// [`ModelError::Refused`] for endless bars, dampers, loads, and lines without bars;
     /// [`ModelError::Setting`] for no modes, [`ModelError::TooMuch`] for more than [`MAX_MODES`];
     /// [`ModelError::MissingValue`] for symbols without values.
-    pub fn new(network: &Network, count: usize) -> Result<Modes, ModelError> {
+    pub fn new(scene: &impl AsRef<ScaledScene>, count: usize) -> Result<Modes, ModelError> {
         if count == 0 {
             let reason = "it takes at least one mode".to_owned();
             return Err(ModelError::Setting { model: NAME, reason });
@@ -143,7 +144,7 @@ impl Modes {
             let (count, limit) = (count as f64, MAX_MODES as f64);
             return Err(ModelError::TooMuch { model: NAME, what: "modes", count, limit });
         }
-        let line = Line::of(network)?;
+        let line = Line::linear(NAME, scene.as_ref())?;
         let parts = parts(&line)?;
         let held = |side| side == Side::Fixed;
         let ends = [line.nodes[0].left, line.nodes[line.nodes.len() - 1].right].map(held);

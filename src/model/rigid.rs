@@ -13,7 +13,7 @@
 use crate::model::Model;
 use crate::model::error::ModelError;
 use crate::model::line::{Law, Line, Node, Quantity, Spot, Term};
-use crate::network::{Network, Side};
+use crate::network::{ScaledScene, Side};
 use crate::scene::Drive;
 
 const NAME: &str = "rigid body";
@@ -109,8 +109,8 @@ impl RigidBody {
     /// # Errors
     /// [`ModelError::Refused`] for endless and strained bars, springs between bodies, ends that are
     /// fixed without a spring, imposed velocities and forces that vary; and for symbols without values.
-    pub fn new(network: &Network) -> Result<RigidBody, ModelError> {
-        let line = Line::of(network)?;
+    pub fn new(scene: &impl AsRef<ScaledScene>) -> Result<RigidBody, ModelError> {
+        let line = Line::linear(NAME, scene.as_ref())?;
         if let Some(bar) = line.endless() {
             return refuse(format!("bar {} is endless, so its mass has no bound", bar.name));
         }

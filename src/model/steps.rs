@@ -9,14 +9,19 @@
 //! Error law (measured, not proven): the largest error over some ten round trips is below ten times the
 //! tolerance times the largest value, for tolerances down to 1e-10. Jumps lie on the borders of periods
 //! and are exact.
+//!
+//! It is the one model that takes local contacts, whose force is a power of their compression. Where that
+//! power is not smooth, at the first touch and where a contact opens or closes, pieces are halved until
+//! their series have converged. Measured for two endless bars: within the tolerance of the closed form, of
+//! the largest force, down to 1e-11; within 1e-12 at 1e-13.
 
 use crate::expression::{Fraction, Root};
 use crate::model::Model;
 use crate::model::error::ModelError;
 use crate::model::junction::{Acting, Junction};
-use crate::model::line::{Bar, Law, Line, Quantity, Spot, Term};
+use crate::model::line::{Law, Line, Quantity, Spot, Term};
 use crate::model::track::{DEGREE, Track, points, series};
-use crate::network::{ModelLump, Network, Side};
+use crate::network::{ModelLump, ScaledScene, Side};
 use crate::scene::Drive;
 use num_integer::Integer as _;
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -121,24 +126,26 @@ impl Steps {
     /// [`ModelError::Refused`] where travel times, and times of loads, have no common measure, and
     /// where something without mass moves against nothing; [`ModelError::MissingValue`] for symbols
     /// without values.
-    pub fn new(network: &Network, tolerance: f64) -> Result<Steps, ModelError> {
+    pub fn new(scene: &impl AsRef<ScaledScene>, tolerance: f64) -> Result<Steps, ModelError> {
+        let scaled = scene.as_ref();
         if !(1e-13..=1e-2).contains(&tolerance) {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-13 and 1e-2");
             return Err(ModelError::Setting { model: NAME, reason });
         }
-        let line = Line::of(network)?;
-        let junctions = line.nodes.iter().map(|node| Junction::of(NAME, node, &line.bars));
+        let line = Line::of(scaled)?;
+        let speed = line.speed();
+        let junctions = line.nodes.iter().map(|node| Junction::of(NAME, node, &line.bars, speed));
         let junctions = junctions.collect::<Result<Vec<_>, _>>()?;
         let mut times = Vec::new();
-        let scene = network.scene();
+        let scene = scaled.scene();
         let named = |element: usize| scene.elements[element].name.clone();
         let bars = scene.line.elements.iter().filter_map(|element| {
-            let travel = network.model().bars.get(element)?.travel.clone();
+            let travel = scaled.model().bars.get(element)?.travel.clone();
             Some((named(*element), travel.unwrap_or_else(Fraction::zero)))
         });
         times.extend(bars);
         for element in &scene.line.elements {
-            if let Some(ModelLump::Load(_, _, from, until)) = network.model().lumps.get(element) {
+            if let Some(ModelLump::Load(_, _, from, until)) = scaled.model().lumps.get(element) {
                 times.push((named(*element), from.clone()));
                 times.push((named(*element), until.clone().unwrap_or_else(Fraction::zero)));
             }
@@ -166,7 +173,7 @@ impl Steps {
         let acting = acting.collect();
         let period = match &grid {
             Some((period, _)) => {
-                let numbers = crate::enclosure::Numbers::new(&network.model().constants);
+                let numbers = crate::enclosure::Numbers::new(&scaled.model().constants);
                 Some(crate::model::course::double(&numbers, period)?)
             }
             None => None,
@@ -202,9 +209,8 @@ impl Steps {
             yields: (self.junctions.iter())
                 .map(|junction| vec![track(0.0); junction.yields()])
                 .collect(),
-            scale: 0.0,
+            scale: self.line.speed(),
         };
-        motion.scale = motion.largest();
         for number in 0..periods as i64 {
             motion.step(number)?;
         }
@@ -296,18 +302,6 @@ struct Solved {
 }
 
 impl Motion<'_> {
-    /// The largest velocity at the start, or 1.
-    fn largest(&self) -> f64 {
-        let states = self
-            .states
-            .iter()
-            .zip(&self.steps.junctions)
-            .flat_map(|(state, junction)| state.iter().take(state.len() - junction.yields()));
-        let waves = self.steps.line.bars.iter().flat_map(Bar::before);
-        let most = states.copied().chain(waves).map(f64::abs).fold(0.0, f64::max);
-        if most > 0.0 { most } else { 1.0 }
-    }
-
     /// Solves one period at all nodes.
     fn step(&mut self, number: i64) -> Result<(), ModelError> {
         let mut all = Vec::new();
@@ -345,7 +339,7 @@ impl Motion<'_> {
         loop {
             let length = self.period / f64::from(halvings).exp2();
             let piece = self.piece(node, number, start as f64 * length, length, &state)?;
-            if !self.is_resolved(&piece.rows) {
+            if !self.is_resolved(node, &piece.rows) {
                 if halvings >= MAX_HALVINGS {
                     let reason = format!("no piece of period {number} is smooth");
                     return Err(ModelError::Solver { model: NAME, reason });
@@ -366,9 +360,15 @@ impl Motion<'_> {
     }
 
     /// Whether the last coefficients are below the tolerance.
-    fn is_resolved(&self, rows: &[Values]) -> bool {
-        rows.iter().all(|row| {
-            let most = row.iter().fold(self.scale, |most, value| most.max(value.abs()));
+    fn is_resolved(&self, node: usize, rows: &[Values]) -> bool {
+        let junction = &self.steps.junctions[node];
+        let (runs, yields) = (junction.runs(), junction.yields());
+        rows.iter().enumerate().all(|(number, row)| {
+            let own = match number.checked_sub(runs) {
+                Some(number) if number < yields => self.scale * junction.time(number),
+                _ => self.scale,
+            };
+            let most = row.iter().fold(own, |most, value| most.max(value.abs()));
             let small = |c: &f64| c.abs() <= self.steps.tolerance * most;
             series(row)[DEGREE - 2..].iter().all(small)
         })
@@ -459,8 +459,7 @@ impl Motion<'_> {
             Spot::Lump { node, place } => (node, place),
         };
         let lumps = &self.steps.line.nodes[node].lumps;
-        let yields = |law: &Law| matches!(law, Law::Spring { .. } | Law::Support { .. });
-        let number = lumps[..place].iter().filter(|lump| yields(&lump.law)).count();
+        let number = lumps[..place].iter().filter(|lump| lump.law.yields()).count();
         let run = lumps[place].run;
         let velocity = |run: usize| self.velocities[node][run].value(time);
         let displacement = || self.yields[node][number].value(time);
@@ -468,11 +467,12 @@ impl Motion<'_> {
             (Quantity::Force, Law::Spring { stiffness, damping }) => {
                 stiffness * displacement() + damping * (velocity(run) - velocity(run + 1))
             }
-            (Quantity::Compression, Law::Spring { .. }) => displacement(),
+            (Quantity::Compression, Law::Spring { .. } | Law::Hertz(_)) => displacement(),
+            (Quantity::Force, Law::Hertz(contact)) => contact.force_at(displacement()),
             (Quantity::Force, Law::Support { stiffness, damping }) => {
                 stiffness * displacement() + damping * velocity(run)
             }
-            (_, Law::Spring { .. }) => return None,
+            (_, Law::Spring { .. } | Law::Hertz(_)) => return None,
             (Quantity::Velocity, _) => velocity(run),
             (Quantity::Displacement, _) => self.velocities[node][run].integral(time),
             (Quantity::Momentum, Law::Mass { mass, .. }) => mass * velocity(run),

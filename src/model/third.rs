@@ -15,7 +15,7 @@
 use crate::model::Model;
 use crate::model::error::ModelError;
 use crate::model::line::{Law, Line, Quantity, Spot};
-use crate::network::{Network, Side};
+use crate::network::{ScaledScene, Side};
 
 const NAME: &str = "a third of the mass";
 
@@ -106,8 +106,11 @@ impl ThirdOfMass {
     /// # Errors
     /// [`ModelError::Refused`] for every other scene, with what differs;
     /// [`ModelError::MissingValue`] for symbols without values.
-    pub fn new(network: &Network, start: StartingVelocity) -> Result<ThirdOfMass, ModelError> {
-        let line = Line::of(network)?;
+    pub fn new(
+        scene: &impl AsRef<ScaledScene>,
+        start: StartingVelocity,
+    ) -> Result<ThirdOfMass, ModelError> {
+        let line = Line::linear(NAME, scene.as_ref())?;
         let ([bar], [left, right]) = (&line.bars[..], &line.nodes[..]) else {
             let reason = match (&line.bars[..], line.endless()) {
                 ([_], Some(bar)) => format!("bar {} is endless, and no spring", bar.name),
@@ -143,7 +146,7 @@ impl ThirdOfMass {
         }
         let velocity = momentum / mass;
         let whole = mass + bar.mass() / 3.0;
-        let (time, strain) = line.units_of(network, 0)?;
+        let (time, strain) = line.units_of(scene.as_ref(), 0)?;
         Ok(ThirdOfMass {
             velocity,
             start: match start {

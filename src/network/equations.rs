@@ -9,6 +9,7 @@ use crate::network::delay::Lattice;
 use crate::network::layout::{Layout, Node, Run, Side};
 use crate::network::model::{Model, ModelLump};
 use crate::network::observe::Observed;
+use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
 use num_integer::Integer as _;
@@ -47,6 +48,9 @@ pub enum NetworkError {
     },
     /// What is observed cannot be formed, and why.
     Unobservable(String, &'static str),
+    /// A local contact, by its name: its force is a power of its compression, so that waves do not
+    /// add up and nothing that recurs can be stated.
+    NotLinear(String),
 }
 
 impl fmt::Display for NetworkError {
@@ -64,6 +68,11 @@ impl fmt::Display for NetworkError {
                 write!(f, "{place}, {waves} decay together at rates that are not known exactly")
             }
             NetworkError::Unobservable(name, reason) => write!(f, "{name} {reason}"),
+            NetworkError::NotLinear(contact) => write!(
+                f,
+                "the force in `{contact}` is a power of its compression, not a multiple of it, so \
+                 this scene has no recurrence and no exact solution"
+            ),
         }
     }
 }
@@ -155,8 +164,7 @@ pub struct WaveRole {
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Network {
-    pub(crate) scene: Scene,
-    pub(crate) model: Model,
+    pub(crate) scaled: ScaledScene,
     pub(crate) layout: Layout,
     pub(crate) waves: Vec<WaveRole>,
     pub(crate) lattice: Lattice,
@@ -180,13 +188,20 @@ impl Network {
     /// The network of a scene.
     ///
     /// # Errors
-    /// [`NetworkError`].
+    /// [`NetworkError::NotLinear`] for a scene with a local contact, of which a [`ScaledScene`] is all
+    /// there is; [`NetworkError`] where a value would have to be divided by that cannot be.
     pub fn new(scene: &Scene) -> Result<Network, NetworkError> {
-        let model = Model::of(scene)?;
-        let layout = Layout::of(scene);
+        ScaledScene::of(scene)?.network()
+    }
+
+    /// The network of a scene in its own scales.
+    pub(super) fn of_scaled(scaled: ScaledScene) -> Result<Network, NetworkError> {
+        if let Some(contact) = scaled.local_contact() {
+            return Err(NetworkError::NotLinear(scaled.scene.elements[contact].name.clone()));
+        }
+        let layout = Layout::of(&scaled.scene);
         let mut network = Network {
-            scene: scene.clone(),
-            model,
+            scaled,
             waves: Vec::new(),
             lattice: Lattice::spanned_by(&[]).0,
             round_trips: vec![None; layout.bars.len()],
@@ -206,12 +221,12 @@ impl Network {
 
     /// The scene.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        &self.scaled.scene
     }
 
     /// The scene in its own scales.
     pub fn model(&self) -> &Model {
-        &self.model
+        &self.scaled.model
     }
 
     /// The times at which waves arrive.
@@ -243,7 +258,8 @@ impl Network {
 
     /// Where a node is, in words.
     pub fn place_in_words(&self, node: usize) -> String {
-        let name = |bar: usize| format!("`{}`", self.scene.elements[self.layout.bars[bar]].name);
+        let name =
+            |bar: usize| format!("`{}`", self.scaled.scene.elements[self.layout.bars[bar]].name);
         let Node { left, right, .. } = &self.layout.nodes[node];
         match (left, right) {
             (Side::Bar(left), Side::Bar(right)) => {
@@ -262,7 +278,7 @@ impl Network {
 
     /// A time in seconds in the scale of the scene; a plain number as it is.
     pub fn scaled_time(&self, time: &Rational) -> Fraction {
-        self.model.slowness.scale(time)
+        self.scaled.model.slowness.scale(time)
     }
 
     /// How far the clock of each node is ahead: what happens at a time shows later by so much.
@@ -308,12 +324,12 @@ impl Network {
         let uneven = velocities.iter().any(Option::is_none);
         let apart = velocities.windows(2).any(|pair| pair[0] != pair[1]);
         let forced = |side: Side| match side {
-            Side::Bar(bar) => !self.model.bars[&self.layout.bars[bar]].force.is_zero(),
+            Side::Bar(bar) => !self.scaled.model.bars[&self.layout.bars[bar]].force.is_zero(),
             _ => false,
         };
         let pressed = forced(node.left) || forced(node.right);
         let moved = velocities.iter().flatten().any(|velocity| !velocity.is_zero());
-        let held = node.elements.iter().any(|element| match &self.model.lumps[element] {
+        let held = node.elements.iter().any(|element| match &self.scaled.model.lumps[element] {
             ModelLump::Load(..) => true,
             ModelLump::Support(..) => moved,
             _ => false,
@@ -324,13 +340,13 @@ impl Network {
     /// The velocities at the start of all that moves together.
     pub(crate) fn initial_velocities(&self, node: &Node, run: Run) -> Vec<Fraction> {
         let of_side = |side: Side| match side {
-            Side::Bar(bar) => Some(self.model.bars[&self.layout.bars[bar]].velocity.clone()),
+            Side::Bar(bar) => Some(self.scaled.model.bars[&self.layout.bars[bar]].velocity.clone()),
             Side::Fixed => Some(Fraction::zero()),
             Side::Free => None,
         };
         let mut all: Vec<Fraction> = node.sides(run).filter_map(of_side).collect();
         for element in &node.elements[run.first..run.last] {
-            if let ModelLump::Mass(_, velocity) = &self.model.lumps[element] {
+            if let ModelLump::Mass(_, velocity) = &self.scaled.model.lumps[element] {
                 all.push(velocity.clone());
             }
         }
@@ -351,7 +367,7 @@ impl Network {
     fn runs(&self, node: &Node, joins: impl Fn(&ModelLump) -> bool) -> Vec<Run> {
         let mut runs = vec![Run { first: 0, last: 0 }];
         for (i, element) in node.elements.iter().enumerate() {
-            match joins(&self.model.lumps[element]) {
+            match joins(&self.scaled.model.lumps[element]) {
                 true => runs.last_mut().expect("one at least").last = i + 1,
                 false => runs.push(Run { first: i + 1, last: i + 1 }),
             }
@@ -362,7 +378,7 @@ impl Network {
     /// Finds the clocks of the nodes, and the lattice on which all delays can be counted.
     fn set_clocks(&mut self) -> Result<(), NetworkError> {
         let travel: Vec<Option<Fraction>> =
-            self.layout.bars.iter().map(|bar| self.model.bars[bar].travel.clone()).collect();
+            self.layout.bars.iter().map(|bar| self.scaled.model.bars[bar].travel.clone()).collect();
         let starting: Vec<bool> = self.layout.nodes.iter().map(|node| self.starts(node)).collect();
         let reference = starting.iter().position(|starts| *starts).unwrap_or(0);
         // How often each bar is passed on the way from the reference.
@@ -388,7 +404,7 @@ impl Network {
         let mut moments = Vec::new();
         for (place, node) in self.layout.nodes.iter().enumerate() {
             for element in &node.elements {
-                if let ModelLump::Load(_, _, from, until) = &self.model.lumps[element] {
+                if let ModelLump::Load(_, _, from, until) = &self.scaled.model.lumps[element] {
                     moments.push((*element, place, from.clone(), until.clone()));
                     times.push(from.clone());
                     times.extend(until.clone());
@@ -460,7 +476,7 @@ impl Network {
     }
 
     fn name_waves(&mut self) {
-        let elements = &self.scene.elements;
+        let elements = &self.scaled.scene.elements;
         let name = |element: ElementIndex| &elements[element].name;
         let mut waves = Vec::new();
         let lone = self.layout.bars.len() == 1;
@@ -479,7 +495,7 @@ impl Network {
         }
         for (place, node) in self.layout.nodes.iter().enumerate() {
             for element in &node.elements {
-                match &self.model.lumps[element] {
+                match &self.scaled.model.lumps[element] {
                     ModelLump::Spring(k, _) if !k.is_zero() => {
                         waves.push((name(*element).clone(), Role::Compression(*element)));
                     }
@@ -493,9 +509,9 @@ impl Network {
             for run in self.velocity_runs(node) {
                 if self.is_unknown(node, run) {
                     let masses = node.elements[run.first..run.last].iter();
-                    let mass = masses
-                        .clone()
-                        .find(|element| matches!(self.model.lumps[element], ModelLump::Mass(..)));
+                    let mass = masses.clone().find(|element| {
+                        matches!(self.scaled.model.lumps[element], ModelLump::Mass(..))
+                    });
                     let named = mass.or(node.elements[run.first..run.last].first());
                     let name = match named {
                         Some(element) => format!("v_{}", name(*element)),
@@ -507,11 +523,16 @@ impl Network {
         }
         for (mut name, role) in waves {
             let taken = |name: &str| {
-                let symbols = self.model.assumptions.symbols();
+                let symbols = self.scaled.model.assumptions.symbols();
                 symbols.map(|(symbol, _)| symbol.name()).any(|other| other == name)
                     || self.waves.iter().any(|wave| wave.name == name)
-                    || self.scene.observables.iter().any(|observable| observable.name == name)
-                    || name == self.scene.time.name()
+                    || self
+                        .scaled
+                        .scene
+                        .observables
+                        .iter()
+                        .any(|observable| observable.name == name)
+                    || name == self.scaled.scene.time.name()
             };
             while taken(&name) {
                 name.push('_');
@@ -540,7 +561,7 @@ impl Network {
     /// Velocity and force of a bar at a node, by the node's clock.
     pub(crate) fn bar_forms(&self, node: usize, bar: usize, strides: &[usize]) -> [LinearForm; 2] {
         let element = self.layout.bars[bar];
-        let data = &self.model.bars[&element];
+        let data = &self.scaled.model.bars[&element];
         let [left, right] = self.layout.ends[bar];
         let trip = self.round_trips[bar].as_ref().map_or(0, |trip| lag(trip, strides));
         // The wave that leaves the node farther from the reference is seen there and here at once.

@@ -135,12 +135,12 @@ impl Network {
         };
         let observables = self.observables.iter().filter_map(linear).collect();
         Statement {
-            title: self.scene.title.clone(),
-            assumptions: self.model.assumptions.clone(),
-            constants: self.model.constants.clone(),
+            title: self.scaled.scene.title.clone(),
+            assumptions: self.scaled.model.assumptions.clone(),
+            constants: self.scaled.model.constants.clone(),
             period: self.lattice.periods()[0].clone(),
             local: self.local(),
-            time: self.scene.time.clone(),
+            time: self.scaled.scene.time.clone(),
             waves,
             equations: laws.laws.iter().map(|law| difference(&law.left, &law.right)).collect(),
             continuity: laws.continuity,
@@ -153,7 +153,7 @@ impl Network {
     pub fn local(&self) -> Symbol {
         let mut local = "s".to_owned();
         let taken = |name: &str| {
-            self.model.assumptions.symbols().any(|(symbol, _)| symbol.name() == name)
+            self.scaled.model.assumptions.symbols().any(|(symbol, _)| symbol.name() == name)
                 || self.waves.iter().any(|wave| wave.name == name)
         };
         while taken(&local) {
@@ -199,7 +199,7 @@ impl Network {
     ) -> Vec<LinearForm> {
         let mut forms = Vec::new();
         for element in &node.elements[run.first..run.last] {
-            if let ModelLump::Load(Drive::Velocity, ..) = &self.model.lumps[element] {
+            if let ModelLump::Load(Drive::Velocity, ..) = &self.scaled.model.lumps[element] {
                 forms.push(self.load(*element, strides));
             }
         }
@@ -234,7 +234,7 @@ impl Network {
         strides: &[usize],
     ) -> LinearForm {
         let element = node.elements[i];
-        let ModelLump::Spring(stiffness, damping) = &self.model.lumps[&element] else {
+        let ModelLump::Spring(stiffness, damping) = &self.scaled.model.lumps[&element] else {
             unreachable!("asked for springs only");
         };
         let mut force = LinearForm::zero();
@@ -278,12 +278,12 @@ impl Network {
 
     /// A load by the clock of its node: its course from its beginning, taken away again at its end.
     pub(crate) fn load(&self, element: ElementIndex, strides: &[usize]) -> LinearForm {
-        let ModelLump::Load(_, course, from, until) = &self.model.lumps[&element] else {
+        let ModelLump::Load(_, course, from, until) = &self.scaled.model.lumps[&element] else {
             unreachable!("asked for loads only");
         };
         let moments = self.loads.iter().find(|(load, ..)| *load == element);
         let (_, begins, ends) = moments.expect("every load has its moments");
-        let time = &self.scene.time;
+        let time = &self.scaled.scene.time;
         let later = |by: &Fraction| {
             LinearForm::forcing(course.shift(time, by).expect("loads have no time in denominators"))
         };
@@ -296,7 +296,7 @@ impl Network {
     }
 
     fn laws_of(&self, place: usize, node: &Node, strides: &[usize], laws: &mut Laws) {
-        let time = &self.scene.time;
+        let time = &self.scaled.scene.time;
         let forces = self.force_runs(node);
         let force_at = |at: usize| {
             let run = forces.iter().find(|run| run.first <= at && at <= run.last);
@@ -314,7 +314,7 @@ impl Network {
             let forms = self.velocity_forms(place, node, run, strides);
             let elements = &node.elements[run.first..run.last];
             let imposing = elements.iter().find(|element| {
-                matches!(self.model.lumps[element], ModelLump::Load(Drive::Velocity, ..))
+                matches!(self.scaled.model.lumps[element], ModelLump::Load(Drive::Velocity, ..))
             });
             let held = node.sides(run).any(|side| side == Side::Fixed);
             for other in &forms[1..] {
@@ -341,7 +341,7 @@ impl Network {
             let velocity = &forms[0];
             let (mut mass, mut momentum) = (Fraction::zero(), Fraction::zero());
             for element in elements {
-                match &self.model.lumps[element] {
+                match &self.scaled.model.lumps[element] {
                     ModelLump::Mass(m, v) => {
                         mass = &mass + m;
                         momentum = &momentum + &(m * v);
@@ -357,6 +357,7 @@ impl Network {
                         acting.add_scaled(&self.load(*element, strides), &one(), 0);
                     }
                     ModelLump::Spring(..) => unreachable!("springs part what moves together"),
+                    ModelLump::Hertz(..) => unreachable!("a network holds no local contact"),
                 }
             }
             if !mass.is_zero() {
@@ -379,7 +380,7 @@ impl Network {
                 _ => None,
             };
             let compliance = end.and_then(|bar| {
-                let impedance = &self.model.bars[&self.layout.bars[bar]].impedance;
+                let impedance = &self.scaled.model.bars[&self.layout.bars[bar]].impedance;
                 let inverse = Fraction::reciprocal(impedance.numerator()).ok()?;
                 Some(&inverse * &Fraction::from(impedance.denominator()))
             });

@@ -11,6 +11,9 @@
 //!
 //! Waves travel from node to node in the travel times of the bars. [`Network::recurrence`] writes the
 //! laws as equations between the wave functions of successive periods.
+//!
+//! A [`ScaledScene`] comes before the network: it is all that models of a scene need, and all that
+//! there is of one with a local contact, whose law is not linear.
 
 mod delay;
 mod equations;
@@ -18,6 +21,7 @@ mod laws;
 mod layout;
 mod model;
 mod observe;
+mod scaled;
 mod unfold;
 
 pub use delay::Lattice;
@@ -27,4 +31,5 @@ pub(crate) use layout::{Layout, Side};
 pub(crate) use model::bar_roots;
 pub use model::{Model, ModelBar, ModelLump, Scale};
 pub use observe::{EnergyTerm, Observed, ObservedValue, Window};
+pub use scaled::ScaledScene;
 pub use unfold::Unfolded;

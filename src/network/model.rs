@@ -117,6 +117,9 @@ pub enum ModelLump {
     Mass(Fraction, Fraction),
     /// Stiffness and damping of a spring.
     Spring(Fraction, Fraction),
+    /// A local contact: the force at a compression, that compression, and the exponent. No
+    /// [`Network`](crate::network::Network) holds one.
+    Hertz(Fraction, Fraction, Rational),
     /// Stiffness and damping of a support.
     Support(Fraction, Fraction),
     /// A load: what is given, its course, when it begins, and when it ends.
@@ -236,6 +239,16 @@ impl Model {
                     let (k, d) =
                         model.yielding(&element.name, &spring.stiffness, &spring.damping)?;
                     model.lumps.insert(*index, ModelLump::Spring(k, d));
+                }
+                Kind::Hertz(hertz) => {
+                    let scale = &model.scale;
+                    let length = scale.velocity.times(&scale.time);
+                    let force = Root::from(hertz.force.clone()).over(&scale.force())?;
+                    let compression = Root::from(hertz.compression.clone()).over(&length)?;
+                    let force = model.number(&named("F"), force);
+                    let compression = model.number(&named("alpha"), compression);
+                    let exponent = hertz.exponent.clone();
+                    model.lumps.insert(*index, ModelLump::Hertz(force, compression, exponent));
                 }
                 Kind::Support(support) => {
                     let (k, d) =

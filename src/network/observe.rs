@@ -155,7 +155,7 @@ type Measured<T> = (T, Root, Dimension);
 impl Network {
     /// Forms all observables of the scene.
     pub(crate) fn set_observables(&mut self) -> Result<(), NetworkError> {
-        for observable in self.scene.observables.clone() {
+        for observable in self.scaled.scene.observables.clone() {
             let energy = observable.terms.iter().any(|seen| seen.measure == Measure::Energy);
             let observed = match energy {
                 true => self.energies(&observable.name, &observable.terms)?,
@@ -173,9 +173,9 @@ impl Network {
         for (i, seen) in terms.iter().enumerate() {
             let (observation, unit, dimension) = self.measured(name, seen)?;
             let mut coefficient = seen.coefficient.clone();
-            if !self.scene.dimensional {
+            if !self.scaled.scene.dimensional {
                 // Without units a value is what it is.
-                let unit = self.model.number(&format!("q_{name}_{i}"), unit);
+                let unit = self.scaled.model.number(&format!("q_{name}_{i}"), unit);
                 add(&mut sum, &observation, &(&coefficient * &unit));
                 continue;
             }
@@ -183,7 +183,7 @@ impl Network {
                 None => first = Some((unit, dimension)),
                 Some((own, _)) => {
                     let ratio = unit.over(own)?;
-                    let ratio = self.model.number(&format!("q_{name}_{i}"), ratio);
+                    let ratio = self.scaled.model.number(&format!("q_{name}_{i}"), ratio);
                     coefficient = &coefficient * &ratio;
                 }
             }
@@ -196,7 +196,7 @@ impl Network {
 
     fn measured(&mut self, name: &str, seen: &Seen) -> Result<Measured<Observation>, NetworkError> {
         let refuse = |reason| Err(NetworkError::Unobservable(name.to_owned(), reason));
-        let scale = self.model.scale.clone();
+        let scale = self.scaled.model.scale.clone();
         let length = scale.velocity.times(&scale.time);
         let unit = match seen.measure {
             Measure::Velocity => scale.velocity.clone(),
@@ -208,7 +208,7 @@ impl Network {
         let section = match &seen.place {
             Place::Left(bar) => Some((*bar, Fraction::zero())),
             // An endless bar to the left has one end, from which its sections are counted.
-            Place::Right(bar) if self.model.bars[bar].travel.is_none() => {
+            Place::Right(bar) if self.scaled.model.bars[bar].travel.is_none() => {
                 Some((*bar, Fraction::zero()))
             }
             Place::Right(bar) => Some((*bar, Fraction::one())),
@@ -219,7 +219,7 @@ impl Network {
             (Measure::Velocity, _, Some((bar, share))) => (self.velocity_in(bar, &share), unit),
             (Measure::Force, _, Some((bar, share))) => (self.force_in(bar, &share), unit),
             (Measure::Strain | Measure::Stress, _, Some((bar, share))) => {
-                let Kind::Bar(data) = &self.scene.elements[bar].kind else {
+                let Kind::Bar(data) = &self.scaled.scene.elements[bar].kind else {
                     return refuse("is not seen in a bar");
                 };
                 let over = match (&data.body, seen.measure) {
@@ -268,9 +268,11 @@ impl Network {
             }
             (Measure::Momentum, Place::Line, _) => {
                 let mut sum = Observation::default();
-                for element in self.scene.line.elements.clone() {
-                    let has =
-                        matches!(self.scene.elements[element].kind, Kind::Bar(_) | Kind::Mass(_));
+                for element in self.scaled.scene.line.elements.clone() {
+                    let has = matches!(
+                        self.scaled.scene.elements[element].kind,
+                        Kind::Bar(_) | Kind::Mass(_)
+                    );
                     if !has {
                         continue;
                     }
@@ -294,10 +296,10 @@ impl Network {
         bar: ElementIndex,
         position: &Position,
     ) -> Result<Fraction, NetworkError> {
-        let Kind::Bar(data) = &self.scene.elements[bar].kind else {
+        let Kind::Bar(data) = &self.scaled.scene.elements[bar].kind else {
             return Err(NetworkError::Unobservable(name.to_owned(), "is not seen in a bar"));
         };
-        let travel = self.model.bars[&bar].travel.clone();
+        let travel = self.scaled.model.bars[&bar].travel.clone();
         let distance = match (position, travel) {
             (Position::Share(share), Some(_)) => return Ok(share.clone()),
             (Position::Share(_), None) => {
@@ -315,18 +317,18 @@ impl Network {
             }
         };
         let own = match (&data.body, travel) {
-            (_, None) => self.model.scale.time.clone(),
+            (_, None) => self.scaled.model.scale.time.clone(),
             (body, Some(_)) => bar_roots(body)?.1.expect("a bar with a travel time"),
         };
         let ratio = time.over(&own)?;
-        Ok(self.model.number(&format!("x_{name}"), ratio))
+        Ok(self.scaled.model.number(&format!("x_{name}"), ratio))
     }
 
     /// The waves `f` and `g` at a section of a bar: where they are seen, and how late.
     fn waves_in(&self, bar: ElementIndex, share: &Fraction) -> [Option<(WaveIndex, Fraction)>; 2] {
         let place = self.layout.bar(bar).expect("a bar of the line");
         let [left, right] = self.layout.ends[place];
-        let travel = self.model.bars[&bar].travel.clone();
+        let travel = self.scaled.model.bars[&bar].travel.clone();
         let rest = &Fraction::one() - share;
         let time = |share: &Fraction, near_end: bool| match &travel {
             Some(travel) => share * travel,
@@ -347,7 +349,7 @@ impl Network {
     }
 
     fn velocity_in(&self, bar: ElementIndex, share: &Fraction) -> Observation {
-        let mut velocity = constant(&self.model.bars[&bar].velocity);
+        let mut velocity = constant(&self.scaled.model.bars[&bar].velocity);
         for (wave, delay) in self.waves_in(bar, share).into_iter().flatten() {
             velocity.waves.push(seen(wave, delay, &Fraction::one()));
         }
@@ -355,7 +357,7 @@ impl Network {
     }
 
     fn force_in(&self, bar: ElementIndex, share: &Fraction) -> Observation {
-        let data = &self.model.bars[&bar];
+        let data = &self.scaled.model.bars[&bar];
         let mut force = constant(&data.force);
         let signs = [data.impedance.clone(), -&data.impedance];
         for (wave, sign) in self.waves_in(bar, share).into_iter().zip(signs) {
@@ -373,7 +375,7 @@ impl Network {
 
     /// The integral of an observation over time from the start.
     fn integrated(&mut self, observation: &Observation) -> Observation {
-        let time = self.scene.time.clone();
+        let time = self.scaled.scene.time.clone();
         let mut integral = Observation::default();
         for term in &observation.waves {
             let wave = self.integral(term.wave);
@@ -420,7 +422,7 @@ impl Network {
 
     /// The velocity of a bar at the right end (share 1) or the left end (0), endless or not.
     fn velocity_at_end(&self, bar: ElementIndex, share: &Fraction) -> Observation {
-        match self.model.bars[&bar].travel {
+        match self.scaled.model.bars[&bar].travel {
             Some(_) => self.velocity_in(bar, share),
             None => self.velocity_in(bar, &Fraction::zero()),
         }
@@ -444,7 +446,7 @@ impl Network {
     /// The velocity of what moves as one: a mass, a support, a load.
     fn velocity_of(&self, element: ElementIndex) -> Option<Observation> {
         let (place, node, i) = self.place_of(element)?;
-        let spring = matches!(self.model.lumps[&element], ModelLump::Spring(..));
+        let spring = matches!(self.scaled.model.lumps[&element], ModelLump::Spring(..));
         (!spring).then(|| self.velocity_at(place, node, i))
     }
 
@@ -457,7 +459,7 @@ impl Network {
     }
 
     fn compression_of(&mut self, element: ElementIndex) -> Option<Observation> {
-        if !matches!(self.model.lumps.get(&element)?, ModelLump::Spring(..)) {
+        if !matches!(self.scaled.model.lumps.get(&element)?, ModelLump::Spring(..)) {
             return None;
         }
         match self.own_wave(Role::Compression(element), element) {
@@ -479,7 +481,7 @@ impl Network {
 
     fn force_of(&self, element: ElementIndex) -> Option<Observation> {
         let mut force = Observation::default();
-        let (role, stiffness, damping, velocity) = match self.model.lumps.get(&element)? {
+        let (role, stiffness, damping, velocity) = match self.scaled.model.lumps.get(&element)? {
             ModelLump::Spring(k, d) => {
                 (Role::Compression(element), k, d, self.closing_of(element)?)
             }
@@ -498,13 +500,13 @@ impl Network {
     }
 
     fn momentum_of(&mut self, element: ElementIndex) -> Option<Observation> {
-        if let Some(ModelLump::Mass(mass, _)) = self.model.lumps.get(&element) {
+        if let Some(ModelLump::Mass(mass, _)) = self.scaled.model.lumps.get(&element) {
             let mass = mass.clone();
             let mut momentum = Observation::default();
             add(&mut momentum, &self.velocity_of(element)?, &mass);
             return Some(momentum);
         }
-        let data = self.model.bars.get(&element)?.clone();
+        let data = self.scaled.model.bars.get(&element)?.clone();
         let mut momentum = match &data.travel {
             Some(travel) => constant(&(&(&data.impedance * travel) * &data.velocity)),
             None if data.velocity.is_zero() && data.force.is_zero() => Observation::default(),
@@ -534,7 +536,7 @@ impl Network {
             }
             let elements = match &term.place {
                 Place::Element(element) => vec![*element],
-                Place::Line => self.scene.line.elements.clone(),
+                Place::Line => self.scaled.scene.line.elements.clone(),
                 _ => return refuse("is an energy of a whole element, or of the line"),
             };
             for element in elements {
@@ -549,9 +551,10 @@ impl Network {
                 }));
             }
         }
-        let scale = &self.model.scale;
+        let scale = &self.scaled.model.scale;
         let unit = scale.force().times(&scale.velocity).times(&scale.time);
-        let dimension = if self.scene.dimensional { Dimension::ENERGY } else { Dimension::NONE };
+        let dimension =
+            if self.scaled.scene.dimensional { Dimension::ENERGY } else { Dimension::NONE };
         Ok(Observed { name: name.to_owned(), value: ObservedValue::Energy(parts), unit, dimension })
     }
 
@@ -565,7 +568,9 @@ impl Network {
             before: Fraction::zero(),
             window: Window::Now,
         };
-        let Some(lump) = self.model.lumps.get(&element) else { return self.energy_in(element) };
+        let Some(lump) = self.scaled.model.lumps.get(&element) else {
+            return self.energy_in(element);
+        };
         Some(match lump {
             ModelLump::Mass(mass, _) => vec![now(mass, self.velocity_of(element)?)],
             ModelLump::Spring(stiffness, _) => {
@@ -577,11 +582,12 @@ impl Network {
                 wave.map(|wave| now(stiffness, wave)).into_iter().collect()
             }
             ModelLump::Load(..) => Vec::new(),
+            ModelLump::Hertz(..) => return None,
         })
     }
 
     fn energy_in(&self, bar: ElementIndex) -> Option<Vec<EnergyTerm>> {
-        let data = &self.model.bars[&bar];
+        let data = &self.scaled.model.bars[&bar];
         let still = data.velocity.is_zero() && data.force.is_zero();
         if data.travel.is_none() && !still {
             return None;

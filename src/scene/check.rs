@@ -6,9 +6,10 @@ use wavestep_polynomial::{Rational, Symbol};
 use crate::expression::{Assumptions, Condition, Fraction, Relation};
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
-    Bar, Body, Drive, ElementIndex, End, Joint, Kind, Load, Measure, PI, Place, Position, Scene,
-    Seen,
+    Bar, Body, Drive, ElementIndex, End, Hertz, Joint, Kind, Load, MAX_EXPONENT, Measure, PI,
+    Place, Position, Scene, Seen,
 };
+use num_traits::Signed as _;
 
 impl Scene {
     /// The assumptions of the scene, and that `pi` is greater than 3.
@@ -120,6 +121,7 @@ impl Check<'_> {
                 Kind::Mass(mass) => self.positive(index, Property::Mass, &mass.mass),
                 Kind::Spring(spring) => self.link(index, &spring.stiffness, &spring.damping),
                 Kind::Support(support) => self.link(index, &support.stiffness, &support.damping),
+                Kind::Hertz(hertz) => self.hertz(index, hertz),
                 Kind::Load(load) => self.load(index, load),
             }
         }
@@ -160,6 +162,17 @@ impl Check<'_> {
         }
         if !damping.is_zero() {
             self.not_negative(index, Property::Damping, damping);
+        }
+    }
+
+    fn hertz(&mut self, index: ElementIndex, hertz: &Hertz) {
+        self.positive(index, Property::Force, &hertz.force);
+        self.positive(index, Property::Compression, &hertz.compression);
+        let exponent = [Part::Property(index, Property::Exponent)];
+        if !hertz.exponent.is_positive() {
+            self.fault(Mistake::ExponentNotPositive, exponent);
+        } else if hertz.exponent > Rational::from_integer(MAX_EXPONENT.into()) {
+            self.fault(Mistake::ExponentTooLarge, exponent);
         }
     }
 
@@ -247,13 +260,14 @@ impl Check<'_> {
         }
     }
 
-    /// Bars and springs part the line into places that move as one; what stands at each of them can
+    /// Bars, springs and local contacts part the line into places that move as one; what stands at each of them can
     /// do something.
     fn places(&mut self) {
         let line = &self.scene.line;
         let count = line.elements.len();
-        let parts_line =
-            |position: &usize| matches!(self.kind_at(*position), Kind::Bar(_) | Kind::Spring(_));
+        let parts_line = |position: &usize| {
+            matches!(self.kind_at(*position), Kind::Bar(_) | Kind::Spring(_) | Kind::Hertz(_))
+        };
         let mut borders: Vec<usize> = (0..count).filter(parts_line).collect();
         borders.push(count);
         let mut start = 0;
@@ -268,7 +282,7 @@ impl Check<'_> {
             for (end, spring) in sides {
                 if let (Some((End::Free, end)), Some(spring)) = (end, spring)
                     && here.is_empty()
-                    && matches!(self.kind_at(spring), Kind::Spring(_))
+                    && matches!(self.kind_at(spring), Kind::Spring(_) | Kind::Hertz(_))
                 {
                     self.fault(Mistake::Idle, [Part::Position(spring), end]);
                 }
@@ -310,7 +324,7 @@ impl Check<'_> {
             Kind::Bar(bar) => !bar.velocity.is_zero() || !bar.strain.is_zero(),
             Kind::Mass(mass) => !mass.velocity.is_zero(),
             Kind::Load(load) => !load.course.is_zero(),
-            Kind::Spring(_) | Kind::Support(_) => false,
+            Kind::Spring(_) | Kind::Hertz(_) | Kind::Support(_) => false,
         });
         if !moves {
             self.fault(Mistake::NothingMoves, [Part::Line]);
@@ -421,6 +435,7 @@ fn is_measurable(measure: Measure, kind: &Kind, whole: bool) -> bool {
         (Kind::Bar(_), true) => matches!(measure, Energy | Momentum),
         (Kind::Mass(_), true) => matches!(measure, Velocity | Displacement | Energy | Momentum),
         (Kind::Spring(_), true) => matches!(measure, Force | Compression | Energy),
+        (Kind::Hertz(_), true) => matches!(measure, Force | Compression),
         (Kind::Support(_), true) => matches!(measure, Force | Energy),
         (Kind::Load(_), true) => false,
     }

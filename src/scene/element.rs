@@ -1,6 +1,7 @@
 //! Bars and lumped elements.
 
 use crate::expression::{Expression, Fraction};
+use wavestep_polynomial::Rational;
 
 /// The place of an element in [`Scene::elements`](crate::scene::Scene::elements).
 ///
@@ -52,6 +53,8 @@ pub enum Kind {
     Mass(Mass),
     /// A spring with a parallel damper, between what is left and right of it.
     Spring(Spring),
+    /// A local contact, between what is left and right of it.
+    Hertz(Hertz),
     /// A spring with a parallel damper, to the ground.
     Support(Support),
     /// A force from outside, or a motion that is imposed.
@@ -179,6 +182,44 @@ pub struct Spring {
     /// `d`; zero for a spring alone.
     pub damping: Fraction,
 }
+
+/// A local contact: `X = F_0 (α/α_0)^m` while it is compressed, `α > 0`, and `X = 0` else; with
+/// `α' = v_left − v_right`. It never pulls, and opens and closes freely.
+///
+/// Given by a point of its law, `(α_0, F_0)`, and not by `k = F_0/α_0^m`, whose unit is no product of
+/// whole powers. Two bodies of radii `R_1`, `R_2` have `m = 3/2` and `X = (4/3) E* √R α^{3/2}` with
+/// `1/R = 1/R_1 + 1/R_2` and `1/E* = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2` (Hertz); `α_0 = R` then makes
+/// `F_0 = (4/3) E* R²`, both rational.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::scene::{Hertz, Kind};
+///
+/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nhertz tip { radius = 2, modulus = 3, poisson = 0 }\nline fixed - tip - ram - free";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let Kind::Hertz(Hertz { force, compression, exponent }) = &scene.elements[1].kind else { panic!() };
+/// // On a flat body of the same material R = 2 and E* = 3/2: F_0 = (4/3) (3/2) 2².
+/// assert_eq!((force.to_string().as_str(), compression.to_string().as_str()), ("8", "2"));
+/// assert_eq!(exponent.to_string(), "3/2");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Hertz {
+    /// `F_0`, the force at the compression `α_0`; positive.
+    pub force: Fraction,
+    /// `α_0`; positive.
+    pub compression: Fraction,
+    /// `m`, positive and at most [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
+    pub exponent: Rational,
+}
+
+/// The largest exponent of a local contact. A larger one is a wall: at half of `α_0` the force is
+/// below `2^{−100} F_0`, beyond it a rounding of `α` changes the force by more than `10^{−14}` of it.
+///
+/// ```
+/// assert!(0.5_f64.powi(i32::from(wavestep::scene::MAX_EXPONENT)) < 1e-30);
+/// ```
+pub const MAX_EXPONENT: u8 = 100;
 
 /// A spring of stiffness `k` with a parallel damper `d` to the ground: `X_left − X_right = d v + k u`,
 /// `u' = v`.

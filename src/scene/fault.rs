@@ -94,6 +94,12 @@ pub enum Property {
     From,
     /// When a load ends.
     Until,
+    /// The force of a local contact at its compression.
+    Force,
+    /// The compression of a local contact at which its force is given.
+    Compression,
+    /// The exponent of a local contact.
+    Exponent,
 }
 
 /// What is wrong with a scene.
@@ -119,6 +125,11 @@ pub enum Mistake {
     NoStiffness,
     /// A load may end before it begins.
     EndsBeforeBegin,
+    /// The exponent of a local contact is not positive.
+    ExponentNotPositive,
+    /// The exponent of a local contact is larger than
+    /// [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
+    ExponentTooLarge,
     /// No initial velocity, no strain, and no load.
     NothingMoves,
     /// `endless` beside a lumped element.
@@ -186,6 +197,9 @@ impl fmt::Display for Property {
             Property::Damping => "the damping",
             Property::From => "the beginning of the load",
             Property::Until => "the end of the load",
+            Property::Force => "the force",
+            Property::Compression => "the compression",
+            Property::Exponent => "the exponent",
         })
     }
 }
@@ -200,6 +214,8 @@ impl fmt::Display for Mistake {
             Mistake::Negative => "a property may be negative",
             Mistake::NoStiffness => "it has neither stiffness nor damping",
             Mistake::EndsBeforeBegin => "the load does not certainly end after it begins",
+            Mistake::ExponentNotPositive => "the exponent of a local contact is positive",
+            Mistake::ExponentTooLarge => "the exponent of a local contact is at most 100",
             Mistake::NothingMoves => "nothing moves in this scene",
             Mistake::EndlessWithoutBar => "only a bar can go on for ever",
             Mistake::EndlessWithLength => "a bar with a length does not go on for ever",

@@ -14,7 +14,9 @@ use crate::expression::Assumptions;
 use wavestep_polynomial::Symbol;
 
 pub use dimension::Dimension;
-pub use element::{Bar, Body, Drive, Element, ElementIndex, Kind, Load, Mass, Spring, Support};
+pub use element::{
+    Bar, Body, Drive, Element, ElementIndex, Hertz, Kind, Load, MAX_EXPONENT, Mass, Spring, Support,
+};
 pub use fault::{Fault, Mistake, Part, Property};
 pub use observable::{Measure, Observable, Place, Position, Seen};
 pub use quantity::Quantity;

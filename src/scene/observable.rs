@@ -62,7 +62,7 @@ pub struct Seen {
 pub enum Measure {
     /// Of a section or a mass.
     Velocity,
-    /// The compressive force in a section or a spring; of a support that of the line on it,
+    /// The compressive force in a section, a spring or a local contact; of a support that of the line on it,
     /// `d v + k u`, positive to the right.
     Force,
     /// Positive where it pulls.
@@ -71,7 +71,7 @@ pub enum Measure {
     Stress,
     /// Since the start.
     Displacement,
-    /// Of a spring, since the start.
+    /// Of a spring or a local contact, since the start; where a contact is open, minus the gap.
     Compression,
     /// Of a bar, a mass, a spring, a support, or of the whole line.
     Energy,

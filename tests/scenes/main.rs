@@ -48,10 +48,10 @@ fn built_in(name: &str) -> &'static str {
     scenes::find(name).expect("a scene of the library").text
 }
 
-/// The built-in scenes that are described by their parts.
+/// The built-in scenes that are described by their parts, and have a recurrence.
 fn shipped() -> impl Iterator<Item = &'static scenes::Scene> {
     let described = |text| kind(&Source::new("text", text).expect("a text")) == Kind::Scene;
-    SCENES.iter().filter(move |scene| described(scene.text))
+    SCENES.iter().filter(move |scene| described(scene.text) && scene.is_linear())
 }
 
 /// Values for the symbols of a built-in scene.

@@ -320,6 +320,7 @@ impl March {
                     Lump::Support(float(&support.stiffness), float(&support.damping))
                 }
                 Kind::Load(load) => Lump::Load(LoadData::of(load, scene)),
+                Kind::Hertz(_) => unreachable!("linear scenes are marched"),
             };
             elements.push((*element, lump));
         }

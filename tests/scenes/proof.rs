@@ -417,7 +417,7 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
                     add(&mut acting, &load, &one);
                 }
                 ModelLump::Load(Drive::Velocity, ..) => {}
-                ModelLump::Spring(..) => unreachable!(),
+                ModelLump::Spring(..) | ModelLump::Hertz(..) => unreachable!(),
             }
         }
         add(&mut rest, &acting, &one);

@@ -228,7 +228,7 @@ fn observables(scene: &Scene) -> String {
                     observe(format!("{measure}({name})"));
                 }
             }
-            Kind::Load(_) => {}
+            Kind::Hertz(_) | Kind::Load(_) => {}
         }
     }
     text.push_str("observe momentum = momentum(line)\nobserve energy = energy(line)\n");

@@ -23,7 +23,7 @@ use super::{Extent, Input, Parsed, between, complaint};
 use crate::scene::{End, Joint, Measure};
 
 /// The words that begin statements, and how each statement is written.
-pub(super) const FORMS: [(&str, &str); 11] = [
+pub(super) const FORMS: [(&str, &str); 12] = [
     ("scene", "scene \"Title\""),
     ("symbol", SYMBOL_FORM),
     ("nonzero", "nonzero a - b"),
@@ -31,6 +31,7 @@ pub(super) const FORMS: [(&str, &str); 11] = [
     ("bar", "bar rod { material = steel, diameter = 20 mm, length = 3/2 m }"),
     ("mass", "mass ram { mass = 2 kg, velocity = 1 m/s }"),
     ("spring", "spring cushion { stiffness = 40 kN/mm }"),
+    ("hertz", "hertz tip { radius = 6 mm, modulus = 210 GPa, poisson = 3/10 }"),
     ("support", "support toe { damping = 0.3 kN*s/m }"),
     ("load", "load push { force = exp(-t), until = 4 }"),
     ("line", "line free - ram | rod - fixed"),
@@ -78,6 +79,7 @@ pub(super) fn statement<'a>(
         "bar" => declaration(rest, Declared::Bar)?,
         "mass" => declaration(rest, Declared::Mass)?,
         "spring" => declaration(rest, Declared::Spring)?,
+        "hertz" => declaration(rest, Declared::Hertz)?,
         "support" => declaration(rest, Declared::Support)?,
         "load" => declaration(rest, Declared::Load)?,
         "line" => line(rest)?,

@@ -14,14 +14,14 @@ use wavestep_polynomial::Rational;
 /// What a bar can be made of.
 #[derive(Clone)]
 pub(super) struct Material {
-    modulus: Fraction,
+    pub(super) modulus: Fraction,
     density: Fraction,
 }
 
 /// A property that may be given, what it is in errors, and what it measures.
-type Form = (&'static str, &'static str, Dimension);
+pub(super) type Form = (&'static str, &'static str, Dimension);
 
-const MODULUS: Form = ("modulus", "a modulus", Dimension::PRESSURE);
+pub(super) const MODULUS: Form = ("modulus", "a modulus", Dimension::PRESSURE);
 const DENSITY: Form = ("density", "a density", Dimension::DENSITY);
 const WAVE_SPEED: Form = ("wave_speed", "a wave speed", Dimension::VELOCITY);
 const IMPEDANCE: Form = ("impedance", "an impedance", Dimension::IMPEDANCE);
@@ -33,7 +33,7 @@ const LENGTH: Form = ("length", "a length", Dimension::LENGTH);
 const VELOCITY: Form = ("velocity", "a velocity", Dimension::VELOCITY);
 const STRAIN: Form = ("strain", "a strain", Dimension::NONE);
 const MASS: Form = ("mass", "a mass", Dimension::MASS);
-const STIFFNESS: Form = ("stiffness", "a stiffness", Dimension::STIFFNESS);
+pub(super) const STIFFNESS: Form = ("stiffness", "a stiffness", Dimension::STIFFNESS);
 const DAMPING: Form = ("damping", "a damping", Dimension::IMPEDANCE);
 const FORCE: Form = ("force", "a force", Dimension::FORCE);
 const FROM: Form = ("from", "a time", Dimension::TIME);
@@ -64,19 +64,33 @@ fn known(kind: Declared) -> &'static [&'static str] {
         ],
         Declared::Mass => &["mass", "velocity"],
         Declared::Spring | Declared::Support => &["stiffness", "damping"],
+        Declared::Hertz => &[
+            "force",
+            "compression",
+            "exponent",
+            "stiffness",
+            "radius",
+            "material",
+            "modulus",
+            "poisson",
+            "radius2",
+            "material2",
+            "modulus2",
+            "poisson2",
+        ],
         Declared::Load => &["force", "velocity", "from", "until"],
     }
 }
 
 /// The properties of one declaration, each known and given once.
-struct Given<'a>(&'a Declaration, BTreeMap<&'a str, &'a Property>);
+pub(super) struct Given<'a>(&'a Declaration, BTreeMap<&'a str, &'a Property>);
 
 impl<'a> Given<'a> {
-    fn get(&self, name: &str) -> Option<&'a Property> {
+    pub(super) fn get(&self, name: &str) -> Option<&'a Property> {
         self.1.get(name).copied()
     }
 
-    fn span(&self) -> Span {
+    pub(super) fn span(&self) -> Span {
         self.0.name.span
     }
 }
@@ -103,6 +117,7 @@ impl<'a> Lowering<'a> {
                 Declared::Spring => self
                     .link(&given)
                     .map(|(stiffness, damping)| Kind::Spring(Spring { stiffness, damping })),
+                Declared::Hertz => self.hertz(&given).map(Kind::Hertz),
                 Declared::Support => self
                     .link(&given)
                     .map(|(stiffness, damping)| Kind::Support(Support { stiffness, damping })),
@@ -121,7 +136,7 @@ impl<'a> Lowering<'a> {
         for property in &declaration.properties {
             let name = property.name.value.as_str();
             let error = if !known(kind).contains(&name) {
-                let message = format!("a {kind} has no property `{name}`");
+                let message = format!("a {} has no property `{name}`", kind.noun());
                 let error = self.scope.error(message, property.name.span, "unknown property");
                 let names = known(kind).iter().copied();
                 let listed = known(kind).join("`, `");
@@ -143,7 +158,11 @@ impl<'a> Lowering<'a> {
     }
 
     /// A property that may be left out: `Err` if it is wrong.
-    fn optional(&mut self, given: &Given<'_>, form: Form) -> Result<Option<Fraction>, ()> {
+    pub(super) fn optional(
+        &mut self,
+        given: &Given<'_>,
+        form: Form,
+    ) -> Result<Option<Fraction>, ()> {
         let Some(property) = given.get(form.0) else { return Ok(None) };
         let outcome = self.value(property, form);
         self.keep(outcome).map(Some).ok_or(())
@@ -159,11 +178,16 @@ impl<'a> Lowering<'a> {
     }
 
     /// A property that must be given.
-    fn demanded(&mut self, given: &Given<'_>, form: Form, example: &str) -> Option<Fraction> {
+    pub(super) fn demanded(
+        &mut self,
+        given: &Given<'_>,
+        form: Form,
+        example: &str,
+    ) -> Option<Fraction> {
         match self.optional(given, form) {
             Ok(Some(value)) => Some(value),
             Ok(None) => {
-                let (name, kind) = (form.0, given.0.kind);
+                let (name, kind) = (form.0, given.0.kind.noun());
                 self.lack(given, format!("this {kind} has no {name}"), example);
                 None
             }
@@ -172,7 +196,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// Something is not given.
-    fn lack(&mut self, given: &Given<'_>, message: String, example: &str) {
+    pub(super) fn lack(&mut self, given: &Given<'_>, message: String, example: &str) {
         let example = match self.unit {
             Some(_) => example.to_owned(),
             None => without_unit(example),
@@ -185,7 +209,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// Two properties say the same in different ways.
-    fn refuse_both(&mut self, given: &Given<'_>, one: &str, other: &str) -> Option<()> {
+    pub(super) fn refuse_both(&mut self, given: &Given<'_>, one: &str, other: &str) -> Option<()> {
         let (Some(first), Some(second)) = (given.get(one), given.get(other)) else {
             return Some(());
         };
@@ -205,7 +229,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A value of this declaration that is only used to work out others.
-    fn refuse_not_positive(
+    pub(super) fn refuse_not_positive(
         &mut self,
         property: Option<&Property>,
         value: &Fraction,
@@ -324,7 +348,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// A material by name; `None` if it is wrong itself.
-    fn material(&self, property: &Property) -> Outcome<Option<Material>> {
+    pub(super) fn material(&self, property: &Property) -> Outcome<Option<Material>> {
         let Node::Name(name) = &property.value.value else {
             return Err(self
                 .scope

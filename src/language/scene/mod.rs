@@ -4,6 +4,7 @@
 //! mistake is reported once.
 
 mod element;
+mod hertz;
 mod observe;
 pub(super) mod print;
 mod refusal;
@@ -321,7 +322,7 @@ impl<'a> Lowering<'a> {
             .scope
             .error(format!("`{}` is {article} {what}", name.value), name.span, "not an element")
             .with_secondary(found.map_or(name.span, |(span, _)| *span), "declared here")
-            .with_remedy("name a bar, a mass, a spring, a support or a load"))
+            .with_remedy("name a bar, a mass, a spring, a local contact, a support or a load"))
     }
 
     /// An exact value of a dimension; `what` names it in errors.
@@ -431,7 +432,7 @@ impl<'a> Lowering<'a> {
                 let what = match meaning {
                     Meaning::Element(element) => {
                         let kind = self.elements[*element].declaration.kind;
-                        format!("a {kind}")
+                        format!("a {}", kind.noun())
                     }
                     Meaning::Material => "a material".to_owned(),
                     _ => "an observable".to_owned(),

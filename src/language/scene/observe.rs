@@ -81,7 +81,11 @@ impl Lowering<'_> {
             let name = &place.element.value;
             return Err(self
                 .scope
-                .error("only bars have sections", term.place.span, format!("`{name}` is a {kind}"))
+                .error(
+                    "only bars have sections",
+                    term.place.span,
+                    format!("`{name}` is a {}", kind.noun()),
+                )
                 .with_secondary(known.declaration.name.span, "declared here")
                 .with_remedy(format!("write `{name}` alone")));
         }

@@ -61,9 +61,20 @@ impl Display for Declared {
             Self::Bar => "bar",
             Self::Mass => "mass",
             Self::Spring => "spring",
+            Self::Hertz => "hertz",
             Self::Support => "support",
             Self::Load => "load",
         })
+    }
+}
+
+impl Declared {
+    /// What is declared, in a sentence.
+    pub(super) fn noun(self) -> String {
+        match self {
+            Self::Hertz => "local contact".to_owned(),
+            _ => self.to_string(),
+        }
     }
 }
 

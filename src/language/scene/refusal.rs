@@ -131,6 +131,14 @@ impl Lowering<'_> {
                 own(&["ends here", "begins here"]),
                 "let `until` be later than `from`, which is 0 if it is left out".to_owned(),
             ),
+            Mistake::ExponentNotPositive => (
+                own(&["zero or negative"]),
+                "give a positive `exponent`; a ball on a flat body has 3/2".to_owned(),
+            ),
+            Mistake::ExponentTooLarge => (
+                own(&["larger"]),
+                "give a smaller `exponent`; a ball on a flat body has 3/2".to_owned(),
+            ),
             Mistake::NothingMoves => (
                 own(&["at rest, and without load"]),
                 "give something in the line a `velocity` or a `strain`, or add a load".to_owned(),
@@ -164,7 +172,7 @@ impl Lowering<'_> {
             Mistake::Held => {
                 let what = match fault.parts.first() {
                     Some(Part::Position(position)) => {
-                        self.declaration(scene.line.elements[*position]).kind.to_string()
+                        self.declaration(scene.line.elements[*position]).kind.noun()
                     }
                     _ => String::new(),
                 };
@@ -176,10 +184,19 @@ impl Lowering<'_> {
                     ),
                 );
             }
-            Mistake::Idle => (
-                own(&["can do nothing", "nothing to press against"]),
-                format!("put a mass, a support or a load at the free end, or remove `{name}`"),
-            ),
+            Mistake::Idle => {
+                let noun = match fault.parts.first() {
+                    Some(Part::Position(position)) => {
+                        self.declaration(scene.line.elements[*position]).kind.noun()
+                    }
+                    _ => "spring".to_owned(),
+                };
+                return (
+                    format!("this {noun} has nothing to press against"),
+                    own(&["can do nothing", "nothing to press against"]),
+                    format!("put a mass, a support or a load at the free end, or remove `{name}`"),
+                );
+            }
             Mistake::TwoVelocities => (
                 own(&["imposes a velocity", "imposes one too"]),
                 "impose one velocity, the sum of both if that is meant".to_owned(),
@@ -276,7 +293,7 @@ impl Lowering<'_> {
         let is_section = !matches!(seen.place, Place::Element(_));
         let what = match is_section {
             true => "a section of a bar".to_owned(),
-            false => format!("a {kind}"),
+            false => format!("a {}", kind.noun()),
         };
         let instead: Vec<String> = match (&scene.elements[element].kind, is_section) {
             (Kind::Bar(_), true) if seen.measure == Measure::Compression => {
@@ -292,10 +309,12 @@ impl Lowering<'_> {
             (Kind::Mass(_), _) => {
                 vec![format!("velocity({name})"), format!("displacement({name})")]
             }
-            (Kind::Spring(_), _) if seen.measure == Measure::Displacement => {
+            (Kind::Spring(_) | Kind::Hertz(_), _) if seen.measure == Measure::Displacement => {
                 vec![format!("compression({name})")]
             }
-            (Kind::Spring(_), _) => vec![format!("compression({name})"), format!("force({name})")],
+            (Kind::Spring(_) | Kind::Hertz(_), _) => {
+                vec![format!("compression({name})"), format!("force({name})")]
+            }
             (Kind::Support(_), _) => vec![format!("force({name})"), format!("energy({name})")],
             (Kind::Load(_), _) => vec![format!("force({name})")],
         };
@@ -316,7 +335,7 @@ impl Lowering<'_> {
     }
 
     fn kind_with_article(&self, element: ElementIndex) -> String {
-        format!("a {}", self.declaration(element).kind)
+        format!("a {}", self.declaration(element).kind.noun())
     }
 }
 
@@ -335,6 +354,9 @@ fn words(property: Property) -> &'static [&'static str] {
         Property::Damping => &["damping"],
         Property::From => &["from"],
         Property::Until => &["until"],
+        Property::Force => &["force"],
+        Property::Compression => &["compression"],
+        Property::Exponent => &["exponent"],
     }
 }
 
@@ -351,6 +373,8 @@ fn value(scene: &Scene, element: ElementIndex, property: Property) -> Option<&Fr
         (Kind::Mass(mass), Property::Mass) => Some(&mass.mass),
         (Kind::Spring(spring), Property::Stiffness) => Some(&spring.stiffness),
         (Kind::Spring(spring), Property::Damping) => Some(&spring.damping),
+        (Kind::Hertz(hertz), Property::Force) => Some(&hertz.force),
+        (Kind::Hertz(hertz), Property::Compression) => Some(&hertz.compression),
         (Kind::Support(support), Property::Stiffness) => Some(&support.stiffness),
         (Kind::Support(support), Property::Damping) => Some(&support.damping),
         (Kind::Load(load), Property::From) => Some(&load.from),

@@ -111,6 +111,8 @@ pub enum Declared {
     Mass,
     /// `spring`
     Spring,
+    /// `hertz`
+    Hertz,
     /// `support`
     Support,
     /// `load`

@@ -1,0 +1,92 @@
+//! A scene together with its scales, before anything is said of waves.
+
+use crate::expression::Fraction;
+use crate::network::equations::{Network, NetworkError};
+use crate::network::model::Model;
+use crate::scene::{ElementIndex, Kind, Scene};
+use wavestep_polynomial::Rational;
+
+/// A scene with its model in scales of its own: what models in doubles are made of.
+///
+/// A [`Network`] holds one, and more: the delays and the laws of waves, which need every law to be
+/// linear. A scene with a local contact has no network, and this alone.
+///
+/// # Invariants
+/// The model is that of the scene, and of nothing else.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::{Network, NetworkError, ScaledScene};
+/// use wavestep_polynomial::Rational;
+///
+/// let text = "scene \"A\"\nmass ram { mass = 1, velocity = 1 }\nhertz tip { stiffness = 2 }\nbar rod { impedance = 1 }\nline free - ram - tip - rod - endless";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let scaled = ScaledScene::of(&scene).unwrap();
+/// assert_eq!((scaled.scene(), scaled.model().bars.len()), (&scene, 1));
+/// assert_eq!(scaled.local_contact(), Some(1));
+/// // Without units times are what they are.
+/// let three = Rational::from_integer(3.into());
+/// assert_eq!(scaled.scaled_time(&three).as_constant(), Some(three));
+/// // There are scales, and no recurrence.
+/// assert_eq!(scaled.clone().network(), Err(NetworkError::NotLinear("tip".to_owned())));
+/// assert_eq!(Network::new(&scene), scaled.network());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ScaledScene {
+    pub(in crate::network) scene: Scene,
+    pub(in crate::network) model: Model,
+}
+
+impl ScaledScene {
+    /// The scene in its own scales.
+    ///
+    /// # Errors
+    /// [`NetworkError::Division`] where a value would have to be divided by that cannot be.
+    pub fn of(scene: &Scene) -> Result<ScaledScene, NetworkError> {
+        Ok(ScaledScene { model: Model::of(scene)?, scene: scene.clone() })
+    }
+
+    /// The network of the scene.
+    ///
+    /// # Errors
+    /// As [`Network::new`].
+    pub fn network(self) -> Result<Network, NetworkError> {
+        Network::of_scaled(self)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The scene in its own scales.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// A time in seconds in the scale of the scene; a plain number as it is.
+    pub fn scaled_time(&self, time: &Rational) -> Fraction {
+        self.model.slowness.scale(time)
+    }
+
+    /// The first local contact of the line, which makes the scene one without a recurrence; `None`
+    /// where every law is linear.
+    pub fn local_contact(&self) -> Option<ElementIndex> {
+        let is_contact =
+            |element: &&ElementIndex| matches!(self.scene.elements[**element].kind, Kind::Hertz(_));
+        self.scene.line.elements.iter().find(is_contact).copied()
+    }
+}
+
+impl AsRef<ScaledScene> for ScaledScene {
+    fn as_ref(&self) -> &ScaledScene {
+        self
+    }
+}
+
+impl AsRef<ScaledScene> for Network {
+    fn as_ref(&self) -> &ScaledScene {
+        &self.scaled
+    }
+}
