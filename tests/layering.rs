@@ -38,10 +38,12 @@ const LAYERS: [(&str, &[&str]); 21] = [
         "book",
         &[
             "ball",
+            "dispersion",
             "enclosure",
             "evaluate",
             "export",
             "expression",
+            "hertz",
             "language",
             "network",
             "recurrence",

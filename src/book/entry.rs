@@ -142,8 +142,6 @@ pub enum Content {
     Definition(Vec<Equation>),
     /// What has a check of its own, by its name in [`checks`](crate::book::CHECKS).
     Check(String),
-    /// What waits for a check of its own, by its name.
-    Pending(String),
 }
 
 /// A numbered equation of the source, or a limit that it states in words.
@@ -343,7 +341,6 @@ impl Entry {
             }
             ("defines", Content::Definition(equations)) => equations.push(Equation::read(rest)?),
             ("check", content) => *content = Content::Check(rest.to_owned()),
-            ("awaits", content) => *content = Content::Pending(rest.to_owned()),
             ("unsure", _) => self.unsure = Some(rest.to_owned()),
             ("latex", _) => self.latex = Some(rest.to_owned()),
             ("note", _) => self.note = Some(rest.to_owned()),

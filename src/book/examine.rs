@@ -97,9 +97,8 @@ fn examined(
         Content::Readings(readings) => readings_of(stage, readings),
         Content::Definition(_) => Ok((Verdict::Definition, Vec::new(), Vec::new())),
         Content::Check(name) => {
-            checks::run(name).map(|checked| (checked.verdict, Vec::new(), checked.steps))
+            checks::run(name).map(|checked| (checked.verdict, checked.derived, checked.steps))
         }
-        Content::Pending(_) => Ok((Verdict::Pending, Vec::new(), Vec::new())),
     };
     let (verdict, derived, steps) =
         found.unwrap_or_else(|error| panic!("equation {}: {error}", entry.number));

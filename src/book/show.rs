@@ -12,7 +12,7 @@ fn equations(entry: &Entry) -> &[Equation] {
     match &entry.content {
         Content::Claim(equations) | Content::Readings(equations) => equations,
         Content::Definition(equations) => equations,
-        Content::Check(_) | Content::Pending(_) => &[],
+        Content::Check(_) => &[],
     }
 }
 
@@ -268,7 +268,7 @@ impl Examination {
                 document["readings"] = readings.iter().map(supported).collect();
             }
             Verdict::Checked(bound) => document["bound"] = json!(bound),
-            Verdict::Proved(_) | Verdict::Definition | Verdict::Pending => {}
+            Verdict::Proved(_) | Verdict::Definition => {}
         }
         document
     }
@@ -282,6 +282,5 @@ fn kind(verdict: &Verdict) -> &'static str {
         Verdict::Unsure(_) => "unsure",
         Verdict::Checked(_) => "checked",
         Verdict::Definition => "definition",
-        Verdict::Pending => "pending",
     }
 }

@@ -156,8 +156,6 @@ pub enum Verdict {
     Checked(String),
     /// Nothing is claimed.
     Definition,
-    /// Not examined yet.
-    Pending,
 }
 
 impl fmt::Display for Verdict {
@@ -168,7 +166,6 @@ impl fmt::Display for Verdict {
             Verdict::Unsure(_) => f.write_str("reading unsure"),
             Verdict::Checked(bound) => write!(f, "checked numerically: {bound}"),
             Verdict::Definition => f.write_str("definition"),
-            Verdict::Pending => f.write_str("not examined yet"),
         }
     }
 }

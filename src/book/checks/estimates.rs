@@ -1,13 +1,10 @@
-//! Checks of what the source states in words, or estimates.
-//!
-//! An entry asks for one by its name, with `check NAME`. What needs a layer of its own says `awaits NAME`
-//! until it has a check; it is then [`Content::Pending`](crate::book::Content::Pending), and its verdict
-//! says so. A check is one more name in [`CHECKS`] with its arm in `run`.
+//! Bars and masses: what the source states in words, and its estimates.
 
+use super::Checked;
 use crate::ball::{Ball, Decimal};
 use crate::book::refusal::Refusal;
 use crate::book::stage::derived;
-use crate::book::verdict::{Ground, Verdict};
+use crate::book::verdict::Verdict;
 use crate::evaluate::{EvaluateError, Goal, Root, Search};
 use crate::language::parse_number;
 use crate::solution::Solution;
@@ -35,34 +32,8 @@ const MASSES: [(i64, i64); 12] = [
     (20, 1),
 ];
 
-/// A check with a name: its verdict, and what was done, in sentences.
-pub(super) struct Checked {
-    pub(super) verdict: Verdict,
-    pub(super) steps: Vec<String>,
-}
-
-/// The names of all checks that entries may ask for.
-///
-/// ```
-/// assert!(wavestep::book::CHECKS.contains(&"energy-estimate"));
-/// ```
-pub const CHECKS: [&str; 3] = ["equal-bars", "energy-estimate", "better-estimate"];
-
-/// Runs a check by its name.
-pub(super) fn run(name: &str) -> Result<Checked, Refusal> {
-    match name {
-        "equal-bars" => equal_bars(),
-        "energy-estimate" => estimate(&|mass| root(mass)),
-        "better-estimate" => {
-            let one = Ball::from_rational(&Rational::one(), BITS);
-            estimate(&move |mass| Ok(root(mass)?.add(&one, BITS)))
-        }
-        _ => Err(Refusal::UnknownName(name.to_owned())),
-    }
-}
-
 /// Two equal bars: the force is 1/2 during the first period, and would be a pull in the second.
-fn equal_bars() -> Result<Checked, Refusal> {
+pub(super) fn equal_bars() -> Result<Checked, Refusal> {
     let recurrence = derived("equal-bars", &["force"], &BTreeMap::new())?;
     let solution = Solution::new(recurrence);
     let recurrence = solution.recurrence();
@@ -91,9 +62,20 @@ fn equal_bars() -> Result<Checked, Refusal> {
         ),
     ];
     match holds {
-        true => Ok(Checked { verdict: Verdict::Proved(vec![Ground::SameExpression]), steps }),
+        true => Ok(Checked::proved(steps)),
         false => Err(Refusal::Underivable(steps.join(" "))),
     }
+}
+
+/// The estimate without number that comes before 6.86.
+pub(super) fn energy_estimate() -> Result<Checked, Refusal> {
+    estimate(&root)
+}
+
+/// 6.86.
+pub(super) fn better_estimate() -> Result<Checked, Refusal> {
+    let one = Ball::from_rational(&Rational::one(), BITS);
+    estimate(&move |mass| Ok(root(mass)?.add(&one, BITS)))
 }
 
 /// `(1/μ + 1/3)^{1/2}`, for a mass `1/μ`.
@@ -189,5 +171,5 @@ fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, 
         MASSES.len(),
         worst.1
     );
-    Ok(Checked { verdict: Verdict::Checked(told), steps })
+    Ok(Checked { verdict: Verdict::Checked(told), derived: Vec::new(), steps })
 }
