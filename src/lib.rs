@@ -2,7 +2,8 @@
 //!
 //! Data flows one way: text ([`language`]) → [`recurrence`] → [`solution`] → numbers ([`evaluate`])
 //! and formulas ([`export`]), all in exact [`expression`]s; [`ball`] encloses what is not rational.
-//! [`plot`] draws measured errors and times.
+//! [`field`] gives velocities and strains along the bars of a scene; [`plot`] draws what it is given, and
+//! [`picture`] gives it scenes.
 //!
 //! ```
 //! use wavestep::{language, solution::Solution};
@@ -28,12 +29,14 @@ pub mod enclosure;
 pub mod evaluate;
 pub mod export;
 pub mod expression;
+pub mod field;
 pub mod figures;
 pub mod hertz;
 pub mod language;
 pub mod lock;
 pub mod model;
 pub mod network;
+pub mod picture;
 pub mod plot;
 pub mod recurrence;
 pub mod scene;

@@ -8,9 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 21] = [
+const LAYERS: [(&str, &[&str]); 23] = [
     ("ball", &[]),
-    ("hertz", &["ball"]),
     ("plot", &[]),
     ("expression", &[]),
     ("enclosure", &["ball", "expression"]),
@@ -18,12 +17,14 @@ const LAYERS: [(&str, &[&str]); 21] = [
     ("scene", &["expression"]),
     ("recurrence", &["enclosure", "expression"]),
     ("network", &["enclosure", "expression", "recurrence", "scene"]),
+    ("hertz", &["ball", "enclosure", "expression", "network", "scene"]),
     ("model", &["ball", "enclosure", "expression", "network", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
     (
         "evaluate",
         &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"],
     ),
+    ("field", &["ball", "enclosure", "evaluate", "expression", "network", "scene"]),
     ("answer", &["evaluate", "model", "network"]),
     (
         "export",
@@ -32,8 +33,30 @@ const LAYERS: [(&str, &[&str]); 21] = [
     ("language", &["dispersion", "expression", "recurrence", "scene"]),
     ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
     ("study", &["answer", "evaluate", "language", "plot"]),
+    (
+        "picture",
+        &["ball", "evaluate", "expression", "field", "language", "network", "plot", "scene"],
+    ),
     ("scenes", &[]),
-    ("figures", &["ball", "enclosure", "expression", "language", "scenes", "solution"]),
+    (
+        "figures",
+        &[
+            "ball",
+            "dispersion",
+            "enclosure",
+            "evaluate",
+            "expression",
+            "field",
+            "hertz",
+            "language",
+            "network",
+            "picture",
+            "plot",
+            "recurrence",
+            "scenes",
+            "solution",
+        ],
+    ),
     (
         "book",
         &[
@@ -62,10 +85,14 @@ const LAYERS: [(&str, &[&str]); 21] = [
             "evaluate",
             "export",
             "expression",
+            "field",
+            "figures",
+            "hertz",
             "language",
             "lock",
             "model",
             "network",
+            "picture",
             "plot",
             "recurrence",
             "scene",
@@ -80,7 +107,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
 const FOR_UNIT_TESTS: [&str; 2] = ["language", "scenes"];
 
 /// What may stand in one layer only.
-const CONFINED: [(&str, &str); 11] = [
+const CONFINED: [(&str, &str); 13] = [
     ("nom::", "language"),
     ("nom_locate", "language"),
     ("annotate_snippets", "language"),
@@ -92,6 +119,8 @@ const CONFINED: [(&str, &str); 11] = [
     ("wavestep_kernels", "evaluate"),
     ("ode_solvers", "model"),
     ("rustfft", "dispersion"),
+    ("resvg", "plot"),
+    ("dejavu", "plot"),
 ];
 
 const MAX_LINES: usize = 800;
@@ -334,6 +363,8 @@ fn breaches_are_found() {
         ("src/answer/x.rs", "use ode_solvers::Dop853;", "ode_solvers belongs to model"),
         ("src/export/x.rs", "use wavestep_kernels::Table;", "wavestep_kernels belongs to evaluate"),
         ("src/export/x.rs", "use nom::IResult;", "nom:: belongs to language"),
+        ("src/picture/x.rs", "use resvg::usvg;", "resvg belongs to plot"),
+        ("src/plot/x.rs", "use crate::field::Fields;", "plot must not use field"),
         ("src/solution/x.rs", "use clap::Parser;", "clap belongs to command"),
         ("src/evaluate/x.rs", "    println!(\"x\");", "println! belongs to command"),
         ("src/book/x.rs", "use crate::command;", "book must not use command"),

@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use wavestep::plot::{
-    Axis, Caption, Chart, Curve, Curves, Level, Map, Method, PlotError, Point, Region, Row,
-    Section, Table, WorkPrecision, frontier, page,
+    Axis, Caption, Cell, Chart, Curve, Curves, Diagram, Figure, Level, Map, Method, Panel, Part,
+    PlotError, Point, Region, Row, Section, Series, Shape, Table, WorkPrecision, frontier, page,
 };
 
 /// The plotting area from side to side, and the room for zeros in it.
@@ -284,7 +284,7 @@ fn pictures_are_well_formed_and_say_what_they_are() {
 #[test]
 fn texts_do_not_overlap_and_stay_inside() {
     let mut compared = 0;
-    for chart in charts().iter().chain(&[crowded(), far_from_zero()]) {
+    for chart in charts().iter().chain(&pictures()).chain(&[crowded(), far_from_zero()]) {
         let svg = chart.svg();
         let height = elements(&svg)[0].number("height");
         let texts = texts(&svg);
@@ -303,6 +303,32 @@ fn texts_do_not_overlap_and_stay_inside() {
         }
     }
     assert!(compared > 1000, "{compared}");
+}
+
+/// A figure of two panels with notes, and a diagram with many names below.
+fn pictures() -> Vec<Box<dyn Chart>> {
+    let line = |name: &str| Series::new(name, (0..50).map(|i| (f64::from(i), 1.0)).collect());
+    let panel = |name: &str| {
+        let panel = Panel::new(Axis::linear(name), vec![line("one"), line("two")]);
+        (1..9).fold(panel.level(1.02, "limit"), |panel, i| {
+            panel.note((5.0 * f64::from(i), 1.0), "note")
+        })
+    };
+    let panels = vec![panel("velocity"), panel("force")];
+    let figure = Figure::new("Figure", Axis::linear("time"), panels, caption()).unwrap();
+    let figure = figure.mark(10.0, "first").unwrap().mark(11.0, "second").unwrap();
+    let window = [(0.0, 12.0), (0.0, 1.0)];
+    let corners = [(0.0, 0.0), (12.0, 0.0), (12.0, 1.0)];
+    let cells = vec![Cell::clipped(&corners, -3.0, window).unwrap()];
+    let axes = ["place", "time", "strain"].map(Axis::linear);
+    let part = |i: i32| {
+        let (name, at) = (format!("element {i}"), f64::from(i));
+        let shape = if i % 2 == 0 { Shape::Lump } else { Shape::Bar(1.0) };
+        Part { name, from: at, to: at + f64::from(i % 2), shape }
+    };
+    let diagram = Diagram::new("Diagram", axes, window, cells, caption()).unwrap();
+    let diagram = diagram.parts((0..12).map(part).collect()).level(0.5, "half").unwrap();
+    vec![Box::new(figure), Box::new(diagram)]
 }
 
 /// Sixty labelled points within two decades.

@@ -33,10 +33,18 @@ pub enum Subcommand {
     Export(Export),
     /// Measure accuracy and speed of all methods, as charts with their data and one page
     Chart(Chart),
+    /// Draw observables against time, a diagram of place and time, or fields along the line
+    Plot(Plot),
+    /// Give velocity, strain, displacement and force along the bars at a time, with bounds
+    Field(Field),
     /// Find all roots, or the largest or smallest value, in a window of time, with proof
     Find(Find),
     /// Velocities of crests, groups and pulses for a dispersion relation omega(k)
     Dispersion(Dispersion),
+    /// Closed forms of a local contact between two bars: largest force, rise times, equivalent spring
+    Hertz(Hertz),
+    /// Draw a figure of the source
+    Figure(Figure),
     /// List the equations of the source with what is found about each, or show one of them
     Book(Book),
     /// Check a scene: read it, order its equations, and derive it in two ways
@@ -419,12 +427,162 @@ pub struct Chart {
     pub output: String,
 }
 
+/// Options of `plot`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep plot rigid-mass --set mu=1 --to 8 -o strain.svg\n  \
+    wavestep plot hopkinson --diagram velocity --to 400us -o hopkinson.svg\n  \
+    wavestep plot hopkinson --at-time 50us,100us,150us --quantity velocity,force -o fields.png\n\n\
+The ending of the file says what is written: .svg, .png, or the numbers as .json or .csv.")]
+pub struct Plot {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// These waves and observables, separated by commas [default: all observables]; with --at-time,
+    /// these of velocity, strain, displacement and force [default: the first three]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', conflicts_with = "diagram")]
+    pub quantity: Vec<String>,
+    /// The first time of the window
+    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
+    pub from: String,
+    /// The last time of the window [default: four periods]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// Place across and time upwards, with this quantity by colour
+    #[arg(long, value_enum)]
+    pub diagram: Option<DiagramOption>,
+    /// Fields along the line at these times, separated by commas
+    #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
+          conflicts_with_all = ["diagram", "from", "to"])]
+    pub at_time: Vec<String>,
+    /// The title [default: that of the scene]; nothing for none
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    /// The width of a PNG in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 1800)]
+    pub width: u32,
+    /// The file to write
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: String,
+}
+
+/// The quantity of a diagram of place and time.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DiagramOption {
+    /// Positive to the right
+    Velocity,
+    /// Positive where it pulls
+    Strain,
+    /// Positive where it compresses
+    Force,
+}
+
+/// Options of `field`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep field mass-on-fixed-bar --set mu=1 --time 5/2 --mesh 100\n  \
+    wavestep field hopkinson --time 120us --mesh 200 --bar striker --averages --format json\n\n\
+Each value is a double with a proven bound on its error. Where a field jumps at a node, the limit from\n\
+the right is given, at the right end of a bar that from within; --side left gives the other.")]
+pub struct Field {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// At this scene time
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub time: String,
+    /// How many cells each bar has
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub mesh: usize,
+    /// The averages over the cells instead of the values at the nodes
+    #[arg(long)]
+    pub averages: bool,
+    /// From which side limits are taken where a field jumps at a node
+    #[arg(long, value_enum, default_value_t = SideOption::Right)]
+    pub side: SideOption,
+    /// This bar only; may be given several times
+    #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
+    pub bar: Vec<String>,
+    /// Endless bars up to this distance from their end [default: as far as waves have come]
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = FieldFormat::Csv)]
+    pub format: FieldFormat,
+    /// The file to write; standard output without it
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<String>,
+}
+
+/// How fields are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FieldFormat {
+    /// A row a node or cell, with a heading
+    Csv,
+    /// Lists of numbers for each bar
+    Json,
+}
+
 /// Options of `scenes`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  wavestep scenes\n  wavestep scenes rigid-mass > mine.wave")]
 pub struct Scenes {
     /// Show the text of this scene, with its units and sources
     pub name: Option<String>,
+}
+
+/// Options of `hertz`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep hertz local-contact\n  \
+    wavestep hertz hertz-striker --rise 1/2,9/10 --at 20us --digits 9\n\n\
+The bars are taken to be long: all is valid until the first wave returns from a far end, which is told.")]
+pub struct Hertz {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Rise times to these shares of the largest force, separated by commas
+    #[arg(
+        long,
+        value_name = "SHARE",
+        value_delimiter = ',',
+        default_value = "1/10,1/2,9/10",
+        allow_hyphen_values = true
+    )]
+    pub rise: Vec<String>,
+    /// The force at these times, separated by commas
+    #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// How many significant digits
+    #[arg(long, value_name = "D", default_value_t = 12)]
+    pub digits: usize,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = HertzFormat::Text)]
+    pub format: HertzFormat,
+}
+
+/// How closed forms of a contact are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum HertzFormat {
+    /// A line a value
+    Text,
+    /// Decimal strings
+    Json,
+}
+
+/// Options of `figure`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep figure\n  \
+    wavestep figure 6.18 -o pulses.svg\n  \
+    wavestep figure 6.22 -o strains.png --width 1200")]
+pub struct Figure {
+    /// The number of the figure; without one, all of them are listed
+    #[arg(requires = "output")]
+    pub number: Option<String>,
+    /// The width of a PNG in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 1800)]
+    pub width: u32,
+    /// The file to write: .svg, .png, .json or .csv
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "number")]
+    pub output: Option<String>,
 }
 
 /// Options of `book`.

@@ -51,12 +51,12 @@ pub fn write(
             [("svg", chart.svg()), ("json", format!("{:#}\n", chart.json())), ("csv", chart.csv())];
         for (ending, text) in files {
             let file = folder.join(format!("{}.{ending}", figure.name));
-            write_whole(&file, &text)?;
+            write_whole(&file, text.as_bytes())?;
             told += &format!("{}\n", file.display());
         }
         sections.push(Section { heading: chart.title(), explanation: figure.text, chart });
     }
     let file = folder.join("index.html");
-    write_whole(&file, &page(title, &sections, table))?;
+    write_whole(&file, page(title, &sections, table).as_bytes())?;
     Ok(told + &format!("{}\n", file.display()))
 }

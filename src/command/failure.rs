@@ -3,9 +3,12 @@
 use wavestep::answer::WayError;
 use wavestep::evaluate::{EvaluateError, MethodError};
 use wavestep::expression::NotInvertible;
+use wavestep::field::FieldError;
 use wavestep::language::{Diagnostic, Style};
 use wavestep::model::ModelError;
 use wavestep::network::NetworkError;
+use wavestep::picture::PictureError;
+use wavestep::plot::PlotError;
 use wavestep::solution::{SolveError, Unsolvable};
 
 /// Exit code: could not compute, or not as locked.
@@ -162,6 +165,36 @@ impl From<EvaluateError> for Failure {
                 Failure::Accuracy(message, "raise --max-bits, or ask for fewer digits".to_owned())
             }
             _ => Failure::Computation(message, "ask for an earlier time".to_owned()),
+        }
+    }
+}
+
+impl From<FieldError> for Failure {
+    fn from(error: FieldError) -> Failure {
+        match error {
+            FieldError::Evaluate(error) => error.into(),
+            error => Failure::usage(error.to_string(), "see `wavestep field --help`"),
+        }
+    }
+}
+
+impl From<PictureError> for Failure {
+    fn from(error: PictureError) -> Failure {
+        match error {
+            PictureError::Evaluate(error) => error.into(),
+            PictureError::Field(error) => error.into(),
+            PictureError::Plot(error) => error.into(),
+            error => Failure::usage(error.to_string(), "see `wavestep plot --help`"),
+        }
+    }
+}
+
+impl From<PlotError> for Failure {
+    fn from(error: PlotError) -> Failure {
+        let message = error.to_string();
+        match error {
+            PlotError::NotDrawn { .. } => Failure::usage(message, "give another --width"),
+            _ => Failure::Computation(message, "choose another quantity or window".to_owned()),
         }
     }
 }

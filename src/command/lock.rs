@@ -62,7 +62,7 @@ pub fn run(options: &Options) -> Result<String, Failure> {
             "name another file with -o",
         ));
     }
-    write_whole(Path::new(file), &text)?;
+    write_whole(Path::new(file), text.as_bytes())?;
     Ok(format!("{file}: locked {}\n", counted(&lock)))
 }
 

@@ -20,13 +20,18 @@ mod eval_recurrence;
 mod eval_scene;
 mod export;
 mod failure;
+mod field;
+mod figure;
 mod find;
 mod find_equal;
 mod found;
 mod generate;
+mod hertz;
 mod input;
 mod lock;
 mod output;
+mod picture;
+mod plot;
 mod problem;
 mod progress;
 mod quantity;
@@ -59,8 +64,12 @@ pub fn run() -> ExitCode {
         Subcommand::Eval(options) => eval::run(options),
         Subcommand::Chart(options) => chart::run(options),
         Subcommand::Export(options) => export::run(options),
+        Subcommand::Plot(options) => plot::run(options),
+        Subcommand::Field(options) => field::run(options),
         Subcommand::Find(options) => find::run(options),
         Subcommand::Dispersion(options) => dispersion::run(options),
+        Subcommand::Hertz(options) => hertz::run(options),
+        Subcommand::Figure(options) => figure::run(options),
         Subcommand::Book(options) => book::run(options),
         Subcommand::Check(options) => check::run(options),
         Subcommand::Lock(options) => lock::run(options),

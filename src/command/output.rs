@@ -10,7 +10,7 @@ pub fn written(text: String, file: Option<&str>) -> Result<String, Failure> {
     match file.filter(|file| *file != "-") {
         None => Ok(text),
         Some(file) => {
-            write_whole(Path::new(file), &text)?;
+            write_whole(Path::new(file), text.as_bytes())?;
             Ok(format!("{file}: {} bytes\n", text.len()))
         }
     }
@@ -18,12 +18,12 @@ pub fn written(text: String, file: Option<&str>) -> Result<String, Failure> {
 
 /// Writes a file as a whole or not at all: beside it first, under a name that is free, then in its
 /// place. What is no ordinary file, such as a pipe, is written to.
-pub fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
+pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let written = match fs::metadata(file) {
-        Ok(found) if !found.is_file() => fs::write(file, text),
+        Ok(found) if !found.is_file() => fs::write(file, bytes),
         // A link stays a link: its target is replaced.
-        Ok(_) => fs::canonicalize(file).and_then(|target| replace(&target, text)),
-        Err(_) => replace(file, text),
+        Ok(_) => fs::canonicalize(file).and_then(|target| replace(&target, bytes)),
+        Err(_) => replace(file, bytes),
     };
     written.map_err(|error| {
         let message = format!("the file `{}` cannot be written: {error}", file.display());
@@ -31,12 +31,12 @@ pub fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
     })
 }
 
-fn replace(file: &Path, text: &str) -> std::io::Result<()> {
+fn replace(file: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let mut name = file.as_os_str().to_owned();
     name.push(format!(".{}.part", std::process::id()));
     let beside = PathBuf::from(name);
     let mut part = File::options().write(true).create_new(true).open(&beside)?;
-    let written = part.write_all(text.as_bytes()).and_then(|()| part.sync_all());
+    let written = part.write_all(bytes).and_then(|()| part.sync_all());
     let written = written.and_then(|()| match fs::metadata(file) {
         Ok(old) => fs::set_permissions(&beside, old.permissions()),
         Err(_) => Ok(()),

@@ -20,6 +20,7 @@ mod taps;
 mod taylor;
 mod transforms;
 mod value;
+mod waves;
 
 pub use arrivals::{Arrival, ArrivalError, arrivals};
 pub(crate) use cells::scale;
@@ -37,3 +38,4 @@ pub use signal::{MAX_PIECES, Signal, Stretch};
 pub use taps::{Extra, NoTaps, Tap, Taps};
 pub use value::Value;
 pub(crate) use value::unit_in_the_last_place;
+pub(crate) use waves::Waves;

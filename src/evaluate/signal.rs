@@ -476,19 +476,34 @@ impl Signal {
         part: &Part,
         bits: u64,
     ) -> Result<Rc<Transform<ComplexBall>>, EvaluateError> {
+        self.piece(part.seen, part.number, bits)
+    }
+
+    /// A piece, or on a lattice an echo, of one of the waves that are seen, in the time since it began.
+    pub(crate) fn piece(
+        &self,
+        seen: usize,
+        number: usize,
+        bits: u64,
+    ) -> Result<Rc<Transform<ComplexBall>>, EvaluateError> {
         let solved = self.solved(bits)?;
-        let wave = self.observation.waves[part.seen].wave;
+        let wave = self.observation.waves[seen].wave;
         match &mut *solved.borrow_mut() {
             Solved::Periods(periods) => {
-                if part.number > MAX_PIECES {
-                    let (echoes, limit) = (part.number as u128, MAX_PIECES);
+                if number > MAX_PIECES {
+                    let (echoes, limit) = (number as u128, MAX_PIECES);
                     return Err(EvaluateError::TooManyEchoes { echoes, limit });
                 }
-                periods.advance_to(part.number)?;
-                Ok(periods.piece(wave, part.number).clone())
+                periods.advance_to(number)?;
+                Ok(periods.piece(wave, number).clone())
             }
-            Solved::Echoes(echoes) => Ok(Rc::new(echoes[wave][part.number].clone())),
+            Solved::Echoes(echoes) => Ok(Rc::new(echoes[wave][number].clone())),
         }
+    }
+
+    /// On a lattice, the echoes that can arrive: their numbers and delays.
+    pub(crate) fn scattered(&self) -> Option<&[(usize, Fraction)]> {
+        self.lattice.as_ref().map(|lattice| &lattice.arrivals[..])
     }
 
     /// Calls `add` with the functions that make up the signal on a stretch: each with its coefficient,

@@ -1,6 +1,7 @@
 //! What can be wrong with a contact.
 
 use crate::ball::BallError;
+use crate::enclosure::EnclosureError;
 use std::fmt;
 
 /// Why there is no answer.
@@ -26,6 +27,10 @@ pub enum HertzError {
     NotPositive(&'static str, String),
     /// A Poisson ratio is not above −1 and at most 1/2.
     Poisson(String),
+    /// A scene has no contact that closed forms describe.
+    Scene(&'static str),
+    /// A value of the scene is not known.
+    Enclosure(EnclosureError),
     /// An enclosure failed.
     Ball(BallError),
 }
@@ -49,6 +54,8 @@ impl fmt::Display for HertzError {
                 f,
                 "a Poisson ratio of {value}: it must be above -1 and at most 1/2, as 3/10 for steel"
             ),
+            Self::Scene(reason) => f.write_str(reason),
+            Self::Enclosure(error) => error.fmt(f),
             Self::Ball(error) => error.fmt(f),
         }
     }
@@ -59,5 +66,11 @@ impl std::error::Error for HertzError {}
 impl From<BallError> for HertzError {
     fn from(error: BallError) -> HertzError {
         HertzError::Ball(error)
+    }
+}
+
+impl From<EnclosureError> for HertzError {
+    fn from(error: EnclosureError) -> HertzError {
+        HertzError::Enclosure(error)
     }
 }

@@ -8,7 +8,9 @@
 mod error;
 mod impact;
 mod law;
+mod scene;
 
 pub use error::HertzError;
 pub use impact::{EquivalentSpring, LongBars};
 pub use law::{PowerLaw, Share, equal_bars_constant};
+pub use scene::ContactOfScene;

@@ -17,6 +17,7 @@
 
 mod delay;
 mod equations;
+mod fields;
 mod laws;
 mod layout;
 mod model;
@@ -26,6 +27,7 @@ mod unfold;
 
 pub use delay::Lattice;
 pub use equations::{Network, NetworkError, Role, WaveRole};
+pub(crate) use fields::{Extent, FieldBar, Way};
 pub use laws::{Law, Rule};
 pub(crate) use layout::{Layout, Side};
 pub(crate) use model::bar_roots;

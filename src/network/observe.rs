@@ -387,7 +387,7 @@ impl Network {
     }
 
     /// The wave that is the integral of another.
-    fn integral(&mut self, wave: WaveIndex) -> WaveIndex {
+    pub(crate) fn integral(&mut self, wave: WaveIndex) -> WaveIndex {
         let place = self.integrals.iter().position(|known| *known == wave);
         self.waves.len()
             + place.unwrap_or_else(|| {

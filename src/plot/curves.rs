@@ -1,11 +1,11 @@
 //! Curves against one axis: error or cost against the order, the time, or the mesh.
 
 use super::axis::Mapping;
-use super::drawing::{Anchor, Drawing, SMALL, WIDTH};
-use super::layout::{GUTTER, LEFT, Legend, RIGHT, Sheet, counted, fitted, label_size};
+use super::drawing::Drawing;
+use super::layout::{GUTTER, LEFT, Legend, RIGHT, Sheet, counted, fitted};
+use super::marks::{self, draw_marks, placement_in, room_above};
 use super::number::rounded;
 use super::palette::COLOURS;
-use super::placement::Placement;
 use super::text::{csv_field, csv_number, json_number};
 use super::{Axis, Caption, Chart, PlotError, Scale};
 use serde_json::{Value, json};
@@ -231,70 +231,13 @@ impl Places {
     }
 }
 
-/// The left edges of the labels of vertical lines, and the rows in which they stand, counted
-/// upwards from the plotting area.
-///
-/// A label begins at its line, which ends below it, and stands higher than the labels of all lines
-/// that it would cross. Where it would leave the picture it moves to the left.
-fn rows_of(marks: &[(f64, &str)]) -> Vec<(f64, usize)> {
-    let mut order: Vec<usize> = (0..marks.len()).collect();
-    order.sort_by(|&i, &j| marks[j].0.total_cmp(&marks[i].0));
-    let mut rows = vec![(0.0, 0); marks.len()];
-    for (done, &i) in order.iter().enumerate() {
-        let (x, name) = marks[i];
-        let wide = label_size(name).0;
-        let left = (x - 3.0).min(WIDTH - 14.0 - wide).max(LEFT);
-        let crossed = order[..done].iter().filter(|&&j| marks[j].0 <= left + wide + 8.0);
-        rows[i] = (left, crossed.map(|&j| rows[j].1 + 1).max().unwrap_or(0));
-    }
-    rows
-}
-
-const ROW: f64 = 15.0;
-
-/// The vertical lines with their labels above the plotting area.
-fn draw_marks(chart: &Curves, sheet: &mut Sheet, places: &Places) {
-    let marks: Vec<(f64, &str)> =
-        chart.marks.iter().map(|(x, name)| (places.x.position(*x), name.as_str())).collect();
-    let rows = rows_of(&marks);
-    let (top, bottom) = (sheet.top, sheet.bottom());
-    let base = |row: usize| top - 6.0 - ROW * row as f64;
-    for ((x, _), (_, row)) in marks.iter().zip(&rows) {
-        sheet.drawing.line("rule-across", (*x, base(*row) + 3.0), (*x, bottom));
-    }
-    for ((_, name), (left, row)) in marks.iter().zip(&rows) {
-        sheet.drawing.text("label", Anchor::Start, (left + 1.0, base(*row)), name);
-    }
-}
-
 /// The horizontal lines with their labels, where the curves leave room; how many found none.
 fn draw_levels(chart: &Curves, sheet: &mut Sheet, places: &Places) -> usize {
-    let mut placement = Placement::within([(LEFT + 2.0, sheet.top), (RIGHT - 2.0, sheet.bottom())]);
+    let mut placement = placement_in(sheet, &chart.marks, &places.x);
     for curve in &chart.curves {
         places.parts(curve).iter().for_each(|part| placement.avoid(part));
     }
-    for (x, _) in &chart.marks {
-        let x = places.x.position(*x);
-        placement.avoid(&[(x, sheet.top), (x, sheet.bottom())]);
-    }
-    let mut unlabelled = 0;
-    for (level, name) in &chart.levels {
-        let y = places.y.position(*level);
-        sheet.drawing.line("rule", (LEFT, y), (RIGHT, y));
-        let (wide, high) = label_size(name);
-        let room = RIGHT - LEFT - 16.0 - wide;
-        let along = (0..=12).map(|step| RIGHT - 8.0 - wide - room * f64::from(step) / 12.0);
-        let tries: Vec<(f64, f64)> =
-            along.flat_map(|x| [(x, y - 3.0 - high), (x, y + 3.0)]).collect();
-        match placement.first_free(&tries, wide, high) {
-            Some((x, top)) => {
-                let base = (x + 1.0, top + 0.85 * SMALL + 1.0);
-                sheet.drawing.text("label", Anchor::Start, base, name);
-            }
-            None => unlabelled += 1,
-        }
-    }
-    unlabelled
+    marks::draw_levels(&chart.levels, sheet, &places.y, &mut placement)
 }
 
 fn draw_region(region: &Region, sheet: &mut Sheet, places: &Places) {
@@ -336,17 +279,15 @@ impl Chart for Curves {
     fn svg_named(&self, name: &str) -> String {
         // How many rows of labels stand above depends on places across alone.
         let across = Places::new(self, &Sheet::open(name, &self.title, 0.0)).x;
-        let marks: Vec<(f64, &str)> =
-            self.marks.iter().map(|(x, name)| (across.position(*x), name.as_str())).collect();
-        let rows = rows_of(&marks).iter().map(|(_, row)| row + 1).max().unwrap_or(0);
-        let mut sheet = Sheet::open(name, &self.title, ROW * rows as f64);
+        let above = room_above(&self.marks, &across);
+        let mut sheet = Sheet::open(name, &self.title, above);
         let places = Places::new(self, &sheet);
         let mut legend = Legend::default();
         if let Some(region) = &self.region {
             draw_region(region, &mut sheet, &places);
         }
         sheet.grid(&places.x, &places.y);
-        draw_marks(self, &mut sheet, &places);
+        draw_marks(&self.marks, &mut sheet, &places.x);
         let unlabelled = draw_levels(self, &mut sheet, &places);
         for (i, curve) in self.curves.iter().enumerate() {
             places.parts(curve).iter().for_each(|part| sheet.drawing.stroke(i, part));
@@ -432,25 +373,6 @@ impl Chart for Curves {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn labels_above_take_rows_without_overlap() {
-        let marks = [
-            (649.0, "last"),
-            (100.0, "first arrival"),
-            (110.0, "second arrival"),
-            (120.0, "x"),
-            (
-                400.0,
-                "one with a long name that does not fit between its line and the edge of the sheet",
-            ),
-        ];
-        let rows = rows_of(&marks);
-        assert_eq!(rows.iter().map(|(_, row)| *row).collect::<Vec<_>>(), [0, 2, 1, 0, 1]);
-        for ((_, name), (left, _)) in marks.iter().zip(&rows) {
-            assert!(*left >= LEFT && left + label_size(name).0 <= WIDTH);
-        }
-    }
 
     #[test]
     fn long_curves_have_few_markers() {

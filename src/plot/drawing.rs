@@ -30,6 +30,8 @@ pub(super) enum Anchor {
 #[derive(Default)]
 pub(super) struct Drawing {
     body: String,
+    /// Rules of this picture besides those of all.
+    rules: &'static str,
 }
 
 /// A coordinate rounded to hundredths, without needless zeros.
@@ -50,6 +52,11 @@ pub(super) fn polyline(points: &[(f64, f64)]) -> String {
 }
 
 impl Drawing {
+    /// Adds rules for classes that this kind of picture alone has.
+    pub fn style(&mut self, rules: &'static str) {
+        self.rules = rules;
+    }
+
     pub fn line(&mut self, class: &str, from: (f64, f64), to: (f64, f64)) {
         self.path(class, &polyline(&[from, to]));
     }
@@ -134,7 +141,7 @@ impl Drawing {
     pub fn finish(self, name: &str, height: f64, title: &str, description: &str) -> String {
         let height = coordinate(height.ceil());
         let (title, description) = (escape(title), escape(description));
-        let mut style = STYLE.to_owned();
+        let mut style = STYLE.to_owned() + self.rules;
         for (i, colour) in COLOURS.iter().enumerate() {
             let _ = write!(style, ".plot .c{i}{{color:{colour}}}");
         }

@@ -60,6 +60,16 @@ pub enum PlotError {
         /// The exponent at the upper end.
         high: i32,
     },
+    /// A colour scale whose ends are not finite, or an outline with fewer than three corners.
+    NotAnArea {
+        /// What it is.
+        what: String,
+    },
+    /// A picture cannot be turned into pixels.
+    NotDrawn {
+        /// Why.
+        reason: String,
+    },
 }
 
 impl fmt::Display for PlotError {
@@ -100,6 +110,12 @@ impl fmt::Display for PlotError {
                 "the colour scale from 10^{low} to 10^{high} is empty: let the first be the lower, \
                  both between -400 and 400"
             ),
+            PlotError::NotAnArea { what } => {
+                write!(f, "{what} is no area: give three corners or more, and finite numbers")
+            }
+            PlotError::NotDrawn { reason } => {
+                write!(f, "the picture cannot be turned into pixels ({reason}): write it as SVG")
+            }
         }
     }
 }

@@ -50,6 +50,8 @@ pub(super) struct Sheet {
     pub top: f64,
     /// The prefix of identifiers.
     pub name: String,
+    /// The height of the plotting area.
+    height: f64,
     /// The lowest place drawn on so far.
     lowest: f64,
 }
@@ -67,12 +69,32 @@ impl Sheet {
         }
         let top = y + 14.0 + above;
         let name = name.chars().map(plain).collect();
-        Sheet { drawing, top, name, lowest: top + HEIGHT }
+        Sheet { drawing, top, name, height: HEIGHT, lowest: top + HEIGHT }
+    }
+
+    /// The same with a plotting area of another height.
+    pub fn resized(mut self, height: f64) -> Sheet {
+        self.lowest += height - self.height;
+        self.height = height;
+        self
+    }
+
+    /// Goes on below all that is drawn, after a gap, with another plotting area of the same height.
+    pub fn next_area(&mut self, gap: f64) {
+        self.top = self.lowest + gap;
+        self.lowest = self.top + self.height;
+    }
+
+    /// The upper edge of a strip below all that is drawn, and takes it.
+    pub fn strip_below(&mut self, height: f64) -> f64 {
+        let top = self.lowest;
+        self.lowest += height;
+        top
     }
 
     /// The lower edge of the plotting area.
     pub fn bottom(&self) -> f64 {
-        self.top + HEIGHT
+        self.top + self.height
     }
 
     /// Lines behind the data at the labelled ticks.
@@ -88,22 +110,8 @@ impl Sheet {
 
     /// Frame, ticks, labels and names of the axes. Ticks point outwards.
     pub fn axes(&mut self, x: (&Axis, &Mapping), y: (&Axis, &Mapping)) {
+        self.frame(x.1, y.1, true);
         let bottom = self.bottom();
-        self.drawing.rectangle("frame", (LEFT, self.top), (RIGHT, bottom));
-        for tick in ticks_across(x.1) {
-            let length = if tick.major { 6.0 } else { 3.0 };
-            self.drawing.line("tick", (tick.position, bottom), (tick.position, bottom + length));
-            if let Some(label) = tick.label {
-                self.drawing.text("", Anchor::Middle, (tick.position, bottom + 20.0), &label);
-            }
-        }
-        for tick in y.1.ticks(SPACING.1) {
-            let length = if tick.major { 6.0 } else { 3.0 };
-            self.drawing.line("tick", (LEFT, tick.position), (LEFT - length, tick.position));
-            if let Some(label) = tick.label {
-                self.drawing.text("", Anchor::End, (LEFT - 9.0, tick.position + 4.0), &label);
-            }
-        }
         let centre = f64::midpoint(LEFT, RIGHT);
         let mut base = bottom + 24.0;
         for line in wrap(&x.0.label(), RIGHT - LEFT, MEDIUM) {
@@ -111,11 +119,40 @@ impl Sheet {
             self.drawing.text("", Anchor::Middle, (centre, base), &line);
         }
         self.reach(base + 4.0);
+        self.name_upwards(y.0);
+    }
+
+    /// The same without labels and name across, above an area that has them.
+    pub fn axes_above_others(&mut self, x: &Mapping, y: (&Axis, &Mapping)) {
+        self.frame(x, y.1, false);
+        self.name_upwards(y.0);
+    }
+
+    fn frame(&mut self, x: &Mapping, y: &Mapping, labelled: bool) {
+        let bottom = self.bottom();
+        self.drawing.rectangle("frame", (LEFT, self.top), (RIGHT, bottom));
+        for tick in ticks_across(x) {
+            let length = if tick.major { 6.0 } else { 3.0 };
+            self.drawing.line("tick", (tick.position, bottom), (tick.position, bottom + length));
+            if let Some(label) = tick.label.filter(|_| labelled) {
+                self.drawing.text("", Anchor::Middle, (tick.position, bottom + 20.0), &label);
+            }
+        }
+        for tick in y.ticks(SPACING.1) {
+            let length = if tick.major { 6.0 } else { 3.0 };
+            self.drawing.line("tick", (LEFT, tick.position), (LEFT - length, tick.position));
+            if let Some(label) = tick.label {
+                self.drawing.text("", Anchor::End, (LEFT - 9.0, tick.position + 4.0), &label);
+            }
+        }
+    }
+
+    fn name_upwards(&mut self, axis: &Axis) {
         // A long name of the upward axis takes two columns at most before it runs past the frame.
-        let lines = wrap(&y.0.label(), HEIGHT, MEDIUM);
+        let lines = wrap(&axis.label(), self.height, MEDIUM);
         for (i, line) in lines.iter().enumerate() {
             let across = 19.0 + 1.3 * MEDIUM * i as f64;
-            let up = f64::midpoint(self.top, bottom);
+            let up = f64::midpoint(self.top, self.bottom());
             self.drawing.text_upwards("", (across, up), line);
         }
     }
@@ -171,8 +208,6 @@ impl Sheet {
         remarks: &[String],
     ) -> String {
         let mut y = self.lowest + 14.0;
-        self.drawing.line("grid", (MARGIN, y), (WIDTH - MARGIN, y));
-        y += 4.0;
         let mut paragraph = String::new();
         let mut sentences = caption.sentences();
         // The command stands last, on a line of its own.
@@ -180,6 +215,11 @@ impl Sheet {
         sentences.extend(remarks.iter().cloned());
         for sentence in sentences {
             paragraph = format!("{paragraph} {sentence}");
+        }
+        // Without small print there is nothing to part off.
+        if !paragraph.is_empty() || command.is_some() {
+            self.drawing.line("grid", (MARGIN, y), (WIDTH - MARGIN, y));
+            y += 4.0;
         }
         for paragraph in [Some(paragraph), command].into_iter().flatten() {
             for line in wrap(&paragraph, WIDTH - 2.0 * MARGIN, SMALL) {

@@ -1,9 +1,11 @@
-//! Charts of accuracy against speed, as SVG, JSON, CSV, and pages of HTML.
+//! Pictures: charts of accuracy against speed, figures of quantities, diagrams of place and time; as
+//! SVG, PNG, JSON, CSV, and pages of HTML.
 //!
 //! The layer knows series of numbers only, not where they come from. A [`WorkPrecision`] diagram
 //! shows methods, a [`Map`] shows the error over two parameters, [`Curves`] show it along one;
-//! [`page`] puts several of them into one file. What a picture shows can be drawn again from its
-//! data: equal data give equal bytes.
+//! [`page`] puts several of them into one file. A [`Figure`] shows quantities in panels over one axis, a
+//! [`Diagram`] waves over place and time; [`png`] turns any of them into pixels. What a picture shows can
+//! be drawn again from its data: equal data give equal bytes.
 //!
 //! Pictures are written as SVG here, by a few shapes in one file. Every chart needs what plotting
 //! libraries do not offer together: gutters for exact zeros, bounds joined to errors, labels that
@@ -14,15 +16,19 @@ mod caption;
 mod chart;
 mod contour;
 mod curves;
+mod diagram;
 mod drawing;
 mod error;
+mod figure;
 mod frontier;
 mod layout;
 mod map;
+mod marks;
 mod number;
 mod page;
 mod palette;
 mod placement;
+mod png;
 mod text;
 mod work_precision;
 
@@ -30,8 +36,11 @@ pub use axis::{Axis, Scale};
 pub use caption::Caption;
 pub use chart::Chart;
 pub use curves::{Curve, Curves, Region};
+pub use diagram::{Cell, Diagram, Line, Part, Shape, Window};
 pub use error::PlotError;
+pub use figure::{Figure, Look, Panel, Series};
 pub use frontier::frontier;
 pub use map::{Level, Map};
 pub use page::{Row, Section, Table, page};
+pub use png::png;
 pub use work_precision::{Method, Point, WorkPrecision};

@@ -36,13 +36,36 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xFD, 0xE7, 0x25],
 ];
 
+/// Samples of the scale "YlGnBu" of ColorBrewer at equal distances, from dark to light: for large
+/// areas on white paper.
+const TINTS: [[u8; 3]; 9] = [
+    [0x08, 0x1D, 0x58],
+    [0x25, 0x34, 0x94],
+    [0x22, 0x5E, 0xA8],
+    [0x1D, 0x91, 0xC0],
+    [0x41, 0xB6, 0xC4],
+    [0x7F, 0xCD, 0xBB],
+    [0xC7, 0xE9, 0xB4],
+    [0xED, 0xF8, 0xB1],
+    [0xFF, 0xFF, 0xD9],
+];
+
 /// The colour at `share` of the scale, from dark at 0 to light at 1; values outside take the ends.
 pub(super) fn shade(share: f64) -> String {
-    let at = share.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
-    let below = (at.floor() as usize).min(VIRIDIS.len() - 2);
+    between(&VIRIDIS, share)
+}
+
+/// The same of the scale for large areas.
+pub(super) fn tint(share: f64) -> String {
+    between(&TINTS, share)
+}
+
+fn between(samples: &[[u8; 3]], share: f64) -> String {
+    let at = share.clamp(0.0, 1.0) * (samples.len() - 1) as f64;
+    let below = (at.floor() as usize).min(samples.len() - 2);
     let part = at - below as f64;
     let channel = |i: usize| {
-        let (low, high) = (f64::from(VIRIDIS[below][i]), f64::from(VIRIDIS[below + 1][i]));
+        let (low, high) = (f64::from(samples[below][i]), f64::from(samples[below + 1][i]));
         (low + part * (high - low)).round() as u8
     };
     format!("#{:02X}{:02X}{:02X}", channel(0), channel(1), channel(2))
@@ -63,10 +86,16 @@ mod tests {
     }
 
     #[test]
-    fn the_scale_is_ordered_by_lightness() {
-        let shades: Vec<f64> = (0..=200).map(|i| luminance(&shade(f64::from(i) / 200.0))).collect();
-        assert!(shades.windows(2).all(|pair| pair[0] < pair[1] + 2e-3), "lightness falls");
-        assert!(shades.windows(20).all(|run| run[0] + 5e-3 < run[19]), "lightness stands still");
+    fn the_scales_are_ordered_by_lightness() {
+        for scale in [shade, tint] {
+            let shades: Vec<f64> =
+                (0..=200).map(|i| luminance(&scale(f64::from(i) / 200.0))).collect();
+            assert!(shades.windows(2).all(|pair| pair[0] < pair[1] + 2e-3), "lightness falls");
+            assert!(
+                shades.windows(20).all(|run| run[0] + 5e-3 < run[19]),
+                "lightness stands still"
+            );
+        }
         assert_eq!((shade(-1.0), shade(2.0)), ("#440154".to_owned(), "#FDE725".to_owned()));
     }
 

@@ -1,0 +1,201 @@
+//! `plot`: observables against time, diagrams of place and time, fields along the line.
+
+use super::arguments::{DiagramOption, Plot};
+use super::failure::Failure;
+use super::field::scene;
+use super::input::{self, Subject};
+use super::picture;
+use super::quantity;
+use num_rational::BigRational;
+use num_traits::ToPrimitive as _;
+use wavestep::evaluate::{EvaluateError, Signal};
+use wavestep::field::Quantity;
+use wavestep::language;
+use wavestep::network::{Network, Observed, ObservedValue};
+use wavestep::picture::{
+    Course, Sampled, against_time, along_the_line, lagrange, sampled, sampled_energy,
+};
+use wavestep::plot::{Caption, Chart};
+use wavestep::recurrence::Recurrence;
+use wavestep::scene::Dimension;
+
+/// How many periods are shown where no end is given.
+const PERIODS: i64 = 4;
+
+/// At how many times an energy is looked at.
+const ENERGY_STEPS: usize = 240;
+
+/// Draws what is asked for.
+pub fn run(options: &Plot) -> Result<String, Failure> {
+    picture::draw(&options.output, options.width, || chart(options))
+}
+
+fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
+    let subject = input::subject(&options.scene)?;
+    let caption = Caption::default();
+    if !options.at_time.is_empty() {
+        let network = scene(subject)?;
+        let times = options
+            .at_time
+            .iter()
+            .map(|time| input::time("--at-time", time, network.scene().dimensional))
+            .collect::<Result<Vec<BigRational>, Failure>>()?;
+        let figure = along_the_line(&network, &fields(options)?, &times, caption)?;
+        return Ok(Box::new(match &options.title {
+            Some(title) => figure.titled(title),
+            None => figure,
+        }));
+    }
+    let window = window(&subject, options)?;
+    if let Some(diagram) = options.diagram {
+        let network = scene(subject)?;
+        let quantity = match diagram {
+            DiagramOption::Velocity => Quantity::Velocity,
+            DiagramOption::Strain => Quantity::Strain,
+            DiagramOption::Force => Quantity::Force,
+        };
+        let diagram = lagrange(&network, quantity, [&window.0, &window.1], caption)?;
+        return Ok(Box::new(match &options.title {
+            Some(title) => diagram.titled(title),
+            None => diagram,
+        }));
+    }
+    let (courses, title, dimensional) = courses(subject, options, &window)?;
+    let title = options.title.as_deref().unwrap_or(&title);
+    let ends = (double(&window.0), double(&window.1));
+    Ok(Box::new(against_time(title, &courses, dimensional, ends, caption)?))
+}
+
+fn double(time: &BigRational) -> f64 {
+    time.to_f64().unwrap_or(f64::NAN)
+}
+
+/// The fields asked for with `--at-time`.
+fn fields(options: &Plot) -> Result<Vec<Quantity>, Failure> {
+    if options.quantity.is_empty() {
+        return Ok(vec![Quantity::Velocity, Quantity::Strain, Quantity::Displacement]);
+    }
+    let field = |name: &String| {
+        let found = Quantity::ALL.into_iter().find(|quantity| quantity.name() == name);
+        found.ok_or_else(|| {
+            let message = format!("`{name}` is no field along the line");
+            Failure::usage(message, "ask for velocity, strain, displacement or force")
+        })
+    };
+    options.quantity.iter().map(field).collect()
+}
+
+/// The window of time; where no end is given, some periods.
+fn window(subject: &Subject, options: &Plot) -> Result<(BigRational, BigRational), Failure> {
+    let dimensional = matches!(subject, Subject::Scene(network) if network.scene().dimensional);
+    let from = input::time("--from", &options.from, dimensional)?;
+    let to = match &options.to {
+        Some(to) => input::time("--to", to, dimensional)?,
+        None => &from + default_length(subject)?,
+    };
+    match from < to {
+        true => Ok((from, to)),
+        false => {
+            let message = format!("the window from {from} to {to} is empty");
+            Err(Failure::usage(message, "give --from before --to"))
+        }
+    }
+}
+
+/// Some periods: exactly where a period is rational, else a round number near them.
+fn default_length(subject: &Subject) -> Result<BigRational, Failure> {
+    let missing = || Failure::usage("the window has no end", "give --to T");
+    let periods = BigRational::from_integer(PERIODS.into());
+    let network = match subject {
+        Subject::Recurrence(recurrence) => {
+            let period = recurrence.statement().period.as_constant();
+            return match (period, recurrence.symbols().next()) {
+                (Some(period), _) => Ok(period * periods),
+                (None, Some(symbol)) => Err(EvaluateError::MissingValue(symbol.clone()).into()),
+                (None, None) => Err(missing()),
+            };
+        }
+        Subject::Scene(network) => network,
+    };
+    let [period] = network.lattice().periods() else { return Err(missing()) };
+    let slowness = &network.model().slowness;
+    if let (Some(period), Some(slowness)) = (period.as_constant(), slowness.as_constant()) {
+        return Ok(period / slowness * periods);
+    }
+    let linear = |observed: &&Observed| matches!(observed.value, ObservedValue::Linear(_));
+    let observed = network.observables().iter().find(linear).ok_or_else(missing)?;
+    let signal = Signal::of_scene(network, observed, &BigRational::default())?;
+    let period = signal.period().ok_or_else(missing)?;
+    // Two figures, and not less.
+    let step = 10_f64.powi((period * PERIODS as f64).log10().floor() as i32 - 1);
+    let steps = (period * PERIODS as f64 / step).ceil().to_i64().ok_or_else(missing)?;
+    let step = BigRational::from_float(step).ok_or_else(missing)?;
+    Ok(step * BigRational::from_integer(steps.into()))
+}
+
+/// The quantities asked for, or all observables, with the title of the scene and whether it has units.
+fn courses(
+    subject: Subject,
+    options: &Plot,
+    window: &(BigRational, BigRational),
+) -> Result<(Vec<Course>, String, bool), Failure> {
+    match subject {
+        Subject::Recurrence(recurrence) => {
+            let title = recurrence.statement().title.clone();
+            Ok((of_recurrence(&recurrence, options, window)?, title, false))
+        }
+        Subject::Scene(network) => {
+            let title = network.scene().title.clone();
+            let dimensional = network.scene().dimensional;
+            Ok((of_scene(&network, options, window)?, title, dimensional))
+        }
+    }
+}
+
+fn of_recurrence(
+    recurrence: &Recurrence,
+    options: &Plot,
+    (from, to): &(BigRational, BigRational),
+) -> Result<Vec<Course>, Failure> {
+    let observables = &recurrence.statement().observables;
+    let all = observables.iter().map(|observable| observable.name.clone());
+    let course = |name: String| {
+        let observation = quantity::of_recurrence(recurrence, &name)?;
+        let signal = Signal::of_recurrence(recurrence, &observation)?;
+        Ok(Course { name, dimension: Dimension::NONE, values: sampled(&signal, from, to)? })
+    };
+    names(options, all)?.into_iter().map(course).collect()
+}
+
+fn of_scene(
+    network: &Network,
+    options: &Plot,
+    (from, to): &(BigRational, BigRational),
+) -> Result<Vec<Course>, Failure> {
+    let all = network.observables().iter().map(|observed| observed.name.clone());
+    let course = |name: String| {
+        let observed = quantity::of_scene(network, &name)?;
+        let values: Sampled = match observed.value {
+            ObservedValue::Linear(_) => {
+                sampled(&Signal::of_scene(network, &observed, to)?, from, to)?
+            }
+            ObservedValue::Energy(_) => {
+                sampled_energy(network, &observed, [from, to], ENERGY_STEPS)?
+            }
+        };
+        Ok(Course { name, dimension: observed.dimension, values })
+    };
+    names(options, all)?.into_iter().map(course).collect()
+}
+
+/// The names asked for, or all.
+fn names(options: &Plot, all: impl Iterator<Item = String>) -> Result<Vec<String>, Failure> {
+    let names: Vec<String> = match options.quantity.is_empty() {
+        true => all.collect(),
+        false => options.quantity.iter().map(|name| language::normalise_name(name)).collect(),
+    };
+    match names.is_empty() {
+        true => Err(Failure::usage("nothing is observed in this scene", "give --quantity NAME")),
+        false => Ok(names),
+    }
+}

@@ -1,0 +1,274 @@
+//! The waves in a bar as strips between characteristics, for diagrams of place and time.
+//!
+//! A wave to the right is constant along `t − x/c`. Cut into strips along its fronts, and further
+//! where it is smooth, a field is constant, or nearly so, where two strips cross: what is constant
+//! between fronts is drawn exactly, and nothing is smeared across them.
+
+use super::{FieldError, FieldEvaluator};
+use crate::ball::Ball;
+use crate::evaluate::{EvaluateError, Side};
+use crate::expression::{Fraction, Root};
+use crate::network::{Extent, FieldBar, Way};
+use wavestep_polynomial::Rational;
+
+/// A part of a wave between two times at the end of the bar at which it enters.
+///
+/// ```
+/// use wavestep::field::Strip;
+///
+/// let strip = Strip { from: 0.0, to: 1.0, value: 0.5 };
+/// assert!(strip.from < strip.to);
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Strip {
+    /// When it enters.
+    pub from: f64,
+    /// When its end does.
+    pub to: f64,
+    /// What it adds to the velocity, in its middle.
+    pub value: f64,
+}
+
+/// A front: when it enters a bar, and what jumps there.
+///
+/// ```
+/// use wavestep::field::Front;
+///
+/// let front = Front { at: 2.0, jumps: true };
+/// assert!(front.jumps);
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Front {
+    /// When it enters.
+    pub at: f64,
+    /// Whether velocity and strain jump; else their slopes do.
+    pub jumps: bool,
+}
+
+/// The waves of a bar on a window of time.
+///
+/// In it `v = velocity + f + g` and `X = force + impedance·(f − g)`, where `f` is the value of the
+/// strip of `right` that entered `x·slowness` before, and `g` that of `left`.
+///
+/// # Invariants
+/// - strips follow one another without gaps.
+///
+/// ```
+/// # use wavestep::field::FieldEvaluator;
+/// # use wavestep::language::{Source, parse_number, read_scene};
+/// # use wavestep::network::Network;
+/// # let text = wavestep::scenes::find("striker-on-long-bar").unwrap().text;
+/// # let values = [("r".to_owned(), parse_number("1")?)].into();
+/// # let scene = read_scene(&Source::new("striker-on-long-bar", text)?, &values).unwrap();
+/// # let network = Network::new(&scene).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("3")?);
+/// let evaluator = FieldEvaluator::new(&network, &to).unwrap();
+/// let bars = evaluator.waves([&from, &to], 40).unwrap();
+/// // Equal bars: half of the velocity goes on; a front leaves the free end at 1 and all comes to rest.
+/// let striker = &bars[0];
+/// assert_eq!((striker.name.as_str(), striker.length, striker.velocity), ("striker", 1.0, 1.0));
+/// assert!(striker.left.iter().all(|strip| [0.0, -0.5].contains(&strip.value)));
+/// assert_eq!(striker.right_fronts[0].at, 1.0);
+/// assert!(bars[1].is_endless && bars[1].left.iter().all(|strip| strip.value == 0.0));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct BarWaves {
+    /// What the bar is called.
+    pub name: String,
+    /// Its length; for an endless bar, what is looked at of it.
+    pub length: f64,
+    /// The time that a wave takes for a unit of length.
+    pub slowness: f64,
+    /// Whether it goes on.
+    pub is_endless: bool,
+    /// Its velocity at the start.
+    pub velocity: f64,
+    /// The force that compresses it at the start.
+    pub force: f64,
+    /// Its impedance.
+    pub impedance: f64,
+    /// The force over the strain.
+    pub stiffness: f64,
+    /// The wave to the right, by the time at the left end.
+    pub right: Vec<Strip>,
+    /// The wave to the left, by the time at the right end.
+    pub left: Vec<Strip>,
+    /// The fronts to the right.
+    pub right_fronts: Vec<Front>,
+    /// The fronts to the left.
+    pub left_fronts: Vec<Front>,
+}
+
+/// The precision of what is drawn.
+const BITS: u64 = 192;
+
+/// What is smaller than this part of the largest value is no front.
+const VISIBLE: f64 = 1e-9;
+
+impl FieldEvaluator {
+    /// The waves of all bars on a window of time, in strips: at least `strips` of them for the window
+    /// where a wave is not constant. Endless bars are looked at as far as all others reach together,
+    /// or as waves have come.
+    ///
+    /// # Errors
+    /// [`FieldError::Evaluate`], also for an empty window.
+    pub fn waves(
+        &self,
+        [from, to]: [&Rational; 2],
+        strips: usize,
+    ) -> Result<Vec<BarWaves>, FieldError> {
+        if from >= to || *from < Rational::default() {
+            return Err(EvaluateError::EmptyWindow.into());
+        }
+        let mut found = Vec::with_capacity(self.bars.len());
+        for bar in &self.bars {
+            let endless = bar.extent != Extent::Finite;
+            let (span, length) = self.span_looked_at(bar, to)?;
+            let second = self.waves.scaled(&Rational::from_integer(1.into()));
+            let slowness = self.double_of(&span)? / self.double_of(&second)? / length;
+            let unit = |place: usize| self.double(&bar.units[place]);
+            let side = |way: Option<&Way>| self.wave_strips(way, &span, [from, to], strips);
+            let (right, right_fronts) = side(bar.right.as_ref())?;
+            let (left, left_fronts) = side(bar.left.as_ref())?;
+            let scaled = |strips: Vec<Strip>, unit: f64| {
+                strips.into_iter().map(|s| Strip { value: s.value * unit, ..s }).collect()
+            };
+            let (velocity, force) = (unit(0)?, unit(3)?);
+            found.push(BarWaves {
+                name: self.name(bar).to_owned(),
+                length,
+                slowness,
+                is_endless: endless,
+                velocity: velocity * self.double_of(&bar.data.velocity)?,
+                force: force * self.double_of(&bar.data.force)?,
+                impedance: self.double_of(&bar.data.impedance)? * force / velocity,
+                stiffness: force / unit(1)?,
+                right: scaled(right, velocity),
+                left: scaled(left, velocity),
+                right_fronts,
+                left_fronts,
+            });
+        }
+        Ok(found)
+    }
+
+    /// How far a bar is looked at in pictures, as a delay and as a length: all of it; of an endless
+    /// bar, as far as all others reach together, or as waves have come.
+    pub(super) fn span_looked_at(
+        &self,
+        bar: &FieldBar,
+        to: &Rational,
+    ) -> Result<(Fraction, f64), FieldError> {
+        let (span, length) = self.span(bar, &self.waves.scaled(to), None)?;
+        let length = self.double(&length)?;
+        let reach = match bar.extent {
+            Extent::Finite => None,
+            _ => self.reach_of_endless(to)?.filter(|reach| *reach < length),
+        };
+        Ok(match reach {
+            Some(reach) => {
+                let share = Rational::from_float(reach / length).expect("a finite number");
+                (span.scale(&share), reach)
+            }
+            None => (span, length),
+        })
+    }
+
+    /// The length of all bars that are not endless together; none where there are none.
+    fn reach_of_endless(&self, to: &Rational) -> Result<Option<f64>, FieldError> {
+        let mut sum = 0.0;
+        for bar in self.bars.iter().filter(|bar| bar.extent == Extent::Finite) {
+            sum += self.double(&self.span(bar, &self.waves.scaled(to), None)?.1)?;
+        }
+        Ok((sum > 0.0).then_some(sum))
+    }
+
+    fn double(&self, value: &Root) -> Result<f64, FieldError> {
+        Ok(self.waves.numbers().enclose_root(value, BITS)?.to_double().0)
+    }
+
+    pub(super) fn double_of(&self, value: &Fraction) -> Result<f64, FieldError> {
+        Ok(self.waves.numbers().enclose(value, BITS)?.to_double().0)
+    }
+
+    /// A wave in strips, from one travel time before the window to its end, and its fronts.
+    fn wave_strips(
+        &self,
+        way: Option<&Way>,
+        span: &Fraction,
+        [from, to]: [&Rational; 2],
+        strips: usize,
+    ) -> Result<(Vec<Strip>, Vec<Front>), FieldError> {
+        let second = self.waves.scaled(&Rational::from_integer(1.into()));
+        let inverse = self.waves.numbers().enclose(&second, BITS)?;
+        let inverse = inverse.reciprocal(BITS).map_err(EvaluateError::Ball)?;
+        let (first, last) = (&self.waves.scaled(from) - span, self.waves.scaled(to));
+        let lead = way.map_or_else(Fraction::zero, |way| way.lead.clone());
+        let seconds = |time: &Fraction| -> Result<f64, FieldError> {
+            let ball = self.waves.numbers().enclose(&(time - &lead), BITS)?;
+            Ok(ball.multiply(&inverse, BITS).to_double().0)
+        };
+        let (first, last) = (&first + &lead, &last + &lead);
+        let Some(way) = way else {
+            let strip = Strip { from: seconds(&first)?, to: seconds(&last)?, value: 0.0 };
+            return Ok((vec![strip], Vec::new()));
+        };
+        let value = |at: &Fraction, derivative, side| -> Result<f64, FieldError> {
+            let ball: Ball = self.waves.enclose(way.waves[0], derivative, at, side, BITS)?;
+            Ok(if ball.contains_zero() { 0.0 } else { ball.to_double().0 })
+        };
+        let mut ends = vec![first.clone()];
+        ends.extend(self.waves.breaks(&first, &last)?.into_iter().filter(|at| *at != first));
+        ends.push(last.clone());
+        ends.dedup();
+        let window = seconds(&last)? - seconds(&first)?;
+        let mut found: Vec<Strip> = Vec::new();
+        for pair in ends.windows(2) {
+            let (start, end) = (seconds(&pair[0])?, seconds(&pair[1])?);
+            let length = &pair[1] - &pair[0];
+            let at = |share: &Rational| &pair[0] + &length.scale(share);
+            let [low, middle, high] = [(0, 1), (1, 2), (1, 1)].map(|(a, b): (i32, i32)| {
+                let side = if a == b { Side::Left } else { Side::Right };
+                value(&at(&Rational::new(a.into(), b.into())), 0, side)
+            });
+            let (low, middle, high) = (low?, middle?, high?);
+            let size = low.abs().max(middle.abs()).max(high.abs());
+            let flat = (low - middle).abs().max((high - middle).abs()) <= VISIBLE * size;
+            let parts = match flat {
+                true => 1,
+                false => ((end - start) / window * strips as f64).ceil().max(1.0) as usize,
+            };
+            for part in 0..parts {
+                let share = |twice: usize| Rational::new(twice.into(), (2 * parts).into());
+                let place = |i: usize| start + (end - start) * i as f64 / parts as f64;
+                let value = match flat {
+                    true => middle,
+                    false => value(&at(&share(2 * part + 1)), 0, Side::Right)?,
+                };
+                let joined = found.last_mut().filter(|last| last.value == value && flat);
+                match joined {
+                    Some(last) => last.to = end,
+                    None => {
+                        found.push(Strip { from: place(part), to: place(part + 1), value });
+                    }
+                }
+            }
+        }
+        let scale = found.iter().map(|strip| strip.value.abs()).fold(0.0, f64::max);
+        let mut fronts = Vec::new();
+        for at in &ends[..ends.len() - 1] {
+            let jump = |derivative| -> Result<f64, FieldError> {
+                let (after, before) =
+                    (value(at, derivative, Side::Right)?, value(at, derivative, Side::Left)?);
+                Ok((after - before).abs())
+            };
+            if jump(0)? > VISIBLE * scale {
+                fronts.push(Front { at: seconds(at)?, jumps: true });
+            } else if jump(1)? > VISIBLE * scale {
+                fronts.push(Front { at: seconds(at)?, jumps: false });
+            }
+        }
+        Ok((found, fronts))
+    }
+}

@@ -1,0 +1,373 @@
+//! From the two waves of a bar to the fields in it.
+//!
+//! With the delays `a(x)` and `b(x)` of the waves `f` (to the right) and `g` (to the left), and with
+//! `F = ∫f dt`, `G = ∫g dt`,
+//!
+//! ```text
+//! v = V + f(t − a) + g(t − b)        X = X_0 + Z (f(t − a) − g(t − b))
+//! u = V t + F(t − a) + G(t − b)      ε = −X/(EA)
+//! ```
+//!
+//! The mean of `f(t − a)` over a cell, on which `a` grows evenly from `a_0` to `a_1`, is
+//! `(F(t − a_0) − F(t − a_1))/(a_1 − a_0)`: an integral over time, so averages need no quadrature. That
+//! of `F(t − a)` follows in the same way from `∫F dt`.
+
+use super::fields::{BarFields, Bounded, Fields};
+use super::{FieldError, Mesh, Sampling};
+use crate::ball::{Ball, Magnitude};
+use crate::evaluate::{EvaluateError, Side, Waves};
+use crate::expression::{Fraction, Root};
+use crate::network::{Extent, FieldBar, Network, Way};
+use crate::scene::Kind;
+use wavestep_polynomial::Rational;
+
+/// The precision tried first, and the highest.
+const FIRST_BITS: u64 = 128;
+const MAX_BITS: u64 = 1 << 14;
+
+/// Radii so far below the largest value need no more bits: a double has 53.
+const SPARE_BITS: i64 = 75;
+
+/// What is so small in the scale of the scene is no reason for more bits.
+const NEGLIGIBLE_BITS: i64 = 400;
+
+/// The fields of a scene in numbers, up to a last time.
+///
+/// ```
+/// use wavestep::field::{FieldEvaluator, Mesh, Quantity};
+/// use wavestep::language::{Source, parse_number, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let at = parse_number("5/4")?;
+/// let evaluator = FieldEvaluator::new(&network, &at).unwrap();
+/// assert_eq!(evaluator.bars().collect::<Vec<_>>(), ["rod"]);
+/// assert_eq!(evaluator.network().scene(), network.scene());
+/// // The mean strain of a cell is the difference of the displacements at its ends over its length.
+/// let mesh = Mesh::new(20).unwrap();
+/// let nodes = evaluator.at(&at, &mesh).unwrap();
+/// let means = evaluator.at(&at, &mesh.averages()).unwrap();
+/// let (u, strain) = (nodes.bars[0].of(Quantity::Displacement), means.bars[0].of(Quantity::Strain));
+/// for (u, strain) in u.windows(2).zip(strain) {
+///     assert!((20.0 * (u[1].value - u[0].value) - strain.value).abs() < 1e-13);
+/// }
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct FieldEvaluator {
+    network: Network,
+    pub(super) bars: Vec<FieldBar>,
+    pub(super) waves: Waves,
+    last: Rational,
+}
+
+/// The delays of a node, in the scale of the scene, with where it is.
+pub(super) struct Node {
+    /// The delay of the wave to the right and of that to the left.
+    pub delays: [Fraction; 2],
+    /// Whether limits are taken from larger `x`.
+    pub from_larger: bool,
+}
+
+/// The enclosures of the fields at a place, in the scale of the scene, and the size of what they are
+/// made of.
+pub(super) type Enclosed = ([Ball; 3], Magnitude);
+
+impl FieldEvaluator {
+    /// For times up to `last`.
+    ///
+    /// # Errors
+    /// [`FieldError::Evaluate`] where a symbol has no value, or too many echoes arrive until then;
+    /// [`FieldError::Negative`].
+    pub fn new(network: &Network, last: &Rational) -> Result<FieldEvaluator, FieldError> {
+        if *last < Rational::default() {
+            return Err(FieldError::Negative(last.clone()));
+        }
+        let mut network = network.clone();
+        let bars = network.field_bars()?;
+        let ways = bars.iter().flat_map(|bar| bar.right.iter().chain(&bar.left));
+        let waves: Vec<_> = ways.flat_map(|way| way.waves).collect();
+        let waves = Waves::new(&network, &waves, last)?;
+        Ok(FieldEvaluator { network, bars, waves, last: last.clone() })
+    }
+
+    /// The names of the bars, from left to right.
+    pub fn bars(&self) -> impl Iterator<Item = &str> + '_ {
+        self.bars.iter().map(|bar| self.name(bar))
+    }
+
+    /// The scene.
+    pub fn network(&self) -> &Network {
+        &self.network
+    }
+
+    pub(super) fn last(&self) -> &Rational {
+        &self.last
+    }
+
+    pub(super) fn name(&self, bar: &FieldBar) -> &str {
+        &self.network.scene().elements[bar.element].name
+    }
+
+    /// The fields at a time.
+    ///
+    /// # Errors
+    /// [`FieldError`].
+    ///
+    /// # Cost
+    /// Each value is read off one piece of each wave: of `n` coefficients after `n` periods. The pieces
+    /// are worked out once for all times.
+    pub fn at(&self, time: &Rational, mesh: &Mesh) -> Result<Fields, FieldError> {
+        if *time < Rational::default() {
+            return Err(FieldError::Negative(time.clone()));
+        }
+        if *time > self.last {
+            return Err(EvaluateError::AfterLast.into());
+        }
+        for name in mesh.bars() {
+            if !self.bars().any(|bar| bar == name) {
+                let bars = self.bars().map(str::to_owned).collect();
+                return Err(FieldError::UnknownBar { name: name.clone(), bars });
+            }
+        }
+        let wanted = |bar: &&FieldBar| {
+            mesh.bars().is_empty() || mesh.bars().iter().any(|name| name == self.name(bar))
+        };
+        let fields = |bar| self.fields_of(bar, time, mesh);
+        Ok(Fields {
+            time: time.clone(),
+            dimensional: self.network.scene().dimensional,
+            sampling: mesh.sampling(),
+            side: mesh.side(),
+            bars: self.bars.iter().filter(wanted).map(fields).collect::<Result<_, _>>()?,
+        })
+    }
+
+    fn fields_of(
+        &self,
+        bar: &FieldBar,
+        time: &Rational,
+        mesh: &Mesh,
+    ) -> Result<BarFields, FieldError> {
+        let at = self.waves.scaled(time);
+        let (span, length) = self.span(bar, &at, mesh.reach())?;
+        let name = self.name(bar).to_owned();
+        if span.is_zero() {
+            // No wave has entered an endless bar.
+            return Ok(BarFields { name, x: Vec::new(), values: Default::default() });
+        }
+        let share = |j: usize| Rational::new(j.into(), mesh.cells().into());
+        let nodes: Vec<Node> = (0..=mesh.cells())
+            .map(|j| {
+                let (from, rest) = (span.scale(&share(j)), span.scale(&share(mesh.cells() - j)));
+                let delays = match bar.extent {
+                    Extent::Finite => [from, rest],
+                    Extent::ToTheRight => [from, Fraction::zero()],
+                    Extent::ToTheLeft => [Fraction::zero(), from],
+                };
+                let inside = mesh.side() == Side::Right && j < mesh.cells();
+                Node { delays, from_larger: inside || j == 0 }
+            })
+            .collect();
+        let length = self.waves.numbers().enclose_root(&length, FIRST_BITS)?;
+        let place = |j| length.multiply_rational(&share(j), FIRST_BITS).to_double().0;
+        let x = (0..=mesh.cells()).map(place).collect();
+        let mut bits = FIRST_BITS;
+        loop {
+            let found = match mesh.sampling() {
+                Sampling::Nodes => self.at_nodes(bar, &at, &nodes, bits)?,
+                Sampling::Averages => self.averages(bar, &at, &nodes, bits)?,
+            };
+            if is_fine(&found) || bits >= MAX_BITS {
+                return Ok(BarFields { name, x, values: self.in_units(bar, &found, bits)? });
+            }
+            bits *= 2;
+        }
+    }
+
+    /// How far a bar is looked at: as a delay in the scale of the scene, and as a length of the user's.
+    pub(super) fn span(
+        &self,
+        bar: &FieldBar,
+        at: &Fraction,
+        reach: Option<&Rational>,
+    ) -> Result<(Fraction, Root), FieldError> {
+        let Kind::Bar(data) = &self.network.scene().elements[bar.element].kind else {
+            unreachable!("a bar of the line")
+        };
+        if let (Some(travel), Some(extent)) = (&bar.data.travel, data.extent()) {
+            return Ok((travel.clone(), Root::from(extent.clone())));
+        }
+        let Some(reach) = reach else {
+            return Ok((at.clone(), bar.reach.times(&Root::from(at.clone()))));
+        };
+        let reach = Root::from(Fraction::constant(reach));
+        let delay = reach.over(&bar.reach).map_err(EvaluateError::Division)?;
+        // What is irrational is taken as near as it matters: the length is that of the delay.
+        let delay = match delay.exact().filter(|delay| delay.as_constant().is_some()) {
+            Some(delay) => delay,
+            None => {
+                let ball = self.waves.numbers().enclose_root(&delay, FIRST_BITS)?;
+                Fraction::constant(&Rational::from(ball.midpoint()))
+            }
+        };
+        let length = bar.reach.times(&Root::from(delay.clone()));
+        Ok((delay, length))
+    }
+
+    /// A wave at a node, at level 0, or its integral at level 1, or the integral of that.
+    fn wave(
+        &self,
+        way: Option<&Way>,
+        level: usize,
+        (at, node, which): (&Fraction, &Node, usize),
+        side: Side,
+        bits: u64,
+    ) -> Result<Ball, FieldError> {
+        let Some(way) = way else { return Ok(Ball::zero()) };
+        let at = &(at + &way.lead) - &node.delays[which];
+        Ok(self.waves.enclose(way.waves[level], 0, &at, side, bits)?)
+    }
+
+    pub(super) fn at_nodes(
+        &self,
+        bar: &FieldBar,
+        at: &Fraction,
+        nodes: &[Node],
+        bits: u64,
+    ) -> Result<Vec<Enclosed>, FieldError> {
+        let state = State::new(self, bar, at, bits)?;
+        let mut found = Vec::with_capacity(nodes.len());
+        for node in nodes {
+            // A delay that grows with x looks back in time as x grows.
+            let grows = [true, bar.extent == Extent::ToTheLeft];
+            let wave = |way: Option<&Way>, which: usize, level| {
+                let side = match grows[which] == node.from_larger {
+                    true => Side::Left,
+                    false => Side::Right,
+                };
+                self.wave(way, level, (at, node, which), side, bits)
+            };
+            let (right, left) = (bar.right.as_ref(), bar.left.as_ref());
+            let (f, g) = (wave(right, 0, 0)?, wave(left, 1, 0)?);
+            let (sum_f, sum_g) = (wave(right, 0, 1)?, wave(left, 1, 1)?);
+            found.push(state.fields([&f, &g], [&sum_f, &sum_g], bits));
+        }
+        Ok(found)
+    }
+
+    fn averages(
+        &self,
+        bar: &FieldBar,
+        at: &Fraction,
+        nodes: &[Node],
+        bits: u64,
+    ) -> Result<Vec<Enclosed>, FieldError> {
+        let state = State::new(self, bar, at, bits)?;
+        let numbers = self.waves.numbers();
+        // Integrals are continuous: either side does.
+        let integrals = |way: Option<&Way>, which, level| -> Result<Vec<Ball>, FieldError> {
+            let at = |node| self.wave(way, level, (at, node, which), Side::Right, bits);
+            nodes.iter().map(at).collect()
+        };
+        let mut means: [[Vec<Ball>; 2]; 2] = Default::default();
+        for (which, way) in [bar.right.as_ref(), bar.left.as_ref()].into_iter().enumerate() {
+            let width = &nodes[1].delays[which] - &nodes[0].delays[which];
+            let inverse = match width.is_zero() {
+                true => Ball::zero(),
+                false => {
+                    let width = numbers.enclose(&width, bits)?;
+                    width.reciprocal(bits).map_err(EvaluateError::Ball)?
+                }
+            };
+            for level in [1, 2] {
+                let integrals = integrals(way, which, level)?;
+                let mean =
+                    |pair: &[Ball]| pair[0].subtract(&pair[1], bits).multiply(&inverse, bits);
+                means[which][level - 1] = integrals.windows(2).map(mean).collect();
+            }
+        }
+        let [right, left] = &means;
+        let cells = 0..nodes.len() - 1;
+        let fields =
+            |i: usize| state.fields([&right[0][i], &left[0][i]], [&right[1][i], &left[1][i]], bits);
+        Ok(cells.map(fields).collect())
+    }
+
+    /// Values in the user's units: velocity, strain, displacement, force.
+    pub(super) fn in_units(
+        &self,
+        bar: &FieldBar,
+        found: &[Enclosed],
+        bits: u64,
+    ) -> Result<[Vec<Bounded>; 4], FieldError> {
+        let mut values: [Vec<Bounded>; 4] = Default::default();
+        for (place, unit) in bar.units.iter().enumerate() {
+            let unit = self.waves.numbers().enclose_root(unit, bits)?;
+            values[place] = found
+                .iter()
+                .map(|([velocity, force, displacement], _)| match place {
+                    0 => velocity.multiply(&unit, bits),
+                    1 => force.clone().negate().multiply(&unit, bits),
+                    2 => displacement.multiply(&unit, bits),
+                    _ => force.multiply(&unit, bits),
+                })
+                .map(|ball| bounded(&ball))
+                .collect();
+        }
+        Ok(values)
+    }
+}
+
+/// What a bar adds to its waves.
+struct State {
+    velocity: Ball,
+    force: Ball,
+    impedance: Ball,
+    /// `V t`.
+    displacement: Ball,
+}
+
+impl State {
+    fn new(
+        evaluator: &FieldEvaluator,
+        bar: &FieldBar,
+        at: &Fraction,
+        bits: u64,
+    ) -> Result<State, FieldError> {
+        let enclose = |value: &Fraction| evaluator.waves.numbers().enclose(value, bits);
+        let velocity = enclose(&bar.data.velocity)?;
+        let displacement = velocity.multiply(&enclose(at)?, bits);
+        let (force, impedance) = (enclose(&bar.data.force)?, enclose(&bar.data.impedance)?);
+        Ok(State { velocity, force, impedance, displacement })
+    }
+
+    /// Velocity, force and displacement, with the size of their parts.
+    fn fields(&self, [f, g]: [&Ball; 2], [sum_f, sum_g]: [&Ball; 2], bits: u64) -> Enclosed {
+        let velocity = self.velocity.add(f, bits).add(g, bits);
+        let force = f.subtract(g, bits).multiply(&self.impedance, bits).add(&self.force, bits);
+        let displacement = self.displacement.add(sum_f, bits).add(sum_g, bits);
+        let size = [f, g, &self.velocity].map(|part| part.midpoint().magnitude());
+        let size = size.into_iter().fold(Magnitude::ZERO, |sum, part| sum.add(&part));
+        ([velocity, force, displacement], size)
+    }
+}
+
+/// Whether radii are far below doubles of the size of the largest value.
+fn is_fine(found: &[Enclosed]) -> bool {
+    let scale = found.iter().map(|(_, size)| *size).max().unwrap_or(Magnitude::ZERO);
+    let enough = scale.scale(-SPARE_BITS).max(Magnitude::power_of_two(-NEGLIGIBLE_BITS));
+    found.iter().all(|(balls, _)| balls.iter().all(|ball| ball.radius() <= &enough))
+}
+
+/// The nearest double, or one beside it. What may be zero, and is nothing beside all other values, is
+/// given as zero.
+fn bounded(ball: &Ball) -> Bounded {
+    if ball.contains_zero() {
+        return Bounded { value: 0.0, bound: ball.magnitude().to_double() };
+    }
+    let (value, bound) = ball.to_double();
+    Bounded { value, bound: bound.to_double() }
+}

@@ -1,0 +1,130 @@
+//! Where fields are asked for.
+
+use super::FieldError;
+use crate::evaluate::Side;
+use wavestep_polynomial::Rational;
+
+/// The most cells of one bar.
+///
+/// ```
+/// use wavestep::field::{MAX_CELLS, Mesh};
+///
+/// assert!(Mesh::new(MAX_CELLS).is_ok() && Mesh::new(MAX_CELLS + 1).is_err());
+/// ```
+pub const MAX_CELLS: usize = 100_000;
+
+/// What is given of each field.
+///
+/// ```
+/// use wavestep::field::{Mesh, Sampling};
+///
+/// assert_eq!(Mesh::new(8)?.averages().sampling(), Sampling::Averages);
+/// # Ok::<(), wavestep::field::FieldError>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sampling {
+    /// The values at the N + 1 nodes `x_j = jL/N`.
+    Nodes,
+    /// The means `∫ q dx/h` over the N cells between them.
+    Averages,
+}
+
+/// Each bar divided into equal cells.
+///
+/// # Invariants
+/// - from 1 to [`MAX_CELLS`] cells;
+/// - a reach is above zero.
+///
+/// ```
+/// use wavestep::evaluate::Side;
+/// use wavestep::field::{Mesh, Sampling};
+///
+/// let mesh = Mesh::new(100)?.only("rod").on_the(Side::Left);
+/// assert_eq!((mesh.cells(), mesh.side(), mesh.sampling()), (100, Side::Left, Sampling::Nodes));
+/// let two = wavestep::language::parse_number("2").unwrap();
+/// assert_eq!(mesh.reaching(&two)?.cells(), 100);
+/// # Ok::<(), wavestep::field::FieldError>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Mesh {
+    cells: usize,
+    sampling: Sampling,
+    side: Side,
+    bars: Vec<String>,
+    reach: Option<Rational>,
+}
+
+impl Mesh {
+    /// All bars with so many cells each, values at nodes, limits from the right.
+    ///
+    /// # Errors
+    /// [`FieldError::Cells`].
+    pub fn new(cells: usize) -> Result<Mesh, FieldError> {
+        match cells {
+            1..=MAX_CELLS => Ok(Mesh {
+                cells,
+                sampling: Sampling::Nodes,
+                side: Side::Right,
+                bars: Vec::new(),
+                reach: None,
+            }),
+            _ => Err(FieldError::Cells { cells, limit: MAX_CELLS }),
+        }
+    }
+
+    /// The same with averages over cells.
+    #[must_use]
+    pub fn averages(self) -> Mesh {
+        Mesh { sampling: Sampling::Averages, ..self }
+    }
+
+    /// The same with limits from this side where a field jumps at a node: from larger `x` with
+    /// [`Side::Right`]. At the ends of a bar the limit is from within, whatever the side.
+    #[must_use]
+    pub fn on_the(self, side: Side) -> Mesh {
+        Mesh { side, ..self }
+    }
+
+    /// The same for this bar, besides others that were named.
+    #[must_use]
+    pub fn only(mut self, bar: &str) -> Mesh {
+        self.bars.push(bar.to_owned());
+        self
+    }
+
+    /// The same with endless bars up to this distance from their end, in the unit of lengths (in that
+    /// of times for bars given by impedance). Without it they reach as far as a wave has come that
+    /// left their end at the start.
+    ///
+    /// # Errors
+    /// [`FieldError::NegativeReach`] where it is not above zero.
+    pub fn reaching(self, reach: &Rational) -> Result<Mesh, FieldError> {
+        match *reach > Rational::default() {
+            true => Ok(Mesh { reach: Some(reach.clone()), ..self }),
+            false => Err(FieldError::NegativeReach(reach.clone())),
+        }
+    }
+
+    /// How many cells a bar has.
+    pub fn cells(&self) -> usize {
+        self.cells
+    }
+
+    /// What is given.
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
+    }
+
+    /// From which side limits are.
+    pub fn side(&self) -> Side {
+        self.side
+    }
+
+    pub(super) fn bars(&self) -> &[String] {
+        &self.bars
+    }
+
+    pub(super) fn reach(&self) -> Option<&Rational> {
+        self.reach.as_ref()
+    }
+}

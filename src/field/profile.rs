@@ -1,0 +1,136 @@
+//! Fields along a bar as a person would draw them: exact at the fronts, from both sides.
+
+use super::evaluator::Node;
+use super::{FieldError, FieldEvaluator};
+use crate::evaluate::EvaluateError;
+use crate::expression::Fraction;
+use crate::network::{Extent, FieldBar, Way};
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// The precision of what is drawn.
+const BITS: u64 = 256;
+
+/// The fields along a bar at a time, in stretches between fronts.
+///
+/// # Invariants
+/// - stretches ascend, each from one front to the next, or to an end of the bar.
+///
+/// ```
+/// # use wavestep::field::{FieldEvaluator, Quantity};
+/// # use wavestep::language::{Source, parse_number, read_scene};
+/// # use wavestep::network::Network;
+/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
+/// # let network = Network::new(&scene).unwrap();
+/// let at = parse_number("1/4")?;
+/// let profiles = FieldEvaluator::new(&network, &at).unwrap().profiles(&at, 50).unwrap();
+/// // Behind the front the rod moves, at the front with 1; before it, not yet.
+/// let [behind, before] = &profiles[0].stretches[..] else { panic!("two stretches") };
+/// let velocity = Quantity::Velocity as usize;
+/// let (x, fields) = behind.last().unwrap();
+/// assert_eq!((*x, fields[velocity], before[0].1[velocity]), (0.25, 1.0, 0.0));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Profile {
+    /// What the bar is called.
+    pub name: String,
+    /// Its length; for an endless bar, what is looked at of it.
+    pub length: f64,
+    /// Places as distances from the left end, or from the end of an endless bar, ascending; with the
+    /// fields there, by the places of [`Quantity::ALL`](super::Quantity::ALL).
+    pub stretches: Vec<Vec<(f64, [f64; 4])>>,
+}
+
+impl FieldEvaluator {
+    /// The fields along all bars, at about `points` places of each where they are not constant. Endless
+    /// bars are looked at as far as all others reach together, or as waves come until the last time.
+    ///
+    /// # Errors
+    /// [`FieldError`].
+    pub fn profiles(&self, time: &Rational, points: usize) -> Result<Vec<Profile>, FieldError> {
+        if *time < Rational::default() {
+            return Err(FieldError::Negative(time.clone()));
+        }
+        if time > self.last() {
+            return Err(EvaluateError::AfterLast.into());
+        }
+        self.bars.iter().map(|bar| self.profile(bar, time, points)).collect()
+    }
+
+    fn profile(
+        &self,
+        bar: &FieldBar,
+        time: &Rational,
+        points: usize,
+    ) -> Result<Profile, FieldError> {
+        let at = self.waves.scaled(time);
+        let (span, length) = self.span_looked_at(bar, self.last())?;
+        let mut profile =
+            Profile { name: self.name(bar).to_owned(), length, stretches: Vec::new() };
+        if span.is_zero() {
+            return Ok(profile);
+        }
+        // The delay of a place, from the end where x is zero.
+        let mut places = vec![Fraction::zero(), span.clone()];
+        for (way, grows) in [(&bar.right, true), (&bar.left, bar.extent == Extent::ToTheLeft)] {
+            for delay in self.fronts(way.as_ref(), &at, &span)? {
+                places.push(if grows { delay } else { &span - &delay });
+            }
+        }
+        let numbers = self.waves.numbers();
+        let mut failed = None;
+        places.sort_by(|a, b| {
+            numbers.compare(a, b).unwrap_or_else(|error| {
+                failed = Some(error);
+                Ordering::Equal
+            })
+        });
+        if let Some(error) = failed {
+            return Err(error.into());
+        }
+        places.dedup();
+        let whole = self.double_of(&span)?;
+        for pair in places.windows(2) {
+            let part = &pair[1] - &pair[0];
+            let share = self.double_of(&part)? / whole;
+            let count = ((share * points as f64).ceil() as usize).max(2);
+            let place = |i: usize| &pair[0] + &part.scale(&Rational::new(i.into(), count.into()));
+            let nodes: Vec<Node> = (0..=count)
+                .map(|i| {
+                    let from = place(i);
+                    let delays = match bar.extent {
+                        Extent::Finite => [from.clone(), &span - &from],
+                        Extent::ToTheRight => [from, Fraction::zero()],
+                        Extent::ToTheLeft => [Fraction::zero(), from],
+                    };
+                    Node { delays, from_larger: i < count }
+                })
+                .collect();
+            let found = self.at_nodes(bar, &at, &nodes, BITS)?;
+            let values = self.in_units(bar, &found, BITS)?;
+            let mut stretch = Vec::with_capacity(nodes.len());
+            for i in 0..=count {
+                let x = self.double_of(&place(i))? / whole * length;
+                stretch.push((x, values.each_ref().map(|values| values[i].value)));
+            }
+            profile.stretches.push(stretch);
+        }
+        Ok(profile)
+    }
+
+    /// The delays after which something of a wave is seen to arrive, within a bar.
+    fn fronts(
+        &self,
+        way: Option<&Way>,
+        at: &Fraction,
+        span: &Fraction,
+    ) -> Result<Vec<Fraction>, FieldError> {
+        let Some(way) = way else { return Ok(Vec::new()) };
+        let now = at + &way.lead;
+        let breaks = self.waves.breaks(&(&now - span), &now)?;
+        Ok(breaks.into_iter().map(|at| &now - &at).collect())
+    }
+}

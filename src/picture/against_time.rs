@@ -1,0 +1,105 @@
+//! Observables against time.
+
+use super::{PictureError, Prefixed, Sampled};
+use crate::language::unit_of;
+use crate::plot::{Caption, Figure, Panel, Series};
+use crate::scene::Dimension;
+
+/// A quantity with its values on a window of time.
+///
+/// ```
+/// use wavestep::picture::{Course, Sampled};
+/// use wavestep::scene::Dimension;
+///
+/// let values = Sampled { points: vec![(0.0, 1.0), (1.0, 2.0)], jumps: vec![] };
+/// let course = Course { name: "force".into(), dimension: Dimension::FORCE, values };
+/// assert_eq!(course.values.points.len(), 2);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Course {
+    /// What it is called.
+    pub name: String,
+    /// Its dimension; none for plain numbers.
+    pub dimension: Dimension,
+    /// Its values in SI units.
+    pub values: Sampled,
+}
+
+/// A figure of quantities against time, those of one dimension in one panel.
+///
+/// # Errors
+/// [`PictureError::Plot`] where there is nothing finite to draw.
+///
+/// ```
+/// use wavestep::picture::{Course, Sampled, against_time};
+/// use wavestep::plot::{Caption, Chart};
+/// use wavestep::scene::Dimension;
+///
+/// let course = |name: &str, dimension, largest| Course {
+///     name: name.into(),
+///     dimension,
+///     values: Sampled { points: vec![(0.0, 0.0), (2e-3, largest)], jumps: vec![] },
+/// };
+/// let courses =
+///     [course("head", Dimension::FORCE, 4e6), course("hammer", Dimension::VELOCITY, 3.0)];
+/// let figure = against_time("Pile", &courses, true, (0.0, 2e-3), Caption::default()).unwrap();
+/// assert_eq!(figure.panels()[0].axis().label(), "head (MN)");
+/// assert!(figure.svg().contains("time (ms)") && figure.svg().contains("hammer (m/s)"));
+/// ```
+pub fn against_time(
+    title: &str,
+    courses: &[Course],
+    dimensional: bool,
+    (from, to): (f64, f64),
+    caption: Caption,
+) -> Result<Figure, PictureError> {
+    let seconds = match dimensional {
+        true => Prefixed::of("s", to.abs().max(from.abs())),
+        false => Prefixed { unit: String::new(), factor: 1.0 },
+    };
+    let mut dimensions: Vec<Dimension> = Vec::new();
+    for course in courses {
+        if !dimensions.contains(&course.dimension) {
+            dimensions.push(course.dimension);
+        }
+    }
+    let panel = |dimension: &Dimension| {
+        let shown: Vec<&Course> =
+            courses.iter().filter(|course| course.dimension == *dimension).collect();
+        let points = shown.iter().flat_map(|course| &course.values.points);
+        let largest = points.map(|point| point.1.abs()).fold(0.0, f64::max);
+        let unit = Prefixed::of(&unit_of(*dimension), largest);
+        let name = match &shown[..] {
+            [only] => only.name.as_str(),
+            _ => name_of(*dimension, dimensional),
+        };
+        let series = shown.iter().map(|course| {
+            let name = if shown.len() > 1 { course.name.as_str() } else { "" };
+            let Sampled { points, jumps } = &course.values;
+            let points = points.iter().map(|(t, y)| (t * seconds.factor, y * unit.factor));
+            let jumps = jumps
+                .iter()
+                .map(|(t, a, b)| (t * seconds.factor, a * unit.factor, b * unit.factor));
+            Series::new(name, points.collect()).jumping(jumps.collect())
+        });
+        Panel::new(unit.axis(name), series.collect())
+    };
+    let panels = dimensions.iter().map(panel).collect();
+    let figure = Figure::new(title, seconds.axis("time"), panels, caption)?;
+    Ok(figure.window(from * seconds.factor, to * seconds.factor)?)
+}
+
+/// What quantities of one dimension are called together.
+fn name_of(dimension: Dimension, dimensional: bool) -> &'static str {
+    const NAMES: [(Dimension, &str); 7] = [
+        (Dimension::VELOCITY, "velocity"),
+        (Dimension::FORCE, "force"),
+        (Dimension::PRESSURE, "stress"),
+        (Dimension::LENGTH, "displacement"),
+        (Dimension::ENERGY, "energy"),
+        (Dimension::MOMENTUM, "momentum"),
+        (Dimension::NONE, "strain"),
+    ];
+    let name = NAMES.iter().find(|(known, _)| *known == dimension);
+    name.filter(|_| dimensional).map_or("value", |(_, name)| name)
+}
