@@ -22,7 +22,7 @@ pub(super) fn diagram_of_impact(listed: &Listed) -> Result<Box<dyn Chart>, Figur
 /// 6.11.
 pub(super) fn progress(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let network = network("striker-on-long-bar", &[("r", ratio(1, 1))]);
-    let times = [ratio(1, 2), ratio(1, 1), ratio(3, 2), ratio(2, 1), ratio(5, 2)];
+    let times = [ratio(1, 2), ratio(3, 2), ratio(5, 2)];
     let remarks = [
         "Times in L/c, velocities in V, forces in Z V.",
         "The pulse is 2L long; at 2L/c the striker is at rest, and the contact free of force.",

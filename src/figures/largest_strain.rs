@@ -7,7 +7,7 @@
 
 use crate::ball::Ball;
 use crate::enclosure::{ZeroError, enclose_expression, enclose_zero};
-use crate::expression::Expression;
+use crate::expression::{Expression, Fraction};
 use crate::language::{self, Source};
 use crate::solution::Solution;
 use num_traits::One as _;
@@ -34,6 +34,8 @@ const MAX_PERIODS: usize = 60;
 pub struct LargestStrain {
     mu: Symbol,
     strains: Vec<Expression>,
+    /// The force at the ends of periods, over that at the start.
+    forces: Vec<Expression>,
 }
 
 impl LargestStrain {
@@ -58,7 +60,16 @@ impl LargestStrain {
         let pieces = solution.pieces(wave, 0, last).expect("a wave with pieces");
         let two = Rational::from_integer(2.into());
         let strains = pieces.iter().map(|f| f.at_zero(&local).scale(&two)).collect();
-        Some(LargestStrain { mu: Symbol::new("mu").expect("a name"), strains })
+        let mu = Symbol::new("mu").expect("a name");
+        let period = Fraction::symbol(&mu).scale(&two);
+        let at_end = |f: &Expression| f.substitute(&local, &period).expect("a polynomial in s");
+        let ends: Vec<Expression> = pieces.iter().map(at_end).collect();
+        let force = |n: usize| match n {
+            0 => ends[0].clone(),
+            _ => &ends[n] + &ends[n - 1],
+        };
+        let forces = (0..ends.len()).map(force).collect();
+        Some(LargestStrain { mu, strains, forces })
     }
 
     /// `2 f_n(0)`, the strain over `V/c` at the beginning of a period, where the bar has a share μ of the
@@ -68,6 +79,27 @@ impl LargestStrain {
     /// If there is no such period.
     pub fn strain(&self, period: usize, mu: &Rational, bits: u64) -> Ball {
         self.enclose(&self.strains[period], mu, bits)
+    }
+
+    /// Whether the contact certainly pushes at the end of each period before this one. The force falls
+    /// within a period, so that it then pushed all the time, and the front of this period is as in
+    /// [`strain`](Self::strain).
+    ///
+    /// # Panics
+    /// If there is no such period.
+    ///
+    /// ```
+    /// use wavestep::figures::LargestStrain;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let strains = LargestStrain::new(3).unwrap();
+    /// // With equal masses the contact opens in the second period, at (3 + e^(−2)/2) L/c.
+    /// let one = Rational::from_integer(1.into());
+    /// assert!(strains.is_pushed(1, &one) && !strains.is_pushed(2, &one));
+    /// ```
+    pub fn is_pushed(&self, period: usize, mu: &Rational) -> bool {
+        let zero = Ball::from_rational(&Rational::default(), 8);
+        self.forces[..period].iter().all(|force| zero.is_below(&self.enclose(force, mu, 64)))
     }
 
     fn enclose(&self, expression: &Expression, mu: &Rational, bits: u64) -> Ball {

@@ -63,7 +63,8 @@ pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureE
     let ratios = || (1..=4 * LARGEST_RATIO).map(|i| ratio(i, 4));
     let mut series = Vec::new();
     for period in 0..PERIODS {
-        let points = ratios().map(|ratio| {
+        let pushed = ratios().filter(|ratio| strains.is_pushed(period, &ratio.recip()));
+        let points = pushed.map(|ratio| {
             (ratio_as_double(&ratio), double(&strains.strain(period, &ratio.recip(), 60)))
         });
         series.push(Series::new(&format!("n = {period}"), points.collect()));
