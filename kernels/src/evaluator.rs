@@ -137,7 +137,7 @@ impl<'a> Evaluator<'a> {
     ) -> Vec<usize> {
         let table = self.table;
         self.in_parts(out, |first, out| {
-            let points = Grid { from, step, first };
+            let points = Grid::new(from, step, first, out.len());
             dispatch(self.level, Many { table, points, evaluate, sorted: true, out })
         })
     }

@@ -20,6 +20,7 @@ mod level;
 mod lookup;
 pub mod march;
 pub mod rounding;
+mod rows;
 mod table;
 mod vector;
 

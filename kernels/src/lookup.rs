@@ -27,27 +27,15 @@ impl Lookup {
     pub(crate) fn new(starts: impl Iterator<Item = f64>, end: f64) -> Self {
         let mut starts: Vec<f64> = starts.collect();
         let pieces = starts.len();
-        let count = (2 * pieces).next_power_of_two();
-        let inverse_width = Some(count as f64 / (end - starts[0])).filter(|x| x.is_finite());
-        let inverse_width = inverse_width.unwrap_or(0.0);
-        // The number of a bucket grows with t, roundings included: subtraction and multiplication by a
-        // positive number are monotone when rounded, and so is truncation. So a piece that starts in
-        // an earlier bucket than that of t starts before t, and one that starts in a later bucket
-        // after t.
-        let bucket = |t: f64| (((t - starts[0]) * inverse_width) as usize).min(count - 1);
-        let mut last_before = vec![0.0; count + 1];
-        for (piece, &start) in starts.iter().enumerate() {
-            last_before[bucket(start) + 1] = piece as f64;
-        }
-        for b in 1..=count {
-            last_before[b] = last_before[b].max(last_before[b - 1]);
-        }
-        let spread = last_before.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        let widths = usize::BITS - (spread as usize).leading_zeros();
-        last_before.pop();
+        let all =
+            [2, 4, 8].map(|more| Buckets::new(&starts, end, (more * pieces).next_power_of_two()));
+        // The fewest buckets of those that leave the shortest search.
+        let [first, second, third] = all;
+        let shorter = |a: Buckets, b: Buckets| if b.widths < a.widths { b } else { a };
+        let Buckets { buckets, inverse_width, widths } = shorter(shorter(first, second), third);
         starts.push(end.next_up());
         starts.resize(pieces + (1 << widths), f64::INFINITY);
-        Self { starts, buckets: last_before, inverse_width, pieces, widths }
+        Self { starts, buckets, inverse_width, pieces, widths }
     }
 
     /// The starts, then the double after the end, then infinities.
@@ -86,5 +74,36 @@ impl Lookup {
             piece = simd.select(simd.at_least(times, start), further, piece);
         }
         piece
+    }
+}
+
+/// Buckets over the window, of which [`Lookup`] takes the best.
+struct Buckets {
+    buckets: Vec<f64>,
+    inverse_width: f64,
+    widths: u32,
+}
+
+impl Buckets {
+    /// `count` buckets over ascending starts up to an end. O(count).
+    fn new(starts: &[f64], end: f64, count: usize) -> Self {
+        let inverse_width = Some(count as f64 / (end - starts[0])).filter(|x| x.is_finite());
+        let inverse_width = inverse_width.unwrap_or(0.0);
+        // The number of a bucket grows with t, roundings included: subtraction and multiplication by a
+        // positive number are monotone when rounded, and so is truncation. So a piece that starts in
+        // an earlier bucket than that of t starts before t, and one that starts in a later bucket
+        // after t.
+        let bucket = |t: f64| (((t - starts[0]) * inverse_width) as usize).min(count - 1);
+        let mut last_before = vec![0.0; count + 1];
+        for (piece, &start) in starts.iter().enumerate() {
+            last_before[bucket(start) + 1] = piece as f64;
+        }
+        for b in 1..=count {
+            last_before[b] = last_before[b].max(last_before[b - 1]);
+        }
+        let spread = last_before.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        let widths = usize::BITS - (spread as usize).leading_zeros();
+        last_before.pop();
+        Self { buckets: last_before, inverse_width, widths }
     }
 }

@@ -6,6 +6,7 @@
 use crate::bounds::Magnitudes;
 use crate::double_double::two_sum;
 use crate::lookup::Lookup;
+use crate::rows::AlignedRows;
 use std::fmt;
 
 /// The highest degree of a piece.
@@ -156,10 +157,10 @@ impl std::error::Error for TableError {}
 #[derive(Clone, Debug)]
 pub struct Table {
     pub(crate) lookup: Lookup,
-    /// Rows of [`Self::stride`] doubles: scale, `−centre · scale`, bound of pairs, `c_0 … c_n`.
-    pub(crate) rows: Vec<f64>,
+    /// Rows: scale, `−centre · scale`, bound of pairs, `c_0 … c_n`.
+    pub(crate) rows: AlignedRows,
     /// Rows of [`Self::split`] low parts.
-    pub(crate) low: Vec<f64>,
+    pub(crate) low: AlignedRows,
     pub(crate) degree: usize,
     /// Coefficients below this one are evaluated in pairs of doubles where results are certified.
     pub(crate) split: usize,
@@ -259,8 +260,8 @@ impl Table {
         }
         let length = pieces.iter().map(|piece| piece.coefficients.len()).max().unwrap_or(0).max(1);
         let lookup = Lookup::new(pieces.iter().map(|piece| piece.start), end);
-        let stride = ROW_HEAD + length;
-        if lookup.entries().max(pieces.len() * stride) > MAX_ENTRIES {
+        let entries = pieces.len() * (ROW_HEAD + length).next_multiple_of(8);
+        if lookup.entries().max(entries) > MAX_ENTRIES {
             return Err(TableError::Size);
         }
         let mut padded = Vec::with_capacity(pieces.len() * length);
@@ -279,8 +280,8 @@ impl Table {
         let split = (0..pieces.len()).map(needed).max().unwrap_or(0);
         let mut table = Self {
             lookup,
-            rows: Vec::with_capacity(pieces.len() * stride),
-            low: Vec::with_capacity(pieces.len() * split),
+            rows: AlignedRows::new(pieces.len(), ROW_HEAD + length),
+            low: AlignedRows::new(pieces.len(), split),
             degree: length - 1,
             split,
             end,
@@ -292,17 +293,16 @@ impl Table {
             let pairs = magnitudes.of_pairs(split, piece.error);
             table.bound = table.bound.max(magnitudes.of_doubles(piece.error));
             table.certified_bound = table.certified_bound.max(pairs);
-            table.rows.extend([piece.scale, -(piece.centre * piece.scale), pairs]);
-            table.rows.extend_from_slice(&padded[i * length..][..length]);
-            table.low.extend_from_slice(&piece.low);
-            table.low.resize((i + 1) * split, 0.0);
+            let head = [piece.scale, -(piece.centre * piece.scale), pairs];
+            table.rows.push(head.into_iter().chain(padded[i * length..][..length].iter().copied()));
+            table.low.push(piece.low.iter().copied());
         }
         Ok(table)
     }
 
     /// The number of pieces, at least 1.
     pub fn pieces(&self) -> usize {
-        self.rows.len() / self.stride()
+        self.rows.values().len() / self.rows.stride()
     }
 
     /// The highest degree of a piece.
@@ -345,20 +345,5 @@ impl Table {
     /// Evaluation on one thread with the widest instructions of this machine.
     pub fn evaluator(&self) -> crate::Evaluator<'_> {
         crate::Evaluator::new(self)
-    }
-
-    /// Doubles a row.
-    pub(crate) fn stride(&self) -> usize {
-        ROW_HEAD + self.degree + 1
-    }
-
-    /// One row.
-    pub(crate) fn row(&self, piece: usize) -> &[f64] {
-        &self.rows[piece * self.stride()..][..self.stride()]
-    }
-
-    /// The low parts of one row.
-    pub(crate) fn low_row(&self, piece: usize) -> &[f64] {
-        &self.low[piece * self.split..][..self.split]
     }
 }

@@ -1,11 +1,14 @@
 //! A window of time cut into cells on which an observable is a short Taylor polynomial.
 //!
 //! A stretch between arrivals is halved until a polynomial of the degree asked for follows the
-//! observable on each part. Cells begin and end at doubles. Their middles are doubles and their scales
+//! observable on each part. Where a march knows the pieces of a stretch, and polynomials are meant for
+//! doubles, cells are instead as wide as such polynomials can be, one after the other: see `fitted_cells`.
+//! Cells begin and end at doubles. Their middles are doubles and their scales
 //! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
 
 use crate::ball::{Ball, Binary, Magnitude};
 use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::fitted_cells;
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{MAX_PIECES, Signal, Stretch};
 use crate::evaluate::taylor::Taylor;
@@ -222,8 +225,18 @@ impl<'a> Window<'a> {
         let mut cells = Vec::new();
         // Stretches are much alike: each is first cut as often as its predecessor at least was.
         let mut depth = 0;
+        let mut width = None;
         for stretch in 0..self.stretches.len() {
             let Some(doubles) = self.doubles(stretch) else { continue };
+            if let Some(fitted) =
+                fitted_cells::fitted(self.marched.as_ref(), doubles, fit, &mut width)
+            {
+                cells.extend(fitted.into_iter().map(|cell| Cell { stretch, ..cell }));
+                if cells.len() > MAX_CELLS {
+                    return Err(EvaluateError::TooManyCells { limit: MAX_CELLS });
+                }
+                continue;
+            }
             let mut least = MAX_DEPTH;
             let spans = match &self.marched {
                 Some(marched) if marched.serves(fit.error) => marched.spans(doubles),

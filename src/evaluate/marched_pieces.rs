@@ -14,7 +14,7 @@ use crate::evaluate::taylor::Taylor;
 use crate::expression::{Field as _, Transform};
 use num_traits::{Signed as _, ToPrimitive as _};
 use std::cell::OnceCell;
-use wavestep_kernels::fixed::{self, DelayEquation, March, MarchOptions};
+use wavestep_kernels::fixed::{self, DelayEquation, March, MarchOptions, Spans};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The bits below the point of the march.
@@ -163,6 +163,49 @@ impl MarchedPieces {
         starts.iter().copied().zip(ends).collect()
     }
 
+    /// All pieces of the period that a range of doubles lies in, summed over the taps, to be followed by
+    /// polynomials of a degree. None where more than taps is added up, where pieces of different taps
+    /// do not coincide, where the range lies in several periods, and where numbers are out of range.
+    pub(crate) fn of_period(&self, (first, last): (f64, f64), degree: usize) -> Option<Spans> {
+        let march = self.march()?;
+        let period = &self.period / &self.slowness;
+        let number = (rational(first) / &period).floor();
+        if !self.extras.is_empty() || (rational(last) / &period).floor() != number {
+            return None;
+        }
+        let mut rows = vec![Vec::new(); march.pieces_per_period() as usize];
+        let mut radius = 0.0;
+        for tap in &self.taps {
+            let periods = &tap.delay / &self.period;
+            if tap.since != tap.delay || !periods.is_integer() {
+                return None;
+            }
+            let seen = (&number - periods).to_integer();
+            if seen.is_negative() {
+                continue;
+            }
+            let seen = seen.to_u32()?;
+            let weight = &tap.weight * &self.unit;
+            let size = Magnitude::from_rational(&weight);
+            let bound = Magnitude::from_double(march.bound_of(seen)?);
+            radius += size.multiply(&bound).to_double();
+            for (piece, row) in (0..).zip(&mut rows) {
+                let coefficients = march.piece(seen, piece)?;
+                row.resize(row.len().max(coefficients.len()), 0);
+                for (sum, coefficient) in row.iter_mut().zip(coefficients) {
+                    *sum = i128::checked_add(*sum, weighted(*coefficient, &weight)?)?;
+                }
+            }
+        }
+        // Each product with a weight is rounded by a unit at most, and sums of doubles by much less than is
+        // added.
+        let roundings = rows.iter().map(Vec::len).max()? * self.taps.len();
+        let radius =
+            (radius * 2_f64.powi(FRACTION_BITS as i32) * 1.000_001) as u128 + roundings as u128 + 1;
+        let pieces = Rational::from_integer(march.pieces_per_period().into());
+        Spans::new(&(number * &period), &(period / pieces), rows, radius, degree)
+    }
+
     /// The polynomial in `(t − middle)/half`, on a cell that lies in one span.
     pub(crate) fn taylor(
         &self,
@@ -230,4 +273,12 @@ impl MarchedPieces {
         }
         Ok(sum)
     }
+}
+
+/// `value · weight`, rounded downwards; none where it leaves the range.
+fn weighted(value: i128, weight: &Rational) -> Option<i128> {
+    if weight.is_integer() && weight.numer().abs() == 1.into() {
+        return Some(if weight.is_negative() { -value } else { value });
+    }
+    (weight * Rational::from_integer(value.into())).floor().to_integer().to_i128()
 }

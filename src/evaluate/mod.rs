@@ -10,6 +10,7 @@ mod contribution;
 mod energy;
 mod evaluator;
 mod find;
+mod fitted_cells;
 mod marched_pieces;
 mod method;
 mod modular;

@@ -82,6 +82,7 @@ mod certificate;
 mod certified;
 mod equation;
 mod error;
+mod interpolation;
 mod march;
 mod multiplier;
 mod part;
@@ -90,6 +91,7 @@ mod product;
 #[cfg(test)]
 mod samples;
 mod scheme;
+mod spans;
 mod step;
 mod value;
 
@@ -100,4 +102,5 @@ pub use march::{FRACTION_BITS, March};
 pub use part::Part;
 pub use position::{Position, Reduction, Side};
 pub use scheme::MarchOptions;
+pub use spans::{Interpolant, Spans};
 pub use value::{FixedValue, round_to_double};

@@ -35,35 +35,50 @@ impl March {
     /// The piece q of the period n at `a + bu`, for numbers below 1 in size; none if there is no such
     /// piece, or a number leaves the range.
     ///
-    /// The error holds where `|a + bu| ≤ 1`. With `x = a + bu`, stage s of the shift has turned the
-    /// polynomial into `Σ_{i<s} c_i (x−a)^i + (x−a)^s q_s(x)`. A product there is off by less than a
-    /// unit, and what it is off by is multiplied with `(x−a)^s x^j`, which is at most 1: there are
-    /// `M(M−1)/2` of them. Scaling by `b^m` takes m products, together as many.
+    /// The error holds where `|a + bu| ≤ 1`; it is that of the shift, less than a unit for each pair of
+    /// terms.
     ///
     /// # Cost
     /// A product of 128 bits for each pair of terms.
     #[must_use]
     pub fn part(&self, period: u32, piece: u32, a: &BigRational, b: &BigRational) -> Option<Part> {
-        let mut coefficients = self.piece(period, piece)?.to_vec();
-        let (a, b) = (Multiplier::near(a)?, Multiplier::near(b)?);
+        let coefficients = self.piece(period, piece)?.to_vec();
         let terms = coefficients.len();
-        for stage in 0..terms {
-            for m in (stage..terms.saturating_sub(1)).rev() {
-                coefficients[m] = coefficients[m].checked_add(a.times(coefficients[m + 1]))?;
-                // Products are right up to this size.
-                if coefficients[m].unsigned_abs() >> 126 != 0 {
-                    return None;
-                }
-            }
-        }
-        for (m, coefficient) in coefficients.iter_mut().enumerate() {
-            for _ in 0..m {
-                *coefficient = b.times(*coefficient);
-            }
-        }
+        let coefficients = shifted(coefficients, Multiplier::near(a)?, Multiplier::near(b)?)?;
         let radius = self.bound_in_units(period)? + (terms * terms) as u128;
         Some(Part { coefficients, radius })
     }
+}
+
+/// The coefficients of `p(a + bu)`, off by less than a unit for each pair of terms where `|a + bu| ≤ 1`;
+/// none if a number leaves the range.
+///
+/// With `x = a + bu`, stage s of the shift has turned the polynomial into
+/// `Σ_{i<s} c_i (x−a)^i + (x−a)^s q_s(x)`. A product there is off by less than a unit, and what it is off
+/// by is multiplied with `(x−a)^s x^j`, which is at most 1: there are `M(M−1)/2` of them. Scaling by
+/// `b^m` takes m products, together as many. Where a is 0, nothing is shifted.
+pub(super) fn shifted(
+    mut coefficients: Vec<i128>,
+    a: Multiplier,
+    b: Multiplier,
+) -> Option<Vec<i128>> {
+    let terms = coefficients.len();
+    let stages = if a.size.0 == 0 { 0 } else { terms };
+    for stage in 0..stages {
+        for m in (stage..terms - 1).rev() {
+            coefficients[m] = coefficients[m].checked_add(a.times(coefficients[m + 1]))?;
+            // Products are right up to this size.
+            if coefficients[m].unsigned_abs() >> 126 != 0 {
+                return None;
+            }
+        }
+    }
+    for (m, coefficient) in coefficients.iter_mut().enumerate() {
+        for _ in 0..m {
+            *coefficient = b.times(*coefficient);
+        }
+    }
+    Some(coefficients)
 }
 
 #[cfg(test)]

@@ -1,12 +1,14 @@
 //! The evaluation of many points, block by block.
 //!
 //! A block is several vectors, so that their dependent operations overlap. Where all its points lie
-//! in one piece, that piece's coefficients are broadcast; where they lie in a few neighbouring pieces,
-//! each of these is evaluated and the right lanes are taken; else every lane gathers its own
-//! coefficients. All three perform the same operations on a point and give the same double.
+//! in one piece, that piece's coefficients are broadcast; where they lie in two neighbours, each lane
+//! takes the coefficients of one of them; where they lie in a few neighbouring pieces, each of these is
+//! evaluated and the right lanes are taken; else every lane gathers its own coefficients. All of these
+//! perform the same operations on a point and give the same double. On ascending grids the blocks that
+//! lie in one piece are counted beforehand, and are not looked at one by one.
 
 use super::Simd;
-use super::horner::{Broadcast, Gathered, Rows};
+use super::horner::{Blended, Broadcast, Gathered, Rows, Transposed};
 use super::points::Points;
 use crate::table::Table;
 
@@ -22,9 +24,11 @@ pub(crate) trait Evaluate: Copy + Sync {
     const MANY_IN_FLIGHT: usize;
     /// Vectors a block with 16 vector registers.
     const FEW_IN_FLIGHT: usize;
+    /// Whether low parts are read.
+    const PAIRS: bool;
 
     /// Values of the polynomials of the given rows, and one bit for every lane that is in doubt.
-    fn evaluate<S: Simd, R: Rows<S>, const N: usize>(
+    fn evaluate<S: Simd, R: Rows<S, N>, const N: usize>(
         self,
         simd: S,
         table: &Table,
@@ -44,15 +48,43 @@ pub(super) struct Job<'a, S, P, E> {
 }
 
 impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
-    /// Every lane with its own piece; NaN, without doubt, outside the table.
+    /// Every lane with its own piece; NaN, without doubt, outside the table. The pieces of all vectors
+    /// are looked up first, so that one search need not wait for another.
     #[inline(always)]
-    fn gathered(&self, times: S::Values) -> (S::Values, u32) {
-        let (simd, lookup) = (self.simd, &self.table.lookup);
-        let within = lookup.within(simd, times);
-        let inner = simd.select(within, times, simd.splat(self.table.start()));
-        let rows = Gathered::new(simd, self.table, lookup.pieces(simd, inner));
-        let ([value], [doubt]) = self.evaluate.evaluate(simd, self.table, rows, &[inner]);
-        (simd.select(within, value, simd.splat(f64::NAN)), doubt & simd.bits(within))
+    fn gathered<const N: usize>(
+        &self,
+        times: &[S::Values; N],
+        room: &mut [S::Values],
+    ) -> ([S::Values; N], [u32; N]) {
+        let (simd, table) = (self.simd, self.table);
+        let (mut inner, mut pieces) = (*times, *times);
+        for j in 0..N {
+            let within = table.lookup.within(simd, times[j]);
+            inner[j] = simd.select(within, times[j], simd.splat(table.start()));
+            pieces[j] = table.lookup.pieces(simd, inner[j]);
+        }
+        let (mut values, mut doubts) = (*times, [0; N]);
+        for j in 0..N {
+            let inner = [inner[j]];
+            let ([value], [doubt]) = if S::LANES <= 2 {
+                let rows = Gathered::new(simd, table, pieces[j]);
+                self.evaluate.evaluate(simd, table, rows, &inner)
+            } else {
+                let rows = Transposed::new(simd, table, pieces[j], E::PAIRS, room);
+                self.evaluate.evaluate(simd, table, rows, &inner)
+            };
+            let within = table.lookup.within(simd, times[j]);
+            values[j] = simd.select(within, value, simd.splat(f64::NAN));
+            doubts[j] = doubt & simd.bits(within);
+        }
+        (values, doubts)
+    }
+
+    /// Room for the columns of a table.
+    #[inline(always)]
+    pub(super) fn room(&self) -> Vec<S::Values> {
+        let columns = self.table.rows.stride() + self.table.low.stride();
+        if S::LANES <= 2 { Vec::new() } else { vec![self.simd.splat(0.0); columns] }
     }
 
     /// Whether all points of a block are at least `lower` and less than `upper`.
@@ -88,28 +120,62 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         (few && self.inside(times, lookup.span(first, last))).then_some((first, last))
     }
 
+    /// How many whole blocks from index `at` on, `most` at most, certainly lie in a piece.
+    ///
+    /// The number is guessed by a division. Points ascend, so all of them lie in the piece if the
+    /// first and the last vector do, and this is compared. A guess that is too large by a little is
+    /// lowered by one block; one that is too small costs time alone.
+    #[inline(always)]
+    fn blocks_within<const N: usize>(&self, at: usize, piece: usize, most: usize) -> usize {
+        let (lower, upper) = self.table.lookup.span(piece, piece);
+        let size = N * S::LANES;
+        let guess = (self.points.guess_below(at, upper) / size).min(most);
+        for blocks in [guess, guess.saturating_sub(1)] {
+            if blocks == 0 {
+                break;
+            }
+            let [first] = self.points.times::<S, 1>(self.simd, at);
+            let [last] = self.points.times::<S, 1>(self.simd, at + blocks * size - S::LANES);
+            if self.inside(&[first, last], (lower, upper)) {
+                return blocks;
+            }
+        }
+        0
+    }
+
     /// One block. `piece` is where the block before ended.
     #[inline(always)]
-    fn block<const N: usize>(&self, at: usize, piece: &mut usize) -> ([S::Values; N], [u32; N]) {
+    fn block<const N: usize>(
+        &self,
+        at: usize,
+        piece: &mut usize,
+        room: &mut [S::Values],
+    ) -> ([S::Values; N], [u32; N]) {
         let (simd, table) = (self.simd, self.table);
-        let mut times = [simd.splat(0.0); N];
-        for (j, t) in times.iter_mut().enumerate() {
-            *t = self.points.times(simd, at + j * S::LANES);
-        }
+        let times: [S::Values; N] = self.points.times(simd, at);
         if self.sorted {
             if self.inside(&times, table.lookup.span(*piece, *piece)) {
                 return self.evaluate.evaluate(simd, table, Broadcast::new(table, *piece), &times);
+            }
+            let first = *piece;
+            if first + 1 < table.pieces()
+                && self.inside(&times, table.lookup.span(first, first + 1))
+            {
+                *piece += 1;
+                let start = simd.splat(table.lookup.span(first + 1, first + 1).0);
+                let mut later = [simd.at_least(times[0], start); N];
+                for j in 1..N {
+                    later[j] = simd.at_least(times[j], start);
+                }
+                let rows = Blended::new(table, first, later);
+                return self.evaluate.evaluate(simd, table, rows, &times);
             }
             if let Some((first, last)) = self.neighbours(&times) {
                 *piece = last;
                 return self.merged(&times, first, last);
             }
         }
-        let (mut values, mut doubts) = (times, [0; N]);
-        for (value, doubt) in values.iter_mut().zip(&mut doubts) {
-            (*value, *doubt) = self.gathered(*value);
-        }
-        (values, doubts)
+        self.gathered(&times, room)
     }
 
     /// A block whose points lie in a few neighbouring pieces.
@@ -138,14 +204,38 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
 
     /// Fewer points than a block, from index `at` on.
     #[inline(always)]
-    pub(super) fn partial(&self, at: usize, out: &mut [f64], undecided: &mut Vec<usize>) {
+    pub(super) fn partial(
+        &self,
+        at: usize,
+        out: &mut [f64],
+        room: &mut [S::Values],
+        undecided: &mut Vec<usize>,
+    ) {
         for (i, chunk) in out.chunks_mut(S::LANES).enumerate() {
             let at = at + i * S::LANES;
-            let (values, doubt) = self.gathered(self.points.times_padded(self.simd, at));
+            let times = [self.points.times_padded(self.simd, at)];
+            let ([values], [doubt]) = self.gathered(&times, room);
             let mut lanes = [0.0; 8];
             self.simd.store(values, &mut lanes);
             chunk.copy_from_slice(&lanes[..chunk.len()]);
             collect(at, doubt & ((1 << chunk.len()) - 1), undecided);
+        }
+    }
+
+    /// Writes the values of a block from index `at` on, and notes which are in doubt.
+    #[inline(always)]
+    fn write<const N: usize>(
+        &self,
+        (at, block): (usize, &mut [f64]),
+        streamed: bool,
+        (values, doubts): ([S::Values; N], [u32; N]),
+        undecided: &mut Vec<usize>,
+    ) {
+        for (chunk, &value) in block.chunks_exact_mut(S::LANES).zip(&values) {
+            if streamed { self.simd.stream(value, chunk) } else { self.simd.store(value, chunk) }
+        }
+        for (j, &doubt) in doubts.iter().enumerate() {
+            collect(at + j * S::LANES, doubt, undecided);
         }
     }
 
@@ -158,20 +248,29 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         let misaligned = out.as_ptr().addr() % vector;
         let head = if streamed && misaligned != 0 { (vector - misaligned) / 8 } else { 0 };
         let (head, body) = out.split_at_mut(head);
-        self.partial(0, head, undecided);
+        let mut room = self.room();
+        self.partial(0, head, &mut room, undecided);
         let (mut at, mut piece) = (head.len(), 0);
-        let mut blocks = body.chunks_exact_mut(N * S::LANES);
-        for block in &mut blocks {
-            let (values, doubts) = self.block::<N>(at, &mut piece);
-            for (chunk, &value) in block.chunks_exact_mut(S::LANES).zip(&values) {
-                if streamed { simd.stream(value, chunk) } else { simd.store(value, chunk) }
+        let size = N * S::LANES;
+        let mut blocks = body.chunks_exact_mut(size);
+        while blocks.len() > 0 {
+            if self.sorted && self.points.ascend() {
+                let rows = Broadcast::new(self.table, piece);
+                let within = self.blocks_within::<N>(at, piece, blocks.len());
+                for block in blocks.by_ref().take(within) {
+                    let times: [S::Values; N] = self.points.times(simd, at);
+                    let values = self.evaluate.evaluate(simd, self.table, rows, &times);
+                    self.write((at, block), streamed, values, undecided);
+                    at += size;
+                }
             }
-            for (j, &doubt) in doubts.iter().enumerate() {
-                collect(at + j * S::LANES, doubt, undecided);
+            if let Some(block) = blocks.next() {
+                let values = self.block::<N>(at, &mut piece, &mut room);
+                self.write((at, block), streamed, values, undecided);
+                at += size;
             }
-            at += N * S::LANES;
         }
-        self.partial(at, blocks.into_remainder(), undecided);
+        self.partial(at, blocks.into_remainder(), &mut room, undecided);
         if streamed {
             simd.fence();
         }

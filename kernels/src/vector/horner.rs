@@ -4,14 +4,15 @@
 
 use super::Simd;
 use super::blocks::Evaluate;
+use crate::rows::AlignedRows;
 use crate::table::{ROW_BOUND, ROW_HEAD, ROW_OFFSET, ROW_SCALE, Table};
 
-/// The rows of the pieces that the lanes of a vector are in.
-pub(crate) trait Rows<S: Simd>: Copy {
+/// The rows of the pieces that the lanes of some vectors are in.
+pub(crate) trait Rows<S: Simd, const N: usize>: Copy {
     /// An entry of the rows.
-    fn entry(self, simd: S, column: usize) -> S::Values;
+    fn entry(self, simd: S, column: usize) -> [S::Values; N];
     /// The low part of a coefficient below the split.
-    fn low(self, simd: S, k: usize) -> S::Values;
+    fn low(self, simd: S, k: usize) -> [S::Values; N];
 }
 
 /// One piece for all lanes.
@@ -24,23 +25,63 @@ pub(super) struct Broadcast<'a> {
 impl<'a> Broadcast<'a> {
     #[inline(always)]
     pub(super) fn new(table: &'a Table, piece: usize) -> Self {
-        Self { row: table.row(piece), low: table.low_row(piece) }
+        Self { row: table.rows.row(piece), low: table.low.row(piece) }
     }
 }
 
-impl<S: Simd> Rows<S> for Broadcast<'_> {
+impl<S: Simd, const N: usize> Rows<S, N> for Broadcast<'_> {
     #[inline(always)]
-    fn entry(self, simd: S, column: usize) -> S::Values {
-        simd.splat(self.row[column])
+    fn entry(self, simd: S, column: usize) -> [S::Values; N] {
+        [simd.splat(self.row[column]); N]
     }
 
     #[inline(always)]
-    fn low(self, simd: S, k: usize) -> S::Values {
-        simd.splat(self.low[k])
+    fn low(self, simd: S, k: usize) -> [S::Values; N] {
+        [simd.splat(self.low[k]); N]
     }
 }
 
-/// A piece for every lane.
+/// One of two neighbouring pieces for every lane.
+#[derive(Clone, Copy)]
+pub(super) struct Blended<'a, S: Simd, const N: usize> {
+    first: Broadcast<'a>,
+    second: Broadcast<'a>,
+    /// The lanes in the second piece.
+    later: [S::Mask; N],
+}
+
+impl<'a, S: Simd, const N: usize> Blended<'a, S, N> {
+    /// Of the piece `first`, and the one after it for the lanes that are `later`.
+    #[inline(always)]
+    pub(super) fn new(table: &'a Table, first: usize, later: [S::Mask; N]) -> Self {
+        let (first, second) = (Broadcast::new(table, first), Broadcast::new(table, first + 1));
+        Self { first, second, later }
+    }
+
+    #[inline(always)]
+    fn of(self, simd: S, [first, second]: [f64; 2]) -> [S::Values; N] {
+        let (first, second) = (simd.splat(first), simd.splat(second));
+        let mut entries = [first; N];
+        for (entry, &later) in entries.iter_mut().zip(&self.later) {
+            *entry = simd.select(later, second, first);
+        }
+        entries
+    }
+}
+
+impl<S: Simd, const N: usize> Rows<S, N> for Blended<'_, S, N> {
+    #[inline(always)]
+    fn entry(self, simd: S, column: usize) -> [S::Values; N] {
+        self.of(simd, [self.first.row[column], self.second.row[column]])
+    }
+
+    #[inline(always)]
+    fn low(self, simd: S, k: usize) -> [S::Values; N] {
+        self.of(simd, [self.first.low[k], self.second.low[k]])
+    }
+}
+
+/// A piece for every lane, entry by entry.
 #[derive(Clone, Copy)]
 pub(super) struct Gathered<'a, S: Simd> {
     rows: &'a [f64],
@@ -49,36 +90,82 @@ pub(super) struct Gathered<'a, S: Simd> {
     low_offsets: S::Offsets,
 }
 
+/// The first entries of the rows of pieces. A column is a slice that begins with its first entry, so the
+/// limit leaves room for all further columns.
+#[inline(always)]
+fn offsets<S: Simd>(simd: S, pieces: S::Values, rows: &AlignedRows) -> S::Offsets {
+    let first = simd.multiply(pieces, simd.splat(rows.stride() as f64));
+    simd.offsets(first, (rows.values().len() + 1).saturating_sub(rows.stride()).max(1))
+}
+
 impl<'a, S: Simd> Gathered<'a, S> {
     /// Of the numbers of pieces.
     #[inline(always)]
     pub(super) fn new(simd: S, table: &'a Table, pieces: S::Values) -> Self {
         Self {
-            rows: &table.rows,
-            low: &table.low,
-            row_offsets: Self::offsets(simd, pieces, table.stride(), table.rows.len()),
-            low_offsets: Self::offsets(simd, pieces, table.split, table.low.len()),
+            rows: table.rows.values(),
+            low: table.low.values(),
+            row_offsets: offsets(simd, pieces, &table.rows),
+            low_offsets: offsets(simd, pieces, &table.low),
         }
-    }
-
-    /// The first entries of rows. A column is a slice that begins with its first entry, so the limit
-    /// leaves room for all further columns.
-    #[inline(always)]
-    fn offsets(simd: S, pieces: S::Values, width: usize, entries: usize) -> S::Offsets {
-        let first = simd.multiply(pieces, simd.splat(width as f64));
-        simd.offsets(first, (entries + 1).saturating_sub(width).max(1))
     }
 }
 
-impl<S: Simd> Rows<S> for Gathered<'_, S> {
+impl<S: Simd> Rows<S, 1> for Gathered<'_, S> {
     #[inline(always)]
-    fn entry(self, simd: S, column: usize) -> S::Values {
-        simd.gather(&self.rows[column..], self.row_offsets)
+    fn entry(self, simd: S, column: usize) -> [S::Values; 1] {
+        [simd.gather(&self.rows[column..], self.row_offsets)]
     }
 
     #[inline(always)]
-    fn low(self, simd: S, k: usize) -> S::Values {
-        simd.gather(&self.low[k..], self.low_offsets)
+    fn low(self, simd: S, k: usize) -> [S::Values; 1] {
+        [simd.gather(&self.low[k..], self.low_offsets)]
+    }
+}
+
+/// A piece for every lane: whole rows are read, and turned into columns.
+#[derive(Clone, Copy)]
+pub(super) struct Transposed<'a, S: Simd> {
+    rows: &'a [S::Values],
+    low: &'a [S::Values],
+}
+
+impl<'a, S: Simd> Transposed<'a, S> {
+    /// Of the numbers of pieces, with or without the low parts, in room for a row of each.
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        table: &Table,
+        pieces: S::Values,
+        with_low: bool,
+        room: &'a mut [S::Values],
+    ) -> Self {
+        let (rows, low) = room.split_at_mut(table.rows.stride());
+        Self::fill(simd, &table.rows, pieces, rows);
+        if with_low && table.split > 0 {
+            Self::fill(simd, &table.low, pieces, low);
+        }
+        Self { rows, low }
+    }
+
+    #[inline(always)]
+    fn fill(simd: S, rows: &AlignedRows, pieces: S::Values, columns: &mut [S::Values]) {
+        let offsets = offsets(simd, pieces, rows);
+        for (i, columns) in columns.chunks_exact_mut(S::LANES).enumerate() {
+            simd.transpose(&rows.values()[i * S::LANES..], offsets, columns);
+        }
+    }
+}
+
+impl<S: Simd> Rows<S, 1> for Transposed<'_, S> {
+    #[inline(always)]
+    fn entry(self, _: S, column: usize) -> [S::Values; 1] {
+        [self.rows[column]]
+    }
+
+    #[inline(always)]
+    fn low(self, _: S, k: usize) -> [S::Values; 1] {
+        [self.low[k]]
     }
 }
 
@@ -88,10 +175,11 @@ pub(crate) struct Plain;
 
 impl Evaluate for Plain {
     const MANY_IN_FLIGHT: usize = 8;
-    const FEW_IN_FLIGHT: usize = 4;
+    const FEW_IN_FLIGHT: usize = 6;
+    const PAIRS: bool = false;
 
     #[inline(always)]
-    fn evaluate<S: Simd, R: Rows<S>, const N: usize>(
+    fn evaluate<S: Simd, R: Rows<S, N>, const N: usize>(
         self,
         simd: S,
         table: &Table,
@@ -100,14 +188,14 @@ impl Evaluate for Plain {
     ) -> ([S::Values; N], [u32; N]) {
         let (scale, offset) = (rows.entry(simd, ROW_SCALE), rows.entry(simd, ROW_OFFSET));
         let mut arguments = *times;
-        for u in &mut arguments {
-            *u = simd.multiply_add(*u, scale, offset);
+        for j in 0..N {
+            arguments[j] = simd.multiply_add(times[j], scale[j], offset[j]);
         }
-        let mut values = [rows.entry(simd, ROW_HEAD + table.degree); N];
+        let mut values = rows.entry(simd, ROW_HEAD + table.degree);
         for k in (0..table.degree).rev() {
             let coefficient = rows.entry(simd, ROW_HEAD + k);
-            for (value, &u) in values.iter_mut().zip(&arguments) {
-                *value = simd.multiply_add(*value, u, coefficient);
+            for j in 0..N {
+                values[j] = simd.multiply_add(values[j], arguments[j], coefficient[j]);
             }
         }
         (values, [0; N])
@@ -119,19 +207,20 @@ impl Evaluate for Plain {
 pub(crate) struct Certified;
 
 impl Certified {
-    /// `p'(û)` in doubles, for the part of the argument that `û` leaves.
+    /// `p'(û)` in doubles, for the part of the argument that `û` leaves, of one of the vectors.
     #[inline(always)]
-    fn derivative<S: Simd, R: Rows<S>>(
+    fn derivative<S: Simd, R: Rows<S, N>, const N: usize>(
         simd: S,
         table: &Table,
         rows: R,
-        argument: S::Values,
+        (vector, argument): (usize, S::Values),
     ) -> S::Values {
-        let mut value = rows.entry(simd, ROW_HEAD + table.degree);
+        let mut value = rows.entry(simd, ROW_HEAD + table.degree)[vector];
         let mut derivative = simd.splat(0.0);
         for k in (0..table.degree).rev() {
             derivative = simd.multiply_add(derivative, argument, value);
-            value = simd.multiply_add(value, argument, rows.entry(simd, ROW_HEAD + k));
+            let coefficient = rows.entry(simd, ROW_HEAD + k)[vector];
+            value = simd.multiply_add(value, argument, coefficient);
         }
         derivative
     }
@@ -140,9 +229,10 @@ impl Certified {
 impl Evaluate for Certified {
     const MANY_IN_FLIGHT: usize = 4;
     const FEW_IN_FLIGHT: usize = 2;
+    const PAIRS: bool = true;
 
     #[inline(always)]
-    fn evaluate<S: Simd, R: Rows<S>, const N: usize>(
+    fn evaluate<S: Simd, R: Rows<S, N>, const N: usize>(
         self,
         simd: S,
         table: &Table,
@@ -151,41 +241,41 @@ impl Evaluate for Certified {
     ) -> ([S::Values; N], [u32; N]) {
         let (scale, offset) = (rows.entry(simd, ROW_SCALE), rows.entry(simd, ROW_OFFSET));
         let (mut arguments, mut rests) = (*times, *times);
-        for (u, rest) in arguments.iter_mut().zip(&mut rests) {
-            (*u, *rest) = simd.two_sum(simd.multiply(*u, scale), offset);
+        for j in 0..N {
+            let scaled = simd.multiply(times[j], scale[j]);
+            (arguments[j], rests[j]) = simd.two_sum(scaled, offset[j]);
         }
         let degree = table.degree;
         let zero = simd.splat(0.0);
-        let mut high = [rows.entry(simd, ROW_HEAD + degree); N];
-        let first_low = if table.split > degree { rows.low(simd, degree) } else { zero };
-        let mut low = [first_low; N];
+        let mut high = rows.entry(simd, ROW_HEAD + degree);
+        let mut low = if table.split > degree { rows.low(simd, degree) } else { [zero; N] };
         for k in (table.split..degree).rev() {
             let coefficient = rows.entry(simd, ROW_HEAD + k);
-            for (value, &u) in high.iter_mut().zip(&arguments) {
-                *value = simd.multiply_add(*value, u, coefficient);
+            for j in 0..N {
+                high[j] = simd.multiply_add(high[j], arguments[j], coefficient[j]);
             }
         }
         for k in (0..table.split.min(degree)).rev() {
             let (coefficient, coefficient_low) =
                 (rows.entry(simd, ROW_HEAD + k), rows.low(simd, k));
-            for ((high, low), &u) in high.iter_mut().zip(&mut low).zip(&arguments) {
-                let (product, product_error) = simd.two_product(*high, u);
-                let (sum, sum_error) = simd.two_sum(coefficient, product);
-                let rest = simd.multiply_add(*low, u, product_error);
-                *low = simd.add(simd.add(rest, coefficient_low), sum_error);
-                *high = sum;
+            for j in 0..N {
+                let (product, product_error) = simd.two_product(high[j], arguments[j]);
+                let (sum, sum_error) = simd.two_sum(coefficient[j], product);
+                let rest = simd.multiply_add(low[j], arguments[j], product_error);
+                low[j] = simd.add(simd.add(rest, coefficient_low[j]), sum_error);
+                high[j] = sum;
             }
         }
         let bound = rows.entry(simd, ROW_BOUND);
         let mut doubts = [0; N];
         for j in 0..N {
             if !simd.all(simd.equal(rests[j], zero)) {
-                let derivative = Self::derivative(simd, table, rows, arguments[j]);
+                let derivative = Self::derivative(simd, table, rows, (j, arguments[j]));
                 low[j] = simd.add(low[j], simd.multiply(derivative, rests[j]));
             }
             let (sum, rest) = simd.two_sum(high[j], low[j]);
-            let down = simd.add(sum, simd.subtract(rest, bound));
-            let up = simd.add(sum, simd.add(rest, bound));
+            let down = simd.add(sum, simd.subtract(rest, bound[j]));
+            let up = simd.add(sum, simd.add(rest, bound[j]));
             high[j] = sum;
             doubts[j] = !simd.bits(simd.equal(down, up)) & ((1 << S::LANES) - 1);
         }

@@ -5,6 +5,7 @@
 //! written only within their slices, which is asserted before.
 #![allow(unsafe_code)]
 
+use super::points::Parts;
 use super::scalar::Scalar;
 use super::{Simd, Task};
 use crate::Level;
@@ -40,8 +41,8 @@ pub(crate) fn dispatch_scalar<T: Task>(level: Level, task: T) -> T::Output {
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{Scalar, Simd, Task};
-    use crate::double_double::{SPLITTER, UNIT};
+    use super::{Parts, Scalar, Simd, Task};
+    use crate::double_double::SPLITTER;
     use std::arch::x86_64::*;
 
     /// Two doubles: SSE2, which every x86-64 has.
@@ -147,7 +148,7 @@ mod x86 {
 
     /// The methods of levels with fused multiply-add.
     macro_rules! fused_methods {
-        ($multiply_add:ident, $multiply_subtract:ident, iota $iota:expr) => {
+        ($multiply_add:ident, $multiply_subtract:ident) => {
             #[inline(always)]
             fn multiply_add(
                 self,
@@ -165,17 +166,32 @@ mod x86 {
             }
 
             #[inline(always)]
-            fn grid(self, first: usize, from: f64, step: f64) -> Self::Values {
+            fn grid<const N: usize>(
+                self,
+                first: usize,
+                from: f64,
+                step: f64,
+                _: &Parts,
+            ) -> [Self::Values; N] {
                 // Below 2⁵³ the sum of two indices is exact; beyond, each index is rounded alone.
                 if first < 1 << 52 {
-                    let index = self.add(self.splat(first as f64), instruction!($iota));
-                    return self.multiply_add(index, self.splat(step), self.splat(from));
+                    let mut times: [Self::Values; N] = self.indices(first);
+                    let (from, step) = (self.splat(from), self.splat(step));
+                    for time in &mut times {
+                        *time = self.multiply_add(*time, step, from);
+                    }
+                    return times;
                 }
-                let mut times = [0.0; 8];
-                for (lane, time) in times.iter_mut().enumerate() {
-                    *time = ((first + lane) as f64).mul_add(step, from);
+                let mut times = [self.splat(0.0); N];
+                for (j, time) in times.iter_mut().enumerate() {
+                    let mut lanes = [0.0; 8];
+                    for (lane, time) in lanes.iter_mut().enumerate() {
+                        let index = first + j * Self::LANES + lane;
+                        *time = (index as f64).mul_add(step, from);
+                    }
+                    *time = self.load(&lanes);
                 }
-                self.load(&times)
+                times
             }
         };
     }
@@ -187,6 +203,12 @@ mod x86 {
             let scaled = self.multiply(self.splat(SPLITTER), a);
             let high = self.subtract(scaled, self.subtract(scaled, a));
             (high, self.subtract(a, high))
+        }
+
+        /// `start + i slope`.
+        #[inline(always)]
+        fn line(self, i: __m128d, [start, slope]: [f64; 2]) -> __m128d {
+            self.add(self.splat(start), self.multiply(i, self.splat(slope)))
         }
     }
 
@@ -256,25 +278,39 @@ mod x86 {
             self.load(&[values[offsets[0]], values[offsets[1]]])
         }
 
-        /// `step = h + l` with 26 and 27 bits, so `i h` and `i l` are exact for `i < 2²⁶`. Then
-        /// `from + i h = s + d` exactly, and with `w = RN(d + i l)`, off by `ε |w|` at most, the sum
-        /// lies between `s + w (1 − 8 ε)` and `s + w (1 + 8 ε)`. Where these round to one double, it is
-        /// the rounded sum, since rounding is monotone. The rare others are summed exactly, one by one.
         #[inline(always)]
-        fn grid(self, first: usize, from: f64, step: f64) -> __m128d {
-            let high = f64::from_bits(step.to_bits() & !((1 << 27) - 1));
-            let low = step - high;
-            let index = self.add(self.splat(first as f64), self.load(&[0.0, 1.0]));
-            let exact = self.multiply(index, self.splat(high));
-            let (sum, error) = self.two_sum(self.splat(from), exact);
-            let rest = self.add(error, self.multiply(index, self.splat(low)));
-            let down = self.add(sum, self.multiply(rest, self.splat(1.0 - 8.0 * UNIT)));
-            let up = self.add(sum, self.multiply(rest, self.splat(1.0 + 8.0 * UNIT)));
-            if first < (1 << 26) - 1 && self.all(self.equal(down, up)) {
-                return up;
+        fn transpose(self, values: &[f64], offsets: [usize; 2], columns: &mut [__m128d]) {
+            let rows = [self.load(&values[offsets[0]..]), self.load(&values[offsets[1]..])];
+            columns[0] = instruction!(_mm_unpacklo_pd(rows[0], rows[1]));
+            columns[1] = instruction!(_mm_unpackhi_pd(rows[0], rows[1]));
+        }
+
+        /// Exact sums and two ends of the rest, see [`Parts`]. The rare sums that these do not
+        /// decide are rounded one by one.
+        #[inline(always)]
+        fn grid<const N: usize>(
+            self,
+            first: usize,
+            from: f64,
+            step: f64,
+            parts: &Parts,
+        ) -> [__m128d; N] {
+            let indices: [__m128d; N] = self.indices(first);
+            let mut times = indices;
+            let mut decided = self.equal(self.splat(0.0), self.splat(0.0));
+            for (time, i) in times.iter_mut().zip(indices) {
+                let coarse = self.line(i, parts.coarse);
+                let down = self.add(coarse, self.line(i, parts.below));
+                *time = self.add(coarse, self.line(i, parts.above));
+                decided = self.both(decided, self.equal(down, *time));
             }
-            let one = Scalar::<false>;
-            self.load(&[one.grid(first, from, step), one.grid(first + 1, from, step)])
+            if self.all(decided) {
+                return times;
+            }
+            for (j, time) in times.iter_mut().enumerate() {
+                *time = self.load(&Scalar::<false>.grid::<2>(first + 2 * j, from, step, parts));
+            }
+            times
         }
     }
 
@@ -287,7 +323,7 @@ mod x86 {
         common_methods!(4, splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
             stream _mm256_stream_pd, add _mm256_add_pd, subtract _mm256_sub_pd,
             multiply _mm256_mul_pd);
-        fused_methods!(_mm256_fmadd_pd, _mm256_fmsub_pd, iota _mm256_set_pd(3.0, 2.0, 1.0, 0.0));
+        fused_methods!(_mm256_fmadd_pd, _mm256_fmsub_pd);
 
         #[inline(always)]
         fn at_least(self, a: __m256d, b: __m256d) -> __m256d {
@@ -336,6 +372,29 @@ mod x86 {
             // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
             unsafe { _mm256_i32gather_pd::<8>(values.as_ptr(), offsets.lanes) }
         }
+
+        /// Halves of the rows r and r + 2 are put together, and then interleaved.
+        #[inline(always)]
+        fn transpose(self, values: &[f64], offsets: Offsets<__m128i>, columns: &mut [__m256d]) {
+            assert!(offsets.limit + 3 <= values.len() && columns.len() >= 4);
+            let mut lanes = [0_i32; 4];
+            // SAFETY: all lanes are in 0 … limit − 1, so that each row of four doubles from there is
+            // within the slice; the array holds the four lanes.
+            unsafe {
+                _mm_storeu_si128(lanes.as_mut_ptr().cast(), offsets.lanes);
+                for from in [0, 2] {
+                    let mut rows = [_mm256_setzero_pd(); 2];
+                    for (row, both) in rows.iter_mut().enumerate() {
+                        let first = values.as_ptr().add(lanes[row] as usize + from);
+                        let second = values.as_ptr().add(lanes[row + 2] as usize + from);
+                        *both = _mm256_set_m128d(_mm_loadu_pd(second), _mm_loadu_pd(first));
+                    }
+                    let [even, odd] = rows;
+                    columns[from] = _mm256_unpacklo_pd(even, odd);
+                    columns[from + 1] = _mm256_unpackhi_pd(even, odd);
+                }
+            }
+        }
     }
 
     impl Simd for Octet {
@@ -347,8 +406,7 @@ mod x86 {
         common_methods!(8, splat _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd,
             stream _mm512_stream_pd, add _mm512_add_pd, subtract _mm512_sub_pd,
             multiply _mm512_mul_pd);
-        fused_methods!(_mm512_fmadd_pd, _mm512_fmsub_pd,
-            iota _mm512_set_pd(7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0));
+        fused_methods!(_mm512_fmadd_pd, _mm512_fmsub_pd);
 
         #[inline(always)]
         fn at_least(self, a: __m512d, b: __m512d) -> __mmask8 {
@@ -396,6 +454,38 @@ mod x86 {
             assert!(offsets.limit <= values.len());
             // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
             unsafe { _mm512_i32gather_pd::<8>(offsets.lanes, values.as_ptr()) }
+        }
+
+        /// Halves of the rows r and r + 4 are put together, interleaved, and their quarters sorted.
+        #[inline(always)]
+        fn transpose(self, values: &[f64], offsets: Offsets<__m256i>, columns: &mut [__m512d]) {
+            assert!(offsets.limit + 7 <= values.len() && columns.len() >= 8);
+            let mut lanes = [0_i32; 8];
+            // SAFETY: all lanes are in 0 … limit − 1, so that each row of eight doubles from there is
+            // within the slice; the array holds the eight lanes.
+            unsafe {
+                _mm256_storeu_si256(lanes.as_mut_ptr().cast(), offsets.lanes);
+                // Quarters 0 and 2 of both operands, in the order of the rows; quarters 1 and 3.
+                let low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+                let high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+                for from in [0, 4] {
+                    let mut rows = [_mm512_setzero_pd(); 4];
+                    for (row, both) in rows.iter_mut().enumerate() {
+                        let first = values.as_ptr().add(lanes[row] as usize + from);
+                        let second = values.as_ptr().add(lanes[row + 4] as usize + from);
+                        let first = _mm512_castpd256_pd512(_mm256_loadu_pd(first));
+                        *both = _mm512_insertf64x4::<1>(first, _mm256_loadu_pd(second));
+                    }
+                    let even = _mm512_unpacklo_pd(rows[0], rows[1]);
+                    let odd = _mm512_unpackhi_pd(rows[0], rows[1]);
+                    let later_even = _mm512_unpacklo_pd(rows[2], rows[3]);
+                    let later_odd = _mm512_unpackhi_pd(rows[2], rows[3]);
+                    columns[from] = _mm512_permutex2var_pd(even, low, later_even);
+                    columns[from + 1] = _mm512_permutex2var_pd(odd, low, later_odd);
+                    columns[from + 2] = _mm512_permutex2var_pd(even, high, later_even);
+                    columns[from + 3] = _mm512_permutex2var_pd(odd, high, later_odd);
+                }
+            }
         }
     }
 }

@@ -13,6 +13,7 @@ mod tasks;
 pub(crate) use blocks::Evaluate;
 pub(crate) use horner::{Certified, Plain};
 pub(crate) use instructions::{dispatch, dispatch_scalar};
+pub(crate) use points::Parts;
 pub(crate) use points::{Grid, Times};
 pub(crate) use tasks::{Many, Single};
 
@@ -62,8 +63,37 @@ pub(crate) trait Simd: Copy {
     fn offsets(self, values: Self::Values, limit: usize) -> Self::Offsets;
     /// The doubles at offsets whose limit is the length of the slice at most.
     fn gather(self, values: &[f64], offsets: Self::Offsets) -> Self::Values;
-    /// `RN(from + i step)` for `i = first, first + 1, …`, one a lane.
-    fn grid(self, first: usize, from: f64, step: f64) -> Self::Values;
+    /// `columns[c]` gets the doubles at offset + c, one a lane, for the first `LANES` columns. Offsets
+    /// plus `LANES` are not beyond the slice.
+    fn transpose(self, values: &[f64], offsets: Self::Offsets, columns: &mut [Self::Values]);
+    /// `RN(from + i step)` for `i = first, first + 1, …`, one a lane, of a grid with such parts.
+    fn grid<const N: usize>(
+        self,
+        first: usize,
+        from: f64,
+        step: f64,
+        parts: &Parts,
+    ) -> [Self::Values; N];
+
+    /// `first, first + 1, …` in doubles, one a lane, exact below `2⁵²`.
+    #[inline(always)]
+    fn indices<const N: usize>(self, first: usize) -> [Self::Values; N] {
+        const COUNT: [f64; 64] = {
+            let mut count = [0.0; 64];
+            let mut lane = 0;
+            while lane < 64 {
+                count[lane] = lane as f64;
+                lane += 1;
+            }
+            count
+        };
+        let first = self.splat(first as f64);
+        let mut indices = [first; N];
+        for j in 0..N {
+            indices[j] = self.add(first, self.load(&COUNT[j * Self::LANES..]));
+        }
+        indices
+    }
 
     /// Whether the mask is set in all lanes.
     #[inline(always)]

@@ -1,19 +1,24 @@
 //! The doubles at which a table is evaluated.
 
 use super::Simd;
+use crate::double_double::UNIT;
 
 /// Products of an index and a smaller step can be split without overflow.
 pub(super) const MAX_STEP: f64 = 1e280;
 
-/// A sequence of doubles that can be read a vector at a time.
+/// A sequence of doubles that can be read some vectors at a time.
 pub(crate) trait Points: Copy {
     /// Whether certainly no double is less than the one before; all or none of them may be NaN.
     fn ascend(self) -> bool;
 
-    /// The doubles from index `at` on, all of which exist.
-    fn times<S: Simd>(self, simd: S, at: usize) -> S::Values;
+    /// About how many doubles from index `at` on are less than `upper`. It is a guess: 0 where
+    /// nothing is known.
+    fn guess_below(self, at: usize, upper: f64) -> usize;
 
-    /// Like [`times`](Self::times); lanes beyond the last double hold anything.
+    /// The doubles from index `at` on, all of which exist.
+    fn times<S: Simd, const N: usize>(self, simd: S, at: usize) -> [S::Values; N];
+
+    /// One vector of them; lanes beyond the last double hold anything.
     fn times_padded<S: Simd>(self, simd: S, at: usize) -> S::Values;
 }
 
@@ -22,9 +27,66 @@ pub(crate) trait Points: Copy {
 /// It is the exact sum rounded once, on every machine.
 #[derive(Clone, Copy)]
 pub(crate) struct Grid {
-    pub(crate) from: f64,
-    pub(crate) step: f64,
-    pub(crate) first: usize,
+    from: f64,
+    step: f64,
+    first: usize,
+    parts: Parts,
+}
+
+/// A grid split for machines without fused multiply-adds.
+///
+/// `from = F + f` and `step = H + h` exactly, with `F` and `H` multiples of a power of two `q` such that
+/// no `|F + i H|` of the grid is larger than `2⁵³ q`: then `F + i H` is computed without rounding. The
+/// rest `f + i h` lies between `RN(f₋ + RN(i h₋))` and `RN(f₊ + RN(i h₊))` with
+///
+/// ```text
+/// f∓ = RN(f ∓ 8 ε |f|),   h∓ = RN(h ∓ 8 ε |h|),   ε = 2⁻⁵³,
+/// ```
+///
+/// because each of the terms is moved by `5 ε` of itself at least after its own roundings, and the sum
+/// is rounded by `ε (|f| + |i h|) (1 + 20 ε)` at most. Rounding is monotone: where both ends, added to
+/// `F + i H`, round to one double, it is the sum rounded once.
+#[derive(Clone, Copy)]
+pub(crate) struct Parts {
+    /// `F` and `H`; NaN where the grid is not split.
+    pub(super) coarse: [f64; 2],
+    /// `f₋` and `h₋`.
+    pub(super) below: [f64; 2],
+    /// `f₊` and `h₊`.
+    pub(super) above: [f64; 2],
+}
+
+impl Parts {
+    /// Of a grid with so many doubles, those that pad the last block included.
+    ///
+    /// Grids that could underflow or overflow, and those with indices that are no doubles, are not
+    /// split.
+    fn new(from: f64, step: f64, count: usize) -> Self {
+        const SMALL: f64 = f64::MIN_POSITIVE * (1_u64 << 62) as f64;
+        const LARGE: f64 = 1.0 / SMALL;
+        let reach = from.abs() + count as f64 * step.abs();
+        let moderate = |part: f64| part == 0.0 || part.abs() >= SMALL;
+        // Of zeros, one with a sign would lose it.
+        let splits = moderate(from) && moderate(step) && (from != 0.0 || from.is_sign_positive());
+        if !splits || !(SMALL..=LARGE).contains(&reach) || count >= 1 << 52 {
+            return Self { coarse: [f64::NAN; 2], below: [0.0; 2], above: [0.0; 2] };
+        }
+        // 1.5 · 2⁵² q, with |from|, |step| ≤ reach ≤ 2⁵¹ q: sums with it are rounded to multiples of q.
+        let exponent = f64::from_bits(reach.to_bits() & (0x7ff << 52));
+        let rounder = exponent * 6.0;
+        let coarse = [from, step].map(|part| (part + rounder) - rounder);
+        let fine = [from - coarse[0], step - coarse[1]];
+        let moved = |sign: f64| fine.map(|part| part + sign * 8.0 * UNIT * part.abs());
+        Self { coarse, below: moved(-1.0), above: moved(1.0) }
+    }
+}
+
+impl Grid {
+    /// `count` doubles from the index `first` on.
+    pub(crate) fn new(from: f64, step: f64, first: usize, count: usize) -> Self {
+        let padded = first.saturating_add(count).saturating_add(128);
+        Self { from, step, first, parts: Parts::new(from, step, padded) }
+    }
 }
 
 impl Points for Grid {
@@ -36,13 +98,20 @@ impl Points for Grid {
     }
 
     #[inline(always)]
-    fn times<S: Simd>(self, simd: S, at: usize) -> S::Values {
-        simd.grid(self.first + at, self.from, self.step)
+    fn guess_below(self, at: usize, upper: f64) -> usize {
+        // NaN becomes 0, and so does what is negative.
+        ((upper - self.from) / self.step - (self.first + at) as f64) as usize
+    }
+
+    #[inline(always)]
+    fn times<S: Simd, const N: usize>(self, simd: S, at: usize) -> [S::Values; N] {
+        simd.grid(self.first + at, self.from, self.step, &self.parts)
     }
 
     #[inline(always)]
     fn times_padded<S: Simd>(self, simd: S, at: usize) -> S::Values {
-        self.times(simd, at)
+        let [times] = self.times(simd, at);
+        times
     }
 }
 
@@ -57,8 +126,18 @@ impl Points for Times<'_> {
     }
 
     #[inline(always)]
-    fn times<S: Simd>(self, simd: S, at: usize) -> S::Values {
-        simd.load(&self.0[at..])
+    fn guess_below(self, _: usize, _: f64) -> usize {
+        0
+    }
+
+    #[inline(always)]
+    fn times<S: Simd, const N: usize>(self, simd: S, at: usize) -> [S::Values; N] {
+        let times = &self.0[at..][..N * S::LANES];
+        let mut vectors = [simd.splat(0.0); N];
+        for j in 0..N {
+            vectors[j] = simd.load(&times[j * S::LANES..]);
+        }
+        vectors
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Vectors of one double: single values, and machines without vectors that are known here.
 
 use super::Simd;
-use super::points::MAX_STEP;
+use super::points::{MAX_STEP, Parts};
 use crate::double_double::{fused_multiply_add, two_product};
 
 /// One double. With `FUSED`, only to be used where the machine fuses multiply-adds: elsewhere
@@ -100,14 +100,23 @@ impl<const FUSED: bool> Simd for Scalar<FUSED> {
     }
 
     #[inline(always)]
-    fn grid(self, first: usize, from: f64, step: f64) -> f64 {
-        let i = first as f64;
+    fn transpose(self, values: &[f64], offsets: usize, columns: &mut [f64]) {
+        columns[0] = values[offsets];
+    }
+
+    #[inline(always)]
+    fn grid<const N: usize>(self, first: usize, from: f64, step: f64, _: &Parts) -> [f64; N] {
         // Steps that are hardly ever met go to the library, which rounds once, too.
-        if FUSED || step.abs() > MAX_STEP {
-            i.mul_add(step, from)
-        } else {
-            fused_multiply_add(i, step, from)
+        let mut times = [0.0; N];
+        for (j, time) in times.iter_mut().enumerate() {
+            let i = (first + j) as f64;
+            *time = if FUSED || step.abs() > MAX_STEP {
+                i.mul_add(step, from)
+            } else {
+                fused_multiply_add(i, step, from)
+            };
         }
+        times
     }
 
     #[inline(always)]

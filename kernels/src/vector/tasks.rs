@@ -25,6 +25,7 @@ impl<P: Points, E: Evaluate> Task for Many<'_, P, E> {
         let mut undecided = Vec::new();
         match if S::MANY_REGISTERS { E::MANY_IN_FLIGHT } else { E::FEW_IN_FLIGHT } {
             8.. => job.run::<8>(out, &mut undecided),
+            6.. => job.run::<6>(out, &mut undecided),
             4.. => job.run::<4>(out, &mut undecided),
             _ => job.run::<2>(out, &mut undecided),
         }
@@ -47,7 +48,7 @@ impl<E: Evaluate> Task for Single<'_, E> {
         let Self { table, time, evaluate } = self;
         let (mut out, mut undecided) = ([0.0], Vec::new());
         let job = Job { simd, table, points: Times(&[time]), evaluate, sorted: false };
-        job.partial(0, &mut out, &mut undecided);
+        job.partial(0, &mut out, &mut job.room(), &mut undecided);
         (out[0], !undecided.is_empty())
     }
 }

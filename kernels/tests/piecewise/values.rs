@@ -135,13 +135,17 @@ fn points_of_grids_beside_midpoints_are_rounded_once() {
     let coefficients = vec![0.0, 1.0];
     let piece = Piece { start: 1.0, centre: 1.0, scale, coefficients, low: vec![], error: 0.0 };
     let table = Table::new(&[piece], 1.0 + 1.0 / scale).expect("a table");
-    for step in [2.0_f64.powi(-53), 2.0_f64.powi(-53).next_up(), 2.0_f64.powi(-53).next_down()] {
-        let expected: Vec<f64> =
-            (0..700).map(|i| (f64::from(i).mul_add(step, 1.0) - 1.0) * scale).collect();
-        for level in Level::available() {
-            let mut out = [0.0; 700];
-            table.evaluator().with_level(level).grid(1.0, step, &mut out);
-            assert_eq!(bits(&out), bits(&expected), "{level:?} {step:e}");
+    let half = 2.0_f64.powi(-53);
+    // From a start with bits of its own, what a step is more than half a unit is lost in their sum.
+    for from in [1.0, 1.0 + 2.0 * half, 1.0 + 4.0 * half, 1.0 + 12.0 * half] {
+        for step in [half, half.next_up(), half.next_down()] {
+            let expected: Vec<f64> =
+                (0..700).map(|i| (f64::from(i).mul_add(step, from) - 1.0) * scale).collect();
+            for level in Level::available() {
+                let mut out = [0.0; 700];
+                table.evaluator().with_level(level).grid(from, step, &mut out);
+                assert_eq!(bits(&out), bits(&expected), "{level:?} {from:e} {step:e}");
+            }
         }
     }
 }

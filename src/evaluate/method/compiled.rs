@@ -1,6 +1,7 @@
 //! Compiled: a window as pieces of polynomials, with one proven bound for all of it.
 //!
-//! The pieces are Taylor polynomials of the exact form in balls. A bound adds up what they leave out,
+//! The pieces are Taylor polynomials of the exact form in balls, or polynomials of least degree across the
+//! pieces of a march in fixed-point numbers. A bound adds up what they leave out,
 //! the rounding of their coefficients to doubles, and that of evaluating them, which
 //! [`Table`] proves. Whatever the order of the waves, a value costs some ten multiply-adds.
 
@@ -14,8 +15,9 @@ use std::cmp::Ordering;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
 
-/// The degree of polynomials in doubles: shorter ones need more pieces, longer ones more operations.
-const DEGREE: usize = 13;
+/// The degree of polynomials in doubles: shorter ones need more pieces, longer ones more operations. With
+/// this one a row of a table fills two lines of a cache.
+const DEGREE: usize = 12;
 
 /// The error of polynomials that is aimed at, relative to the largest value: an eighth of a unit in
 /// the last place.

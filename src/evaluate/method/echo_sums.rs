@@ -46,10 +46,21 @@ impl Arrivals {
     const NEAR: f64 = 1.0 / (1_u64 << 60) as f64 / (1_u64 << 26) as f64;
     const KEPT: f64 = Self::NEAR / 256.0;
 
+    /// From how far on the distance from the next arrival, in doubles, tells that a time is not near: its
+    /// roundings are below `2^−50` of the time, and a window holds too few echoes for the number of the
+    /// arrival to be rounded.
+    const FAR: f64 = 1.0 / (1_u64 << 40) as f64;
+
     /// The number of the arrival that a time since a delay is so near to, and the distance from it;
     /// the time is the sum of two doubles, off by some parts of `size`.
     fn near(&self, (high, low): (f64, f64), size: f64) -> Option<(f64, f64)> {
         let [period, rest, _] = self.period;
+        // Most times are far from all arrivals, which doubles alone tell: what follows is a call of a
+        // library or two where instructions for it are not taken for granted.
+        let number = (high / period + 0.5) as i64 as f64;
+        if (high - number * period).abs() > Self::FAR * (size + period) {
+            return None;
+        }
         let number = (high / period).round();
         let product = number * period;
         let error = number.mul_add(period, -product) + number * rest;
