@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
 
-const DOCUMENTS: [&str; 6] = [
+const DOCUMENTS: [&str; 7] = [
     "README.md",
     "docs/dispersion.md",
     "docs/language.md",

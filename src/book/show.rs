@@ -106,7 +106,9 @@ impl Examination {
             Verdict::Unsure(readings) => {
                 let supported = readings.iter().find(|(_, finding)| finding.holds());
                 let supported = supported.map(|(reading, _)| format!("; `{reading}` is supported"));
-                format!("reading unsure{}", supported.unwrap_or_default())
+                let why = self.entry.unsure.as_ref().map(|why| format!(" ({why})"));
+                let [why, supported] = [why, supported].map(Option::unwrap_or_default);
+                format!("reading unsure{why}{supported}")
             }
             verdict => verdict.to_string(),
         }
@@ -160,11 +162,10 @@ impl Examination {
     }
 
     fn derived_heading(&self) -> String {
-        format!("Derived from the parts of the scene `{}`", self.scene())
-    }
-
-    fn scene(&self) -> String {
-        self.section.scene().unwrap_or_default().to_owned()
+        match self.section.scene() {
+            Some(scene) => format!("Derived from the parts of the scene `{scene}`"),
+            None => "Derived".to_owned(),
+        }
     }
 
     /// For a page of LaTeX with amsmath.
@@ -194,10 +195,12 @@ impl Examination {
             out.push_str(&format!("The reading is not sure: {}.\n", escaped(why)));
         }
         if !derived.is_empty() {
-            out.push_str(&format!(
-                "\nDerived from the parts of the scene \\texttt{{{}}}:\n",
-                self.scene()
-            ));
+            out.push_str(&match self.section.scene() {
+                Some(scene) => {
+                    format!("\nDerived from the parts of the scene \\texttt{{{scene}}}:\n")
+                }
+                None => "\nDerived:\n".to_owned(),
+            });
             out.push_str(&export::latex(derived, LATEX_WIDTH));
         }
         let dictionary = section.dictionary_of(equations(entry));

@@ -106,20 +106,20 @@ fn rows(
             bars.largest_compression(),
             Dimension::LENGTH,
         ),
-        fixed("unit of time", "time_unit", bars.time_unit(), Dimension::TIME),
+        fixed("characteristic time", "time_unit", bars.time_unit(), Dimension::TIME),
         fixed("equivalent spring", "equivalent_spring", spring.stiffness(), Dimension::STIFFNESS),
     ];
     for text in &options.rise {
         let share = input::number("--rise", text)?;
         let time = bars.rise_time(&share)?;
         rows.push(row(
-            format!("rise to {share} of it"),
+            format!("rise to {share}"),
             format!("rise_to_{share}"),
             time,
             Dimension::TIME,
         ));
         rows.push(row(
-            format!("of the spring to {share}"),
+            format!("rise to {share}, equivalent spring"),
             format!("spring_rise_to_{share}"),
             spring.rise_time(&share)?,
             Dimension::TIME,

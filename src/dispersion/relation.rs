@@ -332,7 +332,7 @@ impl Builtin {
             Self::StiffString => "a string with bending stiffness, concave upwards",
             Self::Beam => "bending waves of a thin beam",
             Self::Love => {
-                "a bar with lateral inertia, kappa = (Poisson's ratio · radius of gyration)^2"
+                "a bar with lateral inertia, kappa = (Poisson's ratio · polar radius of gyration)^2"
             }
         }
     }

@@ -35,7 +35,7 @@ pub(super) fn progress(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
 /// 6.12.
 pub(super) fn pushed_fields(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let network = network("pushed-bar", &[]);
-    let times = [ratio(1, 2), ratio(3, 2), ratio(5, 2)];
+    let times = [ratio(1, 2), ratio(7, 4)];
     let remarks =
         ["Times in L/c, velocities in cX/EA, forces in X: what the front has passed moves by \
                     one unit more."];

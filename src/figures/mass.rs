@@ -7,7 +7,7 @@ use super::scene::{caption, course, network, ratio, recurrence};
 use crate::ball::Ball;
 use crate::field::Quantity;
 use crate::picture::lagrange;
-use crate::plot::{Axis, Chart, Figure, Panel, Series};
+use crate::plot::{Axis, Chart, Figure, Look, Panel, Series};
 
 /// The mass of the bar over the striking mass in 6.20 and 6.21.
 const MU: (i64, i64) = (1, 2);
@@ -69,9 +69,10 @@ pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureE
         });
         series.push(Series::new(&format!("n = {period}"), points.collect()));
     }
-    let estimate = ratios()
+    let estimate = (1..=LARGEST_RATIO / 2)
+        .map(|i| ratio(2 * i, 1))
         .map(|ratio| (ratio_as_double(&ratio), double(&LargestStrain::estimate(&ratio, 60))));
-    series.push(Series::new("estimate 6.86", estimate.collect()));
+    series.push(Series::new("estimate 6.86", estimate.collect()).look(Look::Points));
     let panel = Panel::new(Axis::linear("largest strain −εL c/V"), series);
     let remarks =
         ["2 f_n(0): the front of the n-th period, doubled at the fixed end, as long as the \

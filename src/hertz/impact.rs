@@ -133,6 +133,21 @@ impl LongBars {
     }
 
     /// `t/t̄ = α_max/V`.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// let bars = bars.unwrap();
+    /// // α_max = V times it.
+    /// let four = bars.time_unit().multiply(&number(4), 80);
+    /// assert!(four.subtract(bars.largest_compression(), 80).contains(&Rational::from_integer(0.into())));
+    /// ```
     #[must_use]
     pub fn time_unit(&self) -> &Ball {
         &self.time_unit
@@ -149,6 +164,21 @@ impl LongBars {
 
     /// The force at a time.
     ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// let bars = bars.unwrap();
+    /// // After five units of time it is nearly V/(1/Z₁ + 1/Z₂) = 3.
+    /// let late = bars.time_unit().multiply(&number(5), 80);
+    /// assert!(bars.force(&late).unwrap().to_string().starts_with("2.99"));
+    /// ```
+    ///
     /// # Errors
     /// [`HertzError::Time`] where the time may be negative.
     pub fn force(&self, time: &Ball) -> Result<Ball, HertzError> {
@@ -156,6 +186,21 @@ impl LongBars {
     }
 
     /// How far the force has risen at a time.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// let bars = bars.unwrap();
+    /// let half = Rational::new(1.into(), 2.into());
+    /// let time = bars.rise_time(&half).unwrap();
+    /// assert!(bars.share(&time).unwrap().force().contains(&half));
+    /// ```
     ///
     /// # Errors
     /// [`HertzError::Time`] where the time may be negative.

@@ -94,6 +94,16 @@ impl Share {
     }
 
     /// `α/α_max = φ^{1/m}`.
+    ///
+    /// ```
+    /// use wavestep::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// // In the beginning nothing resists: the compression is that of the time.
+    /// let early = Rational::new(1.into(), 1_000_000.into());
+    /// let share = PowerLaw::hertz().share(&early, 60).unwrap();
+    /// assert!(share.compression().to_string().starts_with("9.99999999"));
+    /// ```
     #[must_use]
     pub fn compression(&self) -> &Ball {
         &self.compression
@@ -119,6 +129,14 @@ fn negligible(precision: u64) -> Magnitude {
 
 impl PowerLaw {
     /// The largest exponent; its inverse is the smallest.
+    ///
+    /// ```
+    /// use wavestep::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let most = Rational::from_integer(PowerLaw::MOST.into());
+    /// assert!(PowerLaw::new(most.clone()).is_ok() && PowerLaw::new(&most + &most).is_err());
+    /// ```
     pub const MOST: i64 = 100;
 
     /// The law `X = k α^m`.
@@ -139,6 +157,12 @@ impl PowerLaw {
     }
 
     /// m.
+    ///
+    /// ```
+    /// use wavestep::hertz::PowerLaw;
+    ///
+    /// assert_eq!(PowerLaw::hertz().exponent().to_string(), "3/2");
+    /// ```
     #[must_use]
     pub fn exponent(&self) -> &Rational {
         &self.exponent
@@ -174,6 +198,19 @@ impl PowerLaw {
 
     /// The same for every m by the two series: the second derivation for m = 1 and 3/2, where tests
     /// hold it against the closed forms.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let half = Rational::new(1.into(), 2.into());
+    /// let ball = Ball::from_rational(&half, 100);
+    /// let law = PowerLaw::hertz();
+    /// let series = law.time_by_series(&ball, &ball, 100).unwrap();
+    /// let closed = law.time(&half, 100).unwrap();
+    /// assert!(series.subtract(&closed, 100).contains(&Rational::from_integer(0.into())));
+    /// ```
     ///
     /// # Errors
     /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
@@ -258,6 +295,17 @@ impl PowerLaw {
     }
 
     /// The same for an enclosed time, which must not be negative.
+    ///
+    /// ```
+    /// use wavestep::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// // Back from the time of nine tenths.
+    /// let share = Rational::new(9.into(), 10.into());
+    /// let law = PowerLaw::hertz();
+    /// let time = law.time(&share, 80).unwrap();
+    /// assert!(law.share_at(&time, 60).unwrap().force().contains(&share));
+    /// ```
     ///
     /// # Errors
     /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
