@@ -32,6 +32,7 @@ pub mod expression;
 pub mod field;
 pub mod figures;
 pub mod hertz;
+pub mod history;
 pub mod language;
 pub mod lock;
 pub mod model;

@@ -16,8 +16,8 @@ pub struct Scene {
 }
 
 /// Every scene: recurrences in the order of the source's sections, then the same four described by
-/// their parts, then others of bars and what joins them, and last those with a local contact, which have values and
-/// no recurrence.
+/// their parts, then others of bars and what joins them, then those whose contacts open, and last those
+/// with a local contact, which have values and no recurrence.
 ///
 /// ```
 /// use wavestep::language::{Kind, Source, kind, read_recurrence, read_scene};
@@ -33,7 +33,7 @@ pub struct Scene {
 /// }
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub const SCENES: [Scene; 17] = [
+pub const SCENES: [Scene; 25] = [
     Scene { name: "two-bars", text: include_str!("../scenes/two-bars.wave") },
     Scene { name: "constant-force", text: include_str!("../scenes/constant-force.wave") },
     Scene { name: "pulse-shape", text: include_str!("../scenes/pulse-shape.wave") },
@@ -49,6 +49,26 @@ pub const SCENES: [Scene; 17] = [
     Scene { name: "pile", text: include_str!("../scenes/pile.wave") },
     Scene { name: "percussive-drill", text: include_str!("../scenes/percussive-drill.wave") },
     Scene { name: "incommensurate", text: include_str!("../scenes/incommensurate.wave") },
+    Scene { name: "bars-that-part", text: include_str!("../scenes/bars-that-part.wave") },
+    Scene {
+        name: "bars-of-equal-length",
+        text: include_str!("../scenes/bars-of-equal-length.wave"),
+    },
+    Scene {
+        name: "bars-of-unequal-length",
+        text: include_str!("../scenes/bars-of-unequal-length.wave"),
+    },
+    Scene { name: "saint-venant", text: include_str!("../scenes/saint-venant.wave") },
+    Scene { name: "mass-on-free-bar", text: include_str!("../scenes/mass-on-free-bar.wave") },
+    Scene {
+        name: "cushion-with-release",
+        text: include_str!("../scenes/cushion-with-release.wave"),
+    },
+    Scene {
+        name: "hopkinson-with-release",
+        text: include_str!("../scenes/hopkinson-with-release.wave"),
+    },
+    Scene { name: "mass-that-bounces", text: include_str!("../scenes/mass-that-bounces.wave") },
     Scene { name: "local-contact", text: include_str!("../scenes/local-contact.wave") },
     Scene { name: "hertz-striker", text: include_str!("../scenes/hertz-striker.wave") },
 ];

@@ -10,12 +10,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
 
-const DOCUMENTS: [&str; 7] = [
+const DOCUMENTS: [&str; 8] = [
     "README.md",
     "docs/dispersion.md",
     "docs/language.md",
     "docs/local-contact.md",
     "docs/output.md",
+    "docs/saint-venant.md",
     "docs/scene-language.md",
     "docs/tutorial.md",
 ];

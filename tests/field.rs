@@ -287,3 +287,24 @@ fn what_cannot_be_given_is_refused() {
     let later = evaluator.at(&number("2"), &Mesh::new(1).unwrap()).unwrap_err();
     assert_eq!(later, FieldError::Evaluate(EvaluateError::AfterLast));
 }
+
+/// Late waves are small differences of large terms; pictures take as much precision as that needs.
+#[test]
+fn late_pictures_show_what_the_fields_are() {
+    let network = built_in("mass-on-fixed-bar", &[("mu", "1")]);
+    let time = parse_number("296").unwrap();
+    let evaluator = FieldEvaluator::new(&network, &time).unwrap();
+    let fields = evaluator.at(&time, &Mesh::new(2).unwrap()).unwrap();
+    let nodes: Vec<f64> =
+        fields.bars[0].of(Quantity::Velocity).iter().map(|bounded| bounded.value).collect();
+    assert!(nodes[0] < -1.0, "{nodes:?}");
+    let profiles = evaluator.profiles(&time, 40).unwrap();
+    let place = Quantity::ALL.iter().position(|quantity| *quantity == Quantity::Velocity).unwrap();
+    let first = profiles[0].stretches[0][0].1[place];
+    assert!((first - nodes[0]).abs() < 1e-12, "{first} {nodes:?}");
+    // A diagram has the waves from which these velocities come.
+    let from = parse_number("292").unwrap();
+    let waves = evaluator.waves([&from, &time], 48).unwrap();
+    let largest = waves[0].right.iter().map(|strip| strip.value.abs()).fold(0.0, f64::max);
+    assert!(largest > 0.5 && waves[0].right.len() > 24, "{largest} {}", waves[0].right.len());
+}

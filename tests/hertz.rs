@@ -158,3 +158,32 @@ fn bad_input_is_named() {
     let told = still.unwrap_err().to_string();
     assert!(told.contains("velocity") && told.contains("must be positive"), "{told}");
 }
+
+/// Closed forms hold until anything from a far end may be felt.
+#[test]
+fn closed_forms_end_before_anything_else_arrives() {
+    use wavestep::hertz::ContactOfScene;
+    use wavestep::language::{Source, read_scene};
+    use wavestep::network::ScaledScene;
+    let until = |rest: &str| {
+        let text = format!(
+            "scene \"A\"\nbar a {{ impedance = 1, velocity = 2 }}\nhertz h {{ stiffness = 1 }}\n\
+             bar b {{ impedance = 1, travel = 3 }}\n{rest}"
+        );
+        let scene = read_scene(&Source::new("text", &text).unwrap(), &Default::default()).unwrap();
+        let scaled = ScaledScene::of(&scene).unwrap();
+        ContactOfScene::new(&scaled, 60)
+            .unwrap()
+            .first_return
+            .unwrap()
+            .to_decimal(9)
+            .midpoint()
+            .to_string()
+    };
+    assert_eq!(until("line endless - a - h - b - free"), "6");
+    assert_eq!(until("line endless - a - h - b - fixed"), "6");
+    let more = "bar c { impedance = 1, velocity = -3 }\nline endless - a - h - b | c - endless";
+    assert_eq!(until(more), "3");
+    let load = "load p { force = 1 }\nline endless - a - h - b - p - free";
+    assert_eq!(until(load), "3");
+}

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 23] = [
+const LAYERS: [(&str, &[&str]); 24] = [
     ("ball", &[]),
     ("plot", &[]),
     ("expression", &[]),
@@ -25,6 +25,7 @@ const LAYERS: [(&str, &[&str]); 23] = [
         &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"],
     ),
     ("field", &["ball", "enclosure", "evaluate", "expression", "network", "scene"]),
+    ("history", &["ball", "enclosure", "evaluate", "expression", "network", "scene"]),
     ("answer", &["evaluate", "model", "network"]),
     (
         "export",
@@ -88,6 +89,7 @@ const LAYERS: [(&str, &[&str]); 23] = [
             "field",
             "figures",
             "hertz",
+            "history",
             "language",
             "lock",
             "model",

@@ -47,6 +47,8 @@ pub enum Subcommand {
     Figure(Figure),
     /// List the equations of the source with what is found about each, or show one of them
     Book(Book),
+    /// Tell when contacts open and close: a time line with forces, velocities and energies
+    Events(Events),
     /// Check a scene: read it, order its equations, and derive it in two ways
     Check(Check),
     /// Lock derived forms and certified values in a file, for `check --locked`
@@ -277,6 +279,40 @@ pub struct Find {
     /// Written how
     #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
     pub format: EvalFormat,
+}
+
+/// Options of `events`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep events saint-venant --set mu=1\n  \
+    wavestep events bars-of-equal-length --format json\n  \
+    wavestep events hopkinson-with-release --until 2ms --digits 9\n\n\
+Contacts push and never pull: they open where they would, and close where bodies meet again.\n\
+What cannot be decided is refused with exit code 3, never passed over.")]
+pub struct Events {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Follow the scene until this time [default: until nothing can meet again, at most for a hundred
+    /// of the longest travel times]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub until: Option<String>,
+    /// How many significant digits
+    #[arg(long, value_name = "D", default_value_t = 12)]
+    pub digits: usize,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = EventsFormat::Text)]
+    pub format: EventsFormat,
+}
+
+/// How events are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum EventsFormat {
+    /// A paragraph an event
+    Text,
+    /// Decimal strings with proven radii
+    Json,
+    /// A table
+    Latex,
 }
 
 /// Which limit is meant.
@@ -534,7 +570,7 @@ pub struct Scenes {
 #[command(after_help = "Examples:\n  \
     wavestep hertz local-contact\n  \
     wavestep hertz hertz-striker --rise 1/2,9/10 --at 20us --digits 9\n\n\
-The bars are taken to be long: all is valid until the first wave returns from a far end, which is told.")]
+The bars are taken to be long: all is valid until a wave from a far end may be felt, which is told.")]
 pub struct Hertz {
     #[command(flatten)]
     pub scene: Scene,

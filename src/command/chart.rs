@@ -37,7 +37,7 @@ pub fn run(options: &Options) -> Result<String, Failure> {
         return Err(Failure::usage(message, format!("ask for 1 to {MAX_POINTS}")));
     }
     check(&options.output)?;
-    let subject = input::subject(&options.scene)?;
+    let subject = input::subject(&options.scene)?.with_closed_contacts("chart")?;
     let quantity = match &options.quantity {
         Some(quantity) => quantity.clone(),
         None => first_quantity(&subject)?,

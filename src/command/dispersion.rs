@@ -60,7 +60,12 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
     let (title, relation) = relation(options)?;
     let mut at = Vec::new();
     for text in &options.at {
-        at.push(values(&relation, input::number("--at", text)?, options)?);
+        let k = input::number("--at", text)?;
+        if num_traits::Signed::is_negative(&k) {
+            let message = format!("the wavenumber {k} is negative");
+            return Err(Failure::usage(message, "give wavenumbers from 0 on"));
+        }
+        at.push(values(&relation, k, options)?);
     }
     let pulse = pulse(options)?;
     if options.propagate.is_some() && !matches!(pulse, Told::Pulse(..)) {

@@ -16,7 +16,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         Readable::Subject(subject) => subject,
     };
     if options.tol.is_some() || options.method.is_some() {
-        return eval_doubles::run(subject, options);
+        return eval_doubles::run(subject.with_closed_contacts("eval --tol")?, options);
     }
     if options.explain {
         let message = "--explain tells how values in doubles are computed";

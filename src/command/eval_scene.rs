@@ -6,8 +6,9 @@ use super::progress;
 use super::quantity;
 use super::rows::{Row, time_on_period, times, written};
 use num_rational::BigRational;
-use wavestep::evaluate::{Evaluator, SceneEvaluator, Side};
+use wavestep::evaluate::{Determined, Evaluator, SceneEvaluator, Side};
 use wavestep::expression::Fraction;
+use wavestep::history::History;
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::solution::Solution;
@@ -19,6 +20,9 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
         SideOption::Left => Side::Left,
         SideOption::Right => Side::Right,
     };
+    if network.scene().contacts_open {
+        return across_phases(network, observed, side, options);
+    }
     let times = match (options.piece, &options.local) {
         (Some(n), Some(local)) => vec![time_on_piece(network, &observed, n, local, side)?],
         _ => times(options, network.scene().dimensional)?,
@@ -42,13 +46,54 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
         let (expanded, needed) = (evaluator.expanded(), evaluator.needed());
         eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
     }
+    Ok(told(network, &observed, &rows, options))
+}
+
+/// Rows with the units of the scene.
+fn told(network: &Network, observed: &Observed, rows: &[Row], options: &Eval) -> String {
     let unit = language::unit_of(observed.dimension);
     let (second, spaced) = match network.scene().dimensional {
         true if unit.is_empty() => (" s", String::new()),
         true => (" s", format!(" {unit}")),
         false => ("", String::new()),
     };
-    Ok(written(&rows, &network.scene().title, [second, &spaced, &unit], options))
+    written(rows, &network.scene().title, [second, &spaced, &unit], options)
+}
+
+/// Values of a scene whose contacts open and close.
+fn across_phases(
+    network: &Network,
+    observed: Observed,
+    side: Side,
+    options: &Eval,
+) -> Result<String, Failure> {
+    let name = &observed.name;
+    if network.scene().observables.iter().all(|own| own.name != *name) {
+        let message = format!("{name} is a wave of the closed contacts, which open in this scene");
+        return Err(Failure::usage(message, "ask for an observable, or leave out `contacts open`"));
+    }
+    if options.piece.is_some() || options.stats {
+        let message = "where contacts open there are no periods and no counted echoes";
+        return Err(Failure::usage(message, "give --at T, or --from, --to and --points"));
+    }
+    let times = times(options, network.scene().dimensional)?;
+    let values = {
+        let _progress = progress::spinner("following contacts");
+        History::values(network, name, &times, side, options.digits)?
+    };
+    let mut rows = Vec::with_capacity(times.len());
+    for (time, value) in times.into_iter().zip(values) {
+        let value = match value {
+            Determined::Digits(value) => value,
+            Determined::Enclosed(best) => {
+                let best = best.to_decimal(options.digits);
+                let message = format!("accuracy not reached at t = {time}: {name} = {best}");
+                return Err(Failure::Accuracy(message, "ask for fewer digits".to_owned()));
+            }
+        };
+        rows.push(Row { time, value });
+    }
+    Ok(told(network, &observed, &rows, options))
 }
 
 /// The solution of a scene in which echoes of all that is observed have a closed form, without units

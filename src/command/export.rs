@@ -17,7 +17,7 @@ use wavestep::language;
 /// Writes the program that is asked for.
 pub fn run(options: &Export) -> Result<String, Failure> {
     let tolerance = options.tol.as_deref().map_or(Ok(Tolerance::Ulps(4.0)), tolerance)?;
-    let subject = input::subject(&options.scene)?;
+    let subject = input::subject(&options.scene)?.with_closed_contacts("export")?;
     let dimensional = is_dimensional(&subject);
     let from = input::time("--from", &options.from, dimensional)?;
     let to = input::time("--to", &options.to, dimensional)?;

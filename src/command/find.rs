@@ -21,7 +21,10 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     if options.equal.is_some() {
         return find_equal::run(options);
     }
-    let seen = Seen::of(input::subject(&options.scene)?, quantity(options)?.0)?;
+    let seen = Seen::of(
+        input::subject(&options.scene)?.with_closed_contacts("find")?,
+        quantity(options)?.0,
+    )?;
     let (from, to) = (options.from.as_deref(), options.to.as_deref());
     let from = input::time("--from", from.unwrap_or_default(), seen.is_dimensional())?;
     let to = input::time("--to", to.unwrap_or_default(), seen.is_dimensional())?;

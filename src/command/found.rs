@@ -202,7 +202,7 @@ fn extremum_text(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
 }
 
 /// A number with all that is proven of it.
-fn number(number: &Determined) -> Json {
+pub fn number(number: &Determined) -> Json {
     let with_ball = |ball: &Ball| {
         let enclosure = ball.to_decimal(ALL_DIGITS);
         let radius = format!("{:e}", enclosure.radius());

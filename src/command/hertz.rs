@@ -141,7 +141,7 @@ fn rows(
         ));
     }
     if let Some(time) = &contact.first_return {
-        rows.push(fixed("first wave returns", "first_return", time, Dimension::TIME));
+        rows.push(fixed("valid until", "valid_until", time, Dimension::TIME));
     }
     Ok(rows)
 }

@@ -31,6 +31,18 @@ pub enum Readable {
 }
 
 impl Subject {
+    /// Refuses a scene whose contacts open, which some commands cannot follow.
+    pub fn with_closed_contacts(self, command: &str) -> Result<Subject, Failure> {
+        match &self {
+            Subject::Scene(network) if network.scene().contacts_open => {
+                let message = format!("`{command}` does not follow contacts that open");
+                let remedy = "leave `contacts open` out of the scene, or use `events` and `eval`";
+                Err(Failure::usage(message, remedy))
+            }
+            _ => Ok(self),
+        }
+    }
+
     /// The recurrence, stated or derived.
     pub fn into_recurrence(self) -> Result<Recurrence, Failure> {
         match self {

@@ -16,7 +16,7 @@ use wavestep::solution::Solution;
 
 /// Locks a scene.
 pub fn run(options: &Options) -> Result<String, Failure> {
-    let subject = input::subject(&options.scene)?;
+    let subject = input::subject(&options.scene)?.with_closed_contacts("lock")?;
     if let Subject::Scene(network) = &subject
         && network.scene().dimensional
         && !options.at.is_empty()

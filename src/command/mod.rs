@@ -18,6 +18,7 @@ mod eval_contact;
 mod eval_doubles;
 mod eval_recurrence;
 mod eval_scene;
+mod events;
 mod export;
 mod failure;
 mod field;
@@ -63,6 +64,7 @@ pub fn run() -> ExitCode {
         Subcommand::Derive(options) => derive::run(options),
         Subcommand::Eval(options) => eval::run(options),
         Subcommand::Chart(options) => chart::run(options),
+        Subcommand::Events(options) => events::run(options),
         Subcommand::Export(options) => export::run(options),
         Subcommand::Plot(options) => plot::run(options),
         Subcommand::Field(options) => field::run(options),

@@ -149,7 +149,15 @@ pub fn propagate(
         ));
     }
     let wanted = length * cut_off / (2.0 * PI) * POINTS_A_WAVE;
-    let points = points.unwrap_or_else(|| (wanted.ceil() as usize).next_power_of_two());
+    let points = match points {
+        Some(points) => points,
+        None if wanted <= MAX_POINTS as f64 => (wanted.ceil() as usize).next_power_of_two(),
+        None => {
+            return Err(DispersionError::Grid(
+                "the grid would need more than 1048576 points: take a shorter time of travel, or a longer pulse",
+            ));
+        }
+    };
     if points > MAX_POINTS || (points as f64) <= 2.0 * last {
         return Err(DispersionError::Grid(
             "the grid needs more than two points to the shortest wave, and at most 1048576 in all",

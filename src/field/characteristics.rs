@@ -5,7 +5,7 @@
 //! between fronts is drawn exactly, and nothing is smeared across them.
 
 use super::{FieldError, FieldEvaluator};
-use crate::ball::Ball;
+use crate::ball::{Ball, Magnitude};
 use crate::evaluate::{EvaluateError, Side};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar, Way};
@@ -102,6 +102,10 @@ pub struct BarWaves {
 
 /// The precision of what is drawn.
 const BITS: u64 = 192;
+
+/// The precision at which a value is given up, and the absolute accuracy in bits of those that are drawn.
+const MAX_BITS: u64 = 1 << 14;
+const FINE_BITS: i64 = 48;
 
 /// What is smaller than this part of the largest value is no front.
 const VISIBLE: f64 = 1e-9;
@@ -215,8 +219,22 @@ impl FieldEvaluator {
             return Ok((vec![strip], Vec::new()));
         };
         let value = |at: &Fraction, derivative, side| -> Result<f64, FieldError> {
-            let ball: Ball = self.waves.enclose(way.waves[0], derivative, at, side, BITS)?;
-            Ok(if ball.contains_zero() { 0.0 } else { ball.to_double().0 })
+            // Late waves are small differences of large terms: the precision grows until nothing that is
+            // seen is left open. Velocities are of the size of 1 in the scale of the scene.
+            let fine = Magnitude::power_of_two(-FINE_BITS);
+            let mut bits = BITS;
+            loop {
+                let ball: Ball = self.waves.enclose(way.waves[0], derivative, at, side, bits)?;
+                if *ball.radius() <= fine {
+                    return Ok(if ball.contains_zero() { 0.0 } else { ball.to_double().0 });
+                }
+                if bits >= MAX_BITS {
+                    return Err(
+                        EvaluateError::AccuracyNotReached { best: Box::new(ball), bits }.into()
+                    );
+                }
+                bits *= 2;
+            }
         };
         let mut ends = vec![first.clone()];
         ends.extend(self.waves.breaks(&first, &last)?.into_iter().filter(|at| *at != first));

@@ -174,14 +174,23 @@ impl FieldEvaluator {
         let length = self.waves.numbers().enclose_root(&length, FIRST_BITS)?;
         let place = |j| length.multiply_rational(&share(j), FIRST_BITS).to_double().0;
         let x = (0..=mesh.cells()).map(place).collect();
+        let (found, bits) = self.fine(|bits| match mesh.sampling() {
+            Sampling::Nodes => self.at_nodes(bar, &at, &nodes, bits),
+            Sampling::Averages => self.averages(bar, &at, &nodes, bits),
+        })?;
+        Ok(BarFields { name, x, values: self.in_units(bar, &found, bits)? })
+    }
+
+    /// Enclosures that are fine, with the bits that they took; the best there are where none is.
+    pub(super) fn fine(
+        &self,
+        enclose: impl Fn(u64) -> Result<Vec<Enclosed>, FieldError>,
+    ) -> Result<(Vec<Enclosed>, u64), FieldError> {
         let mut bits = FIRST_BITS;
         loop {
-            let found = match mesh.sampling() {
-                Sampling::Nodes => self.at_nodes(bar, &at, &nodes, bits)?,
-                Sampling::Averages => self.averages(bar, &at, &nodes, bits)?,
-            };
+            let found = enclose(bits)?;
             if is_fine(&found) || bits >= MAX_BITS {
-                return Ok(BarFields { name, x, values: self.in_units(bar, &found, bits)? });
+                return Ok((found, bits));
             }
             bits *= 2;
         }

@@ -8,9 +8,6 @@ use crate::network::{Extent, FieldBar, Way};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
-/// The precision of what is drawn.
-const BITS: u64 = 256;
-
 /// The fields along a bar at a time, in stretches between fronts.
 ///
 /// # Invariants
@@ -109,8 +106,8 @@ impl FieldEvaluator {
                     Node { delays, from_larger: i < count }
                 })
                 .collect();
-            let found = self.at_nodes(bar, &at, &nodes, BITS)?;
-            let values = self.in_units(bar, &found, BITS)?;
+            let (found, bits) = self.fine(|bits| self.at_nodes(bar, &at, &nodes, bits))?;
+            let values = self.in_units(bar, &found, bits)?;
             let mut stretch = Vec::with_capacity(nodes.len());
             for i in 0..=count {
                 let x = self.double_of(&place(i))? / whole * length;

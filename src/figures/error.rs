@@ -22,11 +22,11 @@ pub enum FigureError {
     /// A contact could not be computed.
     Hertz(HertzError),
     /// A velocity could not be computed.
-    Dispersion(DispersionError),
+    Dispersion(Box<DispersionError>),
     /// A value could not be computed.
-    Evaluate(EvaluateError),
+    Evaluate(Box<EvaluateError>),
     /// A scene could not be drawn.
-    Picture(PictureError),
+    Picture(Box<PictureError>),
     /// A chart could not be drawn.
     Plot(PlotError),
 }
@@ -58,7 +58,7 @@ macro_rules! from {
     ($error:ty, $variant:ident) => {
         impl From<$error> for FigureError {
             fn from(error: $error) -> FigureError {
-                FigureError::$variant(error)
+                FigureError::$variant(error.into())
             }
         }
     };

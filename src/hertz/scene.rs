@@ -6,7 +6,7 @@ use super::law::PowerLaw;
 use crate::ball::Ball;
 use crate::enclosure::Numbers;
 use crate::network::{ModelLump, ScaledScene};
-use crate::scene::{ElementIndex, Kind};
+use crate::scene::{ElementIndex, End, Kind};
 
 /// A local contact between two bars, and until when waves that return are not felt there.
 ///
@@ -32,7 +32,9 @@ pub struct ContactOfScene {
     pub element: ElementIndex,
     /// The two bars, as if they were endless, in SI units or plain numbers.
     pub bars: LongBars,
-    /// When the first wave returns from a far end; `None` where both bars are endless.
+    /// Until when the two bars are certainly as if they were endless: two travel times of a bar whose far
+    /// end is free, or fixed and the bar at rest; else one, since what is beyond may send a wave at once.
+    /// `None` where both bars are endless.
     pub first_return: Option<Ball>,
 }
 
@@ -89,12 +91,21 @@ impl ContactOfScene {
             in_unit(&approach, &velocity?)?,
             precision,
         )?;
+        // From a free end only what was sent comes back; anything else may send something at once.
+        let ends = [(place.checked_sub(2), line.left), (Some(place + 2), line.right)];
         let mut first_return: Option<Ball> = None;
-        for travel in [&left.travel, &right.travel].into_iter().flatten() {
-            let there_and_back = in_unit(&(travel + travel), &time)?;
-            let is_earlier = |known: &Ball| there_and_back.is_below(known);
-            if first_return.as_ref().is_none_or(is_earlier) {
-                first_return = Some(there_and_back);
+        for (bar, (beyond, end)) in [left, right].into_iter().zip(ends) {
+            let Some(travel) = &bar.travel else { continue };
+            let is_last = beyond.is_none_or(|place| place >= line.elements.len());
+            let is_quiet = match end {
+                End::Free => true,
+                End::Fixed => bar.velocity.is_zero(),
+                End::Endless => false,
+            };
+            let way = if is_last && is_quiet { travel + travel } else { travel.clone() };
+            let felt = in_unit(&way, &time)?;
+            if first_return.as_ref().is_none_or(|known| felt.is_below(known)) {
+                first_return = Some(felt);
             }
         }
         Ok(ContactOfScene { element, bars, first_return })

@@ -131,6 +131,11 @@ impl Panel {
         &self.series
     }
 
+    /// What a series is called in data: a nameless one as the axis.
+    fn name_of<'a>(&'a self, series: &'a Series) -> &'a str {
+        if series.name.is_empty() { &self.y.name } else { &series.name }
+    }
+
     /// All values upwards that are finite.
     fn heights(&self) -> impl Iterator<Item = f64> + '_ {
         let points = self.series.iter().flat_map(|series| &series.points);
@@ -415,10 +420,10 @@ impl Chart for Figure {
     fn json(&self) -> Value {
         let number = |value: f64| json_number(Some(value));
         let point = |&(x, y): &(f64, f64)| json!([number(x), number(y)]);
-        let series = |series: &Series| {
+        let series = |panel: &Panel, series: &Series| {
             let points: Vec<Value> = series.points.iter().map(point).collect();
             let jumps: Vec<Value> = series.jumps.iter().map(|(x, a, b)| json!([x, a, b])).collect();
-            json!({"name": series.name, "points": points, "jumps": jumps})
+            json!({"name": panel.name_of(series), "points": points, "jumps": jumps})
         };
         let named = |key: &str, lines: &[(f64, String)]| -> Vec<Value> {
             lines.iter().map(|(at, name)| json!({key: number(*at), "name": name})).collect()
@@ -426,7 +431,7 @@ impl Chart for Figure {
         let panel = |panel: &Panel| {
             json!({
                 "y": panel.y.json(),
-                "series": panel.series.iter().map(series).collect::<Vec<_>>(),
+                "series": panel.series.iter().map(|own| series(panel, own)).collect::<Vec<_>>(),
                 "levels": named("y", &panel.levels),
             })
         };
@@ -446,7 +451,8 @@ impl Chart for Figure {
             for series in &panel.series {
                 for point in series.points.iter().filter(finite) {
                     let numbers = [Some(point.0), Some(point.1)].map(csv_number).join(",");
-                    let names = [csv_field(&panel.y.label()), csv_field(&series.name)].join(",");
+                    let names =
+                        [csv_field(&panel.y.label()), csv_field(panel.name_of(series))].join(",");
                     csv.push_str(&format!("{names},{numbers}\n"));
                 }
             }

@@ -56,6 +56,9 @@ pub struct Scene {
     pub elements: Vec<Element>,
     /// How they are joined.
     pub line: Line,
+    /// Whether contacts open where they would pull, and close where bodies meet again. Without, all of
+    /// them stay closed.
+    pub contacts_open: bool,
     /// Quantities to observe.
     pub observables: Vec<Observable>,
     /// The time in loads, in seconds where the scene has units.
@@ -123,6 +126,7 @@ pub enum End {
 pub enum Joint {
     /// For good.
     Bonded,
-    /// By a contact, which is taken to stay closed.
+    /// By a contact, which pushes and never pulls. It stays closed, unless the scene says that contacts
+    /// open.
     Contact,
 }

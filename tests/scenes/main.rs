@@ -57,10 +57,10 @@ fn shipped() -> impl Iterator<Item = &'static scenes::Scene> {
 /// Values for the symbols of a built-in scene.
 fn usual(name: &str) -> Values<'static> {
     match name {
-        "striker-on-long-bar" => &[("r", "7/3")],
-        "cushioned-impact" => &[("mu", "3/2")],
-        "mass-on-fixed-bar" | "struck-free-bar" => &[("mu", "2/3")],
-        "mass-between-bars" => &[("m", "5/4")],
+        "striker-on-long-bar" | "bars-that-part" => &[("r", "7/3")],
+        "cushioned-impact" | "cushion-with-release" => &[("mu", "3/2")],
+        "mass-on-fixed-bar" | "struck-free-bar" | "saint-venant" => &[("mu", "2/3")],
+        "mass-between-bars" | "mass-on-free-bar" => &[("m", "5/4")],
         _ => &[],
     }
 }

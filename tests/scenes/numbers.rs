@@ -46,7 +46,7 @@ pub fn assert_as_marched(scene: &Scene, last: &BigRational, count: i64) {
 /// How far each built-in scene is followed.
 fn last(name: &str) -> BigRational {
     match name {
-        "hopkinson" => rational(12, 10_000),
+        "hopkinson" | "hopkinson-with-release" => rational(12, 10_000),
         "percussive-drill" => rational(8, 10_000),
         "incommensurate" => rational(8, 10_000),
         "pile" | "stepped-striker" => rational(15, 1),

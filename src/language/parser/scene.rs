@@ -23,7 +23,7 @@ use super::{Extent, Input, Parsed, between, complaint};
 use crate::scene::{End, Joint, Measure};
 
 /// The words that begin statements, and how each statement is written.
-pub(super) const FORMS: [(&str, &str); 12] = [
+pub(super) const FORMS: [(&str, &str); 13] = [
     ("scene", "scene \"Title\""),
     ("symbol", SYMBOL_FORM),
     ("nonzero", "nonzero a - b"),
@@ -35,6 +35,7 @@ pub(super) const FORMS: [(&str, &str); 12] = [
     ("support", "support toe { damping = 0.3 kN*s/m }"),
     ("load", "load push { force = exp(-t), until = 4 }"),
     ("line", "line free - ram | rod - fixed"),
+    ("contacts", "contacts open"),
     ("observe", "observe v = velocity(rod.left) - velocity(ram)"),
 ];
 
@@ -83,6 +84,7 @@ pub(super) fn statement<'a>(
         "support" => declaration(rest, Declared::Support)?,
         "load" => declaration(rest, Declared::Load)?,
         "line" => line(rest)?,
+        "contacts" => contacts(rest)?,
         "observe" => observe(rest)?,
         _ => return Err(complaint::second_title(rest, opening.span, title.span)),
     };
@@ -232,6 +234,17 @@ fn line(input: Input<'_>) -> Parsed<'_, SceneStatementKind> {
             return Ok((rest, SceneStatementKind::Line(line)));
         }
         elements.push(name);
+    }
+}
+
+/// What follows `contacts`: `open`
+fn contacts(input: Input<'_>) -> Parsed<'_, SceneStatementKind> {
+    match next_word(input) {
+        Some(next) if next.value == "open" => {
+            let (rest, _) = token(word).parse(input)?;
+            Ok((rest, SceneStatementKind::ContactsOpen))
+        }
+        _ => Err(complaint::expected(input, "`open`")),
     }
 }
 

@@ -73,6 +73,10 @@ pub(super) fn scene(
         dimensional: lowering.unit.is_some(),
         elements: elements.collect(),
         line,
+        contacts_open: tree
+            .statements
+            .iter()
+            .any(|statement| statement.value == SceneStatementKind::ContactsOpen),
         observables,
         time: symbol(TIME),
     };

@@ -24,6 +24,7 @@ impl Display for SceneStatementKind {
             Self::Nonzero(expression) => write!(f, "nonzero {expression}"),
             Self::Declaration(declaration) => declaration.fmt(f),
             Self::Line(line) => line.fmt(f),
+            Self::ContactsOpen => f.write_str("contacts open"),
             Self::Observe { name, terms } => {
                 write!(f, "observe {name} =")?;
                 for (position, term) in terms.iter().enumerate() {

@@ -62,6 +62,8 @@ pub enum SceneStatementKind {
     Declaration(Declaration),
     /// `line free - rod - fixed`: how the elements are joined.
     Line(Line),
+    /// `contacts open`: contacts open where they would pull, and close where they meet again.
+    ContactsOpen,
     /// `observe v = velocity(ram)`: a quantity of interest.
     Observe {
         /// What it is called.

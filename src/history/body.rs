@@ -1,0 +1,366 @@
+//! Bodies: the parts of the line between open contacts, with their energies and momenta.
+//!
+//! With the waves `w⁺` and `w⁻` that leave its ends, a bar of impedance `Z` and travel time `τ` holds the
+//! energy `Z ∫ (w⁺² + w⁻²) dt` and the momentum `Z ∫ (w⁺ + w⁻) dt` over the last `τ`. An endless bar holds
+//! what was sent into it since the start.
+
+use crate::ball::{Ball, Magnitude};
+use crate::expression::Fraction;
+use crate::history::engine::Engine;
+use crate::history::error::HistoryError;
+use crate::history::moment::Moment;
+use crate::history::number::Number;
+use crate::history::track::Limit;
+use crate::network::Network;
+use crate::scene::{ElementIndex, End, Kind};
+use std::cmp::Ordering;
+use std::ops::Range;
+use wavestep_polynomial::Rational;
+
+type Outcome<T> = Result<T, HistoryError>;
+
+/// Energy and momentum; none where they are infinite.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Held {
+    pub energy: Option<Number>,
+    pub momentum: Option<Number>,
+}
+
+/// What a body can do as a whole.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Drift {
+    /// It flies with this mean velocity; its ends may stray from that motion after a time `t` by
+    /// `stray + √(spread · t)` at most.
+    Flies { velocity: Number, stray: Magnitude, spread: Magnitude },
+    /// Nothing is known of its ends.
+    Unknown,
+}
+
+/// Two numbers that may be infinite.
+fn sum(one: Option<Number>, other: Option<Number>, bits: u64) -> Option<Number> {
+    Some(one?.add(&other?, bits))
+}
+
+/// The elements of the line between two parting joints, by their places in the line.
+pub(crate) fn parts(network: &Network, parted: &[usize]) -> Vec<Range<usize>> {
+    let count = network.scene().line.elements.len();
+    let mut parts = Vec::new();
+    let mut first = 0;
+    for joint in parted.iter().copied().chain([count]) {
+        if joint > first {
+            parts.push(first..joint);
+        }
+        first = first.max(joint);
+    }
+    parts
+}
+
+impl Engine {
+    /// Energy and momentum of an element at an instant.
+    ///
+    /// # Errors
+    /// [`HistoryError::AfterLast`]; as [`Clock::compare`](crate::history::moment::Clock::compare).
+    pub fn held(&self, element: ElementIndex, moment: &Moment) -> Outcome<Held> {
+        let bits = self.cut.bits;
+        if let Some(bar) = self.layout.bar(element) {
+            return self.held_by_bar(bar, moment);
+        }
+        let node = self.layout.node_of(element).expect("an element of a node");
+        let own = &self.nodes[node];
+        let (start, cell) = self.cell(node, moment, Limit::After)?;
+        let time = self.clock.since(start, moment)?;
+        let half = Number::Exact(Rational::new(1.into(), 2.into()));
+        if let Some(mass) = own.masses.iter().find(|mass| mass.element == element) {
+            let velocity = cell.velocities[mass.run].value(&time, &self.cut);
+            let momentum = mass.mass.multiply(&velocity, bits);
+            let energy = momentum.multiply(&velocity, bits).multiply(&half, bits);
+            return Ok(Held { energy: Some(energy), momentum: Some(momentum) });
+        }
+        let mut yields = own.yields().zip(&cell.yields);
+        let mut energy = Number::zero();
+        if let Some(((_, own, _), series)) = yields.find(|((_, own, _), _)| own.element == element)
+        {
+            let yielded = series.value(&time, &self.cut);
+            let square = yielded.multiply(&yielded, bits).multiply(&half, bits);
+            energy = own.stiffness.multiply(&square, bits);
+        }
+        Ok(Held { energy: Some(energy), momentum: Some(Number::zero()) })
+    }
+
+    fn held_by_bar(&self, bar: usize, moment: &Moment) -> Outcome<Held> {
+        let bits = self.cut.bits;
+        let (impedance, travel) = &self.bars[bar];
+        let start = match travel {
+            Some(travel) => moment.before(travel),
+            None => Moment::at(Fraction::zero()),
+        };
+        let (mut energy, mut momentum) = (Number::zero(), Number::zero());
+        for (direction, track) in self.waves[bar].iter().enumerate() {
+            if travel.is_none() {
+                if !track.cells[0].1.is_zero() {
+                    return Ok(Held { energy: None, momentum: None });
+                }
+                // Nothing leaves the far end.
+                let sends = self.layout.ends[bar][direction].is_some();
+                if !sends {
+                    continue;
+                }
+            }
+            let window = [&start, moment];
+            energy = energy.add(&track.energy(&self.clock, window, &self.cut)?, bits);
+            momentum = momentum.add(&track.integral(&self.clock, window, &self.cut)?, bits);
+        }
+        let times = |value: Number| Some(value.multiply(impedance, bits));
+        Ok(Held { energy: times(energy), momentum: times(momentum) })
+    }
+
+    /// Energy and momentum of a part of the line.
+    ///
+    /// # Errors
+    /// As [`Engine::held`].
+    pub fn held_by(
+        &self,
+        network: &Network,
+        part: &Range<usize>,
+        moment: &Moment,
+    ) -> Outcome<Held> {
+        let bits = self.cut.bits;
+        let mut all = Held { energy: Some(Number::zero()), momentum: Some(Number::zero()) };
+        for element in &network.scene().line.elements[part.clone()] {
+            let held = self.held(*element, moment)?;
+            all.energy = sum(all.energy, held.energy, bits);
+            all.momentum = sum(all.momentum, held.momentum, bits);
+        }
+        Ok(all)
+    }
+
+    /// The mass of a part of the line; none where it is endless.
+    pub fn mass_of(&self, network: &Network, part: &Range<usize>) -> Outcome<Option<Number>> {
+        let bits = self.cut.bits;
+        let mut mass = Number::zero();
+        for element in &network.scene().line.elements[part.clone()] {
+            let own = match self.layout.bar(*element) {
+                Some(bar) => {
+                    let (impedance, travel) = &self.bars[bar];
+                    let Some(travel) = travel else { return Ok(None) };
+                    impedance.multiply(&self.clock.number(travel)?, bits)
+                }
+                None => {
+                    let mut masses = self.nodes.iter().flat_map(|node| &node.masses);
+                    let own = masses.find(|mass| mass.element == *element);
+                    own.map_or_else(Number::zero, |own| own.mass.clone())
+                }
+            };
+            mass = mass.add(&own, bits);
+        }
+        Ok(Some(mass))
+    }
+
+    /// Whether a part of the line cannot fly away: it has a fixed end, or a spring to the ground.
+    pub fn is_grounded(&self, network: &Network, part: &Range<usize>) -> bool {
+        let line = &network.scene().line;
+        // A contact with the wall parts the line there.
+        let touches = |joint: usize| line.joints[joint] == crate::scene::Joint::Bonded;
+        let left = part.start == 0 && line.left == End::Fixed && touches(0);
+        let count = line.elements.len();
+        let right = part.end == count && line.right == End::Fixed && touches(count);
+        let supported = line.elements[part.clone()].iter().any(|element| {
+            matches!(&network.scene().elements[*element].kind, Kind::Support(support)
+                if !support.stiffness.is_zero())
+        });
+        left || right || supported
+    }
+
+    /// The mean velocity of a part of the line: of its centre of mass, zero where it is grounded, and what
+    /// it had at the start where it is endless. None where dampers hold it.
+    ///
+    /// # Errors
+    /// As [`Engine::held`].
+    pub fn mean_velocity(
+        &self,
+        network: &Network,
+        part: &Range<usize>,
+        moment: &Moment,
+    ) -> Outcome<Option<Number>> {
+        let bits = self.cut.bits;
+        if self.is_grounded(network, part) {
+            return Ok(Some(Number::zero()));
+        }
+        let bars = network.scene().line.elements[part.clone()].iter();
+        for bar in bars.filter_map(|element| self.layout.bar(*element)) {
+            if self.bars[bar].1.is_none() {
+                let [right, left] = &self.waves[bar];
+                let velocity = right.cells[0].1.add(&left.cells[0].1, bits);
+                return Ok(Some(velocity.coefficient(0)));
+            }
+        }
+        let Some(mass) = self.mass_of(network, part)?.filter(|mass| !mass.is_zero()) else {
+            return Ok(None);
+        };
+        let momentum = self.held_by(network, part, moment)?.momentum;
+        let inverse = mass.reciprocal(bits)?;
+        Ok(momentum.map(|momentum| momentum.multiply(&inverse, bits)))
+    }
+
+    /// How a part of the line moves on from an instant, if nothing touches it.
+    ///
+    /// Bound. Let `S = Σ τ/Z + Σ 1/k` be what a unit force stretches it by. By the inequality of Cauchy and
+    /// Schwarz no two of its points are stretched or compressed against each other by more than
+    /// `√(2 E S)`, `E` the energy of what moves against the centre of mass; of a grounded body, against the
+    /// ground, with all its energy. Without loads `E` does not grow. So an end strays from the mean motion
+    /// since the instant by `2 √(2 E S)` at most: once for what it is now, once for what it will be.
+    ///
+    /// # Errors
+    /// As [`Engine::held`].
+    pub fn drift(&self, network: &Network, part: &Range<usize>, moment: &Moment) -> Outcome<Drift> {
+        let bits = self.cut.bits;
+        let elements = &network.scene().line.elements[part.clone()];
+        if elements.is_empty() {
+            let (velocity, zero) = (Number::zero(), Magnitude::ZERO);
+            return Ok(Drift::Flies { velocity, stray: zero, spread: zero });
+        }
+        let mut softness = Magnitude::ZERO;
+        let mut endless = Vec::new();
+        for element in elements {
+            if let Some(bar) = self.layout.bar(*element) {
+                let (impedance, travel) = &self.bars[bar];
+                let Some(travel) = travel else {
+                    endless.push(bar);
+                    continue;
+                };
+                let own = self.clock.number(travel)?.multiply(&impedance.reciprocal(bits)?, bits);
+                softness = softness.add(&own.magnitude());
+                continue;
+            }
+            let node = self.layout.node_of(*element).expect("an element of a node");
+            if let Some(load) = self.nodes[node].loads.iter().find(|load| load.element == *element)
+            {
+                let ended = match &load.until {
+                    Some(until) => {
+                        let until = Moment::at(until.clone());
+                        self.clock.compare(&until, moment)? != Ordering::Greater
+                    }
+                    None => false,
+                };
+                if !ended {
+                    return Ok(Drift::Unknown);
+                }
+            }
+            let mut yields = self.nodes[node].yields();
+            if let Some((_, own, _)) = yields.find(|(_, own, _)| own.element == *element) {
+                if own.stiffness.is_zero() {
+                    return Ok(Drift::Unknown);
+                }
+                softness = softness.add(&own.stiffness.reciprocal(bits)?.magnitude());
+            }
+        }
+        match endless[..] {
+            [] => {}
+            [bar] => return self.drift_of_endless(network, elements, bar, &softness, moment),
+            _ => return Ok(Drift::Unknown),
+        }
+        let grounded = self.is_grounded(network, part);
+        let held = self.held_by(network, part, moment)?;
+        let (Some(mut energy), Some(momentum)) = (held.energy, held.momentum) else {
+            return Ok(Drift::Unknown);
+        };
+        let mut velocity = Number::zero();
+        if !grounded {
+            let Some(mass) = self.mass_of(network, part)?.filter(|mass| !mass.is_zero()) else {
+                return Ok(Drift::Unknown);
+            };
+            velocity = momentum.multiply(&mass.reciprocal(bits)?, bits);
+            let carried = momentum.multiply(&velocity, bits).over(2, bits);
+            energy = energy.subtract(&carried, bits);
+        }
+        let stray = stray(&energy, &softness);
+        Ok(Drift::Flies { velocity, stray, spread: Magnitude::ZERO })
+    }
+
+    /// A body with one endless bar. Where that bar alone is free at its end, the end moves with twice what
+    /// arrives, for ever the same. Else, if it is at rest far away, all that it takes up comes from the
+    /// energy `E` of the other elements: `Z ∫ w² dt ≤ E`, and by the inequality of Cauchy and Schwarz its
+    /// end moves by `∫ w dt ≤ √(t E/Z)` at most.
+    fn drift_of_endless(
+        &self,
+        network: &Network,
+        elements: &[ElementIndex],
+        bar: usize,
+        softness: &Magnitude,
+        moment: &Moment,
+    ) -> Outcome<Drift> {
+        let bits = self.cut.bits;
+        let arriving = match self.layout.ends[bar] {
+            [Some(_), None] => 1,
+            [None, Some(_)] => 0,
+            _ => return Ok(Drift::Unknown),
+        };
+        let wave = self.waves[bar][arriving].cells[0].1.coefficient(0);
+        let mut energy = Number::zero();
+        let mut alone = true;
+        for element in elements.iter().filter(|element| self.layout.bar(**element) != Some(bar)) {
+            alone &= matches!(&network.scene().elements[*element].kind, Kind::Spring(spring)
+                if spring.damping.is_zero());
+            let Some(own) = self.held(*element, moment)?.energy else { return Ok(Drift::Unknown) };
+            energy = energy.add(&own, bits);
+        }
+        let zero = Magnitude::ZERO;
+        if alone {
+            let velocity = wave.add(&wave, bits);
+            return Ok(Drift::Flies { velocity, stray: zero, spread: zero });
+        }
+        if !wave.is_zero() {
+            return Ok(Drift::Unknown);
+        }
+        let inverse = self.bars[bar].0.reciprocal(bits)?.magnitude();
+        let spread = energy.magnitude().multiply(&inverse);
+        Ok(Drift::Flies { velocity: wave, stray: stray(&energy, softness), spread })
+    }
+
+    /// Whether the bodies at a contact, open or touching without force, never press on each other again:
+    /// `gap + (V_R − V_L) t` less what their ends may stray stays above zero, or at zero where all of it is
+    /// known exactly.
+    ///
+    /// # Errors
+    /// As [`Engine::held`].
+    pub fn never_meets(
+        &self,
+        network: &Network,
+        contact: usize,
+        parts: [&Range<usize>; 2],
+        moment: &Moment,
+    ) -> Outcome<bool> {
+        let bits = self.cut.bits;
+        let mut drifts = Vec::new();
+        for part in parts {
+            match self.drift(network, part, moment)? {
+                Drift::Flies { velocity, stray, spread } => drifts.push((velocity, stray, spread)),
+                Drift::Unknown => return Ok(false),
+            }
+        }
+        let [(left, one, few), (right, other, many)] = &drifts[..] else { return Ok(false) };
+        let apart = right.subtract(left, bits);
+        let (stray, spread) = (one.add(other), few.add(many).scale(1));
+        let gap = self.gap(contact, moment)?;
+        let outward = matches!(apart.sign(), Some(Ordering::Greater | Ordering::Equal));
+        if stray.is_zero() && spread.is_zero() {
+            return Ok(outward && matches!(gap.sign(), Some(Ordering::Greater | Ordering::Equal)));
+        }
+        let number = |size: &Magnitude| Number::Exact(Rational::from(size));
+        let mut room = gap.subtract(&number(&stray), bits);
+        if !spread.is_zero() {
+            // √(a t) + √(b t) ≤ √(2 (a + b) t), and V t − √(s t) is at least −s/(4V).
+            let Ok(inverse) = apart.reciprocal(bits) else { return Ok(false) };
+            let least = number(&spread).multiply(&inverse, bits).over(4, bits);
+            room = room.subtract(&least, bits);
+        }
+        Ok(outward && room.sign() == Some(Ordering::Greater))
+    }
+}
+
+/// `2 √(2 E S) = √(8 E S)`, rounded upwards.
+fn stray(energy: &Number, softness: &Magnitude) -> Magnitude {
+    let square = energy.magnitude().multiply(softness).scale(3);
+    let root = Ball::square_root(&Rational::from(&square), 64);
+    root.map_or(Magnitude::ZERO, |root| root.magnitude())
+}

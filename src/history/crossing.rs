@@ -1,0 +1,306 @@
+//! Where a function that is positive at first stops being so.
+//!
+//! On a cell a force or a gap is a series in balls. Either it is proven positive until the end of the
+//! cell, or an interval is found before which it is positive, in which it falls, and after which it is
+//! negative for a while; all else is undecided.
+//!
+//! Proofs. About a point `m`, `f(m + ξ) = c₀ + ξ Q(ξ)` with `Q` enclosed by `c₁ ± Σ_{k≥2} |c_k| w^(k−1)`
+//! for `|ξ| ≤ w`. If `Q < 0` everywhere and `δ = |c₀|/min |Q|`, then `f > 0` for `ξ < −δ` and `f < 0` for
+//! `ξ > δ`: the one root lies within `δ` of `m`.
+
+use crate::ball::{Ball, Magnitude};
+use crate::history::number::Number;
+use crate::history::series::{Series, Truncation};
+use num_traits::{Signed, Zero};
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// How a function begins on a cell.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Beginning {
+    Positive,
+    Negative,
+    /// Zero on the whole cell.
+    Zero,
+    Undecided,
+}
+
+/// The sign on some time after the start of the cell, by the first coefficient that is not zero.
+pub(crate) fn beginning(f: &Series) -> Beginning {
+    if f.is_zero() {
+        return Beginning::Zero;
+    }
+    match f.coefficients.iter().find(|c| !c.is_zero()).map(Number::sign) {
+        Some(Some(Ordering::Greater)) => Beginning::Positive,
+        Some(Some(Ordering::Less)) => Beginning::Negative,
+        _ => Beginning::Undecided,
+    }
+}
+
+/// What follows on a cell after a positive beginning.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Course {
+    /// Positive until the end, the end itself perhaps excepted.
+    Positive,
+    /// Positive until about this time since the start of the cell, and negative behind it.
+    Falls(Number),
+    /// Not decided: about this time since the start of the cell.
+    Undecided(Ball),
+}
+
+/// Follows a function that begins positive, until a time `length` after the start of the cell.
+///
+/// # Cost
+/// A bound by the sizes of coefficients decides most cells; else a shift of the series, `N²/2` products,
+/// for each part of the cell.
+pub(crate) fn follow(f: &Series, length: &Number, cut: &Truncation) -> Course {
+    if let (true, Some(length)) = (f.is_exact(), length.exact())
+        && let Some(course) = follow_exactly(f, length)
+    {
+        return course;
+    }
+    // x^j f: the zero at the start is no event.
+    let skipped = f.coefficients.iter().take_while(|c| c.is_zero()).count();
+    if skipped > 0 {
+        return follow(&divided(f, skipped, cut), length, cut);
+    }
+    let size = length.magnitude();
+    let start = f.coefficient(0).ball(cut.bits);
+    let lowest = start.widened(&f.size_from(1, &size, cut).multiply(&size));
+    if sign(&lowest) == Some(Ordering::Greater) {
+        return Course::Positive;
+    }
+    let end = Rational::from(&size);
+    let mut parts = vec![(Rational::zero(), end.clone())];
+    let two = Rational::from_integer(2.into());
+    let narrowest = &end * Rational::from(&Magnitude::power_of_two(-(cut.bits as i64) / 2));
+    while let Some((lower, upper)) = parts.pop() {
+        let half = (&upper - &lower) / &two;
+        let middle = &lower + &half;
+        let near = f.shift(&Number::Exact(middle.clone()), cut);
+        let w = Magnitude::from_rational(&half);
+        let value = near.coefficient(0).ball(cut.bits);
+        let lowest = value.clone().widened(&near.size_from(1, &w, cut).multiply(&w));
+        if sign(&lowest) == Some(Ordering::Greater) {
+            continue;
+        }
+        // The series converges everywhere, so that a root is also found a little beyond the part.
+        let reach = &half * &two;
+        if let Some(root) = fall(f, near, &middle, &reach, cut) {
+            let far =
+                root.ball(cut.bits).subtract(&Ball::from_rational(&upper, cut.bits), cut.bits);
+            return match sign(&far) {
+                // The function falls, but has not yet come to zero here.
+                Some(Ordering::Greater) if upper < end => {
+                    parts.pop();
+                    parts.push((upper, end.clone()));
+                    continue;
+                }
+                _ => Course::Falls(root),
+            };
+        }
+        if half < narrowest {
+            return Course::Undecided(Ball::between(&lower, &upper, cut.bits));
+        }
+        parts.push((middle.clone(), upper));
+        parts.push((lower, middle));
+    }
+    Course::Positive
+}
+
+fn sign(ball: &Ball) -> Option<Ordering> {
+    Number::Enclosed(ball.clone()).sign()
+}
+
+/// `f/x^j`. Of the rest, `γ^k/k! ≤ γ^j · γ^(k−j)/(k−j)!`; the coefficients that are no longer known are
+/// within the same bound.
+fn divided(f: &Series, j: usize, cut: &Truncation) -> Series {
+    let rest = f.rest.scale(cut.rate * j as i64);
+    let mut coefficients = f.coefficients[j..].to_vec();
+    if !rest.is_zero() {
+        coefficients.resize(cut.order - j, Number::zero());
+        for k in cut.order - j..cut.order {
+            let mut bound = rest.scale(cut.rate * k as i64);
+            (2..=k as u64).for_each(|i| bound = bound.divide(i));
+            coefficients.push(Number::zero().widened(&bound, cut.bits));
+        }
+    }
+    Series::new(coefficients, rest)
+}
+
+/// The root near a point where the function falls: `near` is its series at `middle`. `None` where the
+/// part is too long for the method of Newton to close in on it.
+fn fall(
+    f: &Series,
+    near: Series,
+    middle: &Rational,
+    reach: &Rational,
+    cut: &Truncation,
+) -> Option<Number> {
+    let (mut near, mut middle, mut reach) = (near, middle.clone(), reach.clone());
+    let bits = cut.bits;
+    let mut best: Option<Ball> = None;
+    for _ in 0..2 * (64 - bits.leading_zeros()) + 4 {
+        let w = Magnitude::from_rational(&reach);
+        let value = near.coefficient(0).ball(bits);
+        let slope = near.coefficient(1).ball(bits);
+        let slope = slope.widened(&near.size_from(2, &w, cut).multiply(&w));
+        if sign(&slope) != Some(Ordering::Less) {
+            return None;
+        }
+        // −c₀/Q encloses the root, if it lies within the reach.
+        let step = value.multiply(&slope.reciprocal(bits).ok()?, bits).negate();
+        if step.magnitude() > w {
+            break;
+        }
+        let root = step.add(&Ball::from_rational(&middle, bits), bits);
+        if best.as_ref().is_some_and(|best| best.radius() <= root.radius()) {
+            break;
+        }
+        let radius = Rational::from(root.radius());
+        middle = Rational::from(root.midpoint());
+        reach = radius * Rational::from_integer(2.into());
+        best = Some(root);
+        if middle.is_negative() || reach.is_zero() {
+            break;
+        }
+        near = f.shift(&Number::Exact(middle.clone()), cut);
+    }
+    // As narrow as the coefficients allow; else the part was too long.
+    let narrow = Magnitude::power_of_two(-(bits as i64) / 2);
+    best.filter(|best| best.radius() <= &narrow).map(Number::Enclosed)
+}
+
+/// Polynomials of degree 2 with rational coefficients: roots are compared with the end exactly. `None`
+/// where the degree is higher, or a root irrational.
+fn follow_exactly(f: &Series, length: &Rational) -> Option<Course> {
+    let skipped = f.coefficients.iter().take_while(|c| c.is_zero()).count();
+    let c: Vec<Rational> =
+        f.coefficients[skipped..].iter().filter_map(|c| c.exact().cloned()).collect();
+    let falls = |root: Rational| match root < *length {
+        true => Course::Falls(Number::Exact(root)),
+        false => Course::Positive,
+    };
+    match &c[..] {
+        [] | [_] => Some(Course::Positive),
+        [c0, c1] if c1.is_negative() => Some(falls(-c0 / c1)),
+        [_, _] => Some(Course::Positive),
+        [c0, c1, c2] => {
+            let four = Rational::from_integer(4.into());
+            let discriminant = c1 * c1 - four * c0 * c2;
+            let grows = !c1.is_negative() && !c2.is_negative();
+            if discriminant.is_negative() || grows {
+                return Some(Course::Positive);
+            }
+            let root = square_root(&discriminant)?;
+            // With c0 > 0 the first positive root is 2 c0/(−c1 + √D): stable and the smaller one.
+            let two = Rational::from_integer(2.into());
+            let below = -c1 + root;
+            if !below.is_positive() {
+                return Some(Course::Positive);
+            }
+            let first = two * c0 / below;
+            match discriminant.is_zero() && first < *length {
+                // It touches zero and rises again: no event.
+                true => None,
+                false => Some(falls(first)),
+            }
+        }
+        _ => None,
+    }
+}
+
+/// The root of a rational square.
+fn square_root(value: &Rational) -> Option<Rational> {
+    let root = Rational::new(value.numer().sqrt(), value.denom().sqrt());
+    (&root * &root == *value).then_some(root)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rational(numerator: i64, denominator: i64) -> Rational {
+        Rational::new(numerator.into(), denominator.into())
+    }
+
+    /// The polynomial with these roots and a sign, as balls or exact.
+    fn product(sign: i64, roots: &[Rational], enclosed: bool) -> Series {
+        let mut c = vec![rational(sign, 1)];
+        for root in roots {
+            let mut next = vec![Rational::zero(); c.len() + 1];
+            for (k, c) in c.iter().enumerate() {
+                next[k] -= c * root;
+                next[k + 1] += c;
+            }
+            c = next;
+        }
+        let number = |c: Rational| match enclosed {
+            true => Number::Exact(c).enclosed(160),
+            false => Number::Exact(c),
+        };
+        Series::new(c.into_iter().map(number).collect(), Magnitude::ZERO)
+    }
+
+    fn fallen(course: &Course, root: &Rational) -> bool {
+        let Course::Falls(found) = course else { panic!("{course:?}") };
+        let ball = found.ball(200);
+        ball.contains(root) && ball.radius() < &Magnitude::power_of_two(-60)
+    }
+
+    #[test]
+    fn the_first_fall_is_found_however_near_the_next_root_is() {
+        let cut = Truncation::new(160, 0);
+        let end = Number::integer(1);
+        for enclosed in [true, false] {
+            let near = &rational(1, 3) + Rational::new(1.into(), 1_000_000_000.into());
+            let f = product(-1, &[rational(1, 3), near, rational(2, 3)], enclosed);
+            assert_eq!(beginning(&f), Beginning::Positive);
+            assert!(fallen(&follow(&f, &end, &cut), &rational(1, 3)));
+            let f = product(-1, &[rational(1, 3)], enclosed);
+            assert!(fallen(&follow(&f, &end, &cut), &rational(1, 3)));
+            let f = product(-1, &[rational(-1, 3), rational(0, 1), rational(7, 8)], enclosed);
+            assert!(fallen(&follow(&f, &end, &cut), &rational(7, 8)));
+            let f = product(1, &[rational(-1, 3), rational(5, 4)], enclosed);
+            assert_eq!(beginning(&f), Beginning::Negative);
+        }
+    }
+
+    #[test]
+    fn what_touches_zero_is_undecided_and_what_stays_above_is_positive() {
+        let cut = Truncation::new(96, 0);
+        let end = Number::integer(1);
+        let third = rational(1, 3);
+        let f = product(1, &[third.clone(), third.clone()], true);
+        let Course::Undecided(at) = follow(&f, &end, &cut) else { panic!() };
+        let distance = at.subtract(&Ball::from_rational(&third, 200), 200).magnitude();
+        assert!(distance < Magnitude::power_of_two(-40));
+        // (x − 1/3)² + 10^−12, and with a minus.
+        let mut above = f.clone();
+        let tiny = Number::Exact(Rational::new(1.into(), 1_000_000_000_000_i64.into()));
+        above.coefficients[0] = above.coefficients[0].add(&tiny, 96);
+        assert_eq!(follow(&above, &end, &cut), Course::Positive);
+        let mut below = f.clone();
+        below.coefficients[0] = below.coefficients[0].subtract(&tiny, 96);
+        let root = &third - Rational::new(1.into(), 1_000_000.into());
+        let Course::Falls(found) = follow(&below, &end, &cut) else { panic!() };
+        assert!(found.ball(96).contains(&root));
+    }
+
+    /// A root at the end of the cell is left to the next cell where it is exact, and undecided or beyond
+    /// the end otherwise; it is never passed over.
+    #[test]
+    fn a_root_at_the_end_is_not_passed_over() {
+        let cut = Truncation::new(96, 0);
+        let end = Number::integer(1);
+        let f = product(-1, &[rational(1, 1)], false);
+        assert_eq!(follow(&f, &end, &cut), Course::Positive);
+        let g = product(-1, &[rational(1, 1), rational(-1, 2), rational(-1, 3)], false);
+        match follow(&g, &end, &cut) {
+            Course::Falls(root) => assert!(root.ball(96).contains(&rational(1, 1))),
+            Course::Undecided(at) => assert!(at.contains(&rational(1, 1))),
+            Course::Positive => panic!("passed over"),
+        }
+        assert_eq!(beginning(&Series::zero()), Beginning::Zero);
+    }
+}

@@ -1,0 +1,615 @@
+//! The history of a scene whose contacts open and close: its events, and what became of each contact.
+
+use crate::ball::{Ball, CertifyError, certify};
+use crate::enclosure::{EnclosureError, Numbers};
+use crate::evaluate::{Determined, Value};
+use crate::expression::{Fraction, Root};
+use crate::history::body::parts;
+use crate::history::engine::Engine;
+use crate::history::error::HistoryError;
+use crate::history::moment::Moment;
+use crate::history::number::Number;
+use crate::history::track::Limit;
+use crate::network::Network;
+use crate::scene::Kind;
+use std::cmp::Ordering;
+use std::convert::Infallible;
+use std::ops::Range;
+use wavestep_polynomial::Rational;
+
+/// The most bits that a history is worked out with.
+///
+/// ```
+/// use wavestep::history::{History, MAX_BITS};
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// assert!(history.bits < MAX_BITS);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub const MAX_BITS: u64 = 1 << 11;
+
+/// How many of the longest travel times a history is followed where no end is given.
+const PATIENCE: u32 = 100;
+
+/// What happens at a contact.
+///
+/// ```
+/// use wavestep::history::{EventKind, History};
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// // A bar strikes a wall and leaves it after two travel times.
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// let kinds: Vec<EventKind> = history.events.iter().map(|event| event.kind).collect();
+/// assert_eq!(kinds, [EventKind::Impact, EventKind::Opening]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum EventKind {
+    /// Bodies that touch at the start press on each other from then on.
+    Impact,
+    /// A contact opens: it would pull.
+    Opening,
+    /// A contact ends with the force zero, and nothing moves apart: the bodies go on touching.
+    Release,
+    /// A gap closes.
+    Closing,
+}
+
+/// A part of the line that moves by itself, with what it holds at an instant.
+///
+/// ```
+/// use wavestep::history::History;
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// // It comes back as it came: Z V² τ/2, and nothing of it is vibration.
+/// let [rod] = &history.events[1].bodies[..] else { panic!("one body") };
+/// assert_eq!(rod.elements, ["rod"]);
+/// assert_eq!(rod.energy.as_ref().unwrap().to_text(3), "0.5 = 1/2");
+/// assert_eq!(rod.momentum.as_ref().unwrap().to_text(3), "-1");
+/// assert_eq!(rod.velocity.as_ref().unwrap().to_text(3), "-1");
+/// assert_eq!(rod.vibration.as_ref().unwrap().to_text(3), "0");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Body {
+    /// The names of its elements, from left to right.
+    pub elements: Vec<String>,
+    /// Its energy; none where it is infinite.
+    pub energy: Option<Determined>,
+    /// Its momentum; none where it is infinite.
+    pub momentum: Option<Determined>,
+    /// Its mean velocity: of the centre of mass, zero where it stands fast, and what it had at the start
+    /// where it is endless.
+    pub velocity: Option<Determined>,
+    /// The energy that it has besides that of its mean motion, `E − P²/(2M)`; none where it is endless.
+    pub vibration: Option<Determined>,
+}
+
+/// Something that happens at a contact, in the user's units.
+///
+/// ```
+/// use wavestep::history::History;
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// let opening = &history.events[1];
+/// assert_eq!(opening.between, ["rod", "wall"]);
+/// assert_eq!(opening.time.to_text(3), "2");
+/// // The force of the impact is Z V until then.
+/// let forces = opening.forces.each_ref().map(|force| force.to_text(3));
+/// assert_eq!(forces, ["1", "0"]);
+/// let [_, after] = opening.velocities.each_ref().map(|pair| pair[0].to_text(3));
+/// assert_eq!(after, "-1");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Event {
+    /// What happens.
+    pub kind: EventKind,
+    /// The contact, by its number in the line.
+    pub contact: usize,
+    /// The names of what is at its left and right.
+    pub between: [String; 2],
+    /// When.
+    pub time: Determined,
+    /// The force just before and just after, positive where it presses.
+    pub forces: [Determined; 2],
+    /// The velocities at the left and the right of the contact, just before and just after.
+    pub velocities: [[Determined; 2]; 2],
+    /// What moves by itself from then on.
+    pub bodies: Vec<Body>,
+}
+
+/// What became of a contact, in the user's units.
+///
+/// ```
+/// use wavestep::history::History;
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// let contact = &history.contacts[0];
+/// assert_eq!(contact.durations[0].as_ref().unwrap().to_text(3), "2");
+/// assert_eq!(contact.impulses[0].to_text(3), "2");
+/// assert_eq!(contact.restitution.as_ref().unwrap().to_text(3), "1");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ContactSummary {
+    /// The names of what is at its left and right.
+    pub between: [String; 2],
+    /// How long it was closed each time; none where it is closed still.
+    pub durations: Vec<Option<Determined>>,
+    /// The impulse of each of these times, as far as it was followed.
+    pub impulses: Vec<Determined>,
+    /// The coefficient of restitution of rigid bodies: the relative velocity of the mean motions after the
+    /// last opening over that before the impact, with the sign changed.
+    pub restitution: Option<Determined>,
+}
+
+/// How the history ends.
+///
+/// ```
+/// use wavestep::history::{Ending, History};
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// assert_eq!(history.ending, Ending::Parted);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Ending {
+    /// Nothing can meet again: the mean motions lead apart, and the energy of vibration does not suffice
+    /// to come back.
+    Parted,
+    /// It was followed to this instant; what comes later is not known.
+    Followed(Determined),
+}
+
+/// The history of a scene.
+///
+/// ```
+/// use wavestep::history::History;
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::network::Network;
+///
+/// // A rigid mass strikes a bar of the same mass whose far end is fixed.
+/// let text = r#"
+///     scene "Saint-Venant"
+///     mass hammer { mass = 1, velocity = 1 }
+///     bar rod { impedance = 1, travel = 1 }
+///     line free - hammer | rod - fixed
+/// "#;
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let history = History::of(&Network::new(&scene).unwrap(), None, 20).unwrap();
+/// // It leaves the bar at 3 + exp(-2)/2.
+/// assert_eq!(history.events[1].time.to_text(20), "3.0676676416183063459");
+/// assert_eq!(history.contacts.len(), 1);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct History {
+    /// What happened, in the order of time.
+    pub events: Vec<Event>,
+    /// What became of each contact.
+    pub contacts: Vec<ContactSummary>,
+    /// How it ends.
+    pub ending: Ending,
+    /// The precision that did, in bits.
+    pub bits: u64,
+    /// How many cells of nodes were worked out at that precision.
+    pub cells: usize,
+}
+
+type Outcome<T> = Result<T, HistoryError>;
+
+/// What 1 of each quantity is in the user's units.
+pub(crate) struct Units {
+    pub time: Number,
+    pub velocity: Number,
+    pub force: Number,
+}
+
+impl Units {
+    pub fn of(network: &Network, numbers: &Numbers, bits: u64) -> Result<Units, EnclosureError> {
+        let scale = &network.model().scale;
+        let number = |root: &Root| unit(root, numbers, bits);
+        Ok(Units {
+            time: number(&scale.time)?,
+            velocity: number(&scale.velocity)?,
+            force: number(&scale.force())?,
+        })
+    }
+}
+
+/// A unit as a number.
+pub(crate) fn unit(root: &Root, numbers: &Numbers, bits: u64) -> Result<Number, EnclosureError> {
+    match root.exact().and_then(|value| value.as_constant()) {
+        Some(value) => Ok(Number::of_rational(value, bits)),
+        None => Ok(Number::Enclosed(numbers.enclose_root(root, bits)?)),
+    }
+}
+
+/// A number with the digits that its enclosure proves.
+pub(crate) fn determined(number: &Number, digits: usize) -> Determined {
+    match number {
+        Number::Exact(value) => Determined::Digits(Value::Exact(value.clone())),
+        Number::Enclosed(ball) if ball.is_exact() => {
+            Determined::Digits(Value::Exact(Rational::from(ball.midpoint())))
+        }
+        Number::Enclosed(ball) => {
+            match certify(digits, 1, |_| Ok::<Ball, Infallible>(ball.clone())) {
+                Ok(certified) => Determined::Digits(Value::Certified(certified)),
+                Err(CertifyError::AccuracyNotReached { .. } | CertifyError::Enclosure(_)) => {
+                    Determined::Enclosed(ball.clone())
+                }
+            }
+        }
+    }
+}
+
+impl History {
+    /// Follows a scene until a time in the user's units; without one until nothing can meet again, or for
+    /// a hundred of the longest travel times. Instants have the digits asked for, unless they are exact.
+    ///
+    /// # Errors
+    /// [`HistoryError::MissingValue`] for a symbol without a value; [`HistoryError::Refused`] for what is
+    /// not followed; [`HistoryError::Undecided`] where [`MAX_BITS`] do not tell whether something happens;
+    /// [`HistoryError::TooManyEvents`], [`HistoryError::TooManyCells`].
+    ///
+    /// # Cost
+    /// A few products of small matrices with vectors for each coefficient of each cell; a cell begins where
+    /// something arrives at a node. All is done again with twice the precision until the digits are proven.
+    pub fn of(
+        network: &Network,
+        until: Option<&Rational>,
+        digits: usize,
+    ) -> Result<History, HistoryError> {
+        let mut bits = 128 + 4 * digits as u64;
+        loop {
+            let last = 2 * bits > MAX_BITS;
+            match History::with(network, until, digits, bits) {
+                Ok(history) if last || history.is_determined() => return Ok(history),
+                Err(HistoryError::Undecided { .. }) if !last => {}
+                Err(HistoryError::Value(EnclosureError::Ball(_))) if !last => {}
+                Err(error) => return Err(error),
+                Ok(_) => {}
+            }
+            bits *= 2;
+        }
+    }
+
+    /// Whether every instant has its digits.
+    fn is_determined(&self) -> bool {
+        self.events.iter().all(|event| matches!(event.time, Determined::Digits(_)))
+    }
+
+    /// The history at one precision.
+    pub(crate) fn with(
+        network: &Network,
+        until: Option<&Rational>,
+        digits: usize,
+        bits: u64,
+    ) -> Outcome<History> {
+        let mut engine = Engine::new(network, bits)?;
+        let (end, parted) = match until {
+            Some(until) => {
+                let until = Moment::at(network.scaled_time(until));
+                engine.follow_until(&until)?;
+                let parted = has_parted(network, &engine, &until)?;
+                (until, parted)
+            }
+            None => follow_to_the_end(network, &mut engine)?,
+        };
+        let story = Story { network, engine, digits, end, parted };
+        story.told()
+    }
+}
+
+/// The longest travel time; one unit where nothing travels.
+fn longest(engine: &Engine) -> Outcome<Fraction> {
+    let mut longest = Fraction::zero();
+    for travel in engine.bars.iter().filter_map(|(_, travel)| travel.as_ref()) {
+        if engine.clock.numbers.compare(travel, &longest)? == Ordering::Greater {
+            longest = travel.clone();
+        }
+    }
+    Ok(if longest.is_zero() { Fraction::one() } else { longest })
+}
+
+/// Follows until nothing can meet again, or for a while.
+fn follow_to_the_end(network: &Network, engine: &mut Engine) -> Outcome<(Moment, bool)> {
+    let travel = longest(engine)?;
+    let mut end = Moment::at(Fraction::zero());
+    for step in 1..=PATIENCE {
+        let count = Rational::from_integer(step.into());
+        end = Moment::at(travel.scale(&count));
+        engine.follow_until(&end)?;
+        if has_parted(network, engine, &end)? {
+            return Ok((end, true));
+        }
+    }
+    Ok((end, false))
+}
+
+/// Whether nothing can meet again after an instant.
+fn has_parted(network: &Network, engine: &Engine, moment: &Moment) -> Outcome<bool> {
+    let count = engine.contacts.len();
+    // What happens a little later is known already; then the instant tells nothing.
+    for happening in &engine.happenings {
+        if engine.clock.compare(&happening.moment, moment)? == Ordering::Greater {
+            return Ok(false);
+        }
+    }
+    let apart = |contact: usize| engine.is_open(contact) || engine.is_idle(contact);
+    if count == 0 || !(0..count).all(apart) {
+        return Ok(count == 0);
+    }
+    let joints: Vec<usize> = engine.contacts.iter().map(|contact| contact.joint).collect();
+    let parts = parts(network, &joints);
+    let wall = [0..0, usize::MAX..usize::MAX];
+    for (contact, joint) in joints.iter().enumerate() {
+        let left = parts.iter().find(|part| part.end == *joint).unwrap_or(&wall[0]);
+        let right = parts.iter().find(|part| part.start == *joint).unwrap_or(&wall[0]);
+        if !engine.never_meets(network, contact, [left, right], moment)? {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// A history that is being told.
+struct Story<'a> {
+    network: &'a Network,
+    engine: Engine,
+    digits: usize,
+    end: Moment,
+    parted: bool,
+}
+
+/// An event in the scale of the scene.
+struct Row {
+    kind: EventKind,
+    contact: usize,
+    moment: Moment,
+}
+
+impl Story<'_> {
+    fn told(self) -> Outcome<History> {
+        let rows = self.rows()?;
+        let units = Units::of(self.network, &self.engine.clock.numbers, self.engine.cut.bits)?;
+        let mut closed = vec![true; self.engine.contacts.len()];
+        let mut events = Vec::new();
+        for row in &rows {
+            closed[row.contact] = matches!(row.kind, EventKind::Impact | EventKind::Closing);
+            events.push(self.event(row, &closed, &units)?);
+        }
+        let mut contacts = Vec::new();
+        for contact in 0..self.engine.contacts.len() {
+            contacts.push(self.summary(contact, &rows, &closed, &units)?);
+        }
+        let ending = match self.parted {
+            true => Ending::Parted,
+            false => {
+                let time = self.engine.clock.time(&self.end)?;
+                let time = time.multiply(&units.time, self.engine.cut.bits);
+                Ending::Followed(determined(&time, self.digits))
+            }
+        };
+        let (bits, cells) = (self.engine.cut.bits, self.engine.count());
+        Ok(History { events, contacts, ending, bits, cells })
+    }
+
+    /// All events until the end, in order.
+    fn rows(&self) -> Outcome<Vec<Row>> {
+        let engine = &self.engine;
+        let start = Moment::at(Fraction::zero());
+        let mut rows = Vec::new();
+        for happening in &engine.happenings {
+            if engine.clock.compare(&happening.moment, &self.end)? == Ordering::Greater {
+                continue;
+            }
+            let kind = match happening.closes {
+                true if happening.moment == start => EventKind::Impact,
+                true => EventKind::Closing,
+                false => EventKind::Opening,
+            };
+            rows.push(Row { kind, contact: happening.contact, moment: happening.moment.clone() });
+        }
+        for contact in 0..engine.contacts.len() {
+            if let Some(moment) = engine.idle_since(contact) {
+                let moment = moment.clone();
+                rows.push(Row { kind: EventKind::Release, contact, moment });
+            }
+        }
+        // A change that is taken back at the same instant is none.
+        let mut kept: Vec<Row> = Vec::new();
+        for row in rows {
+            let same = |other: &Row| other.contact == row.contact && other.moment == row.moment;
+            let back = |other: &Row| same(other) && other.kind != row.kind && row.moment != start;
+            match kept.last().is_some_and(back) {
+                true => drop(kept.pop()),
+                false => kept.push(row),
+            }
+        }
+        let about = |row: &Row| engine.clock.about(&row.moment);
+        kept.sort_by(|a, b| {
+            let order = engine.clock.compare(&a.moment, &b.moment);
+            order.unwrap_or_else(|_| about(a).total_cmp(&about(b)))
+        });
+        Ok(kept)
+    }
+
+    fn event(&self, row: &Row, closed: &[bool], units: &Units) -> Outcome<Event> {
+        let (engine, bits) = (&self.engine, self.engine.cut.bits);
+        let (before, old) = engine.beside(row.contact, &row.moment, Limit::Before)?;
+        let (mut after, new) = engine.beside(row.contact, &row.moment, Limit::After)?;
+        if !closed[row.contact] {
+            after = Number::zero();
+        }
+        // A force that comes to zero by itself is zero then, though its enclosure is not a point.
+        let zero = |force: Number| match force.sign() {
+            None => Number::zero(),
+            Some(_) => force,
+        };
+        let before = if row.kind == EventKind::Closing { before } else { zero(before) };
+        let told =
+            |value: &Number, unit: &Number| determined(&value.multiply(unit, bits), self.digits);
+        let time = engine.clock.time(&row.moment)?;
+        Ok(Event {
+            kind: row.kind,
+            contact: row.contact,
+            between: engine.contacts[row.contact].names.clone(),
+            time: told(&time, &units.time),
+            forces: [before, after].map(|force| told(&force, &units.force)),
+            velocities: [old, new].map(|pair| pair.map(|v| told(&v, &units.velocity))),
+            bodies: self.bodies(&row.moment, closed, units)?,
+        })
+    }
+
+    /// The parts of the line at an instant.
+    fn parts(&self, closed: &[bool]) -> Vec<Range<usize>> {
+        let contacts = self.engine.contacts.iter().zip(closed);
+        let open = contacts.filter(|(_, closed)| !**closed).map(|(contact, _)| contact.joint);
+        parts(self.network, &open.collect::<Vec<_>>())
+    }
+
+    fn bodies(&self, moment: &Moment, closed: &[bool], units: &Units) -> Outcome<Vec<Body>> {
+        let (engine, bits, scene) = (&self.engine, self.engine.cut.bits, self.network.scene());
+        let energy_unit = units.force.multiply(&units.velocity, bits).multiply(&units.time, bits);
+        let momentum_unit = units.force.multiply(&units.time, bits);
+        let told = |value: &Option<Number>, unit: &Number| {
+            let value = value.as_ref()?;
+            Some(determined(&value.multiply(unit, bits), self.digits))
+        };
+        let mut bodies = Vec::new();
+        for part in self.parts(closed) {
+            let held = engine.held_by(self.network, &part, moment)?;
+            let velocity = engine.mean_velocity(self.network, &part, moment)?;
+            let mass = engine.mass_of(self.network, &part)?;
+            let carried = match (&held.momentum, &velocity) {
+                (Some(momentum), Some(velocity)) if mass.is_some() => {
+                    Some(momentum.multiply(velocity, bits).over(2, bits))
+                }
+                _ => None,
+            };
+            let elements = &scene.line.elements[part.clone()];
+            let rigid = |element: &usize| {
+                matches!(scene.elements[*element].kind, Kind::Mass(_) | Kind::Load(_))
+            };
+            let vibration = match (&held.energy, carried) {
+                (Some(_), Some(_)) if elements.iter().all(rigid) => Some(Number::zero()),
+                (Some(energy), Some(carried)) => Some(energy.subtract(&carried, bits)),
+                _ => None,
+            };
+            let names = scene.line.elements[part].iter();
+            bodies.push(Body {
+                elements: names.map(|element| scene.elements[*element].name.clone()).collect(),
+                energy: told(&held.energy, &energy_unit),
+                momentum: told(&held.momentum, &momentum_unit),
+                velocity: told(&velocity, &units.velocity),
+                vibration: told(&vibration, &energy_unit),
+            });
+        }
+        Ok(bodies)
+    }
+
+    /// Durations, impulses and restitution of a contact.
+    fn summary(
+        &self,
+        contact: usize,
+        rows: &[Row],
+        closed: &[bool],
+        units: &Units,
+    ) -> Outcome<ContactSummary> {
+        let (engine, bits) = (&self.engine, self.engine.cut.bits);
+        let momentum_unit = units.force.multiply(&units.time, bits);
+        let (mut durations, mut impulses) = (Vec::new(), Vec::new());
+        let mut since = Some(Moment::at(Fraction::zero()));
+        let mut any = false;
+        let mut stretch = |from: &Moment, to: &Moment, ended: bool| -> Outcome<()> {
+            let impulse = engine.impulse(contact, [from, to])?;
+            let duration = engine.clock.since(from, to)?;
+            if impulse.is_zero() {
+                return Ok(());
+            }
+            impulses.push(determined(&impulse.multiply(&momentum_unit, bits), self.digits));
+            let duration = determined(&duration.multiply(&units.time, bits), self.digits);
+            durations.push(ended.then_some(duration));
+            Ok(())
+        };
+        for row in rows.iter().filter(|row| row.contact == contact) {
+            match row.kind {
+                EventKind::Impact => {}
+                EventKind::Closing => since = Some(row.moment.clone()),
+                EventKind::Opening | EventKind::Release => {
+                    if let Some(from) = since.take() {
+                        stretch(&from, &row.moment, true)?;
+                        any = true;
+                    }
+                }
+            }
+        }
+        if let Some(from) = &since {
+            stretch(from, &self.end, false)?;
+        }
+        let last = rows.iter().rev().find(|row| row.contact == contact);
+        let restitution = match last.filter(|_| any && !closed[contact]) {
+            Some(row) => self.restitution(contact, &row.moment)?,
+            None => None,
+        };
+        let between = engine.contacts[contact].names.clone();
+        Ok(ContactSummary { between, durations, impulses, restitution })
+    }
+
+    /// The relative velocity of the mean motions at an instant over that at the start, with the sign
+    /// changed; none where they did not meet, or where a body has no mean motion.
+    fn restitution(&self, contact: usize, moment: &Moment) -> Outcome<Option<Determined>> {
+        let (engine, bits) = (&self.engine, self.engine.cut.bits);
+        let joints: Vec<usize> = engine.contacts.iter().map(|contact| contact.joint).collect();
+        let parts = parts(self.network, &joints);
+        let joint = joints[contact];
+        let sides = [
+            parts.iter().find(|part| part.end == joint),
+            parts.iter().find(|part| part.start == joint),
+        ];
+        let relative = |moment: &Moment| -> Outcome<Option<Number>> {
+            let mut velocities = Vec::new();
+            for side in &sides {
+                velocities.push(match side {
+                    Some(part) => engine.mean_velocity(self.network, part, moment)?,
+                    None => Some(Number::zero()),
+                });
+            }
+            let [Some(left), Some(right)] = &velocities[..] else { return Ok(None) };
+            Ok(Some(right.subtract(left, bits)))
+        };
+        let start = Moment::at(Fraction::zero());
+        let (Some(before), Some(after)) = (relative(&start)?, relative(moment)?) else {
+            return Ok(None);
+        };
+        if before.sign() != Some(Ordering::Less) {
+            return Ok(None);
+        }
+        let ratio = after.multiply(&before.reciprocal(bits)?, bits).negate();
+        Ok(Some(determined(&ratio, self.digits)))
+    }
+}

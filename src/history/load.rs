@@ -1,0 +1,141 @@
+//! The course of a load as a series on a cell.
+//!
+//! A course is a sum of polynomials times exponentials of the time since the start, with complex rates
+//! where it oscillates.
+
+use crate::ball::{Ball, ComplexBall, Magnitude};
+use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
+use crate::expression::{Expression, Fraction};
+use crate::history::number::Number;
+use crate::history::series::{Series, Truncation};
+use wavestep_polynomial::Symbol;
+
+/// A course `Σ p(t) e^(λt)`.
+pub(crate) struct Course {
+    /// Of each term its rate `λ` and the coefficients of `p`, lowest first.
+    terms: Vec<(ComplexBall, Vec<ComplexBall>)>,
+    /// The value, where it does not change with time and is rational.
+    constant: Option<Number>,
+}
+
+impl Course {
+    /// The course as a function of one symbol.
+    ///
+    /// # Errors
+    /// [`EnclosureError`] where a symbol has no value.
+    pub fn of(
+        numbers: &Numbers,
+        course: &Expression,
+        time: &Symbol,
+        bits: u64,
+    ) -> Result<Course, EnclosureError> {
+        let constant = course.as_constant().map(|value| Number::of_rational(value, bits));
+        let at_zero = |value: &Fraction| value.substitute(time, &Fraction::zero());
+        let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
+        let enclose = |value: Fraction| enclose_expression(&value.into(), &values, bits);
+        let mut terms = Vec::new();
+        for (exponent, coefficient) in course.terms() {
+            let rate = enclose(at_zero(&exponent.derivative(time))?)?;
+            let size = enclose(at_zero(exponent)?)?.exp(bits).map_err(EnclosureError::Ball)?;
+            let (mut polynomial, mut derivative) = (Vec::new(), coefficient.clone());
+            let mut factorial = wavestep_polynomial::Rational::from_integer(1.into());
+            while !derivative.is_zero() {
+                let value = enclose(at_zero(&derivative)?)?;
+                let value = value.multiply_rational(&factorial.recip(), bits);
+                polynomial.push(value.multiply(&size, bits));
+                let count = num_bigint::BigInt::from(polynomial.len());
+                factorial *= wavestep_polynomial::Rational::from_integer(count);
+                derivative = derivative.derivative(time);
+            }
+            terms.push((rate, polynomial));
+        }
+        Ok(Course { terms, constant })
+    }
+
+    /// A bound of its rates.
+    pub fn rate(&self) -> Magnitude {
+        let rates = self.terms.iter().map(|(rate, _)| rate.magnitude());
+        rates.max().unwrap_or(Magnitude::ZERO)
+    }
+
+    /// The series at an instant `t` after the start.
+    ///
+    /// With `p(t + x) = Σ_j p_j x^j` and `γ ≥ 2|λ|` the coefficient of `x^k` is
+    /// `Σ_j p_j λ^(k−j)/(k−j)!`, and `γ^j (γ/2)^(k−j)/(k−j)! ≤ γ^k/k! · 2^(j−k) k!/(k−j)!`, where
+    /// `k^j 2^(j−k) ≤ j! 4^j`: so `Σ_j |p_j| j! 4^j/γ^j` bounds the rest.
+    ///
+    /// # Errors
+    /// [`EnclosureError`] where an exponential is too large.
+    pub fn series(&self, t: &Number, cut: &Truncation) -> Result<Series, EnclosureError> {
+        if let Some(value) = &self.constant {
+            return Ok(Series::constant(value.clone()));
+        }
+        let bits = cut.bits;
+        let now = ComplexBall::from(t.ball(bits));
+        let mut sum = vec![ComplexBall::zero(); cut.order];
+        let mut rest = Magnitude::ZERO;
+        for (rate, polynomial) in &self.terms {
+            let mut shifted = polynomial.clone();
+            for first in 0..shifted.len() {
+                for k in (first..shifted.len() - 1).rev() {
+                    shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&now, bits), bits);
+                }
+            }
+            let size = rate.multiply(&now, bits).exp(bits).map_err(EnclosureError::Ball)?;
+            let mut power = ComplexBall::one();
+            for i in 0..cut.order {
+                for (j, c) in shifted.iter().enumerate().take(cut.order - i) {
+                    let term = c.multiply(&power, bits).multiply(&size, bits);
+                    sum[i + j] = sum[i + j].add(&term, bits);
+                }
+                let next = wavestep_polynomial::Rational::new(1.into(), (i as u64 + 1).into());
+                power = power.multiply(rate, bits).multiply_rational(&next, bits);
+            }
+            let mut factor = Magnitude::power_of_two(0);
+            for (j, c) in shifted.iter().enumerate() {
+                if j > 0 {
+                    factor = factor.multiply(&Magnitude::from_u64(4 * j as u64)).scale(-cut.rate);
+                }
+                // A polynomial without an exponential ends with its last coefficient.
+                if !rate.magnitude().is_zero() || shifted.len() > cut.order {
+                    rest = rest.add(&c.multiply(&size, bits).magnitude().multiply(&factor));
+                }
+            }
+        }
+        let real = |value: ComplexBall| -> Number { Number::Enclosed(value.real().clone()) };
+        let zero = |ball: &Ball| ball.is_exact() && ball.contains_zero();
+        let number = |value: ComplexBall| match zero(value.real()) {
+            true => Number::zero(),
+            false => real(value),
+        };
+        Ok(Series::new(sum.into_iter().map(number).collect(), rest))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wavestep_polynomial::{Polynomial, Rational};
+
+    /// `(2 + 3t) e^(−t/2) + cos 2t` at `t = 1/3`, continued by 1/5, against the value at 8/15.
+    #[test]
+    fn courses_are_continued() {
+        let time = Symbol::new("t").unwrap();
+        let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
+        let decaying = Expression::exponential(read("-1/2*t")).times(&read("2 + 3*t"));
+        let course = &decaying + &Expression::cosine(&read("2*t"));
+        let course = Course::of(&Numbers::new(&[]), &course, &time, 200).unwrap();
+        assert!(course.rate() >= Magnitude::from_u64(2));
+        let ratio = |a: i64, b: i64| Number::Exact(Rational::new(a.into(), b.into()));
+        let cut = Truncation::new(160, 2);
+        let near = course.series(&ratio(1, 3), &cut).unwrap().value(&ratio(1, 5), &cut);
+        let there = course.series(&ratio(8, 15), &cut).unwrap().coefficient(0);
+        let difference = near.subtract(&there, 200);
+        assert_eq!(difference.sign(), None);
+        assert!(difference.magnitude() < Magnitude::power_of_two(-120));
+        // Few terms: the bound of the rest encloses.
+        let few = Truncation { order: 3, ..cut };
+        let near = course.series(&ratio(1, 3), &few).unwrap().value(&ratio(1, 5), &few);
+        assert_eq!(near.subtract(&there, 200).sign(), None);
+    }
+}

@@ -1,0 +1,27 @@
+//! Contacts that open and close: what a scene does when they push and never pull.
+//!
+//! The history of a scene is followed with the method of steps, in which every signal is a Taylor series
+//! in balls with a proven rest. Where the force of a contact would become tensile the contact opens, and
+//! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
+//! cannot be decided is refused by name.
+//!
+//! Read [`engine`] for the way from cell to cell, [`crossing`] for the proof that nothing is passed over,
+//! [`series`] for the arithmetic, [`body`] for energies and for why bodies never meet again.
+
+mod body;
+mod crossing;
+mod engine;
+mod error;
+#[expect(clippy::module_inception, reason = "the module is named after what it tells")]
+mod history;
+mod junction;
+mod load;
+mod moment;
+mod node;
+mod number;
+mod observe;
+mod series;
+mod track;
+
+pub use error::HistoryError;
+pub use history::{Body, ContactSummary, Ending, Event, EventKind, History, MAX_BITS};

@@ -1,0 +1,185 @@
+//! Real numbers as the history knows them: rational and exact, or enclosed.
+//!
+//! Bars without masses and springs have rational velocities and forces, of which it can be decided that
+//! they are zero. What is not rational, or has too long a fraction, is a ball.
+
+use crate::ball::{Ball, BallError, Magnitude};
+use num_traits::{Signed, Zero};
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// Fractions with longer numerators or denominators are enclosed instead.
+const MAX_EXACT_BITS: u64 = 1 << 11;
+
+/// A real number.
+///
+/// # Invariants
+/// A rational has at most 2048 bits above and below the line.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Number {
+    /// This rational.
+    Exact(Rational),
+    /// Some number in this ball.
+    Enclosed(Ball),
+}
+
+impl Number {
+    pub fn zero() -> Number {
+        Number::Exact(Rational::zero())
+    }
+
+    pub fn one() -> Number {
+        Number::integer(1)
+    }
+
+    pub fn integer(value: i64) -> Number {
+        Number::Exact(Rational::from_integer(value.into()))
+    }
+
+    /// A rational, enclosed with so many bits where it is too long.
+    pub fn of_rational(value: Rational, bits: u64) -> Number {
+        match value.numer().bits().max(value.denom().bits()) > MAX_EXACT_BITS {
+            true => Number::Enclosed(Ball::from_rational(&value, bits)),
+            false => Number::Exact(value),
+        }
+    }
+
+    /// Whether it is known to be zero.
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Number::Exact(value) => value.is_zero(),
+            Number::Enclosed(ball) => ball.is_exact() && ball.contains_zero(),
+        }
+    }
+
+    /// The rational that it is, where that is known.
+    pub fn exact(&self) -> Option<&Rational> {
+        match self {
+            Number::Exact(value) => Some(value),
+            Number::Enclosed(_) => None,
+        }
+    }
+
+    /// An enclosure.
+    pub fn ball(&self, bits: u64) -> Ball {
+        match self {
+            Number::Exact(value) => Ball::from_rational(value, bits),
+            Number::Enclosed(ball) => ball.clone(),
+        }
+    }
+
+    /// An enclosure, borrowed where there is one.
+    fn as_ball(&self, bits: u64) -> Cow<'_, Ball> {
+        match self {
+            Number::Exact(value) => Cow::Owned(Ball::from_rational(value, bits)),
+            Number::Enclosed(ball) => Cow::Borrowed(ball),
+        }
+    }
+
+    /// The same number as a ball; zero stays exact.
+    pub fn enclosed(&self, bits: u64) -> Number {
+        match self.is_zero() {
+            true => Number::zero(),
+            false => Number::Enclosed(self.ball(bits)),
+        }
+    }
+
+    /// How it compares with zero; `None` where its enclosure does not tell.
+    pub fn sign(&self) -> Option<Ordering> {
+        match self {
+            Number::Exact(value) => Some(value.cmp(&Rational::zero())),
+            Number::Enclosed(ball) if !ball.contains_zero() => {
+                let negative = ball.midpoint().is_negative();
+                Some(if negative { Ordering::Less } else { Ordering::Greater })
+            }
+            Number::Enclosed(ball) => ball.is_exact().then_some(Ordering::Equal),
+        }
+    }
+
+    /// An upper bound of the absolute value.
+    pub fn magnitude(&self) -> Magnitude {
+        match self {
+            Number::Exact(value) => Magnitude::from_rational(&value.abs()),
+            Number::Enclosed(ball) => ball.magnitude(),
+        }
+    }
+
+    pub fn negate(&self) -> Number {
+        match self {
+            Number::Exact(value) => Number::Exact(-value),
+            Number::Enclosed(ball) => Number::Enclosed(ball.clone().negate()),
+        }
+    }
+
+    pub fn add(&self, other: &Number, bits: u64) -> Number {
+        match (self, other) {
+            (Number::Exact(a), Number::Exact(b)) => Number::of_rational(a + b, bits),
+            (zero, value) | (value, zero) if zero.is_zero() => value.clone(),
+            (a, b) => Number::Enclosed(a.as_ball(bits).add(&b.as_ball(bits), bits)),
+        }
+    }
+
+    pub fn subtract(&self, other: &Number, bits: u64) -> Number {
+        self.add(&other.negate(), bits)
+    }
+
+    pub fn multiply(&self, other: &Number, bits: u64) -> Number {
+        match (self, other) {
+            (Number::Exact(a), Number::Exact(b)) => Number::of_rational(a * b, bits),
+            (zero, _) | (_, zero) if zero.is_zero() => Number::zero(),
+            (a, b) => Number::Enclosed(a.as_ball(bits).multiply(&b.as_ball(bits), bits)),
+        }
+    }
+
+    /// `1/x`.
+    ///
+    /// # Errors
+    /// [`BallError::DivisorMayBeZero`] where it may be zero.
+    pub fn reciprocal(&self, bits: u64) -> Result<Number, BallError> {
+        match self {
+            Number::Exact(value) if value.is_zero() => Err(BallError::DivisorMayBeZero),
+            Number::Exact(value) => Ok(Number::Exact(value.recip())),
+            Number::Enclosed(ball) => Ok(Number::Enclosed(ball.reciprocal(bits)?)),
+        }
+    }
+
+    /// The quotient by an integer that is not zero.
+    pub fn over(&self, divisor: u64, bits: u64) -> Number {
+        let inverse = Rational::new(1.into(), divisor.into());
+        match self {
+            Number::Exact(value) => Number::of_rational(value * inverse, bits),
+            Number::Enclosed(ball) => Number::Enclosed(ball.multiply_rational(&inverse, bits)),
+        }
+    }
+
+    /// All numbers within a distance.
+    pub fn widened(&self, by: &Magnitude, bits: u64) -> Number {
+        match by.is_zero() {
+            true => self.clone(),
+            false => Number::Enclosed(self.ball(bits).widened(by)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rationals_stay_exact_until_they_are_long() {
+        let third = Number::Exact(Rational::new(1.into(), 3.into()));
+        let zero = third.add(&third, 64).subtract(&third, 64).subtract(&third, 64);
+        assert!(zero.is_zero() && zero.sign() == Some(Ordering::Equal));
+        let mut power = third.clone();
+        for _ in 0..2000 {
+            power = power.multiply(&third, 64);
+        }
+        assert!(power.exact().is_none());
+        assert_eq!(power.sign(), Some(Ordering::Greater));
+        assert!(power.multiply(&Number::zero(), 64).is_zero());
+        let product = power.multiply(&power.reciprocal(64).unwrap(), 64);
+        assert!(product.ball(64).contains(&Rational::from_integer(1.into())));
+        assert_eq!(product.subtract(&Number::one(), 64).sign(), None);
+    }
+}

@@ -1,0 +1,318 @@
+//! A function of time on one cell: its Taylor series at the start of the cell.
+//!
+//! Between two arrivals every signal is a sum of polynomials times exponentials, so its series
+//! converges everywhere. The first coefficients are kept as numbers; the others are bounded together by
+//! the series of an exponential, a bound that integration, shifts and linear differential equations
+//! keep.
+
+use crate::ball::Magnitude;
+use crate::history::number::Number;
+
+/// How series are cut off.
+///
+/// # Invariants
+/// `rate` is a positive power of two, at least four times the norm of every node and as large as every
+/// rate of a load; cells are so short that `rate · h ≤ 4`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Truncation {
+    /// The precision of balls.
+    pub bits: u64,
+    /// How many coefficients are kept: those of `x⁰ … x^(order−1)`.
+    pub order: usize,
+    /// `log₂ γ`, the rate of the bound.
+    pub rate: i64,
+}
+
+/// What `rate · h` is at most, as a power of two.
+pub(crate) const LONGEST_CELL: i64 = 2;
+
+impl Truncation {
+    /// Such that `4^N/N!` is below `2^(−bits−96)`: the 96 bits are room for bounds that grow from cell
+    /// to cell.
+    pub fn new(bits: u64, rate: i64) -> Truncation {
+        let (mut order, mut size) = (1_usize, 0.0);
+        while size > -((bits + 96) as f64) {
+            size += 2.0 - (order as f64).log2();
+            order += 1;
+        }
+        Truncation { bits, order, rate }
+    }
+
+    /// What a coefficient of `x^N` needs as the factor of the bound: `|c| N!/γ^N`, rounded upwards.
+    pub fn factor(&self, coefficient: &Magnitude) -> Magnitude {
+        let mut factor = coefficient.scale(-self.rate * self.order as i64);
+        for j in 2..=self.order as u64 {
+            factor = factor.multiply(&Magnitude::from_u64(j));
+        }
+        factor
+    }
+
+    /// `Σ_{i≥n} z^i/i! ≤ z^n/n! · e^z`, with `z = γ x ≤ 4·2` and `e^z ≤ 2^(2z)`.
+    fn tail(&self, n: usize, x: &Magnitude) -> Magnitude {
+        let z = x.scale(self.rate);
+        let mut power = growth(&z);
+        for j in 1..=n as u64 {
+            power = power.multiply(&z).divide(j);
+        }
+        power
+    }
+}
+
+/// A bound of `e^z`: `e ≤ 2^(3/2)`, so that `e^z ≤ 2^⌈3z/2⌉`.
+fn growth(z: &Magnitude) -> Magnitude {
+    let halves = z.multiply(&Magnitude::from_u64(3)).scale(-1);
+    let Some(top) = halves.top() else { return Magnitude::power_of_two(0) };
+    // Arguments are a few units; the bound below holds for all.
+    let exponent = if top <= 0 { 1 } else { 1_i64 << top.min(40) };
+    Magnitude::power_of_two(exponent)
+}
+
+/// A function `f(x) = Σ c_k x^k` on `0 ≤ x ≤ h`, the length of its cell.
+///
+/// # Invariants
+/// - `coefficients` hold `c_0 … c_(N−1)`, those left out at the end being zero;
+/// - `|c_k| ≤ rest · γ^k/k!` for all `k ≥ N`.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Series {
+    pub coefficients: Vec<Number>,
+    pub rest: Magnitude,
+}
+
+impl Series {
+    /// A constant.
+    pub fn constant(value: Number) -> Series {
+        Series::new(vec![value], Magnitude::ZERO)
+    }
+
+    /// The series of these coefficients, and of others so bounded.
+    pub fn new(mut coefficients: Vec<Number>, rest: Magnitude) -> Series {
+        while coefficients.last().is_some_and(Number::is_zero) {
+            coefficients.pop();
+        }
+        Series { coefficients, rest }
+    }
+
+    pub fn zero() -> Series {
+        Series { coefficients: Vec::new(), rest: Magnitude::ZERO }
+    }
+
+    /// Whether it is known to be zero.
+    pub fn is_zero(&self) -> bool {
+        self.coefficients.is_empty() && self.rest.is_zero()
+    }
+
+    /// Whether it is a polynomial with rational coefficients.
+    pub fn is_exact(&self) -> bool {
+        self.rest.is_zero() && self.coefficients.iter().all(|c| c.exact().is_some())
+    }
+
+    /// `c_k`, for `k < N`.
+    pub fn coefficient(&self, k: usize) -> Number {
+        self.coefficients.get(k).cloned().unwrap_or_else(Number::zero)
+    }
+
+    /// `a f + b g`.
+    pub fn combine(&self, a: &Number, other: &Series, b: &Number, bits: u64) -> Series {
+        let length = self.coefficients.len().max(other.coefficients.len());
+        let term = |k| {
+            let own = self.coefficient(k).multiply(a, bits);
+            own.add(&other.coefficient(k).multiply(b, bits), bits)
+        };
+        let rest = self.rest.multiply(&a.magnitude()).add(&other.rest.multiply(&b.magnitude()));
+        Series::new((0..length).map(term).collect(), rest)
+    }
+
+    pub fn add(&self, other: &Series, bits: u64) -> Series {
+        self.combine(&Number::one(), other, &Number::one(), bits)
+    }
+
+    pub fn subtract(&self, other: &Series, bits: u64) -> Series {
+        self.combine(&Number::one(), other, &Number::integer(-1), bits)
+    }
+
+    /// The series at `a ≥ 0`: `f(a + x)`.
+    ///
+    /// `c'_j = Σ_k C(k,j) a^(k−j) c_k`; what the terms with `k ≥ N` add is at most
+    /// `rest · γ^j/j! · Σ_{i ≥ N−j} (γa)^i/i!`, for `j ≥ N` with the whole `e^(γa)` as the sum.
+    pub fn shift(&self, a: &Number, cut: &Truncation) -> Series {
+        if a.is_zero() {
+            return self.clone();
+        }
+        let bits = cut.bits;
+        let mut shifted = self.coefficients.clone();
+        let exact = a.exact().is_some() && self.is_exact() && shifted.len() <= 4;
+        let step = if exact { a.clone() } else { a.enclosed(bits) };
+        if !exact {
+            shifted.iter_mut().for_each(|c| *c = c.enclosed(bits));
+        }
+        for first in 0..shifted.len() {
+            for k in (first..shifted.len().saturating_sub(1)).rev() {
+                shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&step, bits), bits);
+            }
+        }
+        if self.rest.is_zero() {
+            return Series::new(shifted, Magnitude::ZERO);
+        }
+        let a = a.magnitude();
+        shifted.resize(cut.order, Number::zero());
+        // γ^j/j! · tail(N − j), the first from j to j + 1, the second backwards.
+        let mut own = Magnitude::power_of_two(0);
+        for (j, c) in shifted.iter_mut().enumerate() {
+            let sum = own.multiply(&cut.tail(cut.order - j, &a));
+            *c = c.widened(&sum.multiply(&self.rest), bits);
+            own = own.scale(cut.rate).divide(j as u64 + 1);
+        }
+        Series::new(shifted, self.rest.multiply(&growth(&a.scale(cut.rate))))
+    }
+
+    /// `f(x)` for `0 ≤ x`, `γ x ≤ 8`.
+    pub fn value(&self, x: &Number, cut: &Truncation) -> Number {
+        let mut sum = Number::zero();
+        for c in self.coefficients.iter().rev() {
+            sum = sum.multiply(x, cut.bits).add(c, cut.bits);
+        }
+        sum.widened(&self.remainder(&x.magnitude(), cut), cut.bits)
+    }
+
+    /// What the terms from `x^N` on add to the value at most, at all points up to `x`.
+    pub fn remainder(&self, x: &Magnitude, cut: &Truncation) -> Magnitude {
+        match self.rest.is_zero() {
+            true => Magnitude::ZERO,
+            false => self.rest.multiply(&cut.tail(cut.order, x)),
+        }
+    }
+
+    /// A bound of `|Σ_{k≥n} c_k ξ^(k−n)|` for `|ξ| ≤ w`.
+    pub fn size_from(&self, n: usize, w: &Magnitude, cut: &Truncation) -> Magnitude {
+        let mut sum = Magnitude::ZERO;
+        for c in self.coefficients.iter().skip(n).rev() {
+            sum = sum.multiply(w).add(&c.magnitude());
+        }
+        // Σ_{k≥N} γ^k w^(k−n)/k! ≤ γ^n Σ_{k≥N} (γw)^(k−n)/(k−n)!.
+        match self.rest.is_zero() {
+            true => sum,
+            false => {
+                let tail = cut.tail(cut.order.saturating_sub(n), w).scale(cut.rate * n as i64);
+                sum.add(&self.rest.multiply(&tail))
+            }
+        }
+    }
+
+    /// `start + ∫_0^x f`: `c_(k−1)/k`, and `rest/γ` for the bound, by
+    /// `(γ^k/k!)/(k+1) = γ^(k+1)/(k+1)!/γ`.
+    pub fn integral(&self, start: Number, cut: &Truncation) -> Series {
+        let mut coefficients = vec![start];
+        for (k, c) in self.coefficients.iter().enumerate() {
+            coefficients.push(c.over(k as u64 + 1, cut.bits));
+        }
+        let mut rest = self.rest.scale(-cut.rate);
+        if let Some(last) = coefficients.get(cut.order) {
+            rest = rest.max(cut.factor(&last.magnitude()));
+            coefficients.truncate(cut.order);
+        }
+        Series::new(coefficients, rest)
+    }
+
+    /// `∫_0^x f²`, an enclosure. With `f = P + R`, `|R| ≤ ε`: `∫ P²` within `x (2 ε |P| + ε²)`.
+    pub fn energy(&self, x: &Number, cut: &Truncation) -> Number {
+        let bits = cut.bits;
+        let length = self.coefficients.len();
+        let mut sum = Number::zero();
+        for k in (0..(2 * length).saturating_sub(1)).rev() {
+            let mut product = Number::zero();
+            for i in k.saturating_sub(length - 1)..=k.min(length - 1) {
+                let term = self.coefficients[i].multiply(&self.coefficients[k - i], bits);
+                product = product.add(&term, bits);
+            }
+            sum = sum.add(&product.over(k as u64 + 1, bits), bits).multiply(x, bits);
+        }
+        let size = x.magnitude();
+        let error = self.remainder(&size, cut);
+        let polynomial = Series::new(self.coefficients.clone(), Magnitude::ZERO);
+        let whole = polynomial.size_from(0, &size, cut).scale(1).add(&error);
+        sum.widened(&error.multiply(&whole).multiply(&size), bits)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ball::Ball;
+    use wavestep_polynomial::Rational;
+
+    fn rational(numerator: i64, denominator: i64) -> Rational {
+        Rational::new(numerator.into(), denominator.into())
+    }
+
+    /// `e^{−x}` and its bound, with N terms.
+    fn decay(cut: &Truncation) -> Series {
+        let mut coefficients = vec![Number::Enclosed(Ball::from_rational(&rational(1, 1), 9))];
+        for k in 1..cut.order as u64 {
+            let next = coefficients[k as usize - 1].negate().over(k, cut.bits);
+            coefficients.push(next);
+        }
+        let next = coefficients[cut.order - 1].over(cut.order as u64, cut.bits);
+        Series::new(coefficients, cut.factor(&next.magnitude()))
+    }
+
+    fn exponential(x: &Rational) -> Ball {
+        Ball::from_rational(&-x, 900).exp(900).unwrap()
+    }
+
+    fn encloses(wide: &Number, narrow: &Ball, bits: i64) -> bool {
+        let difference = wide.ball(900).subtract(narrow, 900);
+        let close = difference.magnitude() <= Magnitude::power_of_two(-bits);
+        difference.contains_zero() && close
+    }
+
+    #[test]
+    fn an_exponential_is_shifted_integrated_and_squared() {
+        for rate in [2, 0, 3] {
+            let cut = Truncation::new(128, rate);
+            let f = decay(&cut);
+            let h = Number::Exact(rational(4, 1 << rate));
+            let (a, b) = (Number::Exact(rational(1, 3)), Number::Exact(rational(1, 7)));
+            let sum = rational(10, 21);
+            assert!(encloses(&f.value(&h, &cut), &exponential(h.exact().unwrap()), 100));
+            let shifted = f.shift(&a, &cut);
+            assert!(encloses(&shifted.value(&b, &cut), &exponential(&sum), 100));
+            let again = shifted.shift(&b, &cut).shift(&a, &cut);
+            let third = exponential(&(sum + rational(1, 3)));
+            assert!(encloses(&again.value(&Number::zero(), &cut), &third, 90));
+            // 1 − e^{−x} and (1 − e^{−2x})/2.
+            let integral = f.integral(Number::zero(), &cut).value(&a, &cut);
+            let one = Ball::from_rational(&rational(1, 1), 9);
+            let expected = one.subtract(&exponential(&rational(1, 3)), 900);
+            assert!(encloses(&integral, &expected, 100));
+            let expected = one.subtract(&exponential(&rational(2, 3)), 900);
+            let expected = expected.multiply_rational(&rational(1, 2), 900);
+            assert!(encloses(&f.energy(&a, &cut), &expected, 100));
+        }
+    }
+
+    /// With two terms only, the bound of the rest is what encloses.
+    #[test]
+    fn few_terms_enclose_by_their_bound() {
+        let cut = Truncation { bits: 128, order: 2, rate: 1 };
+        let f = decay(&cut);
+        let x = Number::Exact(rational(1, 2));
+        let value = f.value(&x, &cut).ball(128);
+        assert!(value.subtract(&exponential(&rational(1, 2)), 900).contains_zero());
+        let shifted = f.shift(&x, &cut).value(&x, &cut).ball(128);
+        assert!(shifted.subtract(&exponential(&rational(1, 1)), 900).contains_zero());
+        let size = f.size_from(1, &Magnitude::power_of_two(-1), &cut);
+        // (1 − e^{−1/2})/(1/2) = 0.787
+        assert!(size >= Magnitude::from_rational(&rational(787, 1000)));
+    }
+
+    #[test]
+    fn polynomials_with_rational_coefficients_stay_exact() {
+        let cut = Truncation::new(64, 0);
+        let number = |n| Number::Exact(rational(n, 3));
+        let f = Series::new(vec![number(1), number(2), number(5), Number::zero()], Magnitude::ZERO);
+        assert!(f.is_exact() && f.coefficients.len() == 3);
+        let value = f.shift(&number(1), &cut).value(&number(2), &cut);
+        assert_eq!(value, Number::Exact(rational(8, 3)));
+        assert!(f.subtract(&f, 64).is_zero());
+    }
+}

@@ -1,0 +1,205 @@
+//! Contacts that open and close: instants known in closed form, the laws of mechanics through every
+//! event, and a numerical method that shares nothing with what is tested.
+
+mod characteristics;
+mod page;
+mod refusals;
+
+use std::collections::BTreeMap;
+use wavestep::ball::Ball;
+use wavestep::evaluate::{Determined, Side, Value};
+use wavestep::history::{Ending, Event, EventKind, History};
+use wavestep::language::{Source, parse_number, read_scene};
+use wavestep::network::Network;
+use wavestep_polynomial::Rational;
+
+type Values<'a> = &'a [(&'a str, &'a str)];
+
+/// The shipped scenes whose contacts open, with values for their symbols.
+const SHIPPED: [(&str, Values<'static>); 10] = [
+    ("bars-that-part", &[("r", "1/2")]),
+    ("bars-that-part", &[("r", "1")]),
+    ("bars-that-part", &[("r", "2")]),
+    ("bars-of-equal-length", &[]),
+    ("bars-of-unequal-length", &[]),
+    ("saint-venant", &[("mu", "1")]),
+    ("mass-on-free-bar", &[("m", "2")]),
+    ("cushion-with-release", &[("mu", "3")]),
+    ("hopkinson-with-release", &[]),
+    ("mass-that-bounces", &[]),
+];
+
+fn network_of(text: &str, values: Values<'_>) -> Network {
+    let number = |(name, value): &(&str, &str)| ((*name).to_owned(), parse_number(value).unwrap());
+    let values: BTreeMap<_, _> = values.iter().map(number).collect();
+    let scene = read_scene(&Source::new("test.wave", text).unwrap(), &values);
+    Network::new(&scene.unwrap_or_else(|errors| panic!("{}", errors[0]))).unwrap()
+}
+
+fn shipped(name: &str, values: Values<'_>) -> Network {
+    network_of(wavestep::scenes::find(name).expect("a built-in scene").text, values)
+}
+
+fn rational(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn ball(value: &Determined) -> Ball {
+    match value {
+        Determined::Digits(Value::Exact(value)) => Ball::from_rational(value, 300),
+        Determined::Digits(Value::Certified(certified)) => certified.ball.clone(),
+        Determined::Enclosed(ball) => ball.clone(),
+    }
+}
+
+fn kinds(events: &[Event]) -> Vec<EventKind> {
+    events.iter().map(|event| event.kind).collect()
+}
+
+/// Whether a ball is within `10^-40` of zero and contains it.
+fn is_zero(ball: &Ball) -> bool {
+    let tiny = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(40));
+    let widest = Ball::symmetric(&tiny);
+    let (own, limit) = (ball.to_decimal(60), widest.to_decimal(60));
+    ball.contains(&Rational::default())
+        && own.radius().to_rational() <= limit.radius().to_rational() * rational(2, 1)
+}
+
+/// 3 + e^(−2)/2, to more digits than were asked for.
+#[test]
+fn the_mass_leaves_the_bar_at_a_known_instant() {
+    let history = History::of(&shipped("saint-venant", &[("mu", "1")]), None, 20).unwrap();
+    assert_eq!(
+        kinds(&history.events),
+        [EventKind::Impact, EventKind::Opening, EventKind::Closing, EventKind::Opening]
+    );
+    let power = Ball::from_rational(&rational(-2, 1), 300).exp(300).unwrap();
+    let half = power.multiply_rational(&rational(1, 2), 300);
+    let exact = half.add(&Ball::from_rational(&rational(3, 1), 300), 300);
+    assert!(is_zero(&ball(&history.events[1].time).subtract(&exact, 300)));
+    assert_eq!(history.ending, Ending::Parted);
+}
+
+/// 6.6: they part at 2L/c where Z1 <= Z2; equal bars of equal length exchange their velocities.
+#[test]
+fn bars_part_when_the_first_wave_returns() {
+    for (r, kind, restitution) in
+        [("1/3", EventKind::Opening, "0.5 = 1/2"), ("1", EventKind::Release, "0")]
+    {
+        let history = History::of(&shipped("bars-that-part", &[("r", r)]), None, 12).unwrap();
+        assert_eq!(kinds(&history.events), [EventKind::Impact, kind]);
+        assert_eq!(history.events[1].time.to_text(9), "2");
+        let [contact] = &history.contacts[..] else { panic!("one contact") };
+        assert_eq!(contact.restitution.as_ref().unwrap().to_text(9), restitution);
+        assert_eq!(history.ending, Ending::Parted);
+    }
+    let history = History::of(&shipped("bars-of-equal-length", &[]), None, 12).unwrap();
+    let [_, opening] = &history.events[..] else { panic!("two events") };
+    let [left, right] = &opening.bodies[..] else { panic!("two bodies") };
+    for (value, told) in [
+        (&opening.time, "2"),
+        (left.energy.as_ref().unwrap(), "0"),
+        (right.velocity.as_ref().unwrap(), "1"),
+        (right.vibration.as_ref().unwrap(), "0"),
+        (history.contacts[0].restitution.as_ref().unwrap(), "1"),
+    ] {
+        assert_eq!(value.to_text(9), told);
+    }
+}
+
+/// 6.41: for Z1 > Z2 the force is `V Z1 Z2/(Z1 + Z2) ρ^n` for ever; followed for a hundred travel times.
+#[test]
+fn a_heavier_striker_stays_in_contact() {
+    let network = shipped("bars-that-part", &[("r", "3")]);
+    let history = History::of(&network, None, 12).unwrap();
+    assert_eq!(kinds(&history.events), [EventKind::Impact]);
+    let end = Determined::Digits(Value::Exact(rational(100, 1)));
+    assert_eq!(history.ending, Ending::Followed(end));
+    let times: Vec<Rational> = (0..9).map(|n| rational(2 * n + 1, 1)).collect();
+    let forces = History::values(&network, "force", &times, Side::Right, 12).unwrap();
+    for (n, force) in forces.iter().enumerate() {
+        let exact = rational(3, 4) / rational(2_i64.pow(n as u32), 1);
+        assert_eq!(*force, Determined::Digits(Value::Exact(exact)));
+    }
+    assert_eq!(history.contacts[0].durations, [None]);
+}
+
+/// The energy of all bodies is what it was, after every event; what the load does is counted.
+#[test]
+fn energy_and_momentum_are_kept_through_every_event() {
+    for (name, values) in SHIPPED {
+        let network = shipped(name, values);
+        let until = rational(25, 1);
+        let until = (name == "mass-that-bounces").then_some(&until);
+        let history = History::of(&network, until, 12).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let unit = if network.scene().dimensional { 10 } else { 0 };
+        let loaded = name == "mass-that-bounces";
+        let free = !loaded && name != "saint-venant";
+        let sum = |event: &Event, momentum: bool| {
+            event.bodies.iter().fold(Ball::symmetric(&rational(0, 1)), |sum, body| {
+                let value = if momentum { &body.momentum } else { &body.energy };
+                sum.add(&ball(value.as_ref().unwrap()), 300)
+            })
+        };
+        for event in &history.events[1..] {
+            let first = &history.events[0];
+            let close = |change: Ball| {
+                let scale = rational(1, 10_i64.pow(unit));
+                is_zero(&change.multiply_rational(&scale, 300))
+            };
+            if !loaded {
+                let change = sum(event, false).subtract(&sum(first, false), 300);
+                assert!(close(change.clone()), "{name}: {change}");
+            }
+            if free {
+                let change = sum(event, true).subtract(&sum(first, true), 300);
+                assert!(close(change.clone()), "{name}: {change}");
+            }
+        }
+    }
+}
+
+/// The same at times between events, and with the work of the constant force.
+#[test]
+fn the_force_does_the_work_that_the_bodies_hold() {
+    let network = shipped("mass-that-bounces", &[]);
+    let times: Vec<Rational> = (0..7).map(|n| rational(7 * n, 2)).collect();
+    let told = |name| History::values(&network, name, &times, Side::Right, 12).unwrap();
+    let (energy, displacement) = (told("energy"), told("displacement"));
+    for (energy, displacement) in energy.iter().zip(&displacement) {
+        let work = ball(displacement).multiply_rational(&rational(1, 20), 300);
+        let change = ball(energy).subtract(&work, 300);
+        let start = Ball::from_rational(&rational(1, 2), 300);
+        assert!(is_zero(&change.subtract(&start, 300)), "{change}");
+    }
+}
+
+/// A mass that falls back strikes again, and again.
+#[test]
+fn a_mass_under_a_force_bounces() {
+    let network = shipped("mass-that-bounces", &[]);
+    let until = rational(60, 1);
+    let history = History::of(&network, Some(&until), 9).unwrap();
+    let closings = history.events.iter().filter(|event| event.kind == EventKind::Closing);
+    assert!(closings.count() >= 2, "{:?}", kinds(&history.events));
+    // Before each closing the bodies approach each other.
+    for event in history.events.iter().filter(|event| event.kind == EventKind::Closing) {
+        let [before, _] = &event.velocities;
+        let approach = ball(&before[0]).subtract(&ball(&before[1]), 300).rounded().unwrap();
+        assert!(approach > 0.0);
+    }
+}
+
+/// Across phases, jumps have two limits, and displacements of both sides differ by the gap.
+#[test]
+fn observables_go_on_across_phases() {
+    let network = shipped("bars-of-equal-length", &[]);
+    let times = [rational(2, 1), rational(3, 1)];
+    let right = History::values(&network, "right", &times, Side::Right, 9).unwrap();
+    let left = History::values(&network, "right", &times, Side::Left, 9).unwrap();
+    let text = |values: &[Determined]| values.iter().map(|v| v.to_text(9)).collect::<Vec<_>>();
+    assert_eq!(
+        (text(&left), text(&right)),
+        (vec!["0.5 = 1/2".to_owned(), "1".to_owned()], vec!["1".to_owned(), "1".to_owned()],)
+    );
+}
