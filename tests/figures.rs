@@ -92,6 +92,45 @@ fn the_largest_strain_moves_to_later_periods() {
     assert!(LargestStrain::new(1000).is_none());
 }
 
+/// The ratios of masses at which the contact lasts to the end of a period, to 12 digits, and the curve
+/// that passes through them.
+#[test]
+fn the_release_moves_to_later_periods() {
+    let strains = LargestStrain::new(7).unwrap();
+    let digits = [
+        "1.72833218876",
+        "4.15116350711",
+        "7.37137207709",
+        "11.4051030110",
+        "16.2529282849",
+        "21.9141813733",
+    ];
+    let page = fs::read_to_string(folder().join("../saint-venant.md")).unwrap();
+    for (period, digits) in (1..).zip(digits) {
+        let at = strains.outlasting(period, 80).unwrap();
+        let told = at.to_decimal(20);
+        assert!(told.midpoint().to_string().starts_with(digits), "{period}: {told}");
+        assert!(told.radius().to_rational() < ratio(1, 1_000_000_000_000), "{told}");
+        assert!(page.contains(digits), "{digits}");
+        let mu = (told.midpoint().to_rational() * ratio(100_001, 100_000)).recip();
+        let end = 2.0 * (period as f64 + 1.0);
+        let before = (told.midpoint().to_rational() * ratio(99_999, 100_000)).recip();
+        assert!((strains.release(&before).unwrap() - end).abs() < 1e-3, "{period}");
+        let release = strains.release(&mu).unwrap();
+        // The front that arrives at the end of the period presses the bodies together once more.
+        assert!(release > end && release < end + 1.0, "{period}: {release}");
+    }
+    let svg = wavestep::figures::saint_venant().unwrap().svg();
+    let file = folder().join("saint-venant.svg");
+    if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
+        fs::write(&file, &svg).unwrap();
+    }
+    assert!(
+        fs::read_to_string(&file).ok().as_deref() == Some(svg.as_str()),
+        "saint-venant.svg is stale"
+    );
+}
+
 /// 6.86 is near the envelope.
 #[test]
 fn the_estimate_is_near_the_envelope() {

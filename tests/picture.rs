@@ -186,7 +186,7 @@ fn numbers_are_written_as_csv() {
     let folder = folder("csv");
     let csv = drawn(&folder, &["rigid-mass", "--set", "mu=1", "--quantity", "f"], "data.csv");
     let csv = String::from_utf8(csv).unwrap();
-    assert!(csv.starts_with("panel,series,time,value\nf,,0e0,1e0\n"), "{}", &csv[..60]);
+    assert!(csv.starts_with("panel,series,time,value\nf,f,0e0,1e0\n"), "{}", &csv[..60]);
 }
 
 #[test]

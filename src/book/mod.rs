@@ -13,7 +13,7 @@
 //! let Verdict::Refuted(slip) = &found.verdict else { panic!("a slip in the source") };
 //! assert!(slip.1.is_certain());
 //! let corrected = found.derived[0].to_line();
-//! assert!(corrected.contains("- t_tilde^2*(3/2"), "{corrected}");
+//! assert!(corrected.contains("- 1/2*t_tilde^2*(3 "), "{corrected}");
 //! ```
 
 mod checks;

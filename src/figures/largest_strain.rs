@@ -6,7 +6,7 @@
 //! striking mass, the later the period in which that is largest of all.
 
 use crate::ball::Ball;
-use crate::enclosure::{ZeroError, enclose_expression, enclose_zero};
+use crate::enclosure::{enclose_expression, enclose_zero};
 use crate::expression::{Expression, Fraction};
 use crate::language::{self, Source};
 use crate::solution::Solution;
@@ -33,6 +33,8 @@ const MAX_PERIODS: usize = 60;
 /// ```
 pub struct LargestStrain {
     mu: Symbol,
+    /// The wave functions f_n, in s and mu.
+    pieces: Vec<Expression>,
     strains: Vec<Expression>,
     /// The force at the ends of periods, over that at the start.
     forces: Vec<Expression>,
@@ -40,9 +42,6 @@ pub struct LargestStrain {
 
 impl LargestStrain {
     /// The strains of the periods 0 … `last`, from the derived wave functions.
-    ///
-    /// # Errors
-    /// [`ZeroError::NotSimple`] never; text where there are more periods than 60.
     ///
     /// # Panics
     /// Never: the scene is built in.
@@ -69,7 +68,7 @@ impl LargestStrain {
             _ => &ends[n] + &ends[n - 1],
         };
         let forces = (0..ends.len()).map(force).collect();
-        Some(LargestStrain { mu, strains, forces })
+        Some(LargestStrain { mu, pieces, strains, forces })
     }
 
     /// `2 f_n(0)`, the strain over `V/c` at the beginning of a period, where the bar has a share μ of the
@@ -119,15 +118,32 @@ impl LargestStrain {
     /// there is no larger one is not proven.
     pub fn overtaking(&self, period: usize, bits: u64) -> Option<Ball> {
         let next = self.strains.get(period + 1)?;
-        let difference = next - &self.strains[period];
-        let is_overtaken = |ratio: &Rational| {
-            let value = self.enclose(&difference, &ratio.recip(), 64);
-            !value.contains(&Rational::default())
-                && Ball::from_rational(&Rational::default(), 8).is_below(&value)
-        };
+        self.last_change(&(next - &self.strains[period]), period, bits)
+    }
+
+    /// The largest ratio `1/μ` of the striking mass to that of the bar at which the force is zero at the end
+    /// of a period, `2(n + 1) L/c`: with larger masses the contact lasts longer. Found as in
+    /// [`overtaking`](Self::overtaking).
+    ///
+    /// ```
+    /// use wavestep::figures::LargestStrain;
+    ///
+    /// // Masses of up to 1.728 bars leave before 4 L/c.
+    /// let ratio = LargestStrain::new(1).unwrap().outlasting(1, 60).unwrap();
+    /// assert!(ratio.to_string().starts_with("1.72833218876"));
+    /// ```
+    pub fn outlasting(&self, period: usize, bits: u64) -> Option<Ball> {
+        self.last_change(self.forces.get(period)?, period, bits)
+    }
+
+    /// The inverse of the smallest zero, as far as is looked, of an expression that is positive before it.
+    fn last_change(&self, expression: &Expression, period: usize, bits: u64) -> Option<Ball> {
+        let zero = Ball::from_rational(&Rational::default(), 8);
+        let is_positive =
+            |ratio: &Rational| zero.is_below(&self.enclose(expression, &ratio.recip(), 64));
         let count = i64::try_from(period + 2).ok()?;
         let mut high = Rational::from_integer((4 * count * count).into());
-        if !is_overtaken(&high) {
+        if !is_positive(&high) {
             return None;
         }
         let shrink = Rational::new(15.into(), 16.into());
@@ -136,18 +152,54 @@ impl LargestStrain {
             if low < Rational::new(1.into(), 8.into()) {
                 return None;
             }
-            if !is_overtaken(&low) {
+            if !is_positive(&low) {
                 let bounds = [high.recip(), low.recip()];
-                let mu = enclose_zero(&difference, &self.mu, &bounds, bits + 8);
-                return match mu {
-                    Ok(mu) => mu.reciprocal(bits + 8).ok(),
-                    Err(ZeroError::SameSign | ZeroError::NotSimple | ZeroError::Enclosure(_)) => {
-                        None
-                    }
-                };
+                let mu = enclose_zero(expression, &self.mu, &bounds, bits + 8).ok()?;
+                return mu.reciprocal(bits + 8).ok();
             }
             high = low;
         }
+    }
+
+    /// When the mass leaves the bar, in `L/c`: the first zero of the force, halved in doubles to about ten
+    /// digits; `None` where it stays beyond the periods that are known.
+    ///
+    /// For certified digits there is [`History`](crate::history::History); this is for pictures.
+    ///
+    /// ```
+    /// use wavestep::figures::LargestStrain;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let strains = LargestStrain::new(2).unwrap();
+    /// let equal = strains.release(&Rational::from_integer(1.into())).unwrap();
+    /// assert!((equal - 3.0 - (-2.0_f64).exp() / 2.0).abs() < 1e-9);
+    /// assert!(strains.release(&Rational::new(1.into(), 50.into())).is_none());
+    /// ```
+    pub fn release(&self, mu: &Rational) -> Option<f64> {
+        let period = (0..self.forces.len()).find(|n| !self.is_pushed(n + 1, mu))?;
+        let length = mu + mu;
+        let force = |share: &Rational| {
+            let s = &length * share;
+            let at = |symbol: &Symbol, bits| match symbol {
+                known if *known == self.mu => Some(Ball::from_rational(mu, bits)),
+                _ => Some(Ball::from_rational(&s, bits)),
+            };
+            let value = |f: &Expression| enclose_expression(f, &at, 320).expect("known symbols");
+            let mut sum = value(&self.pieces[period]).real().clone();
+            if let Some(before) = period.checked_sub(1) {
+                sum = sum.add(value(&self.pieces[before]).real(), 320);
+            }
+            sum
+        };
+        let zero = Ball::from_rational(&Rational::default(), 8);
+        let (mut low, mut high) = (Rational::default(), Rational::one());
+        let half = Rational::new(1.into(), 2.into());
+        for _ in 0..34 {
+            let middle = (&low + &high) * &half;
+            if zero.is_below(&force(&middle)) { low = middle } else { high = middle }
+        }
+        let within = num_traits::ToPrimitive::to_f64(&low)?;
+        Some(2.0 * (period as f64 + within))
     }
 
     /// `[1 + (1/μ + 1/3)^{1/2}]`, the estimate 6.86 in `V/c`.
