@@ -5,8 +5,8 @@
 //! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
 //! cannot be decided is refused by name.
 //!
-//! Read [`engine`] for the way from cell to cell, [`crossing`] for the proof that nothing is passed over,
-//! [`series`] for the arithmetic, [`body`] for energies and for why bodies never meet again.
+//! Read `engine` for the way from cell to cell, `crossing` for the proof that nothing is passed over,
+//! `series` for the arithmetic, `body` for energies and for why bodies never meet again.
 
 mod body;
 mod crossing;
