@@ -1,8 +1,11 @@
-//! Exact constants as doubles with what is left of them.
+//! Exact constants as doubles with what is left of them, and doubles as the numbers that they are.
 
+use super::MethodError;
 use crate::ball::Ball;
 use crate::enclosure::{EnclosureError, Numbers};
+use crate::evaluate::cells::{at_or_after, rational};
 use crate::expression::Fraction;
+use wavestep_polynomial::Rational;
 
 /// Bits of the balls that are rounded.
 const BITS: u64 = 256;
@@ -23,4 +26,15 @@ pub(super) fn three_of(ball: Ball) -> [f64; 3] {
 pub(super) fn near(numbers: &Numbers, value: &Fraction) -> Result<(f64, f64), EnclosureError> {
     let (double, distance) = numbers.enclose(value, BITS)?.to_double();
     Ok((double, distance.to_double()))
+}
+
+/// Refuses times that are not all in a window, its ends included.
+pub(super) fn inside(at: &[f64], [from, to]: [&Rational; 2]) -> Result<(), MethodError> {
+    let window = at_or_after(from)..=-at_or_after(&-to);
+    if at.iter().all(|time| window.contains(time)) { Ok(()) } else { Err(MethodError::Outside) }
+}
+
+/// Doubles as the numbers that they are.
+pub(super) fn exactly(at: &[f64]) -> Vec<Rational> {
+    at.iter().map(|time| rational(*time)).collect()
 }

@@ -6,11 +6,11 @@
 //! which the response is seen.
 
 use super::clock::Clock;
-use super::doubles::near;
+use super::doubles::{exactly, inside, near};
 use super::{Method, MethodError};
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::{at_or_after, rational};
+use crate::evaluate::cells::rational;
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::Taps;
@@ -296,14 +296,8 @@ impl Method for MarchedResponse {
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
-        let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
-        if !at.iter().all(|time| window.contains(time)) {
-            return Err(MethodError::Outside);
-        }
-        let found = self.at_doubles(at).unwrap_or_else(|| {
-            let times: Vec<Rational> = at.iter().map(|time| rational(*time)).collect();
-            self.at(&times, Side::Right)
-        });
+        inside(at, [&self.from, &self.to])?;
+        let found = self.at_doubles(at).unwrap_or_else(|| self.at(&exactly(at), Side::Right));
         values.copy_from_slice(&found?);
         Ok(())
     }

@@ -1,11 +1,11 @@
 //! Several poles and lags: all waves of a recurrence, marched through in doubles without a bound.
 
 use super::clock::Clock;
+use super::doubles::{exactly, inside};
 use super::march_system::{SystemBuilder, enclosed, nearest, product, transform};
 use super::{Method, MethodError};
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::{at_or_after, rational};
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::NoTaps;
@@ -214,14 +214,8 @@ impl Method for MarchedWaves {
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
-        let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
-        if !at.iter().all(|time| window.contains(time)) {
-            return Err(MethodError::Outside);
-        }
-        let found = self.at_doubles(at).unwrap_or_else(|| {
-            let times: Vec<Rational> = at.iter().map(|time| rational(*time)).collect();
-            self.at(&times, Side::Right)
-        });
+        inside(at, [&self.from, &self.to])?;
+        let found = self.at_doubles(at).unwrap_or_else(|| self.at(&exactly(at), Side::Right));
         values.copy_from_slice(&found?);
         Ok(())
     }
