@@ -161,8 +161,16 @@ impl Examination {
         out
     }
 
+    /// The scene that was derived; a check of its own needs none.
+    fn scene_of_derived(&self) -> Option<&str> {
+        match self.entry.content {
+            Content::Check(_) => None,
+            _ => self.section.scene(),
+        }
+    }
+
     fn derived_heading(&self) -> String {
-        match self.section.scene() {
+        match self.scene_of_derived() {
             Some(scene) => format!("Derived from the parts of the scene `{scene}`"),
             None => "Derived".to_owned(),
         }
@@ -195,7 +203,7 @@ impl Examination {
             out.push_str(&format!("The reading is not sure: {}.\n", escaped(why)));
         }
         if !derived.is_empty() {
-            out.push_str(&match self.section.scene() {
+            out.push_str(&match self.scene_of_derived() {
                 Some(scene) => {
                     format!("\nDerived from the parts of the scene \\texttt{{{scene}}}:\n")
                 }
