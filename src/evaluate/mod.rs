@@ -29,6 +29,7 @@ pub use evaluator::{
     EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
     Side,
 };
+pub(crate) use find::{At, Piecewise};
 pub use find::{Determined, Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,

@@ -40,9 +40,6 @@ const REMAINDER_BITS: i64 = 8;
 /// halved, since a double root is as flat as that.
 const RELATIVE_BITS: i64 = 64;
 
-/// The precision of the scale of time.
-const BOUND_BITS: u64 = 64;
-
 /// What is smaller than the waves it is the sum of by so many bits may be zero.
 const CANCELLED_BITS: i64 = 100;
 
@@ -131,19 +128,16 @@ impl Search<'_> {
     ) -> Result<Vec<Cell>, EvaluateError> {
         let [from, to] = self.bounds(stretch)?;
         let (middle, _) = middle_and_half(&from, &to);
-        let waves = &self.stretches[stretch];
         let size = loop {
             let bits = self.bits.get();
-            let (size, error) = self.signal.size(waves, target.order, &middle, bits)?;
+            let (size, error) = self.function.size(stretch, target.order, &middle, bits)?;
             if error.scale(RELATIVE_BITS) <= size || bits >= target.limit_bits {
                 break size;
             }
             // Far from the start the first bits may tell nothing.
             self.bits.set((2 * bits).min(target.limit_bits));
         };
-        let slowness = self.signal.numbers().enclose(self.signal.slowness(), BOUND_BITS)?;
-        let power = (0..target.order).fold(size, |size, _| size.multiply(&slowness.magnitude()));
-        let (scale, cells) = (power.scale(-CANCELLED_BITS), Vec::new());
+        let (scale, cells) = (size.scale(-CANCELLED_BITS), Vec::new());
         let mut cover = Cover { search: self, stretch, target, record, scale, cells };
         cover.descend(from, to, 0, None)?;
         Ok(cover.cells)
@@ -158,8 +152,8 @@ impl Search<'_> {
         terms: usize,
         bits: u64,
     ) -> Result<Taylor, EvaluateError> {
-        let stretch = &self.stretches[stretch];
-        let mut taylor = self.signal.taylor(stretch, target.order, (middle, half), terms, bits)?;
+        let place = (middle, half);
+        let mut taylor = self.function.taylor(stretch, target.order, place, terms, bits)?;
         if target.order == 0 && *target.level != Rational::default() {
             let level = Ball::from_rational(target.level, bits);
             taylor.coefficients[0] = taylor.coefficients[0].subtract(&level, bits);

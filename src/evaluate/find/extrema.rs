@@ -14,6 +14,7 @@ use crate::ball::Ball;
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, range_of};
 use crate::evaluate::find::determined::Determined;
+use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::refine::Isolated;
 use crate::evaluate::find::search::{Search, rationals, sign_of};
 use crate::evaluate::value::Value;
@@ -256,7 +257,7 @@ impl<'s> Search<'s> {
         let mut left = Vec::new();
         let contenders = Contenders { search: self, goal, limit_bits, left: RefCell::default() };
         let mut constant = Vec::new();
-        for stretch in 0..self.stretches.len() {
+        for stretch in 0..self.count {
             constant.push(!self.is_instant(stretch) && self.is_constant(stretch)?);
             if constant[stretch] {
                 left.push(Candidate::Plateau { stretch });
@@ -276,7 +277,7 @@ impl<'s> Search<'s> {
                 continue;
             }
             self.critical_points(stretch, target, &mut record, &mut left)?;
-            if left.len() > MAX_PLACES + 2 * self.stretches.len() {
+            if left.len() > MAX_PLACES + 2 * self.count {
                 return Err(EvaluateError::TooManyRoots { limit: MAX_PLACES });
             }
         }
@@ -440,8 +441,7 @@ impl Contenders<'_, '_> {
                 Candidate::Plateau { stretch } => (*stretch, Side::Right),
                 _ => return Ok(None),
             };
-            let at = self.search.place(stretch, side).clone();
-            let Some(value) = self.search.exact_value(&at, side)? else { return Ok(None) };
+            let Some(value) = self.search.exact(stretch, At::End(side))? else { return Ok(None) };
             if common.get_or_insert_with(|| value.clone()) != &value {
                 return Ok(None);
             }
@@ -454,7 +454,7 @@ impl Contenders<'_, '_> {
         let zero = Rational::default();
         let target = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
         let exact = |time: &Rational| Determined::Digits(Value::Exact(time.clone()));
-        let last = search.stretches.len() - 1;
+        let last = search.count - 1;
         let end = |stretch: usize| match stretch == last {
             true => Ok(exact(&search.window[1])),
             false => search.beginning(stretch + 1, digits, self.limit_bits),

@@ -6,9 +6,10 @@
 //! where `F(m)` is too coarse for either.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::EvaluateError;
 use crate::evaluate::find::cover::{Target, middle_and_half};
 use crate::evaluate::find::determined::Determined;
+use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::search::{Search, less, rationals, sign_of};
 use crate::evaluate::value::Value;
 use std::cell::RefCell;
@@ -105,8 +106,7 @@ impl Search<'_> {
         self.narrow(&mut root, target, SUSPICION_BITS)?;
         let simple = simplest(&root.from, &root.to);
         if target.order == 0 && simple.denom().bits() <= MAX_DENOMINATOR_BITS {
-            let at = self.signal.slowness().scale(&simple);
-            if self.exact_value(&at, Side::Right)?.as_ref() == Some(target.level) {
+            if self.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level) {
                 return Ok(Determined::Digits(Value::Exact(simple)));
             }
         }

@@ -13,14 +13,14 @@
 //!
 //! Between stretches the two limits tell of jumps.
 
-use crate::ball::{Ball, Magnitude};
+use crate::ball::Ball;
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
 use crate::evaluate::find::determined::Determined;
+use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::refine::Isolated;
 use crate::evaluate::find::search::{Search, rationals, sign_of};
 use crate::evaluate::value::Value;
-use crate::expression::{Field as _, Fraction};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -142,9 +142,6 @@ impl Roots {
     }
 }
 
-/// The most exact zeros that are asked for to see whether a function vanishes.
-const MAX_ZEROS: usize = 48;
-
 /// The relative width in bits of an interval that stays undecided.
 const UNDECIDED_BITS: u64 = 80;
 
@@ -161,6 +158,11 @@ struct Ends {
     last: Option<Ordering>,
     /// Whether the observable is v on all of it.
     vanishes: bool,
+}
+
+/// A number that is known.
+fn known(value: &Rational) -> Determined {
+    Determined::Digits(Value::Exact(value.clone()))
 }
 
 impl Search<'_> {
@@ -188,7 +190,7 @@ impl Search<'_> {
         self.work.set(0);
         let mut all = Vec::new();
         let mut before: Option<Ends> = None;
-        for stretch in 0..self.stretches.len() {
+        for stretch in 0..self.count {
             let first = self.sign_of_limit(stretch, Side::Right, level, limit_bits)?;
             if self.is_instant(stretch) {
                 let now = Ends { first, last: None, vanishes: false };
@@ -214,17 +216,13 @@ impl Search<'_> {
         }
         let end = before.expect("a window has a stretch that is no instant");
         match (end.vanishes, end.last) {
-            (true, _) => self.close_interval(&mut all, self.exact(&self.window[1]), true),
+            (true, _) => self.close_interval(&mut all, known(&self.window[1]), true),
             (false, Some(Ordering::Equal)) => {
-                all.push(Root::End { time: self.exact(&self.window[1]) });
+                all.push(Root::End { time: known(&self.window[1]) });
             }
             _ => {}
         }
         Ok(Roots { all })
-    }
-
-    fn exact(&self, time: &Rational) -> Determined {
-        Determined::Digits(Value::Exact(time.clone()))
     }
 
     /// When a stretch begins.
@@ -235,12 +233,13 @@ impl Search<'_> {
         limit_bits: u64,
     ) -> Result<Determined, EvaluateError> {
         if stretch == 0 {
-            return Ok(self.exact(&self.window[0]));
+            return Ok(known(&self.window[0]));
         }
-        let at = self.place(stretch, Side::Right);
-        match self.exact_time(at) {
-            Some(time) => Ok(self.exact(&time)),
-            None => Determined::of(digits, limit_bits, |bits| self.time(at, bits)),
+        match self.function.exact_time(stretch, Side::Right) {
+            Some(time) => Ok(known(&time)),
+            None => Determined::of(digits, limit_bits, |bits| {
+                self.function.time(stretch, Side::Right, bits)
+            }),
         }
     }
 
@@ -311,8 +310,8 @@ impl Search<'_> {
         side: Side,
         question: &Question<'_>,
     ) -> Result<Determined, EvaluateError> {
-        if let Some(value) = self.exact_value(&self.place(stretch, side).clone(), side)? {
-            return Ok(Determined::Digits(Value::Exact(value)));
+        if let Some(value) = self.exact(stretch, At::End(side))? {
+            return Ok(known(&value));
         }
         let limit_bits = question.target.limit_bits;
         Determined::of(question.digits, limit_bits, |bits| self.limit(stretch, 0, side, bits))
@@ -330,15 +329,14 @@ impl Search<'_> {
         let [from, to] = self.bounds(stretch)?;
         let (middle, half) = middle_and_half(&from, &to);
         let bits = self.bits.get();
-        let slope = self.signal.taylor(&self.stretches[stretch], 1, (&middle, &half), 4, bits)?;
+        let slope = self.function.taylor(stretch, 1, (&middle, &half), 4, bits)?;
         if slope.tail(0).is_zero() {
             return Ok(true);
         }
         if !slope.coefficients.iter().all(Ball::contains_zero) {
             return Ok(false);
         }
-        let at = self.place(stretch, Side::Right).clone();
-        match self.exact_value(&at, Side::Right)? {
+        match self.exact(stretch, At::End(Side::Right))? {
             Some(value) => self.equals(stretch, &value),
             None => Ok(false),
         }
@@ -425,45 +423,6 @@ impl Search<'_> {
         let sign = sign_of(&range);
         Ok(sign.is_some_and(|sign| sign != Ordering::Equal)
             && self.slope_vanishes(stretch, side)?)
-    }
-
-    /// Whether `f = v` on all of a stretch.
-    ///
-    /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which v is one, solves a
-    /// linear equation of order N with constant real coefficients. If it is not zero everywhere, it
-    /// has at most `N − 1` roots on any interval where λ are real (Pólya and Szegő, *Problems and
-    /// Theorems* V.75), and on intervals shorter than `π/ω` with `ω = max |Im λ|` otherwise: there
-    /// each factor `(d/dx − σ)² + ω²` has solutions without two roots, and so no product of factors
-    /// of order N has one with N roots. N exact zeros therefore prove it.
-    fn equals(&self, stretch: usize, level: &Rational) -> Result<bool, EvaluateError> {
-        let bits = self.bits.get();
-        let mut rates = self.signal.rates(&self.stretches[stretch], bits)?;
-        rates.entry(Fraction::zero()).or_insert(1);
-        let count: usize = rates.values().sum();
-        if count > MAX_ZEROS {
-            return Ok(false);
-        }
-        let field = self.signal.numbers().field(bits);
-        let mut fastest = Magnitude::ZERO;
-        for rate in rates.keys() {
-            fastest = fastest.max(field.embed(&rate.clone().into())?.imaginary().magnitude());
-        }
-        // Rates are those of the waves' own time.
-        let slowness = self.signal.numbers().enclose(self.signal.slowness(), bits)?.magnitude();
-        let fastest = Rational::from(&fastest.multiply(&slowness));
-        let [from, to] = self.bounds(stretch)?;
-        let mut length = &to - &from;
-        if fastest > Rational::default() {
-            length = length.min(Rational::from_integer(3.into()) / fastest);
-        }
-        for i in 1..=count {
-            let share = Rational::new(i.into(), (count + 1).into());
-            let at = self.signal.slowness().scale(&(&from + &length * share));
-            if self.exact_value(&at, Side::Right)?.as_ref() != Some(level) {
-                return Ok(false);
-            }
-        }
-        Ok(true)
     }
 
     /// Notes an interval on which nothing is proven, as one with that before it where they meet.

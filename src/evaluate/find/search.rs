@@ -1,23 +1,21 @@
 //! A window of time in which roots and extrema of one observable are looked for.
 //!
-//! It holds the observable twice: as a [`Signal`], which is enclosed in balls, and as what is asked
-//! for exact values where a ball cannot decide because the answer is zero.
+//! The observable is any [`Piecewise`] function: a search asks it for enclosures, and for exact values
+//! where a ball cannot decide because the answer is zero.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Evaluator, Side};
-use crate::evaluate::scene::SceneEvaluator;
-use crate::evaluate::signal::{Signal, Stretch};
-use crate::evaluate::value::Value;
-use crate::expression::Fraction;
-use crate::network::{Network, Observed, ObservedValue};
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::find::observed::ObservedSignal;
+use crate::evaluate::find::piecewise::{At, Piecewise};
+use crate::network::{Network, Observed};
 use crate::recurrence::Observation;
 use crate::solution::Solution;
-use std::cell::{Cell, OnceCell};
+use std::cell::Cell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// The precision in bits that is begun with.
-const FIRST_BITS: u64 = 192;
+pub(crate) const FIRST_BITS: u64 = 192;
 
 /// The precision in bits of times that are irrational, where they bound a cell.
 const BOUND_BITS: u64 = 320;
@@ -30,9 +28,6 @@ const BOUND_SHARE: u128 = 1 << 80;
 
 /// The most bits that a sign is tried with, unless fewer are allowed.
 pub(crate) const SIGN_BITS: u64 = 1 << 12;
-
-/// Digits of what is only compared with a rational number.
-const FEW_DIGITS: usize = 6;
 
 /// An observable on a window of the user's time.
 ///
@@ -63,9 +58,9 @@ const FEW_DIGITS: usize = 6;
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub struct Search<'a> {
-    pub(crate) signal: Signal,
-    exact: Exact<'a>,
-    pub(crate) stretches: Vec<Stretch>,
+    pub(crate) function: Box<dyn Piecewise + 'a>,
+    /// How many stretches are looked at.
+    pub(crate) count: usize,
     pub(crate) window: [Rational; 2],
     /// The precision that has done so far.
     pub(crate) bits: Cell<u64>,
@@ -74,15 +69,6 @@ pub struct Search<'a> {
     /// Whether the end of the window, at which an echo arrives, is left out.
     open: bool,
 }
-
-/// Where exact values come from.
-enum Exact<'a> {
-    Recurrence { evaluator: Box<Evaluator<'a>>, value: Observation },
-    Scene { network: &'a Network, observed: Box<Observed>, evaluator: OnceCell<Prepared<'a>> },
-}
-
-/// An evaluator, unless too many echoes arrive to make one.
-type Prepared<'a> = Option<Box<SceneEvaluator<'a>>>;
 
 impl<'a> Search<'a> {
     /// A wave or observable of a recurrence on a window, both its ends included.
@@ -95,9 +81,9 @@ impl<'a> Search<'a> {
         observation: &Observation,
         window: [&Rational; 2],
     ) -> Result<Search<'a>, EvaluateError> {
-        let signal = Signal::of_recurrence(solution.recurrence(), observation)?;
-        let evaluator = Box::new(Evaluator::new(solution)?);
-        Search::new(signal, Exact::Recurrence { evaluator, value: observation.clone() }, window)
+        check(window)?;
+        let function = ObservedSignal::of_recurrence(solution, observation, window)?;
+        Search::over(Box::new(function), window)
     }
 
     /// An observable of a scene on a window in the user's time, both its ends included.
@@ -127,24 +113,23 @@ impl<'a> Search<'a> {
         observed: &Observed,
         window: [&Rational; 2],
     ) -> Result<Search<'a>, EvaluateError> {
-        let signal = Signal::of_scene(network, observed, window[1])?;
-        let observed = Box::new(observed.clone());
-        let exact = Exact::Scene { network, observed, evaluator: OnceCell::new() };
-        Search::new(signal, exact, window)
+        check(window)?;
+        let function = ObservedSignal::of_scene(network, observed, window)?;
+        Search::over(Box::new(function), window)
     }
 
-    fn new(
-        signal: Signal,
-        exact: Exact<'a>,
-        [from, to]: [&Rational; 2],
+    /// Any function on its window.
+    ///
+    /// # Errors
+    /// [`EvaluateError::EmptyWindow`].
+    pub(crate) fn over(
+        function: Box<dyn Piecewise + 'a>,
+        window: [&Rational; 2],
     ) -> Result<Search<'a>, EvaluateError> {
-        if to <= from || *from < Rational::default() {
-            return Err(EvaluateError::EmptyWindow);
-        }
-        let stretches = signal.audible(signal.stretches(from, to)?, FIRST_BITS)?;
-        let window = [from.clone(), to.clone()];
+        check(window)?;
         let (bits, work) = (Cell::new(FIRST_BITS), Cell::new(0));
-        Ok(Search { signal, exact, stretches, window, bits, work, open: false })
+        let (count, window) = (function.count(), window.map(Clone::clone));
+        Ok(Search { function, count, window, bits, work, open: false })
     }
 
     /// The same window without its end: an echo that arrives there does not count, the limit before
@@ -168,8 +153,8 @@ impl<'a> Search<'a> {
     /// ```
     #[must_use]
     pub fn half_open(mut self) -> Search<'a> {
-        if self.stretches.len() > 1 && self.is_instant(self.stretches.len() - 1) {
-            self.stretches.pop();
+        if self.count > 1 && self.is_instant(self.count - 1) {
+            self.count -= 1;
             self.open = true;
         }
         self
@@ -182,15 +167,7 @@ impl<'a> Search<'a> {
 
     /// Whether a stretch is the last instant of the window alone, where an echo arrives.
     pub(crate) fn is_instant(&self, stretch: usize) -> bool {
-        self.stretches[stretch].from() == self.stretches[stretch].to()
-    }
-
-    /// A limit at an end of a stretch: on the right side of its first time, the left of its last.
-    pub(crate) fn place(&self, stretch: usize, side: Side) -> &Fraction {
-        match side {
-            Side::Right => self.stretches[stretch].from(),
-            Side::Left => self.stretches[stretch].to(),
-        }
+        self.function.is_instant(stretch)
     }
 
     /// An enclosure of a derivative at a time of the user's.
@@ -201,8 +178,7 @@ impl<'a> Search<'a> {
         time: &Rational,
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
-        let at = self.signal.slowness().scale(time);
-        self.signal.enclose(&self.stretches[stretch], order, &at, bits)
+        self.function.enclose(stretch, order, At::Time(time), bits)
     }
 
     /// An enclosure of a derivative at an end of a stretch.
@@ -213,8 +189,7 @@ impl<'a> Search<'a> {
         side: Side,
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
-        let at = self.place(stretch, side);
-        self.signal.enclose(&self.stretches[stretch], order, at, bits)
+        self.function.enclose(stretch, order, At::End(side), bits)
     }
 
     /// The sign of `f − level` in the limit at an end of a stretch; `None` where it is not decided.
@@ -225,14 +200,13 @@ impl<'a> Search<'a> {
         level: &Rational,
         limit_bits: u64,
     ) -> Result<Option<Ordering>, EvaluateError> {
-        if self.stretches[stretch].is_silent() {
+        if self.function.is_zero(stretch) {
             return Ok(Some(Rational::default().cmp(level)));
         }
-        let place = self.place(stretch, side).clone();
         self.sign(
             limit_bits,
             |bits| Ok(less(self.limit(stretch, 0, side, bits)?, level, bits)),
-            || Ok(self.exact_value(&place, side)?.map(|value| value.cmp(level))),
+            || Ok(self.exact(stretch, At::End(side))?.map(|value| value.cmp(level))),
         )
     }
 
@@ -244,11 +218,10 @@ impl<'a> Search<'a> {
         level: &Rational,
         limit_bits: u64,
     ) -> Result<Option<Ordering>, EvaluateError> {
-        let at = self.signal.slowness().scale(time);
         self.sign(
             limit_bits,
             |bits| Ok(less(self.at(stretch, 0, time, bits)?, level, bits)),
-            || Ok(self.exact_value(&at, Side::Right)?.map(|value| value.cmp(level))),
+            || Ok(self.exact(stretch, At::Time(time))?.map(|value| value.cmp(level))),
         )
     }
 
@@ -277,105 +250,38 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The value at a time in the scale of the waves, where it is rational.
-    pub(crate) fn exact_value(
+    /// The value, where it is known to be rational.
+    pub(crate) fn exact(
         &self,
-        at: &Fraction,
-        side: Side,
+        stretch: usize,
+        at: At<'_>,
     ) -> Result<Option<Rational>, EvaluateError> {
-        let value = match &self.exact {
-            Exact::Recurrence { evaluator, value } => {
-                let Some(at) = at.as_constant() else { return Ok(None) };
-                evaluator.value(value, &at, side, FEW_DIGITS, SIGN_BITS)
-            }
-            Exact::Scene { network, observed, evaluator } => {
-                let last = self.signal.slowness().scale(&self.window[1]);
-                let evaluator = evaluator
-                    .get_or_init(|| SceneEvaluator::new(network, &last).ok().map(Box::new));
-                let value = evaluator
-                    .as_ref()
-                    .map(|known| known.value(observed, at, side, FEW_DIGITS, SIGN_BITS));
-                match value {
-                    Some(value @ Ok(Value::Exact(_))) => value,
-                    // With the echoes until then alone, exact arithmetic may be within reach.
-                    _ => SceneEvaluator::new(network, at).and_then(|evaluator| {
-                        evaluator.value(observed, at, side, FEW_DIGITS, SIGN_BITS)
-                    }),
-                }
-            }
-        };
-        match value {
-            Ok(Value::Exact(value)) => Ok(Some(value)),
-            Ok(Value::Certified(_))
-            | Err(
-                EvaluateError::AccuracyNotReached { .. }
-                | EvaluateError::TooManyPeriods { .. }
-                | EvaluateError::TooManyEchoes { .. }
-                | EvaluateError::Solve(_)
-                | EvaluateError::Network(_),
-            ) => Ok(None),
-            Err(error) => Err(error),
-        }
+        self.function.exact(stretch, at)
     }
 
-    /// Whether the derivative in the limit at an end of a stretch is exactly zero, where that can
-    /// be told: for observables that see no derivatives and no function of time themselves.
+    /// Whether the derivative in the limit at an end of a stretch is known to be exactly zero.
     pub(crate) fn slope_vanishes(&self, stretch: usize, side: Side) -> Result<bool, EvaluateError> {
-        if !self.limit(stretch, 1, side, self.bits.get())?.contains_zero() {
-            return Ok(false);
-        }
-        let at = self.place(stretch, side);
-        let value = match &self.exact {
-            Exact::Recurrence { evaluator, value } => {
-                let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
-                    return Ok(false);
-                };
-                evaluator.value(&slope, &at, side, FEW_DIGITS, SIGN_BITS)
-            }
-            Exact::Scene { network, observed, .. } => {
-                let ObservedValue::Linear(value) = &observed.value else { return Ok(false) };
-                let Some(slope) = slope_of(value) else { return Ok(false) };
-                let slope =
-                    Observed { value: ObservedValue::Linear(slope), ..(**observed).clone() };
-                let Ok(evaluator) = SceneEvaluator::new(network, at) else { return Ok(false) };
-                evaluator.value(&slope, at, side, FEW_DIGITS, SIGN_BITS)
-            }
-        };
-        Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
+        Ok(self.limit(stretch, 1, side, self.bits.get())?.contains_zero()
+            && self.function.slope_vanishes(stretch, side)?)
     }
 
-    /// A time of the waves in the user's time, where it is rational.
-    pub(crate) fn exact_time(&self, at: &Fraction) -> Option<Rational> {
-        if *at == self.signal.slowness().scale(&self.window[1]) {
-            return Some(self.window[1].clone());
-        }
-        if *at == self.signal.slowness().scale(&self.window[0]) {
-            return Some(self.window[0].clone());
-        }
-        Some(at.as_constant()? / self.signal.slowness().as_constant()?)
-    }
-
-    /// A time of the waves in the user's time.
-    pub(crate) fn time(&self, at: &Fraction, bits: u64) -> Result<Ball, EvaluateError> {
-        let numbers = self.signal.numbers();
-        let slowness = numbers.enclose(self.signal.slowness(), bits)?;
-        let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
-        Ok(numbers.enclose(at, bits)?.multiply(&inverse, bits))
+    /// Whether `f = v` is known on all of a stretch.
+    pub(crate) fn equals(&self, stretch: usize, value: &Rational) -> Result<bool, EvaluateError> {
+        self.function.equals(stretch, value, &self.bounds(stretch)?, self.bits.get())
     }
 
     /// Rational bounds of a stretch: its ends themselves where they are rational, else so little
     /// beyond them that the middle of no cell lies outside.
     pub(crate) fn bounds(&self, stretch: usize) -> Result<[Rational; 2], EvaluateError> {
-        let (from, to) = (self.stretches[stretch].from(), self.stretches[stretch].to());
         let mut bits = BOUND_BITS;
         loop {
-            let outer = |at: &Fraction| -> Result<(Rational, Rational), EvaluateError> {
-                if let Some(time) = self.exact_time(at) {
+            let outer = |end| -> Result<(Rational, Rational), EvaluateError> {
+                if let Some(time) = self.function.exact_time(stretch, end) {
                     return Ok((time.clone(), time));
                 }
-                Ok(rationals(&self.time(at, bits)?))
+                Ok(rationals(&self.function.time(stretch, end, bits)?))
             };
-            let ((first, after), (before, last)) = (outer(from)?, outer(to)?);
+            let ((first, after), (before, last)) = (outer(Side::Right)?, outer(Side::Left)?);
             let slack = (&after - &first).max(&last - &before);
             if slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after
                 || bits >= MAX_BOUND_BITS
@@ -387,14 +293,11 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The observable's derivative between arrivals.
-fn slope_of(value: &Observation) -> Option<Observation> {
-    if !value.forcing.is_zero() || value.waves.iter().any(|seen| seen.slope) {
-        return None;
+fn check([from, to]: [&Rational; 2]) -> Result<(), EvaluateError> {
+    match to <= from || *from < Rational::default() {
+        true => Err(EvaluateError::EmptyWindow),
+        false => Ok(()),
     }
-    let mut slope = value.clone();
-    slope.waves.iter_mut().for_each(|seen| seen.slope = true);
-    Some(slope)
 }
 
 /// `f − level`.
