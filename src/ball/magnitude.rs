@@ -153,6 +153,11 @@ impl Magnitude {
             assert!(divisor != 0, "division of a magnitude by zero");
             return Self::ZERO;
         }
+        // A mantissa has 32 bits: with 32 more a quotient by a short divisor has 32 bits still.
+        if divisor >> (BITS - 1) == 0 {
+            let quotient = (self.mantissa << BITS).div_ceil(divisor);
+            return Self::round_up(quotient.into(), shifted(self.exponent, -i64::from(BITS)));
+        }
         let quotient = (u128::from(self.mantissa) << 95).div_ceil(u128::from(divisor));
         Self::round_up(quotient, shifted(self.exponent, -95))
     }

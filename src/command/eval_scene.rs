@@ -21,7 +21,7 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
         SideOption::Right => Side::Right,
     };
     if network.scene().contacts_open {
-        return across_phases(network, observed, side, options);
+        return across_phases(network, side, options);
     }
     let times = match (options.piece, &options.local) {
         (Some(n), Some(local)) => vec![time_on_piece(network, &observed, n, local, side)?],
@@ -61,17 +61,9 @@ fn told(network: &Network, observed: &Observed, rows: &[Row], options: &Eval) ->
 }
 
 /// Values of a scene whose contacts open and close.
-fn across_phases(
-    network: &Network,
-    observed: Observed,
-    side: Side,
-    options: &Eval,
-) -> Result<String, Failure> {
+fn across_phases(network: &Network, side: Side, options: &Eval) -> Result<String, Failure> {
+    let observed = quantity::of_phases(network, &options.quantity)?;
     let name = &observed.name;
-    if network.scene().observables.iter().all(|own| own.name != *name) {
-        let message = format!("{name} is a wave of the closed contacts, which open in this scene");
-        return Err(Failure::usage(message, "ask for an observable, or leave out `contacts open`"));
-    }
     if options.piece.is_some() || options.stats {
         let message = "where contacts open there are no periods and no counted echoes";
         return Err(Failure::usage(message, "give --at T, or --from, --to and --points"));

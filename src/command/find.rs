@@ -9,6 +9,7 @@ use super::progress;
 use super::quantity;
 use num_rational::BigRational;
 use wavestep::evaluate::{EvaluateError, Goal, Place, Search};
+use wavestep::history::History;
 use wavestep::language::{self, Source};
 use wavestep::network::{Network, Observed};
 use wavestep::recurrence::Observation;
@@ -21,10 +22,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     if options.equal.is_some() {
         return find_equal::run(options);
     }
-    let seen = Seen::of(
-        input::subject(&options.scene)?.with_closed_contacts("find")?,
-        quantity(options)?.0,
-    )?;
+    let seen = Seen::of(input::subject(&options.scene)?, quantity(options)?.0)?;
     let (from, to) = (options.from.as_deref(), options.to.as_deref());
     let from = input::time("--from", from.unwrap_or_default(), seen.is_dimensional())?;
     let to = input::time("--to", to.unwrap_or_default(), seen.is_dimensional())?;
@@ -135,7 +133,11 @@ impl Seen {
                 Ok(Seen::Recurrence(Box::new(Solution::new(*recurrence)), observation))
             }
             Subject::Scene(network) => {
-                let observed = Box::new(quantity::of_scene(&network, quantity)?);
+                let observed = match network.scene().contacts_open {
+                    true => quantity::of_phases(&network, quantity)?,
+                    false => quantity::of_scene(&network, quantity)?,
+                };
+                let observed = Box::new(observed);
                 Ok(Seen::Scene { network, observed })
             }
         }
@@ -169,6 +171,9 @@ impl Seen {
         Ok(match self {
             Seen::Recurrence(solution, observation) => {
                 Search::of_recurrence(solution, observation, window)?
+            }
+            Seen::Scene { network, observed } if network.scene().contacts_open => {
+                History::search(network, &observed.name, window)?
             }
             Seen::Scene { network, observed } => Search::of_scene(network, observed, window)?,
         })

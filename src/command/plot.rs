@@ -14,6 +14,7 @@ use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::picture::{
     Course, Sampled, against_time, along_the_line, lagrange, sampled, sampled_energy,
+    sampled_phases,
 };
 use wavestep::plot::{Caption, Chart};
 use wavestep::recurrence::Recurrence;
@@ -24,6 +25,9 @@ const PERIODS: i64 = 4;
 
 /// At how many times an energy is looked at.
 const ENERGY_STEPS: usize = 240;
+
+/// At how many times one is looked at across the phases of contacts, each time a sum over all bars.
+const PHASE_STEPS: usize = 96;
 
 /// Draws what is asked for.
 pub fn run(options: &Plot) -> Result<String, Failure> {
@@ -162,7 +166,7 @@ fn of_recurrence(
     let course = |name: String| {
         let observation = quantity::of_recurrence(recurrence, &name)?;
         let signal = Signal::of_recurrence(recurrence, &observation)?;
-        Ok(Course { name, dimension: Dimension::NONE, values: sampled(&signal, from, to)? })
+        Ok(Course { name, dimension: Dimension::NONE, values: sampled(signal, from, to)? })
     };
     names(options, all)?.into_iter().map(course).collect()
 }
@@ -174,10 +178,15 @@ fn of_scene(
 ) -> Result<Vec<Course>, Failure> {
     let all = network.observables().iter().map(|observed| observed.name.clone());
     let course = |name: String| {
+        if network.scene().contacts_open {
+            let observed = quantity::of_phases(network, &name)?;
+            let values = sampled_phases(network, &observed.name, [from, to], PHASE_STEPS)?;
+            return Ok(Course { name, dimension: observed.dimension, values });
+        }
         let observed = quantity::of_scene(network, &name)?;
         let values: Sampled = match observed.value {
             ObservedValue::Linear(_) => {
-                sampled(&Signal::of_scene(network, &observed, to)?, from, to)?
+                sampled(Signal::of_scene(network, &observed, to)?, from, to)?
             }
             ObservedValue::Energy(_) => {
                 sampled_energy(network, &observed, [from, to], ENERGY_STEPS)?

@@ -36,6 +36,20 @@ pub fn of_model(scene: &Scene, quantity: &str) -> Result<usize, Failure> {
     names.iter().position(|known| *known == name).ok_or_else(|| unknown(&names, quantity))
 }
 
+/// An observable of a scene whose contacts open: its waves are those of closed contacts.
+pub fn of_phases(network: &Network, quantity: &str) -> Result<Observed, Failure> {
+    let observed = of_scene(network, quantity)?;
+    let name = &observed.name;
+    match network.scene().observables.iter().any(|own| own.name == *name) {
+        true => Ok(observed),
+        false => {
+            let message =
+                format!("{name} is a wave of the closed contacts, which open in this scene");
+            Err(Failure::usage(message, "ask for an observable, or leave out `contacts open`"))
+        }
+    }
+}
+
 /// An observable of a scene, or a wave in its scale.
 pub fn of_scene(network: &Network, quantity: &str) -> Result<Observed, Failure> {
     let name = language::normalise_name(quantity);

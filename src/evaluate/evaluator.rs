@@ -203,6 +203,8 @@ pub enum EvaluateError {
     TooSteep,
     /// An energy, where only what is linear in the waves can be expanded.
     NotLinear(String),
+    /// The phases of contacts are not followed with the precision that is needed: why.
+    NotFollowed(String),
     /// The value is a complex number that is not real: waves with one pole of a complex pair each.
     NotReal,
 }
@@ -258,6 +260,7 @@ impl fmt::Display for EvaluateError {
             EvaluateError::NotLinear(name) => {
                 write!(f, "{name} is an energy, quadratic in the waves: it has no pieces to expand")
             }
+            EvaluateError::NotFollowed(reason) => f.write_str(reason),
             EvaluateError::NotReal => f.write_str("the value is not real"),
         }
     }

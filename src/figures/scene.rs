@@ -46,7 +46,7 @@ pub(super) fn course(
     name: &str,
     last: &Rational,
 ) -> Result<Sampled, EvaluateError> {
-    sampled(&signal(recurrence, name)?, &Rational::default(), last)
+    sampled(signal(recurrence, name)?, &Rational::default(), last)
 }
 
 /// A caption with the command that draws the figure again, and remarks.

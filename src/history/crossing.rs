@@ -40,7 +40,7 @@ pub(crate) fn beginning(f: &Series) -> Beginning {
 /// What follows on a cell after a positive beginning.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Course {
-    /// Positive until the end, the end itself perhaps excepted.
+    /// Positive until the end, the end itself perhaps excepted, and instants at which it touches zero.
     Positive,
     /// Positive until about this time since the start of the cell, and negative behind it.
     Falls(Number),
@@ -200,9 +200,9 @@ fn follow_exactly(f: &Series, length: &Rational) -> Option<Course> {
                 return Some(Course::Positive);
             }
             let first = two * c0 / below;
-            match discriminant.is_zero() && first < *length {
-                // It touches zero and rises again: no event.
-                true => None,
+            // Where it touches zero it rises again: it is nowhere negative.
+            match discriminant.is_zero() {
+                true => Some(Course::Positive),
                 false => Some(falls(first)),
             }
         }
@@ -276,6 +276,9 @@ mod tests {
         let distance = at.subtract(&Ball::from_rational(&third, 200), 200).magnitude();
         assert!(distance < Magnitude::power_of_two(-40));
         // (x − 1/3)² + 10^−12, and with a minus.
+        // With rational coefficients it is decided.
+        let exact = product(1, &[third.clone(), third.clone()], false);
+        assert_eq!(follow(&exact, &end, &cut), Course::Positive);
         let mut above = f.clone();
         let tiny = Number::Exact(Rational::new(1.into(), 1_000_000_000_000_i64.into()));
         above.coefficients[0] = above.coefficients[0].add(&tiny, 96);

@@ -50,6 +50,8 @@ pub(crate) struct Cell {
 pub(crate) struct Happening {
     /// Whether the contact closed.
     pub closes: bool,
+    /// Whether its force or its gap came to zero by itself, not by a jump of what arrives.
+    pub smooth: bool,
     pub contact: usize,
     pub moment: Moment,
 }
@@ -575,7 +577,7 @@ impl Engine {
             known.gap = Number::zero();
             known.pressed = false;
             let closes = known.closed;
-            self.happenings.push(Happening { closes, contact: *contact, moment });
+            self.happenings.push(Happening { closes, smooth, contact: *contact, moment });
         }
         let state = &self.states[node];
         let open = &self.open;
@@ -605,7 +607,7 @@ impl Engine {
         for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
             if self.open[contact].closed && !forces[place].is_zero() {
                 let moment = self.states[node].now.clone();
-                self.happenings.push(Happening { closes: true, contact, moment });
+                self.happenings.push(Happening { closes: true, smooth: false, contact, moment });
             }
         }
     }

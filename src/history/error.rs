@@ -2,6 +2,7 @@
 
 use crate::ball::Ball;
 use crate::enclosure::EnclosureError;
+use crate::evaluate::EvaluateError;
 use std::fmt;
 use wavestep_polynomial::Symbol;
 
@@ -53,6 +54,10 @@ pub enum HistoryError {
     },
     /// A time after the last one that was asked for.
     AfterLast,
+    /// A value that is not enclosed.
+    Evaluate(Box<EvaluateError>),
+    /// A window that does not end after it begins, at or after time 0.
+    EmptyWindow,
 }
 
 impl From<EnclosureError> for HistoryError {
@@ -60,6 +65,15 @@ impl From<EnclosureError> for HistoryError {
         match error {
             EnclosureError::MissingValue(symbol) => HistoryError::MissingValue(symbol),
             other => HistoryError::Value(other),
+        }
+    }
+}
+
+impl From<EvaluateError> for HistoryError {
+    fn from(error: EvaluateError) -> HistoryError {
+        match error {
+            EvaluateError::MissingValue(symbol) => HistoryError::MissingValue(symbol),
+            other => HistoryError::Evaluate(Box::new(other)),
         }
     }
 }
@@ -90,6 +104,8 @@ impl fmt::Display for HistoryError {
                 write!(f, "more than {limit} cells of waves; followed until t = {at}")
             }
             Self::AfterLast => f.write_str("a time after the last one that was followed"),
+            Self::Evaluate(error) => error.fmt(f),
+            Self::EmptyWindow => f.write_str("the window is empty, or begins before time 0"),
         }
     }
 }

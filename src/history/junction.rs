@@ -386,9 +386,19 @@ impl Junction {
         cut: &Truncation,
     ) -> Motion {
         let bits = cut.bits;
-        let states: Vec<Series> = (0..self.states())
-            .map(|i| Series::new(columns.iter().map(|column| column[i].clone()).collect(), rest))
-            .collect();
+        let state = |i: usize| {
+            // On what nothing acts, nothing changes: it has no rest.
+            let (own, forced) = self.change[i].split_at(self.states());
+            let mut forced = forced.iter().zip(input);
+            let still = own.iter().all(Number::is_zero)
+                && forced.all(|(c, input)| c.is_zero() || input.is_zero());
+            let rest = match still {
+                true => Magnitude::ZERO,
+                false => rest,
+            };
+            Series::new(columns.iter().map(|column| column[i].clone()).collect(), rest)
+        };
+        let states: Vec<Series> = (0..self.states()).map(state).collect();
         let mut outputs = self.output.iter().map(|row| {
             let parts = states.iter().chain(input).zip(row).filter(|(_, c)| !c.is_zero());
             parts.fold(Series::zero(), |sum, (part, c)| sum.combine(&Number::one(), part, c, bits))

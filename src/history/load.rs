@@ -8,14 +8,17 @@ use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
 use crate::expression::{Expression, Fraction};
 use crate::history::number::Number;
 use crate::history::series::{Series, Truncation};
-use wavestep_polynomial::Symbol;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// Polynomials of this degree or a higher one are not kept exactly.
+const MAX_DEGREE: usize = 16;
 
 /// A course `Σ p(t) e^(λt)`.
 pub(crate) struct Course {
     /// Of each term its rate `λ` and the coefficients of `p`, lowest first.
     terms: Vec<(ComplexBall, Vec<ComplexBall>)>,
-    /// The value, where it does not change with time and is rational.
-    constant: Option<Number>,
+    /// It as a polynomial in the time since the start, where its coefficients are rational.
+    polynomial: Option<Series>,
 }
 
 impl Course {
@@ -29,7 +32,7 @@ impl Course {
         time: &Symbol,
         bits: u64,
     ) -> Result<Course, EnclosureError> {
-        let constant = course.as_constant().map(|value| Number::of_rational(value, bits));
+        let polynomial = polynomial_of(course, time, bits);
         let at_zero = |value: &Fraction| value.substitute(time, &Fraction::zero());
         let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
         let enclose = |value: Fraction| enclose_expression(&value.into(), &values, bits);
@@ -38,18 +41,18 @@ impl Course {
             let rate = enclose(at_zero(&exponent.derivative(time))?)?;
             let size = enclose(at_zero(exponent)?)?.exp(bits).map_err(EnclosureError::Ball)?;
             let (mut polynomial, mut derivative) = (Vec::new(), coefficient.clone());
-            let mut factorial = wavestep_polynomial::Rational::from_integer(1.into());
+            let mut factorial = Rational::from_integer(1.into());
             while !derivative.is_zero() {
                 let value = enclose(at_zero(&derivative)?)?;
                 let value = value.multiply_rational(&factorial.recip(), bits);
                 polynomial.push(value.multiply(&size, bits));
                 let count = num_bigint::BigInt::from(polynomial.len());
-                factorial *= wavestep_polynomial::Rational::from_integer(count);
+                factorial *= Rational::from_integer(count);
                 derivative = derivative.derivative(time);
             }
             terms.push((rate, polynomial));
         }
-        Ok(Course { terms, constant })
+        Ok(Course { terms, polynomial })
     }
 
     /// A bound of its rates.
@@ -67,8 +70,8 @@ impl Course {
     /// # Errors
     /// [`EnclosureError`] where an exponential is too large.
     pub fn series(&self, t: &Number, cut: &Truncation) -> Result<Series, EnclosureError> {
-        if let Some(value) = &self.constant {
-            return Ok(Series::constant(value.clone()));
+        if let Some(polynomial) = &self.polynomial {
+            return Ok(polynomial.shift(t, cut));
         }
         let bits = cut.bits;
         let now = ComplexBall::from(t.ball(bits));
@@ -88,7 +91,7 @@ impl Course {
                     let term = c.multiply(&power, bits).multiply(&size, bits);
                     sum[i + j] = sum[i + j].add(&term, bits);
                 }
-                let next = wavestep_polynomial::Rational::new(1.into(), (i as u64 + 1).into());
+                let next = Rational::new(1.into(), (i as u64 + 1).into());
                 power = power.multiply(rate, bits).multiply_rational(&next, bits);
             }
             let mut factor = Magnitude::power_of_two(0);
@@ -112,10 +115,37 @@ impl Course {
     }
 }
 
+/// A course that is a polynomial with rational coefficients; `None` for others.
+fn polynomial_of(course: &Expression, time: &Symbol, bits: u64) -> Option<Series> {
+    let (mut coefficients, mut derivative) = (Vec::new(), course.clone());
+    let mut factorial = Rational::from_integer(1.into());
+    while !derivative.is_zero() {
+        if coefficients.len() == MAX_DEGREE {
+            return None;
+        }
+        let value = derivative.substitute(time, &Fraction::zero()).ok()?.as_constant()?;
+        coefficients.push(Number::of_rational(value / &factorial, bits));
+        factorial *= Rational::from_integer(coefficients.len().into());
+        derivative = derivative.derivative(time);
+    }
+    Some(Series::new(coefficients, Magnitude::ZERO))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use wavestep_polynomial::{Polynomial, Rational};
+    use wavestep_polynomial::Polynomial;
+
+    /// `2 − t + t²/3` at `t = 3/2` is exactly `5/4`, falls by nothing, and is bent by 1/3.
+    #[test]
+    fn polynomials_are_exact() {
+        let time = Symbol::new("t").unwrap();
+        let course = Fraction::from("2 - t + 1/3*t*t".parse::<Polynomial>().unwrap());
+        let course = Course::of(&Numbers::new(&[]), &course.into(), &time, 64).unwrap();
+        let ratio = |a: i64, b: i64| Number::Exact(Rational::new(a.into(), b.into()));
+        let series = course.series(&ratio(3, 2), &Truncation::new(64, 0)).unwrap();
+        assert_eq!(series.coefficients, [ratio(5, 4), ratio(0, 1), ratio(1, 3)]);
+    }
 
     /// `(2 + 3t) e^(−t/2) + cos 2t` at `t = 1/3`, continued by 1/5, against the value at 8/15.
     #[test]

@@ -6,7 +6,7 @@
 //! cannot be decided is refused by name.
 //!
 //! Read `engine` for the way from cell to cell, `crossing` for the proof that nothing is passed over,
-//! `series` for the arithmetic, `body` for energies and for why bodies never meet again.
+//! `observe` and `phased` for what is seen of it, `series` for the arithmetic, `body` for energies and for why bodies never meet again.
 
 mod body;
 mod crossing;
@@ -20,8 +20,11 @@ mod moment;
 mod node;
 mod number;
 mod observe;
+mod part;
+mod phased;
 mod series;
 mod track;
 
 pub use error::HistoryError;
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History, MAX_BITS};
+pub(crate) use phased::PhasedSignal;

@@ -1,7 +1,8 @@
 //! Observables of a scene across all phases of its contacts.
 //!
+//! An observable is a sum of parts: waves with their delays, motions of nodes, compressions of springs.
 //! In a bar, at the time `s` from its left end, the wave that left the left end at `t − s` meets the one
-//! that left the right end at `t − (τ − s)`.
+//! that left the right end at `t − (τ − s)`. Energies and momenta of bodies are sums over bars instead.
 
 use crate::evaluate::{Determined, Side};
 use crate::expression::{Fraction, Root};
@@ -9,9 +10,11 @@ use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{History, MAX_BITS, determined, unit};
 use crate::history::moment::Moment;
+use crate::history::node::Link;
 use crate::history::number::Number;
+use crate::history::part::{Part, Signal, Source};
 use crate::history::track::Limit;
-use crate::network::{Network, bar_roots};
+use crate::network::{Network, Side as End, bar_roots};
 use crate::scene::{Body, ElementIndex, Kind, Measure, Observable, Place, Position, Seen};
 use wavestep_polynomial::Rational;
 
@@ -52,11 +55,7 @@ impl History {
         side: Side,
         digits: usize,
     ) -> Result<Vec<Determined>, HistoryError> {
-        let observables = &network.scene().observables;
-        let seen = observables.iter().find(|own| own.name == observable);
-        let seen = seen.ok_or_else(|| {
-            HistoryError::Refused(format!("`{observable}` is no observable of this scene"))
-        })?;
+        let seen = History::observable(network, observable)?;
         let limit = if side == Side::Left { Limit::Before } else { Limit::After };
         let mut bits = 128 + 4 * digits as u64;
         loop {
@@ -76,8 +75,20 @@ impl History {
             bits *= 2;
         }
     }
+
+    /// The observable of this name.
+    pub(crate) fn observable<'a>(
+        network: &'a Network,
+        name: &str,
+    ) -> Result<&'a Observable, HistoryError> {
+        let mut observables = network.scene().observables.iter();
+        observables.find(|own| own.name == name).ok_or_else(|| {
+            HistoryError::Refused(format!("`{name}` is no observable of this scene"))
+        })
+    }
 }
 
+/// The values at one precision.
 fn values_with(
     network: &Network,
     seen: &Observable,
@@ -89,13 +100,20 @@ fn values_with(
     if let Some(last) = times.iter().max() {
         engine.follow_until(&Moment::at(network.scaled_time(last)))?;
     }
+    let is_linear = |term: &&Seen| !matches!(term.measure, Measure::Energy | Measure::Momentum);
+    let (linear, held): (Vec<&Seen>, Vec<&Seen>) = seen.terms.iter().partition(is_linear);
+    let mut parts = Vec::new();
+    for term in linear {
+        parts.extend(engine.parts(network, term)?);
+    }
     let value = |time: &Rational| {
         let moment = Moment::at(network.scaled_time(time));
         let mut sum = Number::zero();
-        for term in &seen.terms {
-            let coefficient = engine.clock.number(&term.coefficient)?;
-            let value = engine.measured(network, term, &moment, limit)?;
-            sum = sum.add(&coefficient.multiply(&value, bits), bits);
+        for part in &parts {
+            sum = sum.add(&engine.value_of(part, &moment, limit)?, bits);
+        }
+        for term in &held {
+            sum = sum.add(&engine.held_in(network, term, &moment)?, bits);
         }
         Ok(sum)
     };
@@ -114,77 +132,186 @@ fn refuse<T>(reason: &str) -> Outcome<T> {
 }
 
 impl Engine {
-    /// What is measured, in the user's units.
-    fn measured(
-        &self,
-        network: &Network,
-        seen: &Seen,
-        moment: &Moment,
-        limit: Limit,
-    ) -> Outcome<Number> {
+    /// What a term of an observable is made of, in the user's units.
+    ///
+    /// # Errors
+    /// [`HistoryError::Refused`] for energies and momenta, and for what is not measured.
+    pub fn parts(&self, network: &Network, seen: &Seen) -> Outcome<Vec<Part>> {
         let bits = self.cut.bits;
+        let coefficient = self.clock.number(&seen.coefficient)?;
+        let unit = self.unit_of(network, seen.measure)?.multiply(&coefficient, bits);
+        let Some(section) = self.section(network, &seen.place)? else {
+            let Place::Element(element) = &seen.place else {
+                return refuse("nothing is measured there");
+            };
+            return self.lumped(seen.measure, *element, &unit);
+        };
+        let end_force = match seen.measure {
+            Measure::Force | Measure::Strain | Measure::Stress => self.end_force(&seen.place),
+            _ => None,
+        };
+        let impedance = self.bars[section.bar].0.multiply(&unit, bits);
+        let (factors, integrated) = match seen.measure {
+            Measure::Velocity => ([unit.clone(), unit], false),
+            Measure::Displacement => ([unit.clone(), unit], true),
+            Measure::Force => {
+                if let Some(sources) = end_force {
+                    return Ok(sources.map(|source| Part::of(source, unit.clone())).collect());
+                }
+                ([impedance.clone(), impedance.negate()], false)
+            }
+            Measure::Strain | Measure::Stress => {
+                let over = self.stiffness_of(network, &section, seen.measure)?.reciprocal(bits)?;
+                if let Some(sources) = end_force {
+                    let tension = unit.multiply(&over, bits).negate();
+                    return Ok(sources.map(|source| Part::of(source, tension.clone())).collect());
+                }
+                let tension = impedance.multiply(&over, bits);
+                ([tension.negate(), tension], false)
+            }
+            _ => return refuse("nothing of that kind is measured there"),
+        };
+        let delays = self.delays(&section).into_iter();
+        let parts = delays.zip(factors).enumerate().map(|(direction, (delay, factor))| {
+            let source = Source::Wave { bar: section.bar, direction };
+            Part { source, delay, factor, integrated }
+        });
+        Ok(parts.collect())
+    }
+
+    /// What the force at the end of a bar is, where it is known without the waves: that of a contact
+    /// without a mass between, and none at a free end.
+    fn end_force(&self, place: &Place) -> Option<impl Iterator<Item = Source>> {
+        let (element, side) = match place {
+            Place::Left(element) => (*element, 0),
+            Place::Right(element) => (*element, 1),
+            _ => return None,
+        };
+        let node = self.layout.ends[self.layout.bar(element)?][side]?;
+        let own = &self.nodes[node];
+        // The bar is at the other side of its node.
+        let run = own.side_runs()[1 - side];
+        let loaded = own.held[run]
+            || own.masses.iter().any(|mass| mass.run == run)
+            || own.loads.iter().any(|load| load.run == run)
+            || own.supports.iter().any(|(support, _)| *support == run);
+        if loaded {
+            return None;
+        }
+        let beyond = match side {
+            0 => run.checked_sub(1).map(|link| &own.links[link]),
+            _ => own.links.get(run),
+        };
+        match (beyond, [own.left, own.right][side]) {
+            (Some(Link::Contact(contact)), _) => {
+                let place = own.contacts().position(|(own, _)| own == *contact)?;
+                Some(Some(Source::Node { node, signal: Signal::Force(place) }).into_iter())
+            }
+            (None, End::Free) => Some(None.into_iter()),
+            _ => None,
+        }
+    }
+
+    /// What 1 of a measure is in the user's units.
+    fn unit_of(&self, network: &Network, measure: Measure) -> Outcome<Number> {
         let scale = &network.model().scale;
-        let root = match seen.measure {
+        let root = match measure {
             Measure::Velocity => scale.velocity.clone(),
             Measure::Force | Measure::Strain | Measure::Stress => scale.force(),
             Measure::Displacement | Measure::Compression => scale.velocity.times(&scale.time),
             Measure::Momentum => scale.force().times(&scale.time),
             Measure::Energy => scale.force().times(&scale.velocity).times(&scale.time),
         };
-        let mut unit_of_it = unit(&root, &self.clock.numbers, bits)?;
-        let section = self.section(network, &seen.place)?;
-        let value = match (seen.measure, &seen.place, section) {
-            (Measure::Velocity, _, Some(section)) => {
-                let [right, left] = self.waves_at(&section, moment, limit)?;
-                right.add(&left, bits)
-            }
-            (Measure::Force, _, Some(section)) => self.force_at(&section, moment, limit)?,
-            (Measure::Strain | Measure::Stress, _, Some(section)) => {
-                let element = self.layout.bars[section.bar];
-                let Kind::Bar(bar) = &network.scene().elements[element].kind else {
-                    return refuse("strain and stress are seen in bars");
-                };
-                let over = match (&bar.body, seen.measure) {
-                    (Body::Solid { area, .. }, Measure::Stress) => Root::from(area.clone()),
-                    (_, Measure::Stress) => return refuse("stress needs a bar with an area"),
-                    (body, _) => match bar_roots(body) {
-                        Ok((_, _, stiffness)) => stiffness,
-                        Err(error) => return refuse(&error.to_string()),
-                    },
-                };
-                let over = unit(&over, &self.clock.numbers, bits)?.reciprocal(bits)?;
-                unit_of_it = unit_of_it.multiply(&over, bits);
-                self.force_at(&section, moment, limit)?.negate()
-            }
-            (Measure::Displacement, _, Some(section)) => self.displacement_at(&section, moment)?,
-            (Measure::Energy | Measure::Momentum, place, _) => {
-                let line = &network.scene().line.elements;
-                let part = match place {
-                    Place::Element(element) => {
-                        let place = line.iter().position(|other| other == element);
-                        let place = place.expect("an element of the line");
-                        place..place + 1
-                    }
-                    _ => 0..line.len(),
-                };
-                let held = self.held_by(network, &part, moment)?;
-                let value = match seen.measure {
-                    Measure::Energy => held.energy,
-                    _ => held.momentum,
-                };
-                match value {
-                    Some(value) => value,
-                    None => return refuse("an endless bar that moves has no finite energy"),
-                }
-            }
-            (measure, Place::Element(element), _) => {
-                self.lumped(measure, *element, moment, limit)?
-            }
-            _ => return refuse("nothing is measured there"),
-        };
-        Ok(value.multiply(&unit_of_it, bits))
+        Ok(unit(&root, &self.clock.numbers, self.cut.bits)?)
     }
 
+    /// What a force in a bar is divided by to be a strain, or a stress.
+    fn stiffness_of(
+        &self,
+        network: &Network,
+        section: &Section,
+        measure: Measure,
+    ) -> Outcome<Number> {
+        let element = self.layout.bars[section.bar];
+        let Kind::Bar(bar) = &network.scene().elements[element].kind else {
+            return refuse("strain and stress are seen in bars");
+        };
+        let over = match (&bar.body, measure) {
+            (Body::Solid { area, .. }, Measure::Stress) => Root::from(area.clone()),
+            (_, Measure::Stress) => return refuse("stress needs a bar with an area"),
+            (body, _) => match bar_roots(body) {
+                Ok((_, _, stiffness)) => stiffness,
+                Err(error) => return refuse(&error.to_string()),
+            },
+        };
+        Ok(unit(&over, &self.clock.numbers, self.cut.bits)?)
+    }
+
+    /// Velocity, displacement, force or compression of a lumped element, in multiples of a unit.
+    fn lumped(&self, measure: Measure, element: ElementIndex, one: &Number) -> Outcome<Vec<Part>> {
+        let bits = self.cut.bits;
+        let Some(node) = self.layout.node_of(element) else {
+            return refuse("a bar as a whole has no one velocity: name a section");
+        };
+        let part = |signal, factor| Part::of(Source::Node { node, signal }, factor);
+        let own = &self.nodes[node];
+        let yields = own.yields().enumerate().find(|(_, (_, own, _))| own.element == element);
+        if let Some((place, (run, own, spring))) = &yields {
+            let yielded = Signal::Yield(*place);
+            match measure {
+                Measure::Compression => return Ok(vec![part(yielded, one.clone())]),
+                Measure::Force => {
+                    let damping = own.damping.multiply(one, bits);
+                    let mut parts = vec![part(yielded, own.stiffness.multiply(one, bits))];
+                    if !damping.is_zero() {
+                        if *spring {
+                            parts.push(part(Signal::Velocity(run + 1), damping.negate()));
+                        }
+                        parts.push(part(Signal::Velocity(*run), damping));
+                    }
+                    return Ok(parts);
+                }
+                _ => {}
+            }
+        }
+        let mass = own.masses.iter().find(|mass| mass.element == element).map(|mass| mass.run);
+        let load = own.loads.iter().find(|load| load.element == element).map(|load| load.run);
+        let support = yields.and_then(|(_, (run, _, spring))| (!spring).then_some(run));
+        let Some(run) = mass.or(load).or(support) else {
+            return refuse("a spring has two ends with two velocities");
+        };
+        match measure {
+            Measure::Velocity => Ok(vec![part(Signal::Velocity(run), one.clone())]),
+            Measure::Displacement => Ok(vec![part(Signal::Displacement(run), one.clone())]),
+            _ => refuse("nothing of that kind is measured there"),
+        }
+    }
+
+    /// Energy or momentum of an element or of the whole line, in the user's units.
+    fn held_in(&self, network: &Network, seen: &Seen, moment: &Moment) -> Outcome<Number> {
+        let line = &network.scene().line.elements;
+        let part = match &seen.place {
+            Place::Element(element) => {
+                let place = line.iter().position(|other| other == element);
+                let place = place.expect("an element of the line");
+                place..place + 1
+            }
+            _ => 0..line.len(),
+        };
+        let held = self.held_by(network, &part, moment)?;
+        let value = match seen.measure {
+            Measure::Energy => held.energy,
+            _ => held.momentum,
+        };
+        let Some(value) = value else {
+            return refuse("an endless bar that moves has no finite energy");
+        };
+        let coefficient = self.clock.number(&seen.coefficient)?;
+        let unit = self.unit_of(network, seen.measure)?.multiply(&coefficient, self.cut.bits);
+        Ok(value.multiply(&unit, self.cut.bits))
+    }
+
+    /// Where a place is; none where it is no section of a bar.
     fn section(&self, network: &Network, place: &Place) -> Outcome<Option<Section>> {
         let (element, position) = match place {
             Place::Left(element) => (element, None),
@@ -232,89 +359,6 @@ impl Engine {
         match &self.bars[section.bar].1 {
             Some(travel) => [Some(section.at.clone()), Some(travel - &section.at)],
             None => ends.map(|end| end.map(|_| section.at.clone())),
-        }
-    }
-
-    fn waves_at(&self, section: &Section, moment: &Moment, limit: Limit) -> Outcome<[Number; 2]> {
-        let mut values = Vec::new();
-        let delays = self.delays(section);
-        for (track, delay) in self.waves[section.bar].iter().zip(&delays) {
-            values.push(match delay {
-                Some(delay) => track.value(&self.clock, &moment.before(delay), limit, &self.cut)?,
-                None => track.cells[0].1.coefficient(0),
-            });
-        }
-        Ok(values.try_into().expect("two waves"))
-    }
-
-    fn force_at(&self, section: &Section, moment: &Moment, limit: Limit) -> Outcome<Number> {
-        let [right, left] = self.waves_at(section, moment, limit)?;
-        let bits = self.cut.bits;
-        Ok(right.subtract(&left, bits).multiply(&self.bars[section.bar].0, bits))
-    }
-
-    fn displacement_at(&self, section: &Section, moment: &Moment) -> Outcome<Number> {
-        let bits = self.cut.bits;
-        let start = Moment::at(Fraction::zero());
-        let delays = self.delays(section);
-        let mut sum = Number::zero();
-        for (track, delay) in self.waves[section.bar].iter().zip(&delays) {
-            let part = match delay {
-                Some(delay) => {
-                    let window = [&start.before(delay), &moment.before(delay)];
-                    track.integral(&self.clock, window, &self.cut)?
-                }
-                None => {
-                    let time = self.clock.time(moment)?;
-                    track.cells[0].1.coefficient(0).multiply(&time, bits)
-                }
-            };
-            sum = sum.add(&part, bits);
-        }
-        Ok(sum)
-    }
-
-    /// Velocity, displacement, force or compression of a lumped element.
-    fn lumped(
-        &self,
-        measure: Measure,
-        element: ElementIndex,
-        moment: &Moment,
-        limit: Limit,
-    ) -> Outcome<Number> {
-        let bits = self.cut.bits;
-        let Some(node) = self.layout.node_of(element) else {
-            return refuse("a bar as a whole has no one velocity: name a section");
-        };
-        let own = &self.nodes[node];
-        let (start, cell) = self.cell(node, moment, limit)?;
-        let time = self.clock.since(start, moment)?;
-        let mut yields = own.yields().zip(&cell.yields);
-        let yields = yields.find(|((_, own, _), _)| own.element == element);
-        if let (Some(((run, own, spring), series)), Measure::Force | Measure::Compression) =
-            (&yields, measure)
-        {
-            let yielded = series.value(&time, &self.cut);
-            if measure == Measure::Compression {
-                return Ok(yielded);
-            }
-            let mut rate = cell.velocities[*run].clone();
-            if *spring {
-                rate = rate.subtract(&cell.velocities[run + 1], bits);
-            }
-            let damped = rate.value(&time, &self.cut).multiply(&own.damping, bits);
-            return Ok(yielded.multiply(&own.stiffness, bits).add(&damped, bits));
-        }
-        let mass = own.masses.iter().find(|mass| mass.element == element).map(|mass| mass.run);
-        let load = own.loads.iter().find(|load| load.element == element).map(|load| load.run);
-        let support = yields.and_then(|((run, _, spring), _)| (!spring).then_some(run));
-        let Some(run) = mass.or(load).or(support) else {
-            return refuse("a spring has two ends with two velocities");
-        };
-        match measure {
-            Measure::Velocity => Ok(cell.velocities[run].value(&time, &self.cut)),
-            Measure::Displacement => Ok(cell.displacements[run].value(&time, &self.cut)),
-            _ => refuse("nothing of that kind is measured there"),
         }
     }
 }

@@ -49,12 +49,15 @@ impl Truncation {
 
     /// `Σ_{i≥n} z^i/i! ≤ z^n/n! · e^z`, with `z = γ x ≤ 4·2` and `e^z ≤ 2^(2z)`.
     fn tail(&self, n: usize, x: &Magnitude) -> Magnitude {
+        self.tails(x).nth(n).expect("one for each number")
+    }
+
+    /// These bounds for `n = 0, 1, …`.
+    fn tails(&self, x: &Magnitude) -> impl Iterator<Item = Magnitude> {
         let z = x.scale(self.rate);
-        let mut power = growth(&z);
-        for j in 1..=n as u64 {
-            power = power.multiply(&z).divide(j);
-        }
-        power
+        let next =
+            move |(power, j): &(Magnitude, u64)| Some((power.multiply(&z).divide(*j), j + 1));
+        std::iter::successors(Some((growth(&z), 1)), next).map(|(power, _)| power)
     }
 }
 
@@ -104,6 +107,11 @@ impl Series {
     /// Whether it is a polynomial with rational coefficients.
     pub fn is_exact(&self) -> bool {
         self.rest.is_zero() && self.coefficients.iter().all(|c| c.exact().is_some())
+    }
+
+    /// Whether it is known to be constant.
+    pub fn is_constant(&self) -> bool {
+        self.coefficients.len() <= 1 && self.rest.is_zero()
     }
 
     /// `c_k`, for `k < N`.
@@ -157,12 +165,42 @@ impl Series {
         shifted.resize(cut.order, Number::zero());
         // γ^j/j! · tail(N − j), the first from j to j + 1, the second backwards.
         let mut own = Magnitude::power_of_two(0);
-        for (j, c) in shifted.iter_mut().enumerate() {
-            let sum = own.multiply(&cut.tail(cut.order - j, &a));
+        let tails: Vec<Magnitude> = cut.tails(&a).skip(1).take(cut.order).collect();
+        for (j, (c, tail)) in shifted.iter_mut().zip(tails.iter().rev()).enumerate() {
+            let sum = own.multiply(tail);
             *c = c.widened(&sum.multiply(&self.rest), bits);
             own = own.scale(cut.rate).divide(j as u64 + 1);
         }
         Series::new(shifted, self.rest.multiply(&growth(&a.scale(cut.rate))))
+    }
+
+    /// The first coefficients of a polynomial in `ξ`, and a bound of its distance from `f(a + ξ)` for all
+    /// `|ξ| ≤ h`.
+    ///
+    /// After `m` divisions by `x − a` the polynomial that is kept is `Σ_{j<m} c'_j ξ^j + ξ^m Q(x)`, with
+    /// `|Q(x)| ≤ Σ |q_k| (|a| + h)^k`.
+    pub fn about(
+        &self,
+        a: &Number,
+        h: &Magnitude,
+        terms: usize,
+        cut: &Truncation,
+    ) -> (Vec<Number>, Magnitude) {
+        let mut shifted = self.coefficients.clone();
+        let length = shifted.len();
+        for first in 0..terms.min(length) {
+            for k in (first..length - 1).rev() {
+                shifted[k] = shifted[k].add(&shifted[k + 1].multiply(a, cut.bits), cut.bits);
+            }
+        }
+        let reach = a.magnitude().add(h);
+        let mut rest = Magnitude::ZERO;
+        for q in shifted.iter().skip(terms).rev() {
+            rest = rest.multiply(&reach).add(&q.magnitude());
+        }
+        let rest = (0..terms).fold(rest, |rest, _| rest.multiply(h));
+        shifted.resize(terms, Number::zero());
+        (shifted, rest.add(&self.remainder(&reach, cut)))
     }
 
     /// `f(x)` for `0 ≤ x`, `γ x ≤ 8`.
@@ -209,6 +247,23 @@ impl Series {
         if let Some(last) = coefficients.get(cut.order) {
             rest = rest.max(cut.factor(&last.magnitude()));
             coefficients.truncate(cut.order);
+        }
+        Series::new(coefficients, rest)
+    }
+
+    /// `f'`: `(k + 1) c_(k+1)`, and `γ · rest` for the bound, by `(k + 1) γ^(k+1)/(k+1)! = γ · γ^k/k!`. Of
+    /// `N c_N`, the last one that is kept, that bound is all that is known.
+    pub fn derivative(&self, cut: &Truncation) -> Series {
+        let rest = self.rest.scale(cut.rate);
+        let kept = self.coefficients.iter().enumerate().skip(1);
+        let mut coefficients: Vec<Number> =
+            kept.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits)).collect();
+        if !rest.is_zero() {
+            let last = cut.order - 1;
+            coefficients.resize(last, Number::zero());
+            let mut bound = rest.scale(cut.rate * last as i64);
+            (2..=last as u64).for_each(|i| bound = bound.divide(i));
+            coefficients.push(Number::zero().widened(&bound, cut.bits));
         }
         Series::new(coefficients, rest)
     }
@@ -276,9 +331,23 @@ mod tests {
             assert!(encloses(&f.value(&h, &cut), &exponential(h.exact().unwrap()), 100));
             let shifted = f.shift(&a, &cut);
             assert!(encloses(&shifted.value(&b, &cut), &exponential(&sum), 100));
+            let h = Magnitude::power_of_two(-3 - rate);
+            let (near, rest) = f.about(&a, &h, 9, &cut);
+            let last = near[8].magnitude();
+            assert!(rest <= last.multiply(&(0..8).fold(h, |power, _| power.multiply(&h))));
+            for (near, shifted) in near.iter().zip(&shifted.coefficients) {
+                assert_eq!(near.subtract(shifted, 256).sign(), None);
+            }
+            let end = Number::Exact(rational(1, 8 << rate));
+            let sum = Series::new(near, Magnitude::ZERO).value(&end, &cut).widened(&rest, 128);
+            let far = rational(1, 3) + rational(1, 8 << rate);
+            assert!(encloses(&sum, &exponential(&far), 30));
             let again = shifted.shift(&b, &cut).shift(&a, &cut);
             let third = exponential(&(sum + rational(1, 3)));
             assert!(encloses(&again.value(&Number::zero(), &cut), &third, 90));
+            // f' = −f, at any place and with the bound of its rest.
+            let sum = f.derivative(&cut).add(&f, cut.bits).value(&a, &cut).ball(900);
+            assert!(sum.contains_zero() && sum.magnitude() < Magnitude::power_of_two(-100));
             // 1 − e^{−x} and (1 − e^{−2x})/2.
             let integral = f.integral(Number::zero(), &cut).value(&a, &cut);
             let one = Ball::from_rational(&rational(1, 1), 9);
@@ -300,6 +369,8 @@ mod tests {
         assert!(value.subtract(&exponential(&rational(1, 2)), 900).contains_zero());
         let shifted = f.shift(&x, &cut).value(&x, &cut).ball(128);
         assert!(shifted.subtract(&exponential(&rational(1, 1)), 900).contains_zero());
+        let slope = f.derivative(&cut).value(&x, &cut).ball(128);
+        assert!(slope.add(&exponential(&rational(1, 2)), 900).contains_zero());
         let size = f.size_from(1, &Magnitude::power_of_two(-1), &cut);
         // (1 − e^{−1/2})/(1/2) = 0.787
         assert!(size >= Magnitude::from_rational(&rational(787, 1000)));

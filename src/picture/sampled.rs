@@ -1,10 +1,16 @@
 //! Observables sampled for a line: more densely where they bend, from both sides where they jump.
 
 use crate::ball::Ball;
-use crate::evaluate::{EvaluateError, SceneEvaluator, Side, Signal, Stretch};
-use crate::expression::Fraction;
+use crate::evaluate::{
+    At, Determined, EvaluateError, ObservedSignal, Piecewise, SceneEvaluator, Side, Signal,
+};
+use crate::history::{History, HistoryError, PhasedSignal};
 use crate::network::{Network, Observed};
+use crate::scene::Measure;
 use wavestep_polynomial::Rational;
+
+/// Digits of energies.
+const DIGITS: usize = 9;
 
 /// The precision tried first, and the highest.
 const FIRST_BITS: u64 = 128;
@@ -29,7 +35,7 @@ const CONTINUOUS: f64 = 1e-9;
 /// let values = [("mu".to_owned(), parse_number("1")?)].into();
 /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
 /// let f = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let line = sampled(&f, &parse_number("0")?, &parse_number("3")?).unwrap();
+/// let line = sampled(f, &parse_number("0")?, &parse_number("3")?).unwrap();
 /// // From 1 down to e^{−2}; at 2 it rises by 1.
 /// assert_eq!(line.points[0], (0.0, 1.0));
 /// let [(at, before, after)] = line.jumps[..] else { panic!("one jump") };
@@ -62,26 +68,73 @@ pub struct Sampled {
 /// let recurrence = read_recurrence(&Source::new("two-bars", text)?, &values)?;
 /// let force = recurrence.observation("force").unwrap();
 /// let force = Signal::of_recurrence(&recurrence, &force).unwrap();
-/// let line = wavestep::picture::sampled(&force, &parse_number("0")?, &parse_number("5")?).unwrap();
+/// let line = wavestep::picture::sampled(force, &parse_number("0")?, &parse_number("5")?).unwrap();
 /// assert_eq!(line.jumps.len(), 2);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub fn sampled(signal: &Signal, from: &Rational, to: &Rational) -> Result<Sampled, EvaluateError> {
+pub fn sampled(signal: Signal, from: &Rational, to: &Rational) -> Result<Sampled, EvaluateError> {
     if from >= to {
         return Err(EvaluateError::EmptyWindow);
     }
-    let sampler = Sampler::new(signal)?;
-    let stretches = signal.stretches(from, to)?;
-    let window = sampler.seconds(&(signal.slowness().scale(to)))?
-        - sampler.seconds(&signal.slowness().scale(from))?;
-    let mut coarse = Vec::with_capacity(stretches.len());
-    for stretch in &stretches {
+    sample(&ObservedSignal::of_signal(signal, [from, to])?)
+}
+
+/// Samples an observable across all phases of a scene's contacts, as [`sampled`] does; energies and
+/// momenta at so many equal steps.
+///
+/// # Errors
+/// [`HistoryError`], as of [`History::search`].
+///
+/// ```
+/// use wavestep::language::{Source, parse_number, read_scene};
+/// use wavestep::network::Network;
+/// use wavestep::picture::sampled_phases;
+///
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed\n\
+///             contacts open\nobserve v = velocity(rod.at(1/2))";
+/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let window = [parse_number("0")?, parse_number("9")?];
+/// let line = sampled_phases(&network, "v", [&window[0], &window[1]], 9).unwrap();
+/// // The bar is stopped, and thrown back from the wall.
+/// assert_eq!(line.jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn sampled_phases(
+    network: &Network,
+    observable: &str,
+    [from, to]: [&Rational; 2],
+    steps: usize,
+) -> Result<Sampled, HistoryError> {
+    let seen = History::observable(network, observable)?;
+    if seen.terms.iter().all(|term| !matches!(term.measure, Measure::Energy | Measure::Momentum)) {
+        let signal = PhasedSignal::new(network, observable, [from, to])?;
+        return Ok(sample(&signal)?);
+    }
+    let time = |step: usize| from + (to - from) * Rational::new(step.into(), steps.max(1).into());
+    let times: Vec<Rational> = (0..=steps).map(time).collect();
+    let values = History::values(network, observable, &times, Side::Right, DIGITS)?;
+    let points = times.iter().zip(values).map(|(time, value)| (double(time), value.to_double()));
+    Ok(Sampled { points: points.collect(), jumps: Vec::new() })
+}
+
+fn sample(function: &dyn Piecewise) -> Result<Sampled, EvaluateError> {
+    let ends: Result<Vec<Ends>, _> =
+        (0..function.count()).map(|stretch| Ends::of(function, stretch)).collect();
+    let sampler = Sampler { function, ends: ends? };
+    let [first, last] = [sampler.ends.first(), sampler.ends.last()].map(|ends| {
+        let ends = ends.expect("a window has a stretch");
+        [double(&ends.from), double(&ends.to)]
+    });
+    let window = last[1] - first[0];
+    let mut coarse = Vec::with_capacity(function.count());
+    for stretch in 0..function.count() {
         coarse.push(sampler.coarse(stretch, window)?);
     }
     let values = || coarse.iter().flatten().map(|point| point.1);
     let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
     let mut found = Sampled::default();
-    for (stretch, points) in stretches.iter().zip(&coarse) {
+    for (stretch, points) in coarse.iter().enumerate() {
         let start = (points[0].0, points[0].1);
         if let Some(&(at, before)) = found.points.last()
             && (start.1 - before).abs() > CONTINUOUS * range
@@ -91,13 +144,8 @@ pub fn sampled(signal: &Signal, from: &Rational, to: &Rational) -> Result<Sample
         }
         found.points.push(start);
         for pair in points.windows(2) {
-            sampler.refine(
-                stretch,
-                (pair[0], pair[1]),
-                FLAT * range,
-                MAX_DEPTH,
-                &mut found.points,
-            )?;
+            let pair = (pair[0], pair[1]);
+            sampler.refine(stretch, pair, FLAT * range, MAX_DEPTH, &mut found.points)?;
         }
     }
     found.points.dedup();
@@ -130,61 +178,74 @@ pub fn sampled_energy(
     [from, to]: [&Rational; 2],
     steps: usize,
 ) -> Result<Sampled, EvaluateError> {
-    const DIGITS: usize = 9;
     let evaluator = SceneEvaluator::new(network, &network.scaled_time(to))?;
     let mut found = Sampled::default();
     for step in 0..=steps {
         let at = from + (to - from) * Rational::new(step.into(), steps.max(1).into());
         let scaled = network.scaled_time(&at);
         let value = evaluator.value(observed, &scaled, Side::Right, DIGITS, MAX_BITS)?;
-        let value = value.decimal(DIGITS).0.to_string().parse().unwrap_or(f64::NAN);
-        found.points.push((Ball::from_rational(&at, FIRST_BITS).to_double().0, value));
+        found.points.push((double(&at), Determined::Digits(value).to_double()));
     }
     Ok(found)
 }
 
-/// A time in seconds, the value, and the time in the scale of the waves as a share of a stretch.
+/// A time, the value there, and the share of the stretch that the time is at.
 type Point = (f64, f64, f64);
 
-struct Sampler<'a> {
-    signal: &'a Signal,
-    /// One over the slowness.
-    inverse: Ball,
+/// Where a stretch begins and ends: exactly, or as near as no picture shows.
+struct Ends {
+    from: Rational,
+    to: Rational,
 }
 
-impl<'a> Sampler<'a> {
-    fn new(signal: &'a Signal) -> Result<Sampler<'a>, EvaluateError> {
-        let slowness = signal.numbers().enclose(signal.slowness(), FIRST_BITS)?;
-        let inverse = slowness.reciprocal(FIRST_BITS).map_err(EvaluateError::Ball)?;
-        Ok(Sampler { signal, inverse })
+impl Ends {
+    fn of(function: &dyn Piecewise, stretch: usize) -> Result<Ends, EvaluateError> {
+        let near = |end| -> Result<Rational, EvaluateError> {
+            Ok(match function.exact_time(stretch, end) {
+                Some(time) => time,
+                None => Rational::from(function.time(stretch, end, FIRST_BITS)?.midpoint()),
+            })
+        };
+        Ok(Ends { from: near(Side::Right)?, to: near(Side::Left)? })
     }
+}
 
-    fn seconds(&self, time: &Fraction) -> Result<f64, EvaluateError> {
-        let time = self.signal.numbers().enclose(time, FIRST_BITS)?;
-        Ok(time.multiply(&self.inverse, FIRST_BITS).to_double().0)
-    }
+fn double(time: &Rational) -> f64 {
+    Ball::from_rational(time, FIRST_BITS).to_double().0
+}
 
+struct Sampler<'a> {
+    function: &'a dyn Piecewise,
+    ends: Vec<Ends>,
+}
+
+impl Sampler<'_> {
     /// The point at a share of a stretch; at its ends the limits from within.
-    fn point(&self, stretch: &Stretch, share: f64) -> Result<Point, EvaluateError> {
-        let length = stretch.to() - stretch.from();
-        let exact = Rational::from_float(share).expect("a finite share");
-        let at = stretch.from() + &length.scale(&exact);
+    fn point(&self, stretch: usize, share: f64) -> Result<Point, EvaluateError> {
+        let Ends { from, to } = &self.ends[stretch];
+        let time = from + (to - from) * Rational::from_float(share).expect("a finite share");
+        let at = match share {
+            0.0 => At::End(Side::Right),
+            1.0 => At::End(Side::Left),
+            _ => At::Time(&time),
+        };
         let mut bits = FIRST_BITS;
         loop {
-            let ball = self.signal.enclose(stretch, 0, &at, bits)?;
+            let ball = self.function.enclose(stretch, 0, at, bits)?;
             let (value, bound) = ball.to_double();
             if bound.to_double() <= 1e-12 * value.abs().max(1e-60) || bits >= MAX_BITS {
-                return Ok((self.seconds(&at)?, value, share));
+                return Ok((double(&time), value, share));
             }
             if ball.contains_zero() && bound.to_double() < 1e-30 {
-                return Ok((self.seconds(&at)?, 0.0, share));
+                return Ok((double(&time), 0.0, share));
             }
             bits *= 2;
         }
     }
 
-    fn coarse(&self, stretch: &Stretch, window: f64) -> Result<Vec<Point>, EvaluateError> {
-        let length = self.seconds(stretch.to())? - self.seconds(stretch.from())?;
+    fn coarse(&self, stretch: usize, window: f64) -> Result<Vec<Point>, EvaluateError> {
+        let Ends { from, to } = &self.ends[stretch];
+        let length = double(to) - double(from);
         if length <= 0.0 {
             // An arrival at the end of the window.
             return Ok(vec![self.point(stretch, 0.0)?]);
@@ -201,7 +262,7 @@ impl<'a> Sampler<'a> {
     /// Adds the end of an interval, and points within it where the line would be off.
     fn refine(
         &self,
-        stretch: &Stretch,
+        stretch: usize,
         (from, to): (Point, Point),
         off: f64,
         depth: u32,

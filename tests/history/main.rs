@@ -3,6 +3,7 @@
 
 mod characteristics;
 mod page;
+mod phases;
 mod refusals;
 
 use std::collections::BTreeMap;

@@ -4,6 +4,9 @@ use crate::ball::Ball;
 use crate::evaluate::evaluator::{EvaluateError, certified};
 use crate::evaluate::value::Value;
 
+/// The precision of doubles, and a few bits more.
+const DOUBLE_BITS: u64 = 64;
+
 /// A time or a value that was found.
 ///
 /// ```
@@ -39,6 +42,17 @@ impl Determined {
             Ok(value) => Ok(Determined::Digits(value)),
             Err(EvaluateError::AccuracyNotReached { best, .. }) => Ok(Determined::Enclosed(*best)),
             Err(error) => Err(error),
+        }
+    }
+
+    /// A double near it.
+    pub(crate) fn to_double(&self) -> f64 {
+        match self {
+            Determined::Digits(Value::Exact(value)) => {
+                Ball::from_rational(value, DOUBLE_BITS).to_double().0
+            }
+            Determined::Digits(Value::Certified(found)) => found.ball.to_double().0,
+            Determined::Enclosed(ball) => ball.to_double().0,
         }
     }
 

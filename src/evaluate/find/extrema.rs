@@ -311,6 +311,7 @@ impl<'s> Search<'s> {
                         false => self.slope_sign(stretch, Ok(&cell.to), target)?,
                     };
                     match (first, last) {
+                        // Exactly flat at an end: the limit there is the extremum of the run.
                         (Some(first), Some(last)) => {
                             if first as i8 * last as i8 == -1 {
                                 let rises = last == Ordering::Greater;
@@ -324,11 +325,6 @@ impl<'s> Search<'s> {
                             }
                             false
                         }
-                        // Exactly flat at an end: the limit there is the extremum of the run.
-                        (None, Some(_)) if i == 0 => !self.slope_vanishes(stretch, Side::Right)?,
-                        (Some(_), None) if i + 1 == count => {
-                            !self.slope_vanishes(stretch, Side::Left)?
-                        }
                         _ => true,
                     }
                 }
@@ -340,7 +336,8 @@ impl<'s> Search<'s> {
         Ok(())
     }
 
-    /// The sign of the derivative at a time within a stretch, or in the limit at one of its ends.
+    /// The sign of the derivative at a time within a stretch, or in the limit at one of its ends, by
+    /// balls, and exactly where the first balls do not tell it.
     fn slope_sign(
         &self,
         stretch: usize,
@@ -348,13 +345,21 @@ impl<'s> Search<'s> {
         target: Target<'_>,
     ) -> Result<Option<Ordering>, EvaluateError> {
         let limit_bits = target.limit_bits.min(SLOPE_BITS);
-        let mut bits = self.bits.get().min(limit_bits);
+        let first = self.bits.get().min(limit_bits);
+        let mut bits = first;
         loop {
             let slope = match place {
                 Ok(time) => self.at(stretch, 1, time, bits)?,
                 Err(side) => self.limit(stretch, 1, side, bits)?,
             };
-            match sign_of(&slope) {
+            let sign = sign_of(&slope);
+            if let (None, Err(side)) = (sign, place)
+                && bits == first
+                && self.slope_vanishes(stretch, side)?
+            {
+                return Ok(Some(Ordering::Equal));
+            }
+            match sign {
                 None if bits < limit_bits => bits = (2 * bits).min(limit_bits),
                 sign => return Ok(sign),
             }

@@ -38,8 +38,17 @@ pub(crate) struct ObservedSignal<'a> {
 
 /// Where exact values come from.
 enum Exact<'a> {
-    Recurrence { evaluator: Box<Evaluator<'a>>, value: Observation },
-    Scene { network: &'a Network, observed: Box<Observed>, evaluator: OnceCell<Prepared<'a>> },
+    /// There are none.
+    Nowhere,
+    Recurrence {
+        evaluator: Box<Evaluator<'a>>,
+        value: Observation,
+    },
+    Scene {
+        network: &'a Network,
+        observed: Box<Observed>,
+        evaluator: OnceCell<Prepared<'a>>,
+    },
 }
 
 /// An evaluator, unless too many echoes arrive to make one.
@@ -56,6 +65,11 @@ impl<'a> ObservedSignal<'a> {
         let evaluator = Box::new(Evaluator::new(solution)?);
         let value = observation.clone();
         ObservedSignal::new(signal, Exact::Recurrence { evaluator, value }, window)
+    }
+
+    /// A signal, without what tells exact values.
+    pub fn of_signal(signal: Signal, window: [&Rational; 2]) -> Result<Self, EvaluateError> {
+        ObservedSignal::new(signal, Exact::Nowhere, window)
     }
 
     /// An observable of a scene.
@@ -91,6 +105,7 @@ impl<'a> ObservedSignal<'a> {
     /// The value at a time in the scale of the waves, where it is rational.
     fn exact_value(&self, at: &Fraction, side: Side) -> Result<Option<Rational>, EvaluateError> {
         let value = match &self.exact {
+            Exact::Nowhere => return Ok(None),
             Exact::Recurrence { evaluator, value } => {
                 let Some(at) = at.as_constant() else { return Ok(None) };
                 evaluator.value(value, &at, side, FEW_DIGITS, SIGN_BITS)
@@ -186,7 +201,8 @@ impl Piecewise for ObservedSignal<'_> {
         let (size, error) = self.signal.size(&self.stretches[stretch], order, at, bits)?;
         let slowness = self.signal.numbers().enclose(self.signal.slowness(), SCALE_BITS)?;
         let slowness = slowness.magnitude();
-        let scaled = |value| (0..order).fold(value, |value: Magnitude, _| value.multiply(&slowness));
+        let scaled =
+            |value| (0..order).fold(value, |value: Magnitude, _| value.multiply(&slowness));
         Ok((scaled(size), scaled(error)))
     }
 
@@ -202,6 +218,7 @@ impl Piecewise for ObservedSignal<'_> {
     fn slope_vanishes(&self, stretch: usize, end: Side) -> Result<bool, EvaluateError> {
         let at = self.scaled(stretch, At::End(end));
         let value = match &self.exact {
+            Exact::Nowhere => return Ok(false),
             Exact::Recurrence { evaluator, value } => {
                 let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
                     return Ok(false);

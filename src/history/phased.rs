@@ -1,0 +1,392 @@
+//! An observable across all phases of a scene's contacts, as what roots and extrema are looked for in.
+
+use crate::ball::{Ball, Magnitude};
+use crate::enclosure::EnclosureError;
+use crate::evaluate::{At, EvaluateError, Piecewise, Search, Side, Taylor};
+use crate::history::engine::Engine;
+use crate::history::error::HistoryError;
+use crate::history::history::{History, MAX_BITS, unit};
+use crate::history::moment::Moment;
+use crate::history::number::Number;
+use crate::history::part::Part;
+use crate::history::series::{Series, Truncation};
+use crate::network::Network;
+use crate::scene::Observable;
+use num_traits::Zero as _;
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// The precision in bits that is begun with, and the highest that a search has.
+const FIRST_BITS: u64 = 192;
+const SEARCH_BITS: u64 = 640;
+
+/// Precisions are multiples of so many bits.
+const STEP_BITS: u64 = 64;
+
+impl History {
+    /// An observable on a window of the user's time, across all phases of the contacts, for roots and
+    /// extrema.
+    ///
+    /// # Errors
+    /// As [`History::of`]; [`HistoryError::Refused`] for energies and momenta, and
+    /// [`HistoryError::EmptyWindow`].
+    ///
+    /// # Cost
+    /// That of the history until the end of the window, again for each doubling of the precision.
+    ///
+    /// ```
+    /// use wavestep::evaluate::{Goal, Root};
+    /// use wavestep::history::History;
+    /// use wavestep::language::{Source, parse_number, read_scene};
+    /// use wavestep::network::Network;
+    ///
+    /// let text = r#"
+    ///     scene "A mass strikes a fixed bar and leaves it"
+    ///     mass hammer { mass = 1, velocity = 1 }
+    ///     bar rod { impedance = 1, travel = 1 }
+    ///     line free - hammer | rod - fixed
+    ///     contacts open
+    ///     observe v = velocity(hammer)
+    /// "#;
+    /// let network = Network::new(&read_scene(&Source::new("text", text)?, &Default::default()).unwrap());
+    /// let (network, window) = (network.unwrap(), [parse_number("0")?, parse_number("9")?]);
+    /// let search = History::search(&network, "v", [&window[0], &window[1]]).unwrap();
+    /// // It leaves at 3 + exp(-2)/2, is struck again by the end of the bar, and flies on from then.
+    /// let least = search.extremum(Goal::Smallest, 12, 1 << 10).unwrap();
+    /// assert_eq!(least.value.to_text(12), "-0.698875581996");
+    /// let roots = search.roots(&parse_number("0")?, 9, 1 << 10).unwrap();
+    /// assert!(matches!(&roots.all[..], [Root::Simple { rises: false, .. }]), "{roots:?}");
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn search<'a>(
+        network: &'a Network,
+        observable: &str,
+        window: [&Rational; 2],
+    ) -> Result<Search<'a>, HistoryError> {
+        let signal = PhasedSignal::new(network, observable, window)?;
+        Search::over(Box::new(signal), window).map_err(|_| HistoryError::EmptyWindow)
+    }
+}
+
+/// An observable between two breaks.
+struct Piece {
+    /// Its first instant and its last.
+    ends: [Moment; 2],
+    /// From its first instant on, in the user's units and the time of the scene.
+    series: Series,
+    /// The sizes of the parts it is the sum of.
+    size: Magnitude,
+}
+
+impl Piece {
+    /// Whether another series that begins at an instant is this one, known to be: constants that meet
+    /// without a jump, or polynomials with rational coefficients.
+    fn goes_on(
+        &self,
+        other: &Series,
+        at: &Moment,
+        is_continuous: bool,
+        engine: &Engine,
+    ) -> Result<bool, EnclosureError> {
+        if is_continuous && self.series.is_constant() && other.is_constant() {
+            return Ok(true);
+        }
+        let exact = self.series.is_exact() && other.is_exact();
+        let length = engine.clock.since(&self.ends[0], at)?;
+        Ok(exact && self.series.shift(&length, &engine.cut) == *other)
+    }
+}
+
+/// What is known at one precision.
+struct Followed {
+    engine: Engine,
+    parts: Vec<Part>,
+    pieces: Vec<Piece>,
+    /// The unit of time, and one over it.
+    unit: [Number; 2],
+}
+
+/// An observable of a scene whose contacts open, on a window of the user's time.
+pub(crate) struct PhasedSignal<'a> {
+    network: &'a Network,
+    seen: Observable,
+    window: [Rational; 2],
+    known: RefCell<Rc<Followed>>,
+}
+
+impl<'a> PhasedSignal<'a> {
+    /// # Errors
+    /// As [`History::search`].
+    pub fn new(
+        network: &'a Network,
+        observable: &str,
+        [from, to]: [&Rational; 2],
+    ) -> Result<Self, HistoryError> {
+        if to <= from || *from < Rational::zero() {
+            return Err(HistoryError::EmptyWindow);
+        }
+        let seen = History::observable(network, observable)?.clone();
+        let window = [from.clone(), to.clone()];
+        let mut bits = FIRST_BITS;
+        let known = loop {
+            match Followed::of(network, &seen, &window, bits) {
+                Err(HistoryError::Undecided { .. }) if 2 * bits <= MAX_BITS => bits *= 2,
+                other => break RefCell::new(Rc::new(other?)),
+            }
+        };
+        Ok(PhasedSignal { network, seen, window, known })
+    }
+
+    /// What is known at a precision, as far as one is reached.
+    fn followed(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
+        let known = Rc::clone(&self.known.borrow());
+        let bits = bits.min(SEARCH_BITS);
+        if known.engine.cut.bits >= bits {
+            return Ok(known);
+        }
+        let finer =
+            Followed::of(self.network, &self.seen, &self.window, bits.next_multiple_of(STEP_BITS));
+        let finer = finer.map_err(|error| EvaluateError::NotFollowed(error.to_string()))?;
+        if finer.pieces.len() != known.pieces.len() {
+            let message = "a finer history has other arrivals".to_owned();
+            return Err(EvaluateError::NotFollowed(message));
+        }
+        let finer = Rc::new(finer);
+        *self.known.borrow_mut() = Rc::clone(&finer);
+        Ok(finer)
+    }
+
+    /// The time from the first instant of a piece.
+    fn since(
+        &self,
+        followed: &Followed,
+        stretch: usize,
+        at: At<'_>,
+    ) -> Result<Number, EvaluateError> {
+        let [from, to] = &followed.pieces[stretch].ends;
+        let number = match at {
+            At::End(Side::Right) => return Ok(Number::zero()),
+            At::End(Side::Left) => followed.engine.clock.since(from, to)?,
+            At::Time(time) => {
+                followed.engine.clock.since(from, &Moment::at(self.network.scaled_time(time)))?
+            }
+        };
+        Ok(number)
+    }
+}
+
+impl Followed {
+    fn of(
+        network: &Network,
+        seen: &Observable,
+        window: &[Rational; 2],
+        bits: u64,
+    ) -> Result<Followed, HistoryError> {
+        let mut engine = Engine::new(network, bits)?;
+        let ends = window.each_ref().map(|time| Moment::at(network.scaled_time(time)));
+        engine.follow_until(&ends[1])?;
+        let mut parts = Vec::new();
+        for term in &seen.terms {
+            parts.extend(engine.parts(network, term)?);
+        }
+        let mut starts = vec![ends[0].clone()];
+        starts.extend(engine.breaks(&parts, &ends)?);
+        let mut pieces: Vec<Piece> = Vec::new();
+        let is_continuous = parts.iter().all(|part| engine.is_continuous(part));
+        for (number, start) in starts.iter().enumerate() {
+            let end = starts.get(number + 1).unwrap_or(&ends[1]);
+            let (series, size) = sum(&engine, &parts, start)?;
+            match pieces.last_mut() {
+                Some(last) if last.goes_on(&series, start, is_continuous, &engine)? => {
+                    last.ends[1] = end.clone();
+                }
+                _ => pieces.push(Piece { ends: [start.clone(), end.clone()], series, size }),
+            }
+        }
+        let time = unit(&network.model().scale.time, &engine.clock.numbers, bits)?;
+        let inverse = time.reciprocal(bits)?;
+        Ok(Followed { engine, parts, pieces, unit: [time, inverse] })
+    }
+}
+
+impl Followed {
+    /// The derivative of an order with respect to the user's time, from the first instant of a piece on.
+    fn derivative(&self, stretch: usize, order: usize) -> Cow<'_, Series> {
+        let (cut, inverse) = (&self.engine.cut, &self.unit[1]);
+        (0..order).fold(Cow::Borrowed(&self.pieces[stretch].series), |series, _| {
+            let slope = series.derivative(cut);
+            Cow::Owned(slope.combine(inverse, &Series::zero(), &Number::zero(), cut.bits))
+        })
+    }
+}
+
+/// The sum of parts from an instant on, and of their sizes.
+fn sum(engine: &Engine, parts: &[Part], now: &Moment) -> Result<(Series, Magnitude), HistoryError> {
+    let (mut sum, mut size) = (Series::zero(), Magnitude::ZERO);
+    for part in parts {
+        let series = engine.series_of(part, now)?;
+        size = size.add(&series.coefficient(0).magnitude());
+        sum = sum.add(&series, engine.cut.bits);
+    }
+    Ok((sum, size))
+}
+
+impl Engine {
+    /// When any of some parts may change its series, after a first instant and until a last one, in
+    /// order.
+    fn breaks(
+        &self,
+        parts: &[Part],
+        [from, to]: &[Moment; 2],
+    ) -> Result<Vec<Moment>, HistoryError> {
+        let mut breaks: Vec<Moment> = Vec::new();
+        for moment in parts.iter().flat_map(|part| self.breaks_of(part)) {
+            let before = self.clock.compare(&moment, from)? != Ordering::Greater;
+            if before || self.clock.compare(&moment, to)? == Ordering::Greater {
+                continue;
+            }
+            // Few are out of order: the parts are.
+            let mut place = breaks.len();
+            let mut known = false;
+            while place > 0 && !known {
+                match self.clock.compare(&breaks[place - 1], &moment)? {
+                    Ordering::Less => break,
+                    Ordering::Equal => known = true,
+                    Ordering::Greater => place -= 1,
+                }
+            }
+            if !known {
+                breaks.insert(place, moment);
+            }
+        }
+        Ok(breaks)
+    }
+}
+
+impl Piecewise for PhasedSignal<'_> {
+    fn count(&self) -> usize {
+        self.known.borrow().pieces.len()
+    }
+
+    fn is_instant(&self, stretch: usize) -> bool {
+        let [from, to] = &self.known.borrow().pieces[stretch].ends;
+        from == to
+    }
+
+    fn is_zero(&self, stretch: usize) -> bool {
+        self.known.borrow().pieces[stretch].series.is_zero()
+    }
+
+    fn exact_time(&self, stretch: usize, end: Side) -> Option<Rational> {
+        let known = self.known.borrow();
+        let pieces = &known.pieces;
+        match end {
+            Side::Right if stretch == 0 => return Some(self.window[0].clone()),
+            Side::Left if stretch + 1 == pieces.len() => return Some(self.window[1].clone()),
+            _ => {}
+        }
+        let place = usize::from(end == Side::Left);
+        let time = known.engine.clock.time(&pieces[stretch].ends[place]).ok()?;
+        Some(time.exact()? * known.unit[0].exact()?)
+    }
+
+    fn time(&self, stretch: usize, end: Side, bits: u64) -> Result<Ball, EvaluateError> {
+        let followed = self.followed(bits)?;
+        let place = usize::from(end == Side::Left);
+        let time = followed.engine.clock.time(&followed.pieces[stretch].ends[place])?;
+        Ok(time.multiply(&followed.unit[0], followed.engine.cut.bits).ball(bits))
+    }
+
+    fn enclose(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: At<'_>,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let followed = self.followed(bits)?;
+        let at = self.since(&followed, stretch, at)?;
+        let value = followed.derivative(stretch, order).value(&at, &followed.engine.cut);
+        Ok(value.ball(bits))
+    }
+
+    fn taylor(
+        &self,
+        stretch: usize,
+        order: usize,
+        (middle, half): (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        let followed = self.followed(bits)?;
+        // A finer history may be known than is asked for.
+        let cut = &Truncation { bits: followed.engine.cut.bits.min(bits), ..followed.engine.cut };
+        let at = self.since(&followed, stretch, At::Time(middle))?;
+        let h = followed.engine.clock.number(&self.network.scaled_time(half))?;
+        let series = followed.derivative(stretch, order);
+        let (near, remainder) = series.about(&at, &h.magnitude(), terms, cut);
+        let mut power = Number::one();
+        let mut coefficients = Vec::with_capacity(terms);
+        for c in near {
+            coefficients.push(c.multiply(&power, cut.bits).ball(bits));
+            power = power.multiply(&h, cut.bits);
+        }
+        Ok(Taylor { coefficients, remainder })
+    }
+
+    fn size(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: &Rational,
+        bits: u64,
+    ) -> Result<(Magnitude, Magnitude), EvaluateError> {
+        let value = self.enclose(stretch, order, At::Time(at), bits)?;
+        let size = self.followed(bits)?.pieces[stretch].size;
+        Ok((size.max(value.magnitude()), *value.radius()))
+    }
+
+    fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
+        let followed = self.followed(0)?;
+        let end = &followed.pieces[stretch].ends[1];
+        let zero = |part| followed.engine.vanishes_before(part, end);
+        if matches!(at, At::End(Side::Left)) && followed.parts.iter().all(zero) {
+            return Ok(Some(Rational::zero()));
+        }
+        let at = self.since(&followed, stretch, at)?;
+        let value = followed.pieces[stretch].series.value(&at, &followed.engine.cut);
+        Ok(value.exact().cloned())
+    }
+
+    fn slope_vanishes(&self, stretch: usize, end: Side) -> Result<bool, EvaluateError> {
+        let followed = self.followed(0)?;
+        let last = &followed.pieces[stretch].ends[1];
+        let flat = |part| {
+            let slope = followed.engine.slope_of(part);
+            slope.is_some_and(|slope| followed.engine.vanishes_before(&slope, last))
+        };
+        if end == Side::Left && followed.parts.iter().all(flat) {
+            return Ok(true);
+        }
+        let at = self.since(&followed, stretch, At::End(end))?;
+        Ok(followed.derivative(stretch, 1).value(&at, &followed.engine.cut).is_zero())
+    }
+
+    /// Known where the series itself is constant; a sum of exponentials that happens to be is not.
+    fn equals(
+        &self,
+        stretch: usize,
+        value: &Rational,
+        _: &[Rational; 2],
+        _: u64,
+    ) -> Result<bool, EvaluateError> {
+        let followed = self.followed(0)?;
+        let series = &followed.pieces[stretch].series;
+        Ok(series.is_exact()
+            && series.is_constant()
+            && series.coefficient(0).exact() == Some(value))
+    }
+}
