@@ -18,17 +18,34 @@
 //! The polynomial itself changes from `û` to `u` by at most `ε Σ k |c_k|`.
 //!
 //! # Pairs of doubles
-//! A step from `(h, l)` is `p + e = h û` and `s + d = c_k + p` exactly, then the new pair `s` and
-//! `RN(RN(RN(RN(l û) + e) + low_k) + d)`: all errors are in the second sum. With `λ` a bound on `|l|`,
-//! `|e| ≤ ε T_{k+1}` and `|d| ≤ ε T_k`, the sum is at most `λ' = λ + ε T_{k+1} + |low_k| + ε T_k`, and
-//! its four roundings (three when fused) are off by `4 ε λ'` at most; `λ'` is the next `λ`. Before the
-//! first pair, Horner's scheme runs in doubles on the coefficients from `split` on.
+//! The value is a pair `h + l`: `h` is a multiple of the grid `g` of the piece, and `l` is small.
+//! Above `split` Horner's scheme runs in doubles, and its result is the first `h`; the low parts
+//! there are left out. The coefficients below are split anew, `c_k + low_k = C_k + low'_k`, with
+//! `C_k` a multiple of `g`. With the *anchor* `σ = 3 · 2⁵¹ g`, a step is
 //!
-//! Where the argument is not exact, `u = û + δ` with `|δ| ≤ ε` known: `δ p'(û)` is added, with `p'` in
-//! doubles. Each of the terms `k c_k û^{k−1}` of `p'` meets at most `2n` roundings, so with
-//! `D = Σ k (|c_k| + |low_k|)`, `D₂ = Σ k (k−1) (|c_k| + |low_k|)` the error is at most
-//! `ε (2nε D + Σ k |low_k|)` for that, `2 ε (λ + ε D)` for product and sum, and `ε² D₂ / 2` for the rest of
-//! Taylor's series.
+//! ```text
+//! t = RN(h û + (σ + C_k)),   P = t − (σ + C_k),   h' = t − σ = P + C_k,
+//! m = RN(RN(h û − P) + low'_k),   l' = RN(l û + m)
+//! ```
+//!
+//! Let `2⁵¹ g` be the power of two `M` above all `S_k = Σ_{j≥k} |c_j| r^{j−k}`, `k < split`. Then
+//! all `|h'| ≤ M`: splitting and rounding add `g` a step, 64 of them less than the room that `M`
+//! leaves. So `σ + C_k`, `t` and all sums in between lie in `2⁵² g … 2⁵³ g`, where the doubles are
+//! the multiples of `g`: `P` and `h'` are exact, and `|h û − P| ≤ g/2 = 2 ε M`.
+//!
+//! Unfused, `p + e = h û` exactly, `t = RN(p + (σ + C_k))`, `p − P` is exact, because it is a
+//! multiple of the last bit of `p` not larger than `p` or than `g/2`, and `h û − P` is computed as
+//! `(p − P) + e`. So in both cases `h û − P` is at most `ρ = 2 ε M + ε S_{k+1}` and rounded by `ε
+//! ρ`, `m` is at most `ρ + |low'_k|` and rounded by `ε` of that, and with `λ` a bound on `|l|`, `λ'
+//! = r λ + ρ + |low'_k|`, the two roundings of `l'` are `ε (r λ + λ')` at most. Together they are
+//! less than `ε (ρ + 2 λ')`, which reaches the result times `r^k`. Splitting rounds `low'_k`, by `ε
+//! |low'_k|`.
+//!
+//! Where the argument is not exact, `u = û + δ` with `|δ| ≤ ε` known: `δ p'(û)` is added, with `p'`
+//! in doubles, from `C_k` and the `c_k` above. Each of the terms `k c_k û^{k−1}` of `p'` meets at
+//! most `2n` roundings, so with `D = Σ k (|c_k| + |low_k| + |low'_k|)`, `D₂ = Σ k (k−1) (|c_k| +
+//! |low_k|)` the error is at most `ε (2nε D + Σ k (|low_k| + |low'_k|))` for that, `2 ε (λ + ε D)`
+//! for product and sum, and `ε² D₂ / 2` for the rest of Taylor's series.
 //!
 //! # Widening
 //! Factors `1 + ε` were dropped, fewer than 600 of them on any term, and fewer than 300 additions of
@@ -44,10 +61,17 @@ const WIDENING: f64 = 1.0 + 1.0 / (1_u64 << 40) as f64;
 /// More than anything lost to underflow in one step: `2⁻¹⁰⁶⁰`.
 const UNDERFLOW: f64 = f64::MIN_POSITIVE / (1_u64 << 38) as f64;
 
+/// Heads are not scaled below this, `2⁻⁹⁶⁰`, where their grid is still far from underflow.
+const SMALLEST_HEAD: f64 = f64::MIN_POSITIVE * (1_u64 << 62) as f64;
+
 /// Magnitudes of the coefficients of a piece, all rows padded to one degree.
 pub(crate) struct Magnitudes {
     /// `|low_k| r^k`.
     low: Vec<f64>,
+    /// A bound on `|u|`.
+    reach: f64,
+    /// `S_k = Σ_{j≥k} |c_j| r^{j−k}`, the sizes of Horner's intermediate values.
+    sizes: Vec<f64>,
     /// `T_k` for `k = 0 … n`.
     tails: Vec<f64>,
     /// `Σ k (|c_k| + |low_k|)`.
@@ -78,6 +102,10 @@ impl Magnitudes {
             let powers = std::iter::successors(Some(1.0), |power| Some(power * reach));
             values.iter().zip(powers).map(|(value, power)| value.abs() * power).collect()
         };
+        let mut sizes: Vec<f64> = coefficients.iter().map(|value| value.abs()).collect();
+        for k in (1..sizes.len()).rev() {
+            sizes[k - 1] += reach * sizes[k];
+        }
         let (coefficients, low) = (scaled(coefficients), scaled(low));
         let mut tails = coefficients.clone();
         for k in (1..tails.len()).rev() {
@@ -86,7 +114,7 @@ impl Magnitudes {
         let derivative = weighted(&coefficients, |k| k) + weighted(&low, |k| k);
         let twice = |k: f64| k * (k - 1.0);
         let second_derivative = weighted(&coefficients, twice) + weighted(&low, twice);
-        Self { low, tails, derivative, second_derivative, exact_argument }
+        Self { low, reach, sizes, tails, derivative, second_derivative, exact_argument }
     }
 
     /// `T_0 ≥ |p|`.
@@ -113,34 +141,47 @@ impl Magnitudes {
         (error + weighted(&self.low, |_| 1.0) + rounding + self.underflow()) * WIDENING
     }
 
-    /// The least number of pairs of doubles, `low.len()` at least, such that the doubles before them
-    /// cost `allowed` at most.
-    pub(crate) fn split(&self, allowed: f64) -> usize {
-        let enough = |&k: &usize| UNIT * horner_roundings(&self.tails[k..]) <= allowed;
-        let length = self.tails.len();
-        // A constant before the first pair is exact, so the search ends at n at the latest.
-        (self.low.len().min(length)..length).find(enough).unwrap_or(length)
+    /// What is lost where neither pairs nor low parts begin before `split`.
+    fn above(&self, split: usize) -> f64 {
+        let low = self.low.get(split..).unwrap_or(&[]);
+        let tails = self.tails.get(split..).unwrap_or(&[]);
+        UNIT * horner_roundings(tails) + weighted(low, |_| 1.0)
     }
 
-    /// `|computed − f|` in pairs of doubles from `split` on downwards, for `|p − f| ≤ error`, and
+    /// The least number of pairs of doubles such that the doubles before them cost `allowed` at
+    /// most.
+    pub(crate) fn split(&self, allowed: f64) -> usize {
+        let length = self.tails.len();
+        (0..length).find(|&split| self.above(split) <= allowed).unwrap_or(length)
+    }
+
+    /// `M`, a power of two larger than all of Horner's intermediate values from `split` on
+    /// downwards.
+    pub(crate) fn largest_head(&self, split: usize) -> f64 {
+        let largest = self.sizes[..split].iter().copied().fold(SMALLEST_HEAD, f64::max) * WIDENING;
+        2.0 * f64::from_bits(largest.to_bits() & f64::INFINITY.to_bits())
+    }
+
+    /// `|computed − f|` in pairs of doubles with the low parts `low'_k`, for `|p − f| ≤ error`, and
     /// `2 ε² (T_0 + λ)` more, which is what the rounding test `high + (low ± bound)` rounds away.
-    pub(crate) fn of_pairs(&self, split: usize, error: f64) -> f64 {
+    pub(crate) fn of_pairs(&self, low: &[f64], error: f64) -> f64 {
         if self.is_zero() {
             return error;
         }
-        let low = |k: usize| self.low.get(k).copied().unwrap_or(0.0);
-        let degree = self.tails.len() - 1;
-        // With pairs for all coefficients, the first pair is (c_n, low_n).
-        let (first, mut size) = if split > degree { (degree, low(degree)) } else { (split, 0.0) };
-        let mut rounding = UNIT * horner_roundings(&self.tails[first..]);
-        for k in (0..first).rev() {
-            size += UNIT * (self.tails[k + 1] + self.tails[k]) + low(k);
-            rounding += 4.0 * UNIT * size;
+        let split = low.len();
+        let half_grid = 2.0 * UNIT * self.largest_head(split);
+        let (mut size, mut rounding) = (0.0, 0.0);
+        for (k, low) in low.iter().enumerate().rev() {
+            let rest = half_grid + UNIT * self.sizes.get(k + 1).copied().unwrap_or(0.0);
+            size = self.reach * size + rest + low.abs();
+            rounding = self.reach * rounding + UNIT * (rest + 2.0 * size + low.abs());
         }
+        rounding += self.above(split);
         if !self.exact_argument {
-            let steps = 2.0 * degree as f64 + 2.0;
-            rounding += UNIT * weighted(&self.low, |k| k) + 2.0 * UNIT * size;
-            rounding += UNIT * UNIT * (steps * self.derivative + self.second_derivative);
+            let low = weighted(&self.low, |k| k) + weighted(low, |k| k);
+            let steps = 2.0 * self.tails.len() as f64;
+            rounding += UNIT * low + 2.0 * UNIT * size;
+            rounding += UNIT * UNIT * (steps * (self.derivative + low) + self.second_derivative);
         }
         let test = 2.0 * UNIT * UNIT * (self.total() + size);
         (error + rounding + test + self.underflow()) * WIDENING

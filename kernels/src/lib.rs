@@ -16,6 +16,7 @@ pub mod double_double;
 pub mod echoes;
 mod evaluator;
 pub mod fixed;
+mod heads;
 mod level;
 mod lookup;
 pub mod march;

@@ -16,7 +16,7 @@ use crate::vector::Simd;
 #[derive(Clone, Debug)]
 pub(crate) struct Lookup {
     starts: Vec<f64>,
-    buckets: Vec<f64>,
+    buckets: Vec<u32>,
     inverse_width: f64,
     pieces: usize,
     widths: u32,
@@ -67,7 +67,7 @@ impl Lookup {
         let distance = simd.subtract(times, simd.splat(self.starts[0]));
         let bucket = simd.multiply(distance, simd.splat(self.inverse_width));
         let bucket = simd.offsets(bucket, self.buckets.len());
-        let mut piece = simd.gather(&self.buckets, bucket);
+        let mut piece = simd.gather_integers(&self.buckets, bucket);
         for exponent in (0..self.widths).rev() {
             let further = simd.add(piece, simd.splat((1_u64 << exponent) as f64));
             let start = simd.gather(&self.starts, simd.offsets(further, self.starts.len()));
@@ -79,7 +79,7 @@ impl Lookup {
 
 /// Buckets over the window, of which [`Lookup`] takes the best.
 struct Buckets {
-    buckets: Vec<f64>,
+    buckets: Vec<u32>,
     inverse_width: f64,
     widths: u32,
 }
@@ -94,15 +94,15 @@ impl Buckets {
         // an earlier bucket than that of t starts before t, and one that starts in a later bucket
         // after t.
         let bucket = |t: f64| (((t - starts[0]) * inverse_width) as usize).min(count - 1);
-        let mut last_before = vec![0.0; count + 1];
+        let mut last_before = vec![0; count + 1];
         for (piece, &start) in starts.iter().enumerate() {
-            last_before[bucket(start) + 1] = piece as f64;
+            last_before[bucket(start) + 1] = piece as u32;
         }
         for b in 1..=count {
             last_before[b] = last_before[b].max(last_before[b - 1]);
         }
-        let spread = last_before.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        let widths = usize::BITS - (spread as usize).leading_zeros();
+        let spread = last_before.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or(0);
+        let widths = u32::BITS - spread.leading_zeros();
         last_before.pop();
         Self { buckets: last_before, inverse_width, widths }
     }

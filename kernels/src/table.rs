@@ -5,6 +5,7 @@
 
 use crate::bounds::Magnitudes;
 use crate::double_double::two_sum;
+use crate::heads::Heads;
 use crate::lookup::Lookup;
 use crate::rows::AlignedRows;
 use std::fmt;
@@ -157,10 +158,12 @@ impl std::error::Error for TableError {}
 #[derive(Clone, Debug)]
 pub struct Table {
     pub(crate) lookup: Lookup,
-    /// Rows: scale, `−centre · scale`, bound of pairs, `c_0 … c_n`.
+    /// Rows: scale, `−centre · scale`, `c_0 … c_n`.
     pub(crate) rows: AlignedRows,
-    /// Rows of [`Self::split`] low parts.
-    pub(crate) low: AlignedRows,
+    /// Rows: scale, `−centre · scale`, bound of pairs, anchor, then of the coefficients below
+    /// [`Self::split`] heads and anchor in one sum, then the other coefficients, then the low
+    /// parts.
+    pub(crate) pairs: AlignedRows,
     pub(crate) degree: usize,
     /// Coefficients below this one are evaluated in pairs of doubles where results are certified.
     pub(crate) split: usize,
@@ -172,8 +175,12 @@ pub struct Table {
 /// What stands in a row before the coefficients.
 pub(crate) const ROW_SCALE: usize = 0;
 pub(crate) const ROW_OFFSET: usize = 1;
-pub(crate) const ROW_BOUND: usize = 2;
-pub(crate) const ROW_HEAD: usize = 3;
+pub(crate) const ROW_HEAD: usize = 2;
+
+/// What stands in a row of pairs after scale and offset.
+pub(crate) const PAIRS_BOUND: usize = 2;
+pub(crate) const PAIRS_ANCHOR: usize = 3;
+pub(crate) const PAIRS_HEAD: usize = 4;
 
 /// The error of pairs of doubles that is not worth avoiding, relative to the largest magnitude:
 /// `2⁻⁹⁶`.
@@ -260,7 +267,7 @@ impl Table {
         }
         let length = pieces.iter().map(|piece| piece.coefficients.len()).max().unwrap_or(0).max(1);
         let lookup = Lookup::new(pieces.iter().map(|piece| piece.start), end);
-        let entries = pieces.len() * (ROW_HEAD + length).next_multiple_of(8);
+        let entries = pieces.len() * (PAIRS_HEAD + 2 * length).next_multiple_of(8);
         if lookup.entries().max(entries) > MAX_ENTRIES {
             return Err(TableError::Size);
         }
@@ -281,7 +288,7 @@ impl Table {
         let mut table = Self {
             lookup,
             rows: AlignedRows::new(pieces.len(), ROW_HEAD + length),
-            low: AlignedRows::new(pieces.len(), split),
+            pairs: AlignedRows::new(pieces.len(), PAIRS_HEAD + length + split),
             degree: length - 1,
             split,
             end,
@@ -290,12 +297,22 @@ impl Table {
         };
         for (i, piece) in pieces.iter().enumerate() {
             let magnitudes = magnitudes(i);
-            let pairs = magnitudes.of_pairs(split, piece.error);
+            let coefficients = &padded[i * length..][..length];
+            let heads =
+                Heads::new(magnitudes.largest_head(split), &coefficients[..split], &piece.low);
+            let pairs = magnitudes.of_pairs(&heads.low, piece.error);
             table.bound = table.bound.max(magnitudes.of_doubles(piece.error));
             table.certified_bound = table.certified_bound.max(pairs);
-            let head = [piece.scale, -(piece.centre * piece.scale), pairs];
-            table.rows.push(head.into_iter().chain(padded[i * length..][..length].iter().copied()));
-            table.low.push(piece.low.iter().copied());
+            let argument = [piece.scale, -(piece.centre * piece.scale)];
+            table.rows.push(argument.iter().chain(coefficients).copied());
+            let parts = [
+                &argument,
+                &[pairs, heads.anchor][..],
+                &heads.anchored,
+                &coefficients[split..],
+                &heads.low,
+            ];
+            table.pairs.push(parts.into_iter().flatten().copied());
         }
         Ok(table)
     }

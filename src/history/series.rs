@@ -339,15 +339,15 @@ mod tests {
                 assert_eq!(near.subtract(shifted, 256).sign(), None);
             }
             let end = Number::Exact(rational(1, 8 << rate));
-            let sum = Series::new(near, Magnitude::ZERO).value(&end, &cut).widened(&rest, 128);
+            let close = Series::new(near, Magnitude::ZERO).value(&end, &cut).widened(&rest, 128);
             let far = rational(1, 3) + rational(1, 8 << rate);
-            assert!(encloses(&sum, &exponential(&far), 30));
+            assert!(encloses(&close, &exponential(&far), 30));
             let again = shifted.shift(&b, &cut).shift(&a, &cut);
             let third = exponential(&(sum + rational(1, 3)));
             assert!(encloses(&again.value(&Number::zero(), &cut), &third, 90));
             // f' = −f, at any place and with the bound of its rest.
-            let sum = f.derivative(&cut).add(&f, cut.bits).value(&a, &cut).ball(900);
-            assert!(sum.contains_zero() && sum.magnitude() < Magnitude::power_of_two(-100));
+            let none = f.derivative(&cut).add(&f, cut.bits).value(&a, &cut).ball(900);
+            assert!(none.contains_zero() && none.magnitude() < Magnitude::power_of_two(-100));
             // 1 − e^{−x} and (1 − e^{−2x})/2.
             let integral = f.integral(Number::zero(), &cut).value(&a, &cut);
             let one = Ball::from_rational(&rational(1, 1), 9);

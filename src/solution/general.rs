@@ -2,6 +2,7 @@
 
 use crate::expression::{Assumptions, Expression};
 use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
+use crate::solution::demand::Demand;
 use crate::solution::echo::EchoByEcho;
 use crate::solution::elimination::{Reduced, reduce};
 use crate::solution::geometric::{Generating, Geometric, constant_forcing, product};
@@ -171,7 +172,10 @@ fn echoes(
     if count > MAX_FIRST {
         return None;
     }
-    let mut solver = EchoByEcho::new(recurrence);
+    // Echoes of this wave alone are compared.
+    let mut demand = Demand::none(recurrence);
+    (0..count + 2).for_each(|k| demand.add(recurrence, wave, k));
+    let mut solver = EchoByEcho::new(recurrence).wanting(demand);
     for _ in 0..count + 2 {
         solver.advance().ok()?;
     }

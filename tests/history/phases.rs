@@ -106,7 +106,8 @@ fn lines_go_through_values() {
         for (time, value) in points.step_by(7) {
             let at = Rational::from_float(*time).unwrap();
             let known = [Side::Left, Side::Right].map(|side| {
-                let values = History::values(&network, observable, &[at.clone()], side, 9);
+                let values =
+                    History::values(&network, observable, std::slice::from_ref(&at), side, 9);
                 double(&values.unwrap()[0])
             });
             let off = known.map(|known| (known - value).abs());

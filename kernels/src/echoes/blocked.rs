@@ -1,5 +1,5 @@
-//! Echoes at many points, side by side: a block of points shares every loop, and several echoes of
-//! each run through the recurrence at once, so that no step waits for the one before.
+//! Echoes at many points, side by side: a block of points shares every loop, and is so large that
+//! no step of the recurrence waits for the one before.
 
 use super::delay::{Delays, counts, since};
 use super::description::{Echoes, Family};
@@ -22,7 +22,7 @@ type Vectors<L, const V: usize> = [L; V];
 
 /// The values of the wave, block by block.
 #[inline(always)]
-pub(super) fn fill_blocks<L: Lanes, const V: usize, const G: usize>(
+pub(super) fn fill_blocks<L: Lanes, const V: usize>(
     sum: &EchoSum,
     times: &[f64],
     include_arriving: bool,
@@ -40,8 +40,8 @@ pub(super) fn fill_blocks<L: Lanes, const V: usize, const G: usize>(
             }
         };
         let result = match sum.echoes.family {
-            Family::Laguerre => Block::<L, V>::new(sum, block, include_arriving).sum::<G, false>(),
-            Family::Powers => Block::<L, V>::new(sum, block, include_arriving).sum::<G, true>(),
+            Family::Laguerre => Block::<L, V>::new(sum, block, include_arriving).sum::<false>(),
+            Family::Powers => Block::<L, V>::new(sum, block, include_arriving).sum::<true>(),
         };
         for (values, lanes) in values.chunks_mut(WIDTH).zip(result) {
             let lanes = lanes.to_array();
@@ -68,21 +68,15 @@ struct Block<'a, L: Lanes, const V: usize> {
     latest: f64,
 }
 
-/// Echoes at the points of a block: the time since they arrived, as two doubles, and the factors of
-/// their polynomials.
-struct Group<L, const V: usize, const G: usize> {
-    high: [Vectors<L, V>; G],
-    low: [Vectors<L, V>; G],
-    weight: [Vectors<L, V>; G],
-}
-
 impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     /// `T/D` in doubles is off by less than `2^−51` of itself: where it is further from an integer,
     /// its floor is right for sure.
     #[inline(always)]
     fn new(sum: &'a EchoSum, times: Vectors<L, V>, include_arriving: bool) -> Self {
-        let earliest = times.iter().fold(f64::INFINITY, |least, lanes| least.min(lanes.least()));
-        let latest = times.iter().fold(f64::NEG_INFINITY, |most, lanes| most.max(lanes.largest()));
+        let lesser = times.into_iter().fold(times[0], L::lesser);
+        let greater = times.into_iter().fold(times[0], L::greater);
+        let earliest = lesser.to_array().into_iter().fold(f64::INFINITY, f64::min);
+        let latest = greater.to_array().into_iter().fold(f64::NEG_INFINITY, f64::max);
         let frequency = 1.0 / sum.echoes.period.high();
         let margin = 2f64.powi(-50);
         let count = |periods: f64| ((periods.floor() + 1.0).max(0.0) as usize).min(sum.last() + 1);
@@ -103,7 +97,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     /// The sum of all echoes. Those that have arrived at every point share one exponential; the
     /// few others are masked.
     #[inline(always)]
-    fn sum<const G: usize, const POWERS: bool>(&self) -> Vectors<L, V> {
+    fn sum<const POWERS: bool>(&self) -> Vectors<L, V> {
         let mut total = [L::splat(0.0); V];
         let first = self.echoes.first.len().min(self.some);
         for k in 0..first {
@@ -111,21 +105,13 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
             self.add_lane_by_lane(k, echo, &mut total);
         }
         if first < self.full {
-            self.add_arrived::<G, POWERS>(first, &mut total);
+            self.add_arrived::<POWERS>(first, &mut total);
         }
-        let mut k = first.max(self.full);
-        while k < self.some {
-            if k + G <= self.some && self.is_within(k + G - 1, k) {
-                let group = self.masked::<G>(k);
-                self.add_group::<G, POWERS>(k, &group, &mut total);
-                k += G;
+        for k in first.max(self.full)..self.some {
+            if self.is_within(k, k) {
+                self.add_masked::<POWERS>(k, &mut total);
             } else {
-                if self.is_within(k, k) {
-                    self.add_group::<1, POWERS>(k, &self.masked::<1>(k), &mut total);
-                } else {
-                    self.add_scaled(k, &mut total);
-                }
-                k += 1;
+                self.add_scaled(k, &mut total);
             }
         }
         total
@@ -135,11 +121,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     /// `s + (R−k)D` ago, a sum of what is not negative, and its exponential is that of `s` times a
     /// tabulated one.
     #[inline(always)]
-    fn add_arrived<const G: usize, const POWERS: bool>(
-        &self,
-        first: usize,
-        total: &mut Vectors<L, V>,
-    ) {
+    fn add_arrived<const POWERS: bool>(&self, first: usize, total: &mut Vectors<L, V>) {
         let latest = self.full - 1;
         let mut high = [L::splat(0.0); V];
         let mut low = high;
@@ -150,115 +132,84 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
             let (product, rest) = times_pair(high[v], low[v], -rate);
             decay[v] = exponential_lanes(product, rest);
         }
-        // Beyond their range these exponentials are wrong, and no group asks for them.
-        let group = |k: usize| Group::<L, V, 1>::arrived(self, k, [&high, &low, &decay]);
-        let groups = |k: usize| Group::<L, V, G>::arrived(self, k, [&high, &low, &decay]);
-        // Powers of the ratio lie between 1 and the last, and the first echo is the oldest.
+        // Beyond their range these exponentials are wrong, and no echo asks for them. Powers of the
+        // ratio lie between 1 and the last, and the first echo is the oldest.
         let all = self.is_within(latest, first);
-        let mut k = first;
-        while k < self.full {
-            let whole = (self.full - k).is_multiple_of(G);
-            if whole && (all || self.is_within(k + G - 1, k)) {
-                self.add_group::<G, POWERS>(k, &groups(k), total);
-                k += G;
-            } else {
-                if all || self.is_within(k, k) {
-                    self.add_group::<1, POWERS>(k, &group(k), total);
-                } else if !self.is_nothing(k) {
-                    self.add_scaled(k, total);
-                }
-                k += 1;
+        for k in first..self.full {
+            if all || self.is_within(k, k) {
+                let periods = latest - k;
+                let [lead, rest, _] = self.delays.of(periods);
+                let (lead, rest) = (L::splat(lead), L::splat(rest));
+                let since = |v: usize| {
+                    let (sum, rounding) = high[v].two_sum(lead);
+                    (sum, rounding + (low[v] + rest))
+                };
+                let factor = L::splat(self.sum.decays[periods] * self.sum.ratio_powers[k]);
+                let weight = |v: usize| decay[v] * factor;
+                self.add_echo::<POWERS>(k, since, weight, total);
+            } else if !self.is_nothing(k) {
+                self.add_scaled(k, total);
             }
         }
     }
 
-    /// Adds echoes `start, start + 1, …`. They run through the indices that all of them have in
-    /// common together, and each ends alone.
+    /// Adds echo `k`, from the time since it arrived, as two doubles, and the factor of its
+    /// polynomial, of each vector.
     #[inline(always)]
-    fn add_group<const G: usize, const POWERS: bool>(
+    fn add_echo<const POWERS: bool>(
         &self,
-        start: usize,
-        group: &Group<L, V, G>,
+        k: usize,
+        since: impl Fn(usize) -> (L, L),
+        weight: impl Fn(usize) -> L,
         total: &mut Vectors<L, V>,
     ) {
-        let scale = self.echoes.scale.pair();
-        let zero = [[L::splat(0.0); V]; G];
         // Laguerre polynomials ask for the argument with its sign turned.
-        let (mut argument, mut relative) = (zero, zero);
-        for g in 0..G {
+        let scale = self.echoes.scale.pair();
+        let scale = if POWERS { scale } else { -scale };
+        let (mut argument, mut relative) = ([L::splat(0.0); V], [L::splat(0.0); V]);
+        for v in 0..V {
+            let (high, low) = since(v);
+            let (high, low) = times_pair(high, low, scale);
+            relative[v] = low * high.rough_reciprocal();
+            argument[v] = high;
+        }
+        let (mut value, mut slope) = ([L::splat(1.0); V], [L::splat(0.0); V]);
+        let (mut index, mut polynomial) = (0, slope);
+        for term in &self.echoes.terms {
+            let Some(target) = k.checked_add_signed(-term.lag) else { continue };
+            for &reciprocal in &self.sum.reciprocals[index..target] {
+                let reciprocal = L::splat(reciprocal);
+                for v in 0..V {
+                    step::<L, POWERS>(argument[v], reciprocal, &mut value[v], &mut slope[v]);
+                }
+            }
+            index = target;
+            let coefficient = L::splat(term.coefficient.high());
             for v in 0..V {
-                let (high, low) = times_pair(group.high[g][v], group.low[g][v], scale);
-                relative[g][v] = low * high.rough_reciprocal();
-                argument[g][v] = if POWERS { high } else { -high };
+                let slope = if POWERS { value[v] * L::splat(index as f64) } else { slope[v] };
+                let corrected = slope.fused(relative[v], value[v]);
+                polynomial[v] = corrected.fused(coefficient, polynomial[v]);
             }
         }
-        let (mut value, mut slope) = ([[L::splat(1.0); V]; G], zero);
-        let common = start.saturating_sub(self.echoes.largest_lag());
-        for &reciprocal in &self.sum.reciprocals[..common] {
-            let reciprocal = L::splat(reciprocal);
-            for g in 0..G {
-                for v in 0..V {
-                    step::<L, POWERS>(
-                        argument[g][v],
-                        reciprocal,
-                        &mut value[g][v],
-                        &mut slope[g][v],
-                    );
-                }
-            }
-        }
-        for g in 0..G {
-            let mut index = common;
-            let mut polynomial = [L::splat(0.0); V];
-            for term in &self.echoes.terms {
-                let Some(target) = (start + g).checked_add_signed(-term.lag) else { continue };
-                for &reciprocal in &self.sum.reciprocals[index..target] {
-                    let reciprocal = L::splat(reciprocal);
-                    for v in 0..V {
-                        step::<L, POWERS>(
-                            argument[g][v],
-                            reciprocal,
-                            &mut value[g][v],
-                            &mut slope[g][v],
-                        );
-                    }
-                }
-                index = target;
-                let coefficient = L::splat(term.coefficient.high());
-                for v in 0..V {
-                    let slope = match POWERS {
-                        true => value[g][v] * L::splat(index as f64),
-                        false => slope[g][v],
-                    };
-                    let corrected = slope.fused(relative[g][v], value[g][v]);
-                    polynomial[v] = corrected.fused(coefficient, polynomial[v]);
-                }
-            }
-            for v in 0..V {
-                total[v] = group.weight[g][v].fused(polynomial[v], total[v]);
-            }
+        for v in 0..V {
+            total[v] = weight(v).fused(polynomial[v], total[v]);
         }
     }
 
-    /// Echoes of which not all points have heard.
+    /// Adds an echo of which not all points have heard.
     #[inline(always)]
-    fn masked<const G: usize>(&self, start: usize) -> Group<L, V, G> {
-        let zero = [[L::splat(0.0); V]; G];
-        let mut group = Group { high: zero, low: zero, weight: zero };
+    fn add_masked<const POWERS: bool>(&self, k: usize, total: &mut Vectors<L, V>) {
+        let (mut high, mut low, mut weight) = (self.times, self.times, self.times);
         let rate = self.echoes.rate.pair();
-        for g in 0..G {
-            let ratio = self.sum.ratio_powers[start + g];
-            for v in 0..V {
-                let (high, low) = since_lanes(self.times[v], self.delays.of(start + g));
-                let counted = |lanes: L| lanes.where_counted(high, self.include_arriving);
-                group.high[g][v] = counted(high);
-                group.low[g][v] = counted(low);
-                let mask = counted(L::splat(ratio));
-                let (product, rest) = times_pair(group.high[g][v], group.low[g][v], -rate);
-                group.weight[g][v] = exponential_lanes(product, rest) * mask;
-            }
+        let ratio = L::splat(self.sum.ratio_powers[k]);
+        for v in 0..V {
+            let since = since_lanes(self.times[v], self.delays.of(k));
+            let counted = |lanes: L| lanes.where_counted(since.0, self.include_arriving);
+            (high[v], low[v]) = (counted(since.0), counted(since.1));
+            let (product, rest) = times_pair(high[v], low[v], -rate);
+            weight[v] = exponential_lanes(product, rest) * counted(ratio);
         }
-        group
+        self.add_echo::<POWERS>(k, |v| (high[v], low[v]), |v| weight[v], total);
     }
 
     /// Adds an echo by the scaled summation, point by point.
@@ -319,31 +270,6 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
         let falls = rate > 0.0 && since * rate * rate > index * scale;
         let ratio = self.sum.ratio_powers[k].abs();
         falls && ratio <= 1e10 && 2.0 * (index * scale * since).sqrt() - rate * since < NOTHING
-    }
-}
-
-impl<L: Lanes, const V: usize, const G: usize> Group<L, V, G> {
-    #[inline(always)]
-    fn arrived(
-        block: &Block<'_, L, V>,
-        start: usize,
-        [high, low, decay]: [&Vectors<L, V>; 3],
-    ) -> Self {
-        let zero = [[L::splat(0.0); V]; G];
-        let mut group = Group { high: zero, low: zero, weight: zero };
-        for g in 0..G {
-            let k = start + g;
-            let periods = block.full - 1 - k;
-            let [lead, rest, _] = block.delays.of(periods);
-            let factor = L::splat(block.sum.decays[periods] * block.sum.ratio_powers[k]);
-            for v in 0..V {
-                let (sum, rounding) = high[v].two_sum(L::splat(lead));
-                group.high[g][v] = sum;
-                group.low[g][v] = rounding + (low[v] + L::splat(rest));
-                group.weight[g][v] = decay[v] * factor;
-            }
-        }
-        group
     }
 }
 

@@ -155,11 +155,6 @@ impl Echoes {
         all.fold(0.0, |most, rate| rate.high().abs().max(most))
     }
 
-    /// The largest lag, or 0 where all are negative or there is none.
-    pub(super) fn largest_lag(&self) -> usize {
-        self.terms.first().map_or(0, |term| term.lag.max(0) as usize)
-    }
-
     /// The largest index that echo `k` asks for, if it asks for any.
     pub(super) fn largest_index(&self, k: usize) -> Option<usize> {
         k.checked_add_signed(-self.terms.last()?.lag)

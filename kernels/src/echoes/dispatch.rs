@@ -7,8 +7,8 @@ use super::blocked::fill_blocks;
 use super::lanes::Portable;
 use super::sum::EchoSum;
 
-/// Fills the values with what the machine does best. Two vectors of points and four echoes are in
-/// flight where there are 32 registers of eight doubles; fewer where they would not fit.
+/// Fills the values with what the machine does best. Eight vectors of points are in flight where
+/// there are 32 registers of eight doubles; fewer where they would not fit.
 pub(super) fn fill(sum: &EchoSum, times: &[f64], include_arriving: bool, values: &mut [f64]) {
     #[cfg(target_arch = "x86_64")]
     {
@@ -28,19 +28,19 @@ pub(super) fn fill(sum: &EchoSum, times: &[f64], include_arriving: bool, values:
     }
     // Elsewhere a fused operation is an instruction only where the target has it from the start.
     const FUSED: bool = cfg!(any(target_arch = "aarch64", target_feature = "fma"));
-    fill_blocks::<Portable<FUSED>, 1, 2>(sum, times, include_arriving, values);
+    fill_blocks::<Portable<FUSED>, 1>(sum, times, include_arriving, values);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,fma")]
 fn fill_avx512(sum: &EchoSum, times: &[f64], include_arriving: bool, values: &mut [f64]) {
-    fill_blocks::<x86::Wide, 2, 4>(sum, times, include_arriving, values);
+    fill_blocks::<x86::Wide, 8>(sum, times, include_arriving, values);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn fill_avx2(sum: &EchoSum, times: &[f64], include_arriving: bool, values: &mut [f64]) {
-    fill_blocks::<x86::Halves, 1, 2>(sum, times, include_arriving, values);
+    fill_blocks::<x86::Halves, 2>(sum, times, include_arriving, values);
 }
 
 /// Registers of the x86 family.
@@ -80,13 +80,13 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn least(self) -> f64 {
-            unsafe { _mm512_reduce_min_pd(self.0) }
+        fn lesser(self, other: Self) -> Self {
+            Wide(unsafe { _mm512_min_pd(self.0, other.0) })
         }
 
         #[inline(always)]
-        fn largest(self) -> f64 {
-            unsafe { _mm512_reduce_max_pd(self.0) }
+        fn greater(self, other: Self) -> Self {
+            Wide(unsafe { _mm512_max_pd(self.0, other.0) })
         }
 
         #[inline(always)]
@@ -150,13 +150,13 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn least(self) -> f64 {
-            self.to_array().into_iter().fold(f64::INFINITY, f64::min)
+        fn lesser(self, other: Self) -> Self {
+            unsafe { Halves(_mm256_min_pd(self.0, other.0), _mm256_min_pd(self.1, other.1)) }
         }
 
         #[inline(always)]
-        fn largest(self) -> f64 {
-            self.to_array().into_iter().fold(f64::NEG_INFINITY, f64::max)
+        fn greater(self, other: Self) -> Self {
+            unsafe { Halves(_mm256_max_pd(self.0, other.0), _mm256_max_pd(self.1, other.1)) }
         }
 
         #[inline(always)]
@@ -260,9 +260,9 @@ mod tests {
         let times: Vec<f64> = (0..1003).map(|i| f64::from(i) * 0.0417).collect();
         let mut versions = vec![];
         let mut values = vec![f64::NAN; times.len()];
-        fill_blocks::<Portable<false>, 1, 2>(&sum, &times, true, &mut values);
+        fill_blocks::<Portable<false>, 1>(&sum, &times, true, &mut values);
         versions.push(values.clone());
-        fill_blocks::<Portable<true>, 1, 1>(&sum, &times, true, &mut values);
+        fill_blocks::<Portable<true>, 3>(&sum, &times, true, &mut values);
         versions.push(values.clone());
         #[cfg(target_arch = "x86_64")]
         {

@@ -16,8 +16,10 @@ pub(super) trait Lanes:
     fn from_array(array: [f64; WIDTH]) -> Self;
     fn to_array(self) -> [f64; WIDTH];
 
-    fn least(self) -> f64;
-    fn largest(self) -> f64;
+    /// The lesser of each two.
+    fn lesser(self, other: Self) -> Self;
+    /// The greater of each two.
+    fn greater(self, other: Self) -> Self;
 
     /// `self · factor + addend`, rounded once where the machine has the instruction, else twice.
     fn fused(self, factor: Self, addend: Self) -> Self;
@@ -70,13 +72,13 @@ impl<const FUSED: bool> Lanes for Portable<FUSED> {
     }
 
     #[inline(always)]
-    fn least(self) -> f64 {
-        self.0.into_iter().fold(f64::INFINITY, f64::min)
+    fn lesser(self, other: Self) -> Self {
+        Portable(from_fn(|i| if self.0[i] < other.0[i] { self.0[i] } else { other.0[i] }))
     }
 
     #[inline(always)]
-    fn largest(self) -> f64 {
-        self.0.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    fn greater(self, other: Self) -> Self {
+        Portable(from_fn(|i| if self.0[i] > other.0[i] { self.0[i] } else { other.0[i] }))
     }
 
     #[inline(always)]

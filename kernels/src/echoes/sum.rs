@@ -3,6 +3,7 @@
 use super::delay::{Delays, Time};
 use super::description::Echoes;
 use super::error::EchoError;
+use super::lanes::WIDTH;
 use super::pair::{Pair, scale, two_sum};
 use super::{LARGEST_ECHO, dispatch, double_double, expanded, exponential, laguerre, scaled};
 
@@ -226,15 +227,7 @@ impl EchoSum {
         if times.len() != values.len() {
             return Err(EchoError::LengthsDiffer { times: times.len(), values: values.len() });
         }
-        let mut latest = f64::NEG_INFINITY;
-        let mut finite = true;
-        for &time in times {
-            latest = if time > latest { time } else { latest };
-            finite &= time.is_finite();
-        }
-        if !finite {
-            return Err(EchoError::NotFinite);
-        }
+        let Some(latest) = latest(times) else { return Err(EchoError::NotFinite) };
         if times.is_empty() {
             return Ok(());
         }
@@ -265,4 +258,22 @@ impl EchoSum {
             false => Ok(()),
         }
     }
+}
+
+/// The latest of some times, none if one of them is not finite. Lanes run side by side, so that no
+/// comparison waits for the one before.
+fn latest(times: &[f64]) -> Option<f64> {
+    let (mut latest, mut zeros) = ([f64::NEG_INFINITY; WIDTH], [0.0; WIDTH]);
+    let (vectors, rest) = times.as_chunks();
+    let mut rest_padded = [f64::MIN; WIDTH];
+    rest_padded[..rest.len()].copy_from_slice(rest);
+    for vector in vectors.iter().chain([&rest_padded]) {
+        for lane in 0..WIDTH {
+            latest[lane] = if vector[lane] > latest[lane] { vector[lane] } else { latest[lane] };
+            // What is not finite times 0 is no number, and stays so in a sum.
+            zeros[lane] += 0.0 * vector[lane];
+        }
+    }
+    let finite = zeros.iter().all(|zero| !zero.is_nan());
+    finite.then(|| latest.into_iter().fold(f64::MIN, f64::max))
 }

@@ -1,13 +1,11 @@
 //! The march: the solution as polynomials on pieces, with a proven bound of their error.
 
-use super::certificate::Certificate;
 use super::equation::DelayEquation;
 use super::error::FixedError;
-use super::multiplier::{Fraction, MULTIPLIER_BITS, Multiplier};
-use super::position::{POSITION_BITS, Position};
+use super::position::Position;
 use super::scheme::{MarchOptions, Scheme};
-use super::step::{Stepper, halves};
 use super::value::FixedValue;
+use super::walk::{Period, Proof, Walk};
 
 /// Fraction bits of coefficients and values: their unit is `2^−112`.
 ///
@@ -57,15 +55,6 @@ pub struct March {
     proofs: Vec<Proof>,
 }
 
-/// What is proven of a period.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Proof {
-    /// Coefficients from here on are zero.
-    terms: usize,
-    /// The bound, in units; not less than those of the periods before.
-    bound: u128,
-}
-
 impl March {
     /// Marches through `periods` periods and proves the bound.
     ///
@@ -89,15 +78,12 @@ impl March {
         let start = vec![0; size];
         let mut coefficients = vec![0; size * periods as usize];
         let mut proofs = Vec::with_capacity(periods as usize);
-        let mut stepper = Stepper::new(scheme);
-        let mut certificate = Certificate::new(scheme);
+        let mut walk = Walk::new(scheme);
         for period in 0..periods {
             let (done, rest) = coefficients.split_at_mut(size * period as usize);
             let before = done.rchunks_exact(size).next().unwrap_or(&start);
             let current = &mut rest[..size];
-            let terms = stepper.advance(before, current, period)?;
-            let bound = certificate.extend(before, current, terms)?;
-            proofs.push(Proof { terms, bound });
+            proofs.push(walk.advance(before, current)?);
         }
         Ok(Self { scheme, coefficients, proofs })
     }
@@ -149,37 +135,18 @@ impl March {
     /// The value at a position, with a radius that holds everything: the bound of the march, the
     /// rounding of the sum and that of the position.
     ///
-    /// The sum by Horner's rule is off by at most half a unit a product, because `|u| ≤ 1`. A
-    /// position that is rounded is off by less than `2^−120` in x and stays in its piece, so u is
-    /// off by less than `2S·2^−120`, and `|dp/du| ≤ (M − 1) Σ|c_m| ≤ 63·64`.
-    ///
     /// # Errors
     /// [`FixedError::BeyondMarch`] for a later period.
     ///
     /// # Cost
     /// A product of 128 bits a term, some forty.
     pub fn value(&self, position: &Position) -> Result<FixedValue, FixedError> {
-        let (period, fraction) = (position.period(), position.fraction());
-        let beyond = || FixedError::BeyondMarch { period, periods: self.periods() };
-        let proof = self.proofs.get(period as usize).ok_or_else(beyond)?;
-        let shift = POSITION_BITS - self.scheme.pieces.trailing_zeros();
-        let piece = (fraction >> shift).min(u128::from(self.scheme.pieces) - 1);
-        // The distance from the centre of the piece, from −2^(shift−1) to 2^(shift−1).
-        let distance = (fraction - (piece << shift)) as i128 - (1 << (shift - 1));
-        let coefficients = self.piece(period, piece as u32).ok_or_else(beyond)?;
-        let midpoint = if distance.unsigned_abs() >> (shift - 1) == 1 {
-            // At the ends of the piece u is 1 or −1.
-            let (even, odd) = halves(coefficients);
-            if distance < 0 { even - odd } else { even + odd }
-        } else {
-            let size = Fraction(distance.unsigned_abs() << (MULTIPLIER_BITS - shift + 1));
-            let place = Multiplier { size, negative: distance < 0 };
-            coefficients.iter().rev().fold(0, |sum, coefficient| place.times(sum) + coefficient)
-        };
-        let rounding = proof.terms as u128;
-        // 63·64·2^112 · 2S·2^−120 units, rounded upwards.
-        let slope = if position.is_exact() { 0 } else { 32 * u128::from(self.scheme.pieces) };
-        Ok(FixedValue { midpoint, radius: proof.bound + rounding + slope })
+        let period = position.period();
+        let beyond = FixedError::BeyondMarch { period, periods: self.periods() };
+        let proof = *self.proofs.get(period as usize).ok_or(beyond)?;
+        let size = self.scheme.size();
+        let coefficients = &self.coefficients[size * period as usize..][..size];
+        Ok(Period { scheme: &self.scheme, coefficients, proof }.value(position))
     }
 }
 
@@ -193,6 +160,7 @@ fn units_upwards(units: u128) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixed::certificate::Certificate;
     use num_rational::BigRational;
 
     fn march(periods: u32) -> March {

@@ -94,6 +94,7 @@ mod scheme;
 mod spans;
 mod step;
 mod value;
+mod walk;
 
 pub use certified::{CertifiedDoubles, Tap, certified};
 pub use equation::DelayEquation;

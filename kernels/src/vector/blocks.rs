@@ -8,8 +8,9 @@
 //! lie in one piece are counted beforehand, and are not looked at one by one.
 
 use super::Simd;
-use super::horner::{Blended, Broadcast, Gathered, Rows, Transposed};
+use super::horner::{Blended, Broadcast, Rows, Transposed};
 use super::points::Points;
+use crate::rows::AlignedRows;
 use crate::table::Table;
 
 /// Longer outputs are streamed past the caches: they are larger than a second-level cache.
@@ -24,8 +25,9 @@ pub(crate) trait Evaluate: Copy + Sync {
     const MANY_IN_FLIGHT: usize;
     /// Vectors a block with 16 vector registers.
     const FEW_IN_FLIGHT: usize;
-    /// Whether low parts are read.
-    const PAIRS: bool;
+
+    /// The rows that are read.
+    fn rows(table: &Table) -> &AlignedRows;
 
     /// Values of the polynomials of the given rows, and one bit for every lane that is in doubt.
     fn evaluate<S: Simd, R: Rows<S, N>, const N: usize>(
@@ -49,42 +51,38 @@ pub(super) struct Job<'a, S, P, E> {
 
 impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
     /// Every lane with its own piece; NaN, without doubt, outside the table. The pieces of all vectors
-    /// are looked up first, so that one search need not wait for another.
+    /// are looked up first, so that one search need not wait for another, and then all of them are
+    /// evaluated together, so that one step need not wait for the step before.
     #[inline(always)]
     fn gathered<const N: usize>(
         &self,
         times: &[S::Values; N],
         room: &mut [S::Values],
     ) -> ([S::Values; N], [u32; N]) {
-        let (simd, table) = (self.simd, self.table);
-        let (mut inner, mut pieces) = (*times, *times);
+        let (simd, table, rows) = (self.simd, self.table, E::rows(self.table));
+        let start = simd.splat(table.start());
+        let stride = simd.splat(rows.stride() as f64);
+        let mut inner = *times;
+        let mut offsets = [simd.offsets(start, 1); N];
         for j in 0..N {
-            let within = table.lookup.within(simd, times[j]);
-            inner[j] = simd.select(within, times[j], simd.splat(table.start()));
-            pieces[j] = table.lookup.pieces(simd, inner[j]);
+            inner[j] = simd.select(table.lookup.within(simd, times[j]), times[j], start);
+            let first = simd.multiply(table.lookup.pieces(simd, inner[j]), stride);
+            offsets[j] = simd.offsets(first, rows.values().len() + 1 - rows.stride());
         }
-        let (mut values, mut doubts) = (*times, [0; N]);
+        let columns = Transposed::new(simd, rows, &offsets, room);
+        let (mut values, mut doubts) = self.evaluate.evaluate(simd, table, columns, &inner);
         for j in 0..N {
-            let inner = [inner[j]];
-            let ([value], [doubt]) = if S::LANES <= 2 {
-                let rows = Gathered::new(simd, table, pieces[j]);
-                self.evaluate.evaluate(simd, table, rows, &inner)
-            } else {
-                let rows = Transposed::new(simd, table, pieces[j], E::PAIRS, room);
-                self.evaluate.evaluate(simd, table, rows, &inner)
-            };
             let within = table.lookup.within(simd, times[j]);
-            values[j] = simd.select(within, value, simd.splat(f64::NAN));
-            doubts[j] = doubt & simd.bits(within);
+            values[j] = simd.select(within, values[j], simd.splat(f64::NAN));
+            doubts[j] &= simd.bits(within);
         }
         (values, doubts)
     }
 
-    /// Room for the columns of a table.
+    /// Room for the columns of so many vectors.
     #[inline(always)]
-    pub(super) fn room(&self) -> Vec<S::Values> {
-        let columns = self.table.rows.stride() + self.table.low.stride();
-        if S::LANES <= 2 { Vec::new() } else { vec![self.simd.splat(0.0); columns] }
+    fn room(&self, vectors: usize) -> Vec<S::Values> {
+        vec![self.simd.splat(0.0); vectors * E::rows(self.table).stride()]
     }
 
     /// Whether all points of a block are at least `lower` and less than `upper`.
@@ -155,7 +153,8 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         let times: [S::Values; N] = self.points.times(simd, at);
         if self.sorted {
             if self.inside(&times, table.lookup.span(*piece, *piece)) {
-                return self.evaluate.evaluate(simd, table, Broadcast::new(table, *piece), &times);
+                let rows = Broadcast::new(E::rows(table), *piece);
+                return self.evaluate.evaluate(simd, table, rows, &times);
             }
             let first = *piece;
             if first + 1 < table.pieces()
@@ -167,7 +166,7 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
                 for j in 1..N {
                     later[j] = simd.at_least(times[j], start);
                 }
-                let rows = Blended::new(table, first, later);
+                let rows = Blended::new(E::rows(table), first, later);
                 return self.evaluate.evaluate(simd, table, rows, &times);
             }
             if let Some((first, last)) = self.neighbours(&times) {
@@ -190,7 +189,7 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         let (mut values, mut doubts) = ([simd.splat(0.0); N], [0; N]);
         for piece in first..=last {
             let start = simd.splat(table.lookup.span(piece, piece).0);
-            let rows = Broadcast::new(table, piece);
+            let rows = Broadcast::new(E::rows(table), piece);
             let (new, new_doubts) = self.evaluate.evaluate(simd, table, rows, times);
             for j in 0..N {
                 let from = simd.at_least(times[j], start);
@@ -204,7 +203,7 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
 
     /// Fewer points than a block, from index `at` on.
     #[inline(always)]
-    pub(super) fn partial(
+    fn partial(
         &self,
         at: usize,
         out: &mut [f64],
@@ -248,14 +247,14 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         let misaligned = out.as_ptr().addr() % vector;
         let head = if streamed && misaligned != 0 { (vector - misaligned) / 8 } else { 0 };
         let (head, body) = out.split_at_mut(head);
-        let mut room = self.room();
+        let mut room = self.room(N);
         self.partial(0, head, &mut room, undecided);
         let (mut at, mut piece) = (head.len(), 0);
         let size = N * S::LANES;
         let mut blocks = body.chunks_exact_mut(size);
         while blocks.len() > 0 {
             if self.sorted && self.points.ascend() {
-                let rows = Broadcast::new(self.table, piece);
+                let rows = Broadcast::new(E::rows(self.table), piece);
                 let within = self.blocks_within::<N>(at, piece, blocks.len());
                 for block in blocks.by_ref().take(within) {
                     let times: [S::Values; N] = self.points.times(simd, at);

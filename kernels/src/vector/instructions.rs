@@ -79,6 +79,24 @@ mod x86 {
         limit: usize,
     }
 
+    /// The indices of four lanes.
+    #[inline(always)]
+    fn quad_lanes(lanes: __m128i) -> [i32; 4] {
+        let mut indices = [0; 4];
+        // SAFETY: every x86-64 has the instruction, and the array holds a whole vector.
+        unsafe { _mm_storeu_si128(indices.as_mut_ptr().cast(), lanes) };
+        indices
+    }
+
+    /// The indices of eight lanes.
+    #[inline(always)]
+    fn octet_lanes(lanes: __m256i) -> [i32; 8] {
+        let mut indices = [0; 8];
+        // SAFETY: a vector of this kind comes from a witness of AVX-512, and the array holds it.
+        unsafe { _mm256_storeu_si256(indices.as_mut_ptr().cast(), lanes) };
+        indices
+    }
+
     /// A call of an instruction in a method of a witness type.
     macro_rules! instruction {
         ($call:expr) => {
@@ -163,6 +181,18 @@ mod x86 {
             fn two_product(self, a: Self::Values, b: Self::Values) -> (Self::Values, Self::Values) {
                 let product = self.multiply(a, b);
                 (product, instruction!($multiply_subtract(a, b, product)))
+            }
+
+            #[inline(always)]
+            fn anchored_product(
+                self,
+                a: Self::Values,
+                b: Self::Values,
+                anchored: Self::Values,
+            ) -> (Self::Values, Self::Values) {
+                let sum = self.multiply_add(a, b, anchored);
+                let kept = self.subtract(sum, anchored);
+                (sum, instruction!($multiply_subtract(a, b, kept)))
             }
 
             #[inline(always)]
@@ -268,9 +298,14 @@ mod x86 {
 
         #[inline(always)]
         fn offsets(self, values: __m128d, limit: usize) -> [usize; 2] {
-            let mut lanes = [0.0; 2];
-            self.store(values, &mut lanes);
-            [(lanes[0] as usize).min(limit - 1), (lanes[1] as usize).min(limit - 1)]
+            assert!(limit >= 1 && limit <= i32::MAX as usize);
+            // The maximum of NaN and a second operand is the second operand.
+            let both = instruction!({
+                let low = _mm_max_pd(values, _mm_setzero_pd());
+                let lanes = _mm_cvttpd_epi32(_mm_min_pd(low, self.splat((limit - 1) as f64)));
+                _mm_cvtsi128_si64(lanes).cast_unsigned()
+            });
+            [both & u64::from(u32::MAX), both >> 32].map(|lane| lane as usize)
         }
 
         #[inline(always)]
@@ -279,10 +314,19 @@ mod x86 {
         }
 
         #[inline(always)]
+        fn gather_integers(self, values: &[u32], offsets: [usize; 2]) -> __m128d {
+            self.load(&offsets.map(|offset| f64::from(values[offset])))
+        }
+
+        #[inline(always)]
         fn transpose(self, values: &[f64], offsets: [usize; 2], columns: &mut [__m128d]) {
-            let rows = [self.load(&values[offsets[0]..]), self.load(&values[offsets[1]..])];
-            columns[0] = instruction!(_mm_unpacklo_pd(rows[0], rows[1]));
-            columns[1] = instruction!(_mm_unpackhi_pd(rows[0], rows[1]));
+            let [first, second] = offsets.map(|offset| &values[offset..][..columns.len()]);
+            let rows = first.as_chunks::<2>().0.iter().zip(second.as_chunks::<2>().0);
+            for (columns, (first, second)) in columns.chunks_exact_mut(2).zip(rows) {
+                let (first, second) = (self.load(first), self.load(second));
+                columns[0] = instruction!(_mm_unpacklo_pd(first, second));
+                columns[1] = instruction!(_mm_unpackhi_pd(first, second));
+            }
         }
 
         /// Exact sums and two ends of the rest, see [`Parts`]. The rare sums that these do not
@@ -373,25 +417,32 @@ mod x86 {
             unsafe { _mm256_i32gather_pd::<8>(values.as_ptr(), offsets.lanes) }
         }
 
+        #[inline(always)]
+        fn gather_integers(self, values: &[u32], offsets: Offsets<__m128i>) -> __m256d {
+            assert!(offsets.limit <= values.len());
+            // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
+            unsafe {
+                let integers = _mm_i32gather_epi32::<4>(values.as_ptr().cast(), offsets.lanes);
+                _mm256_cvtepi32_pd(integers)
+            }
+        }
+
         /// Halves of the rows r and r + 2 are put together, and then interleaved.
         #[inline(always)]
         fn transpose(self, values: &[f64], offsets: Offsets<__m128i>, columns: &mut [__m256d]) {
-            assert!(offsets.limit + 3 <= values.len() && columns.len() >= 4);
-            let mut lanes = [0_i32; 4];
-            // SAFETY: all lanes are in 0 … limit − 1, so that each row of four doubles from there is
-            // within the slice; the array holds the four lanes.
+            let count = columns.len();
+            assert!(offsets.limit + count <= values.len() + 1 && count.is_multiple_of(2));
+            // SAFETY: all lanes are in 0 … limit − 1, so that each row from there, as long as there
+            // are columns, is within the slice.
             unsafe {
-                _mm_storeu_si128(lanes.as_mut_ptr().cast(), offsets.lanes);
-                for from in [0, 2] {
-                    let mut rows = [_mm256_setzero_pd(); 2];
-                    for (row, both) in rows.iter_mut().enumerate() {
-                        let first = values.as_ptr().add(lanes[row] as usize + from);
-                        let second = values.as_ptr().add(lanes[row + 2] as usize + from);
-                        *both = _mm256_set_m128d(_mm_loadu_pd(second), _mm_loadu_pd(first));
-                    }
-                    let [even, odd] = rows;
-                    columns[from] = _mm256_unpacklo_pd(even, odd);
-                    columns[from + 1] = _mm256_unpackhi_pd(even, odd);
+                let rows = quad_lanes(offsets.lanes).map(|lane| values.as_ptr().add(lane as usize));
+                for from in (0..count).step_by(2) {
+                    let [first, second, third, fourth] =
+                        rows.map(|row| _mm_loadu_pd(row.add(from)));
+                    let even = _mm256_set_m128d(third, first);
+                    let odd = _mm256_set_m128d(fourth, second);
+                    *columns.get_unchecked_mut(from) = _mm256_unpacklo_pd(even, odd);
+                    *columns.get_unchecked_mut(from + 1) = _mm256_unpackhi_pd(even, odd);
                 }
             }
         }
@@ -456,34 +507,49 @@ mod x86 {
             unsafe { _mm512_i32gather_pd::<8>(offsets.lanes, values.as_ptr()) }
         }
 
+        #[inline(always)]
+        fn gather_integers(self, values: &[u32], offsets: Offsets<__m256i>) -> __m512d {
+            assert!(offsets.limit <= values.len());
+            // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
+            unsafe {
+                let integers = _mm256_i32gather_epi32::<4>(values.as_ptr().cast(), offsets.lanes);
+                _mm512_cvtepi32_pd(integers)
+            }
+        }
+
         /// Halves of the rows r and r + 4 are put together, interleaved, and their quarters sorted.
         #[inline(always)]
         fn transpose(self, values: &[f64], offsets: Offsets<__m256i>, columns: &mut [__m512d]) {
-            assert!(offsets.limit + 7 <= values.len() && columns.len() >= 8);
-            let mut lanes = [0_i32; 8];
-            // SAFETY: all lanes are in 0 … limit − 1, so that each row of eight doubles from there is
-            // within the slice; the array holds the eight lanes.
+            let count = columns.len();
+            assert!(offsets.limit + count <= values.len() + 1 && count.is_multiple_of(4));
+            // SAFETY: all lanes are in 0 … limit − 1, so that each row from there, as long as there
+            // are columns, is within the slice.
             unsafe {
-                _mm256_storeu_si256(lanes.as_mut_ptr().cast(), offsets.lanes);
+                let rows =
+                    octet_lanes(offsets.lanes).map(|lane| values.as_ptr().add(lane as usize));
                 // Quarters 0 and 2 of both operands, in the order of the rows; quarters 1 and 3.
                 let low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
                 let high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
-                for from in [0, 4] {
-                    let mut rows = [_mm512_setzero_pd(); 4];
-                    for (row, both) in rows.iter_mut().enumerate() {
-                        let first = values.as_ptr().add(lanes[row] as usize + from);
-                        let second = values.as_ptr().add(lanes[row + 4] as usize + from);
-                        let first = _mm512_castpd256_pd512(_mm256_loadu_pd(first));
-                        *both = _mm512_insertf64x4::<1>(first, _mm256_loadu_pd(second));
+                for from in (0..count).step_by(4) {
+                    let mut halves = [_mm512_setzero_pd(); 4];
+                    for (row, both) in halves.iter_mut().enumerate() {
+                        let first = _mm256_loadu_pd(rows[row].add(from));
+                        let second = _mm256_loadu_pd(rows[row + 4].add(from));
+                        *both = _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(first), second);
                     }
-                    let even = _mm512_unpacklo_pd(rows[0], rows[1]);
-                    let odd = _mm512_unpackhi_pd(rows[0], rows[1]);
-                    let later_even = _mm512_unpacklo_pd(rows[2], rows[3]);
-                    let later_odd = _mm512_unpackhi_pd(rows[2], rows[3]);
-                    columns[from] = _mm512_permutex2var_pd(even, low, later_even);
-                    columns[from + 1] = _mm512_permutex2var_pd(odd, low, later_odd);
-                    columns[from + 2] = _mm512_permutex2var_pd(even, high, later_even);
-                    columns[from + 3] = _mm512_permutex2var_pd(odd, high, later_odd);
+                    let even = _mm512_unpacklo_pd(halves[0], halves[1]);
+                    let odd = _mm512_unpackhi_pd(halves[0], halves[1]);
+                    let later_even = _mm512_unpacklo_pd(halves[2], halves[3]);
+                    let later_odd = _mm512_unpackhi_pd(halves[2], halves[3]);
+                    let four = [
+                        _mm512_permutex2var_pd(even, low, later_even),
+                        _mm512_permutex2var_pd(odd, low, later_odd),
+                        _mm512_permutex2var_pd(even, high, later_even),
+                        _mm512_permutex2var_pd(odd, high, later_odd),
+                    ];
+                    for (i, column) in four.into_iter().enumerate() {
+                        *columns.get_unchecked_mut(from + i) = column;
+                    }
                 }
             }
         }

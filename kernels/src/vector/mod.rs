@@ -63,8 +63,10 @@ pub(crate) trait Simd: Copy {
     fn offsets(self, values: Self::Values, limit: usize) -> Self::Offsets;
     /// The doubles at offsets whose limit is the length of the slice at most.
     fn gather(self, values: &[f64], offsets: Self::Offsets) -> Self::Values;
-    /// `columns[c]` gets the doubles at offset + c, one a lane, for the first `LANES` columns. Offsets
-    /// plus `LANES` are not beyond the slice.
+    /// Integers below `2³¹` in the same way, as doubles.
+    fn gather_integers(self, values: &[u32], offsets: Self::Offsets) -> Self::Values;
+    /// `columns[c]` gets the doubles at offset + c, one a lane. The number of columns is a multiple
+    /// of 8; it and an offset together are not beyond the slice.
     fn transpose(self, values: &[f64], offsets: Self::Offsets, columns: &mut [Self::Values]);
     /// `RN(from + i step)` for `i = first, first + 1, …`, one a lane, of a grid with such parts.
     fn grid<const N: usize>(
@@ -112,6 +114,21 @@ pub(crate) trait Simd: Copy {
 
     /// `(p, e)` with `p + e = a b` exactly, as [`two_product`](crate::double_double::two_product).
     fn two_product(self, a: Self::Values, b: Self::Values) -> (Self::Values, Self::Values);
+
+    /// `(t, r)` with `t` the sum `a b + anchored`, rounded to the grid of an anchor, and `r` the
+    /// part of `a b` that this leaves, rounded, see `bounds`.
+    #[inline(always)]
+    fn anchored_product(
+        self,
+        a: Self::Values,
+        b: Self::Values,
+        anchored: Self::Values,
+    ) -> (Self::Values, Self::Values) {
+        let (product, error) = self.two_product(a, b);
+        let sum = self.add(product, anchored);
+        let kept = self.subtract(sum, anchored);
+        (sum, self.add(self.subtract(product, kept), error))
+    }
 }
 
 /// A computation for whatever vectors there are.

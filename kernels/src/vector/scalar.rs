@@ -100,8 +100,13 @@ impl<const FUSED: bool> Simd for Scalar<FUSED> {
     }
 
     #[inline(always)]
+    fn gather_integers(self, values: &[u32], offsets: usize) -> f64 {
+        f64::from(values[offsets])
+    }
+
+    #[inline(always)]
     fn transpose(self, values: &[f64], offsets: usize, columns: &mut [f64]) {
-        columns[0] = values[offsets];
+        columns.copy_from_slice(&values[offsets..][..columns.len()]);
     }
 
     #[inline(always)]
@@ -127,5 +132,14 @@ impl<const FUSED: bool> Simd for Scalar<FUSED> {
         } else {
             two_product(a, b)
         }
+    }
+
+    #[inline(always)]
+    fn anchored_product(self, a: f64, b: f64, anchored: f64) -> (f64, f64) {
+        let (product, error) = self.two_product(a, b);
+        let sum = self.multiply_add(a, b, anchored);
+        let kept = sum - anchored;
+        let rest = if FUSED { a.mul_add(b, -kept) } else { (product - kept) + error };
+        (sum, rest)
     }
 }

@@ -1,7 +1,8 @@
 //! The evaluation of many points, or of one, as tasks for whatever vectors there are.
 
 use super::blocks::{Evaluate, Job};
-use super::points::{Points, Times};
+use super::horner::Broadcast;
+use super::points::Points;
 use super::{Simd, Task};
 use crate::table::Table;
 
@@ -46,9 +47,15 @@ impl<E: Evaluate> Task for Single<'_, E> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> (f64, bool) {
         let Self { table, time, evaluate } = self;
-        let (mut out, mut undecided) = ([0.0], Vec::new());
-        let job = Job { simd, table, points: Times(&[time]), evaluate, sorted: false };
-        job.partial(0, &mut out, &mut job.room(), &mut undecided);
-        (out[0], !undecided.is_empty())
+        let times = simd.splat(time);
+        if !simd.all(table.lookup.within(simd, times)) {
+            return (f64::NAN, false);
+        }
+        let mut lanes = [0.0; 8];
+        simd.store(table.lookup.pieces(simd, times), &mut lanes);
+        let rows = Broadcast::new(E::rows(table), lanes[0] as usize);
+        let ([value], [doubt]) = evaluate.evaluate(simd, table, rows, &[times]);
+        simd.store(value, &mut lanes);
+        (lanes[0], doubt & 1 != 0)
     }
 }

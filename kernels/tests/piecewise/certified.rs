@@ -73,6 +73,39 @@ fn the_bound_of_pairs_is_small() {
     assert!(table.certified_bound() < 2.0_f64.powi(-94), "{:e}", table.certified_bound());
 }
 
+/// Low parts of all coefficients: most of them are far below the bound, and cost neither digits nor
+/// pairs.
+#[test]
+fn low_parts_of_all_coefficients_change_nothing() {
+    let mut random = Random(14);
+    let shape = Shape { degree: 23, low: 24, decay: 0.05, start: 7.0, ..TYPICAL };
+    let (mut pieces, end) = pieces(shape, &mut random);
+    let table = table(&mut pieces, end);
+    assert!(table.certified_bound() < 2.0_f64.powi(-94), "{:e}", table.certified_bound());
+    let times = times(&pieces, end, 3000, &mut random);
+    for level in Level::available() {
+        assert_eq!(check(&table, &pieces, &times, level), 0);
+    }
+}
+
+/// A low part that decides between two doubles although its coefficient is 0, and is the last one.
+#[test]
+fn low_parts_count_wherever_they_matter() {
+    let half = 2.0_f64.powi(-53);
+    for low in [vec![0.0, half * 1.01], vec![0.0, 0.0, 0.0, half * 1.01], vec![half * 1.01]] {
+        let mut coefficients = vec![0.0; low.len()];
+        coefficients[0] = 1.0;
+        let piece = Piece { start: -1.0, centre: 0.0, scale: 1.0, coefficients, low, error: 0.0 };
+        let pieces = [piece];
+        let table = Table::new(&pieces, 1.0).expect("a table");
+        for level in Level::available() {
+            let evaluator = table.evaluator().with_level(level);
+            assert_eq!(evaluator.rounded(1.0), Some(1.0_f64.next_up()));
+            assert_eq!(check(&table, &pieces, &[1.0, -1.0, 0.25, 0.9999], level), 0);
+        }
+    }
+}
+
 /// Constants next to the midpoint of two doubles: decided exactly where the bound allows it.
 #[test]
 fn near_midpoints_the_error_decides() {

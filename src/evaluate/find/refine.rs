@@ -105,10 +105,11 @@ impl Search<'_> {
         let mut root = root.clone();
         self.narrow(&mut root, target, SUSPICION_BITS)?;
         let simple = simplest(&root.from, &root.to);
-        if target.order == 0 && simple.denom().bits() <= MAX_DENOMINATOR_BITS {
-            if self.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level) {
-                return Ok(Determined::Digits(Value::Exact(simple)));
-            }
+        if target.order == 0
+            && simple.denom().bits() <= MAX_DENOMINATOR_BITS
+            && self.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level)
+        {
+            return Ok(Determined::Digits(Value::Exact(simple)));
         }
         let root = RefCell::new(root);
         Determined::of(digits, target.limit_bits, |bits| {

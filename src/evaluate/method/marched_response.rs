@@ -7,6 +7,7 @@
 
 use super::clock::Clock;
 use super::doubles::{exactly, inside, near};
+use super::held_waves::HeldWaves;
 use super::{Method, MethodError};
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
@@ -17,7 +18,7 @@ use crate::evaluate::taps::Taps;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Root, Transform};
 use wavestep_kernels::fixed;
-use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection};
+use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection, chebyshev};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Bits of the sum of the response and what is added, whatever their sizes.
@@ -34,6 +35,8 @@ pub(super) struct MarchedResponse {
     to: Rational,
     /// The proven bound on the window, where one is asked for and proven.
     bound: Option<f64>,
+    /// The waves that it was proven of, where there is room for them.
+    held: Option<HeldWaves>,
 }
 
 /// A place at which the response is asked for.
@@ -86,38 +89,35 @@ impl MarchedResponse {
             from: from.clone(),
             to: to.clone(),
             bound: None,
+            held: None,
         };
         let delays = marched.taps.taps.iter().map(|tap| &tap.delay);
         let last = marched.clock.last_period(delays, to)?;
         if proven {
-            marched.bound = marched.prove(last)?;
+            (marched.bound, marched.held) = marched.prove(last)?;
         }
         Ok(marched)
     }
 
     /// Marches to the end with a certificate. The bound of the response is `b`, and a place is off by
     /// `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period turns into an
-    /// error of the value.
-    fn prove(&self, last: u64) -> Result<Option<f64>, MethodError> {
+    /// error of the value. The waves are held where there is room for all of them.
+    fn prove(&self, last: u64) -> Result<(Option<f64>, Option<HeldWaves>), MethodError> {
         let options = MarchOptions { bounds: Bounds::Proven, ..MarchOptions::default() };
         let mut march = March::new(&self.reflection, options).map_err(refused)?;
         let mut slope = 0.0_f64;
         let mut sum = 0.0_f64;
         let mut bound = 0.0_f64;
+        let mut held = Some(HeldWaves::default());
         loop {
-            let mut steepest = 0.0;
-            let mut total = 0.0;
-            for (k, coefficient) in march.coefficients().iter().enumerate() {
-                let k = k as f64;
-                steepest += 2.0 * k * k * coefficient.abs();
-                total += coefficient.abs();
-            }
-            slope = slope.max(steepest);
-            sum = sum.max(total);
+            let sizes = chebyshev::sizes(march.coefficients());
+            slope = slope.max(sizes.slope);
+            sum = sum.max(sizes.absolute);
+            held = held.and_then(|held| held.and(march.coefficients()));
             // Evaluation loses most where the polynomial is largest, which need not be at the end.
             match march.bound() {
                 Some(here) => bound = bound.max(here),
-                None => return Ok(None),
+                None => return Ok((None, None)),
             }
             if march.period() as u64 >= last {
                 break;
@@ -129,7 +129,7 @@ impl MarchedResponse {
         // The weighted sum itself, with an eighth to spare for the rounding of this line, and for the
         // enclosure of what is added.
         let roundings = (weights.len() + 4) as f64 * f64::EPSILON * sum;
-        Ok(Some((bound + slope * f64::EPSILON + roundings) * total * 1.125))
+        Ok((Some((bound + slope * f64::EPSILON + roundings) * total * 1.125), held))
     }
 
     /// The weights of the taps in the unit of the observable.
@@ -247,16 +247,22 @@ impl MarchedResponse {
         let mut values = vec![0.0; count];
         places.sort_by_key(|place| place.period);
         let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
-        let mut march = March::new(&self.reflection, options).map_err(refused)?;
+        let start = || March::new(&self.reflection, options).map_err(refused);
+        let mut march = self.held.is_none().then(start).transpose()?;
         let (mut points, mut found) = (Vec::new(), Vec::new());
         for group in places.chunk_by(|a, b| a.period == b.period) {
-            while march.period() < group[0].period {
-                march.advance().map_err(refused)?;
-            }
+            let period = group[0].period;
             points.clear();
             points.extend(group.iter().map(|place| place.local));
             found.resize(points.len(), 0.0);
-            march.values(&points, &mut found);
+            if let Some(held) = &self.held {
+                held.values(period, &points, &mut found);
+            } else if let Some(march) = &mut march {
+                while march.period() < period {
+                    march.advance().map_err(refused)?;
+                }
+                march.values(&points, &mut found);
+            }
             for (place, response) in group.iter().zip(&found) {
                 values[place.value] += place.weight * response;
             }

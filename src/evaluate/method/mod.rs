@@ -15,6 +15,7 @@ mod compiled;
 mod doubles;
 mod echo_sums;
 mod expanded;
+mod held_waves;
 mod march_system;
 mod marched;
 mod marched_response;
