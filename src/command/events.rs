@@ -54,12 +54,13 @@ impl From<HistoryError> for Failure {
             HistoryError::Undecided { .. } => {
                 return Failure::Accuracy(
                     message,
-                    "change a value a little, or end before it with --until".to_owned(),
+                    "change a value a little, or ask for an earlier end".to_owned(),
                 );
             }
             HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
-                "ask for an earlier end with --until"
+                "ask for an earlier end"
             }
+            HistoryError::Field(error) => return (**error).clone().into(),
             HistoryError::Refused(_) => "describe the scene without it",
             _ => "ask for an earlier time",
         };

@@ -173,6 +173,9 @@ impl From<FieldError> for Failure {
     fn from(error: FieldError) -> Failure {
         match error {
             FieldError::Evaluate(error) => error.into(),
+            FieldError::Undecided { .. } => {
+                Failure::Accuracy(error.to_string(), "give another time, or other cells".to_owned())
+            }
             error => Failure::usage(error.to_string(), "see `wavestep field --help`"),
         }
     }

@@ -4,11 +4,13 @@ use super::arguments::{Field, FieldFormat, SideOption};
 use super::failure::Failure;
 use super::input::{self, Subject};
 use super::output::written;
+use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use wavestep::evaluate::Side;
 use wavestep::export::SCHEMA_VERSION;
 use wavestep::field::{BarFields, Bounded, FieldEvaluator, Fields, Mesh, Quantity, Sampling};
+use wavestep::history::field_evaluator;
 use wavestep::language::{self, Source};
 use wavestep::network::Network;
 use wavestep::scene::Dimension;
@@ -37,7 +39,7 @@ pub fn run(options: &Field) -> Result<String, Failure> {
         };
         mesh = mesh.reaching(&reach)?;
     }
-    let fields = FieldEvaluator::new(&network, &time)?.at(&time, &mesh)?;
+    let fields = evaluator(&network, &time)?.at(&time, &mesh)?;
     let text = match options.format {
         FieldFormat::Csv => csv(&fields),
         FieldFormat::Json => json_document(&fields, &network, options),
@@ -55,6 +57,14 @@ pub fn scene(subject: Subject) -> Result<Network, Failure> {
             let remedy = "describe it by its parts: see docs/scene-language.md";
             Err(Failure::usage(message, remedy))
         }
+    }
+}
+
+/// The fields until a time: of a scene whose contacts open, across all their phases.
+pub fn evaluator(network: &Network, last: &BigRational) -> Result<FieldEvaluator, Failure> {
+    match network.scene().contacts_open {
+        true => Ok(field_evaluator(network, last)?),
+        false => Ok(FieldEvaluator::new(network, last)?),
     }
 }
 

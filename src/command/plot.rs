@@ -2,23 +2,24 @@
 
 use super::arguments::{DiagramOption, Plot};
 use super::failure::Failure;
-use super::field::scene;
+use super::field::{evaluator, scene};
 use super::input::{self, Subject};
 use super::picture;
 use super::quantity;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
-use wavestep::evaluate::{EvaluateError, Signal};
+use wavestep::evaluate::{EvaluateError, Side, Signal};
 use wavestep::field::Quantity;
+use wavestep::history::History;
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::picture::{
     Course, Sampled, against_time, along_the_line, lagrange, sampled, sampled_energy,
-    sampled_phases,
+    sampled_search,
 };
 use wavestep::plot::{Caption, Chart};
 use wavestep::recurrence::Recurrence;
-use wavestep::scene::Dimension;
+use wavestep::scene::{Dimension, Measure, Seen};
 
 /// How many periods are shown where no end is given.
 const PERIODS: i64 = 4;
@@ -27,7 +28,10 @@ const PERIODS: i64 = 4;
 const ENERGY_STEPS: usize = 240;
 
 /// At how many times one is looked at across the phases of contacts, each time a sum over all bars.
-const PHASE_STEPS: usize = 96;
+const PHASE_STEPS: i64 = 96;
+
+/// Digits of these.
+const PHASE_DIGITS: usize = 6;
 
 /// Draws what is asked for.
 pub fn run(options: &Plot) -> Result<String, Failure> {
@@ -44,7 +48,9 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
             .iter()
             .map(|time| input::time("--at-time", time, network.scene().dimensional))
             .collect::<Result<Vec<BigRational>, Failure>>()?;
-        let figure = along_the_line(&network, &fields(options)?, &times, caption)?;
+        let Some(last) = times.iter().max() else { unreachable!("there are times") };
+        let evaluator = evaluator(&network, last)?;
+        let figure = along_the_line(&evaluator, &fields(options)?, &times, caption)?;
         return Ok(Box::new(match &options.title {
             Some(title) => figure.titled(title),
             None => figure,
@@ -58,7 +64,8 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
             DiagramOption::Strain => Quantity::Strain,
             DiagramOption::Force => Quantity::Force,
         };
-        let diagram = lagrange(&network, quantity, [&window.0, &window.1], caption)?;
+        let evaluator = evaluator(&network, &window.1)?;
+        let diagram = lagrange(&evaluator, quantity, [&window.0, &window.1], caption)?;
         return Ok(Box::new(match &options.title {
             Some(title) => diagram.titled(title),
             None => diagram,
@@ -179,9 +186,7 @@ fn of_scene(
     let all = network.observables().iter().map(|observed| observed.name.clone());
     let course = |name: String| {
         if network.scene().contacts_open {
-            let observed = quantity::of_phases(network, &name)?;
-            let values = sampled_phases(network, &observed.name, [from, to], PHASE_STEPS)?;
-            return Ok(Course { name, dimension: observed.dimension, values });
+            return across_phases(network, &name, [from, to]);
         }
         let observed = quantity::of_scene(network, &name)?;
         let values: Sampled = match observed.value {
@@ -195,6 +200,28 @@ fn of_scene(
         Ok(Course { name, dimension: observed.dimension, values })
     };
     names(options, all)?.into_iter().map(course).collect()
+}
+
+/// An observable of a scene whose contacts open; energies and momenta, which are sums over all bars, at
+/// equal steps.
+fn across_phases(
+    network: &Network,
+    name: &str,
+    [from, to]: [&BigRational; 2],
+) -> Result<Course, Failure> {
+    let Observed { name, dimension, .. } = quantity::of_phases(network, name)?;
+    let is_sum = |term: &Seen| matches!(term.measure, Measure::Energy | Measure::Momentum);
+    let own = network.scene().observables.iter().find(|own| own.name == name);
+    if !own.is_some_and(|own| own.terms.iter().any(is_sum)) {
+        let values = sampled_search(&History::search(network, &name, [from, to])?)?;
+        return Ok(Course { name, dimension, values });
+    }
+    let time = |step: i64| from + (to - from) * BigRational::new(step.into(), PHASE_STEPS.into());
+    let times: Vec<BigRational> = (0..=PHASE_STEPS).map(time).collect();
+    let values = History::values(network, &name, &times, Side::Right, PHASE_DIGITS)?;
+    let points = times.iter().zip(&values).map(|(time, value)| (double(time), value.to_double()));
+    let values = Sampled { points: points.collect(), jumps: Vec::new() };
+    Ok(Course { name, dimension, values })
 }
 
 /// The names asked for, or all.

@@ -60,13 +60,8 @@ impl Waves {
     }
 
     /// The numbers of the constants.
-    pub(crate) fn numbers(&self) -> &Numbers {
+    fn numbers(&self) -> &Numbers {
         self.signal.numbers()
-    }
-
-    /// A time of the user's in the scale of the waves.
-    pub(crate) fn scaled(&self, time: &Rational) -> Fraction {
-        self.signal.slowness().scale(time)
     }
 
     /// A derivative of a wave at a time of its own clock; zero before it begins.

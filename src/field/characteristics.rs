@@ -4,11 +4,12 @@
 //! where it is smooth, a field is constant, or nearly so, where two strips cross: what is constant
 //! between fronts is drawn exactly, and nothing is smeared across them.
 
+use super::entering::{Entering, Heading, Instant, Order};
 use super::{FieldError, FieldEvaluator};
-use crate::ball::{Ball, Magnitude};
+use crate::ball::Magnitude;
 use crate::evaluate::{EvaluateError, Side};
 use crate::expression::{Fraction, Root};
-use crate::network::{Extent, FieldBar, Way};
+use crate::network::{Extent, FieldBar};
 use wavestep_polynomial::Rational;
 
 /// A part of a wave between two times at the end of the bar at which it enters.
@@ -126,15 +127,17 @@ impl FieldEvaluator {
             return Err(EvaluateError::EmptyWindow.into());
         }
         let mut found = Vec::with_capacity(self.bars.len());
-        for bar in &self.bars {
+        for (place, bar) in self.bars.iter().enumerate() {
             let endless = bar.extent != Extent::Finite;
             let (span, length) = self.span_looked_at(bar, to)?;
-            let second = self.waves.scaled(&Rational::from_integer(1.into()));
+            let second = self.network().scaled_time(&Rational::from_integer(1.into()));
             let slowness = self.double_of(&span)? / self.double_of(&second)? / length;
             let unit = |place: usize| self.double(&bar.units[place]);
-            let side = |way: Option<&Way>| self.wave_strips(way, &span, [from, to], strips);
-            let (right, right_fronts) = side(bar.right.as_ref())?;
-            let (left, left_fronts) = side(bar.left.as_ref())?;
+            let strips_of = |heading: Heading| {
+                self.wave_strips(Entering { bar: place, heading }, &span, [from, to], strips)
+            };
+            let (right, right_fronts) = strips_of(Heading::Right)?;
+            let (left, left_fronts) = strips_of(Heading::Left)?;
             let scaled = |strips: Vec<Strip>, unit: f64| {
                 strips.into_iter().map(|s| Strip { value: s.value * unit, ..s }).collect()
             };
@@ -164,7 +167,7 @@ impl FieldEvaluator {
         bar: &FieldBar,
         to: &Rational,
     ) -> Result<(Fraction, f64), FieldError> {
-        let (span, length) = self.span(bar, &self.waves.scaled(to), None)?;
+        let (span, length) = self.span(bar, &self.network().scaled_time(to), None)?;
         let length = self.double(&length)?;
         let reach = match bar.extent {
             Extent::Finite => None,
@@ -183,48 +186,44 @@ impl FieldEvaluator {
     fn reach_of_endless(&self, to: &Rational) -> Result<Option<f64>, FieldError> {
         let mut sum = 0.0;
         for bar in self.bars.iter().filter(|bar| bar.extent == Extent::Finite) {
-            sum += self.double(&self.span(bar, &self.waves.scaled(to), None)?.1)?;
+            sum += self.double(&self.span(bar, &self.network().scaled_time(to), None)?.1)?;
         }
         Ok((sum > 0.0).then_some(sum))
     }
 
     fn double(&self, value: &Root) -> Result<f64, FieldError> {
-        Ok(self.waves.numbers().enclose_root(value, BITS)?.to_double().0)
+        Ok(self.numbers.enclose_root(value, BITS)?.to_double().0)
     }
 
     pub(super) fn double_of(&self, value: &Fraction) -> Result<f64, FieldError> {
-        Ok(self.waves.numbers().enclose(value, BITS)?.to_double().0)
+        Ok(self.numbers.enclose(value, BITS)?.to_double().0)
     }
 
     /// A wave in strips, from one travel time before the window to its end, and its fronts.
     fn wave_strips(
         &self,
-        way: Option<&Way>,
+        wave: Entering,
         span: &Fraction,
         [from, to]: [&Rational; 2],
         strips: usize,
     ) -> Result<(Vec<Strip>, Vec<Front>), FieldError> {
-        let second = self.waves.scaled(&Rational::from_integer(1.into()));
-        let inverse = self.waves.numbers().enclose(&second, BITS)?;
+        let scaled = |time: &Rational| self.network().scaled_time(time);
+        let second = scaled(&Rational::from_integer(1.into()));
+        let inverse = self.numbers.enclose(&second, BITS)?;
         let inverse = inverse.reciprocal(BITS).map_err(EvaluateError::Ball)?;
-        let (first, last) = (&self.waves.scaled(from) - span, self.waves.scaled(to));
-        let lead = way.map_or_else(Fraction::zero, |way| way.lead.clone());
         let seconds = |time: &Fraction| -> Result<f64, FieldError> {
-            let ball = self.waves.numbers().enclose(&(time - &lead), BITS)?;
+            let ball = self.numbers.enclose(time, BITS)?;
             Ok(ball.multiply(&inverse, BITS).to_double().0)
         };
-        let (first, last) = (&first + &lead, &last + &lead);
-        let Some(way) = way else {
-            let strip = Strip { from: seconds(&first)?, to: seconds(&last)?, value: 0.0 };
-            return Ok((vec![strip], Vec::new()));
-        };
-        let value = |at: &Fraction, derivative, side| -> Result<f64, FieldError> {
+        let (first, last) = (&scaled(from) - span, scaled(to));
+        let value = |at: &Fraction, order, side| -> Result<f64, FieldError> {
             // Late waves are small differences of large terms: the precision grows until nothing that is
             // seen is left open. Velocities are of the size of 1 in the scale of the scene.
             let fine = Magnitude::power_of_two(-FINE_BITS);
             let mut bits = BITS;
             loop {
-                let ball: Ball = self.waves.enclose(way.waves[0], derivative, at, side, bits)?;
+                let instant = Instant { at, side, is_drawn: true };
+                let ball = self.waves.enclose(wave, order, instant, bits)?;
                 if *ball.radius() <= fine {
                     return Ok(if ball.contains_zero() { 0.0 } else { ball.to_double().0 });
                 }
@@ -237,7 +236,8 @@ impl FieldEvaluator {
             }
         };
         let mut ends = vec![first.clone()];
-        ends.extend(self.waves.breaks(&first, &last)?.into_iter().filter(|at| *at != first));
+        let breaks = self.waves.breaks(wave, &first..=&last)?;
+        ends.extend(breaks.into_iter().filter(|at| *at != first));
         ends.push(last.clone());
         ends.dedup();
         let window = seconds(&last)? - seconds(&first)?;
@@ -248,7 +248,7 @@ impl FieldEvaluator {
             let at = |share: &Rational| &pair[0] + &length.scale(share);
             let [low, middle, high] = [(0, 1), (1, 2), (1, 1)].map(|(a, b): (i32, i32)| {
                 let side = if a == b { Side::Left } else { Side::Right };
-                value(&at(&Rational::new(a.into(), b.into())), 0, side)
+                value(&at(&Rational::new(a.into(), b.into())), Order::Value, side)
             });
             let (low, middle, high) = (low?, middle?, high?);
             let size = low.abs().max(middle.abs()).max(high.abs());
@@ -262,7 +262,7 @@ impl FieldEvaluator {
                 let place = |i: usize| start + (end - start) * i as f64 / parts as f64;
                 let value = match flat {
                     true => middle,
-                    false => value(&at(&share(2 * part + 1)), 0, Side::Right)?,
+                    false => value(&at(&share(2 * part + 1)), Order::Value, Side::Right)?,
                 };
                 let joined = found.last_mut().filter(|last| last.value == value && flat);
                 match joined {
@@ -276,14 +276,14 @@ impl FieldEvaluator {
         let scale = found.iter().map(|strip| strip.value.abs()).fold(0.0, f64::max);
         let mut fronts = Vec::new();
         for at in &ends[..ends.len() - 1] {
-            let jump = |derivative| -> Result<f64, FieldError> {
+            let jump = |order| -> Result<f64, FieldError> {
                 let (after, before) =
-                    (value(at, derivative, Side::Right)?, value(at, derivative, Side::Left)?);
+                    (value(at, order, Side::Right)?, value(at, order, Side::Left)?);
                 Ok((after - before).abs())
             };
-            if jump(0)? > VISIBLE * scale {
+            if jump(Order::Value)? > VISIBLE * scale {
                 fronts.push(Front { at: seconds(at)?, jumps: true });
-            } else if jump(1)? > VISIBLE * scale {
+            } else if jump(Order::Slope)? > VISIBLE * scale {
                 fronts.push(Front { at: seconds(at)?, jumps: false });
             }
         }

@@ -1,5 +1,6 @@
 //! Why fields cannot be given.
 
+use crate::ball::Ball;
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
 use crate::network::NetworkError;
@@ -37,6 +38,14 @@ pub enum FieldError {
     NegativeReach(Rational),
     /// A wave cannot be evaluated.
     Evaluate(EvaluateError),
+    /// The precision allowed does not tell whether an instant comes before or after a break of a wave
+    /// of which only an enclosure is known.
+    Undecided {
+        /// About the break, in the scale of the scene.
+        at: Box<Ball>,
+        /// The precision in bits.
+        bits: u64,
+    },
 }
 
 impl fmt::Display for FieldError {
@@ -55,6 +64,12 @@ impl fmt::Display for FieldError {
                 write!(f, "the distance {reach} lies outside of the bar: give one above 0")
             }
             FieldError::Evaluate(error) => error.fmt(f),
+            FieldError::Undecided { at, bits } => write!(
+                f,
+                "undecided whether a place is before or behind a front that a contact caused as it opened \
+                 or closed, which enters the bar about t = {}, with {bits} bits",
+                at.to_decimal(20)
+            ),
         }
     }
 }

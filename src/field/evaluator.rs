@@ -12,12 +12,14 @@
 //! `(F(t − a_0) − F(t − a_1))/(a_1 − a_0)`: an integral over time, so averages need no quadrature. That
 //! of `F(t − a)` follows in the same way from `∫F dt`.
 
+use super::entering::{ClosedContacts, Entering, EnteringWaves, Heading, Instant, Order};
 use super::fields::{BarFields, Bounded, Fields};
 use super::{FieldError, Mesh, Sampling};
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::{EvaluateError, Side, Waves};
+use crate::enclosure::Numbers;
+use crate::evaluate::{EvaluateError, Side};
 use crate::expression::{Fraction, Root};
-use crate::network::{Extent, FieldBar, Network, Way};
+use crate::network::{Extent, FieldBar, Network};
 use crate::scene::Kind;
 use wavestep_polynomial::Rational;
 
@@ -59,7 +61,8 @@ const NEGLIGIBLE_BITS: i64 = 400;
 pub struct FieldEvaluator {
     network: Network,
     pub(super) bars: Vec<FieldBar>,
-    pub(super) waves: Waves,
+    pub(super) waves: Box<dyn EnteringWaves>,
+    pub(super) numbers: Numbers,
     last: Rational,
 }
 
@@ -69,6 +72,8 @@ pub(super) struct Node {
     pub delays: [Fraction; 2],
     /// Whether limits are taken from larger `x`.
     pub from_larger: bool,
+    /// Whether a front beside it is meant; see [`Instant`].
+    pub is_drawn: bool,
 }
 
 /// The enclosures of the fields at a place, in the scale of the scene, and the size of what they are
@@ -76,21 +81,35 @@ pub(super) struct Node {
 pub(super) type Enclosed = ([Ball; 3], Magnitude);
 
 impl FieldEvaluator {
-    /// For times up to `last`.
+    /// For times up to `last`. Contacts stay closed;
+    /// [`field_evaluator`](crate::history::field_evaluator) follows those that open.
     ///
     /// # Errors
     /// [`FieldError::Evaluate`] where a symbol has no value, or too many echoes arrive until then;
     /// [`FieldError::Negative`].
     pub fn new(network: &Network, last: &Rational) -> Result<FieldEvaluator, FieldError> {
+        FieldEvaluator::with(network, last, |network, bars| {
+            Ok(Box::new(ClosedContacts::new(network, bars, last)?))
+        })
+    }
+
+    /// Of the waves that are made for a network and its bars, for times up to `last`.
+    ///
+    /// # Errors
+    /// [`FieldError::Negative`]; [`FieldError::Evaluate`] where the bars have no fields; as the waves.
+    pub(crate) fn with(
+        network: &Network,
+        last: &Rational,
+        waves: impl FnOnce(&Network, &[FieldBar]) -> Result<Box<dyn EnteringWaves>, FieldError>,
+    ) -> Result<FieldEvaluator, FieldError> {
         if *last < Rational::default() {
             return Err(FieldError::Negative(last.clone()));
         }
         let mut network = network.clone();
         let bars = network.field_bars()?;
-        let ways = bars.iter().flat_map(|bar| bar.right.iter().chain(&bar.left));
-        let waves: Vec<_> = ways.flat_map(|way| way.waves).collect();
-        let waves = Waves::new(&network, &waves, last)?;
-        Ok(FieldEvaluator { network, bars, waves, last: last.clone() })
+        let waves = waves(&network, &bars)?;
+        let numbers = Numbers::new(&network.model().constants);
+        Ok(FieldEvaluator { network, bars, waves, numbers, last: last.clone() })
     }
 
     /// The names of the bars, from left to right.
@@ -132,26 +151,33 @@ impl FieldEvaluator {
                 return Err(FieldError::UnknownBar { name: name.clone(), bars });
             }
         }
-        let wanted = |bar: &&FieldBar| {
+        let wanted = |(_, bar): &(usize, &FieldBar)| {
             mesh.bars().is_empty() || mesh.bars().iter().any(|name| name == self.name(bar))
         };
-        let fields = |bar| self.fields_of(bar, time, mesh);
+        let fields = |(place, _)| self.fields_of(place, time, mesh);
         Ok(Fields {
             time: time.clone(),
             dimensional: self.network.scene().dimensional,
             sampling: mesh.sampling(),
             side: mesh.side(),
-            bars: self.bars.iter().filter(wanted).map(fields).collect::<Result<_, _>>()?,
+            bars: self
+                .bars
+                .iter()
+                .enumerate()
+                .filter(wanted)
+                .map(fields)
+                .collect::<Result<_, _>>()?,
         })
     }
 
     fn fields_of(
         &self,
-        bar: &FieldBar,
+        bar_place: usize,
         time: &Rational,
         mesh: &Mesh,
     ) -> Result<BarFields, FieldError> {
-        let at = self.waves.scaled(time);
+        let bar = &self.bars[bar_place];
+        let at = self.network.scaled_time(time);
         let (span, length) = self.span(bar, &at, mesh.reach())?;
         let name = self.name(bar).to_owned();
         if span.is_zero() {
@@ -168,15 +194,15 @@ impl FieldEvaluator {
                     Extent::ToTheLeft => [Fraction::zero(), from],
                 };
                 let inside = mesh.side() == Side::Right && j < mesh.cells();
-                Node { delays, from_larger: inside || j == 0 }
+                Node { delays, from_larger: inside || j == 0, is_drawn: false }
             })
             .collect();
-        let length = self.waves.numbers().enclose_root(&length, FIRST_BITS)?;
+        let length = self.numbers.enclose_root(&length, FIRST_BITS)?;
         let place = |j| length.multiply_rational(&share(j), FIRST_BITS).to_double().0;
         let x = (0..=mesh.cells()).map(place).collect();
         let (found, bits) = self.fine(|bits| match mesh.sampling() {
-            Sampling::Nodes => self.at_nodes(bar, &at, &nodes, bits),
-            Sampling::Averages => self.averages(bar, &at, &nodes, bits),
+            Sampling::Nodes => self.at_nodes(bar_place, &at, &nodes, bits),
+            Sampling::Averages => self.averages(bar_place, &at, &nodes, bits),
         })?;
         Ok(BarFields { name, x, values: self.in_units(bar, &found, bits)? })
     }
@@ -218,7 +244,7 @@ impl FieldEvaluator {
         let delay = match delay.exact().filter(|delay| delay.as_constant().is_some()) {
             Some(delay) => delay,
             None => {
-                let ball = self.waves.numbers().enclose_root(&delay, FIRST_BITS)?;
+                let ball = self.numbers.enclose_root(&delay, FIRST_BITS)?;
                 Fraction::constant(&Rational::from(ball.midpoint()))
             }
         };
@@ -226,83 +252,76 @@ impl FieldEvaluator {
         Ok((delay, length))
     }
 
-    /// A wave at a node, at level 0, or its integral at level 1, or the integral of that.
+    /// A wave at a node.
     fn wave(
         &self,
-        way: Option<&Way>,
-        level: usize,
-        (at, node, which): (&Fraction, &Node, usize),
-        side: Side,
+        wave: Entering,
+        order: Order,
+        (at, node, side): (&Fraction, &Node, Side),
         bits: u64,
     ) -> Result<Ball, FieldError> {
-        let Some(way) = way else { return Ok(Ball::zero()) };
-        let at = &(at + &way.lead) - &node.delays[which];
-        Ok(self.waves.enclose(way.waves[level], 0, &at, side, bits)?)
+        let at = at - &node.delays[wave.heading as usize];
+        let instant = Instant { at: &at, side, is_drawn: node.is_drawn };
+        self.waves.enclose(wave, order, instant, bits)
     }
 
     pub(super) fn at_nodes(
         &self,
-        bar: &FieldBar,
+        bar: usize,
         at: &Fraction,
         nodes: &[Node],
         bits: u64,
     ) -> Result<Vec<Enclosed>, FieldError> {
-        let state = State::new(self, bar, at, bits)?;
+        let state = State::new(self, &self.bars[bar], at, bits)?;
         let mut found = Vec::with_capacity(nodes.len());
         for node in nodes {
-            // A delay that grows with x looks back in time as x grows.
-            let grows = [true, bar.extent == Extent::ToTheLeft];
-            let wave = |way: Option<&Way>, which: usize, level| {
-                let side = match grows[which] == node.from_larger {
-                    true => Side::Left,
-                    false => Side::Right,
-                };
-                self.wave(way, level, (at, node, which), side, bits)
+            let wave = |heading: Heading, order| {
+                // A delay that grows with x looks back in time as x grows.
+                let grows = heading == Heading::Right || self.bars[bar].extent == Extent::ToTheLeft;
+                let side = if grows == node.from_larger { Side::Left } else { Side::Right };
+                self.wave(Entering { bar, heading }, order, (at, node, side), bits)
             };
-            let (right, left) = (bar.right.as_ref(), bar.left.as_ref());
-            let (f, g) = (wave(right, 0, 0)?, wave(left, 1, 0)?);
-            let (sum_f, sum_g) = (wave(right, 0, 1)?, wave(left, 1, 1)?);
-            found.push(state.fields([&f, &g], [&sum_f, &sum_g], bits));
+            let both = |order| -> Result<[Ball; 2], FieldError> {
+                Ok([wave(Heading::Right, order)?, wave(Heading::Left, order)?])
+            };
+            found.push(state.fields(&both(Order::Value)?, &both(Order::Integral)?, bits));
         }
         Ok(found)
     }
 
     fn averages(
         &self,
-        bar: &FieldBar,
+        bar: usize,
         at: &Fraction,
         nodes: &[Node],
         bits: u64,
     ) -> Result<Vec<Enclosed>, FieldError> {
-        let state = State::new(self, bar, at, bits)?;
-        let numbers = self.waves.numbers();
-        // Integrals are continuous: either side does.
-        let integrals = |way: Option<&Way>, which, level| -> Result<Vec<Ball>, FieldError> {
-            let at = |node| self.wave(way, level, (at, node, which), Side::Right, bits);
-            nodes.iter().map(at).collect()
-        };
+        let state = State::new(self, &self.bars[bar], at, bits)?;
         let mut means: [[Vec<Ball>; 2]; 2] = Default::default();
-        for (which, way) in [bar.right.as_ref(), bar.left.as_ref()].into_iter().enumerate() {
+        for heading in [Heading::Right, Heading::Left] {
+            let which = heading as usize;
             let width = &nodes[1].delays[which] - &nodes[0].delays[which];
             let inverse = match width.is_zero() {
                 true => Ball::zero(),
                 false => {
-                    let width = numbers.enclose(&width, bits)?;
+                    let width = self.numbers.enclose(&width, bits)?;
                     width.reciprocal(bits).map_err(EvaluateError::Ball)?
                 }
             };
-            for level in [1, 2] {
-                let integrals = integrals(way, which, level)?;
+            for (place, order) in [Order::Integral, Order::DoubleIntegral].into_iter().enumerate() {
+                // Integrals are continuous: either side does.
+                let at = |node| {
+                    self.wave(Entering { bar, heading }, order, (at, node, Side::Right), bits)
+                };
+                let integrals: Vec<Ball> = nodes.iter().map(at).collect::<Result<_, _>>()?;
                 let mean =
                     |pair: &[Ball]| pair[0].subtract(&pair[1], bits).multiply(&inverse, bits);
-                means[which][level - 1] = integrals.windows(2).map(mean).collect();
+                means[which][place] = integrals.windows(2).map(mean).collect();
             }
         }
-        let [right, left] = &means;
+        let mean = |order: usize, i: usize| means.each_ref().map(|both| both[order][i].clone());
         let cells = 0..nodes.len() - 1;
-        let fields =
-            |i: usize| state.fields([&right[0][i], &left[0][i]], [&right[1][i], &left[1][i]], bits);
-        Ok(cells.map(fields).collect())
+        Ok(cells.map(|i| state.fields(&mean(0, i), &mean(1, i), bits)).collect())
     }
 
     /// Values in the user's units: velocity, strain, displacement, force.
@@ -314,7 +333,7 @@ impl FieldEvaluator {
     ) -> Result<[Vec<Bounded>; 4], FieldError> {
         let mut values: [Vec<Bounded>; 4] = Default::default();
         for (place, unit) in bar.units.iter().enumerate() {
-            let unit = self.waves.numbers().enclose_root(unit, bits)?;
+            let unit = self.numbers.enclose_root(unit, bits)?;
             values[place] = found
                 .iter()
                 .map(|([velocity, force, displacement], _)| match place {
@@ -346,7 +365,7 @@ impl State {
         at: &Fraction,
         bits: u64,
     ) -> Result<State, FieldError> {
-        let enclose = |value: &Fraction| evaluator.waves.numbers().enclose(value, bits);
+        let enclose = |value: &Fraction| evaluator.numbers.enclose(value, bits);
         let velocity = enclose(&bar.data.velocity)?;
         let displacement = velocity.multiply(&enclose(at)?, bits);
         let (force, impedance) = (enclose(&bar.data.force)?, enclose(&bar.data.impedance)?);
@@ -354,7 +373,7 @@ impl State {
     }
 
     /// Velocity, force and displacement, with the size of their parts.
-    fn fields(&self, [f, g]: [&Ball; 2], [sum_f, sum_g]: [&Ball; 2], bits: u64) -> Enclosed {
+    fn fields(&self, [f, g]: &[Ball; 2], [sum_f, sum_g]: &[Ball; 2], bits: u64) -> Enclosed {
         let velocity = self.velocity.add(f, bits).add(g, bits);
         let force = f.subtract(g, bits).multiply(&self.impedance, bits).add(&self.force, bits);
         let displacement = self.displacement.add(sum_f, bits).add(sum_g, bits);

@@ -7,6 +7,7 @@
 //! Values come with proven bounds. At a front, where a field jumps, the side is stated.
 
 mod characteristics;
+mod entering;
 mod error;
 mod evaluator;
 mod fields;
@@ -14,6 +15,7 @@ mod mesh;
 mod profile;
 
 pub use characteristics::{BarWaves, Front, Strip};
+pub(crate) use entering::{Entering, EnteringWaves, Heading, Instant, Order};
 pub use error::FieldError;
 pub use evaluator::FieldEvaluator;
 pub use fields::{BarFields, Bounded, Fields, Quantity};

@@ -1,10 +1,11 @@
 //! Fields along a bar as a person would draw them: exact at the fronts, from both sides.
 
+use super::entering::{Entering, Heading};
 use super::evaluator::Node;
 use super::{FieldError, FieldEvaluator};
 use crate::evaluate::EvaluateError;
 use crate::expression::Fraction;
-use crate::network::{Extent, FieldBar, Way};
+use crate::network::Extent;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -54,16 +55,17 @@ impl FieldEvaluator {
         if time > self.last() {
             return Err(EvaluateError::AfterLast.into());
         }
-        self.bars.iter().map(|bar| self.profile(bar, time, points)).collect()
+        (0..self.bars.len()).map(|bar| self.profile(bar, time, points)).collect()
     }
 
     fn profile(
         &self,
-        bar: &FieldBar,
+        bar_place: usize,
         time: &Rational,
         points: usize,
     ) -> Result<Profile, FieldError> {
-        let at = self.waves.scaled(time);
+        let bar = &self.bars[bar_place];
+        let at = self.network().scaled_time(time);
         let (span, length) = self.span_looked_at(bar, self.last())?;
         let mut profile =
             Profile { name: self.name(bar).to_owned(), length, stretches: Vec::new() };
@@ -72,12 +74,13 @@ impl FieldEvaluator {
         }
         // The delay of a place, from the end where x is zero.
         let mut places = vec![Fraction::zero(), span.clone()];
-        for (way, grows) in [(&bar.right, true), (&bar.left, bar.extent == Extent::ToTheLeft)] {
-            for delay in self.fronts(way.as_ref(), &at, &span)? {
+        for heading in [Heading::Right, Heading::Left] {
+            let grows = heading == Heading::Right || bar.extent == Extent::ToTheLeft;
+            for delay in self.fronts(Entering { bar: bar_place, heading }, &at, &span)? {
                 places.push(if grows { delay } else { &span - &delay });
             }
         }
-        let numbers = self.waves.numbers();
+        let numbers = &self.numbers;
         let mut failed = None;
         places.sort_by(|a, b| {
             numbers.compare(a, b).unwrap_or_else(|error| {
@@ -103,10 +106,10 @@ impl FieldEvaluator {
                         Extent::ToTheRight => [from, Fraction::zero()],
                         Extent::ToTheLeft => [Fraction::zero(), from],
                     };
-                    Node { delays, from_larger: i < count }
+                    Node { delays, from_larger: i < count, is_drawn: true }
                 })
                 .collect();
-            let (found, bits) = self.fine(|bits| self.at_nodes(bar, &at, &nodes, bits))?;
+            let (found, bits) = self.fine(|bits| self.at_nodes(bar_place, &at, &nodes, bits))?;
             let values = self.in_units(bar, &found, bits)?;
             let mut stretch = Vec::with_capacity(nodes.len());
             for i in 0..=count {
@@ -121,13 +124,11 @@ impl FieldEvaluator {
     /// The delays after which something of a wave is seen to arrive, within a bar.
     fn fronts(
         &self,
-        way: Option<&Way>,
+        wave: Entering,
         at: &Fraction,
         span: &Fraction,
     ) -> Result<Vec<Fraction>, FieldError> {
-        let Some(way) = way else { return Ok(Vec::new()) };
-        let now = at + &way.lead;
-        let breaks = self.waves.breaks(&(&now - span), &now)?;
-        Ok(breaks.into_iter().map(|at| &now - &at).collect())
+        let breaks = self.waves.breaks(wave, &(at - span)..=at)?;
+        Ok(breaks.into_iter().map(|entered| at - &entered).collect())
     }
 }

@@ -3,7 +3,7 @@
 use super::Listed;
 use super::error::FigureError;
 use super::scene::{caption, network, ratio};
-use crate::field::Quantity;
+use crate::field::{FieldEvaluator, Quantity};
 use crate::picture::{along_the_line, lagrange};
 use crate::plot::Chart;
 
@@ -15,7 +15,9 @@ pub(super) fn diagram_of_impact(listed: &Listed) -> Result<Box<dyn Chart>, Figur
         "The contact is kept closed; for Z1 < Z2 the bars part at 2L/c.",
     ];
     let window = [&ratio(0, 1), &ratio(6, 1)];
-    let diagram = lagrange(&network, Quantity::Velocity, window, caption(listed.number, &remarks))?;
+    let evaluator = FieldEvaluator::new(&network, window[1])?;
+    let caption = caption(listed.number, &remarks);
+    let diagram = lagrange(&evaluator, Quantity::Velocity, window, caption)?;
     Ok(Box::new(diagram.titled(listed.title)))
 }
 
@@ -28,7 +30,9 @@ pub(super) fn progress(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
         "The pulse is 2L long; at 2L/c the striker is at rest, and the contact free of force.",
     ];
     let fields = [Quantity::Velocity, Quantity::Force];
-    let figure = along_the_line(&network, &fields, &times, caption(listed.number, &remarks))?;
+    let evaluator = FieldEvaluator::new(&network, &times[times.len() - 1])?;
+    let caption = caption(listed.number, &remarks);
+    let figure = along_the_line(&evaluator, &fields, &times, caption)?;
     Ok(Box::new(figure.titled(listed.title)))
 }
 
@@ -40,7 +44,9 @@ pub(super) fn pushed_fields(listed: &Listed) -> Result<Box<dyn Chart>, FigureErr
         ["Times in L/c, velocities in cX/EA, forces in X: what the front has passed moves by \
                     one unit more."];
     let fields = [Quantity::Velocity, Quantity::Force];
-    let figure = along_the_line(&network, &fields, &times, caption(listed.number, &remarks))?;
+    let evaluator = FieldEvaluator::new(&network, &times[times.len() - 1])?;
+    let caption = caption(listed.number, &remarks);
+    let figure = along_the_line(&evaluator, &fields, &times, caption)?;
     Ok(Box::new(figure.titled(listed.title)))
 }
 
@@ -49,6 +55,8 @@ pub(super) fn pushed_diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureEr
     let network = network("pushed-bar", &[]);
     let window = [&ratio(0, 1), &ratio(6, 1)];
     let remarks = ["Times in L/c, velocities in cX/EA."];
-    let diagram = lagrange(&network, Quantity::Velocity, window, caption(listed.number, &remarks))?;
+    let evaluator = FieldEvaluator::new(&network, window[1])?;
+    let caption = caption(listed.number, &remarks);
+    let diagram = lagrange(&evaluator, Quantity::Velocity, window, caption)?;
     Ok(Box::new(diagram.titled(listed.title)))
 }

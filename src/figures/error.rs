@@ -2,6 +2,7 @@
 
 use crate::dispersion::DispersionError;
 use crate::evaluate::EvaluateError;
+use crate::field::FieldError;
 use crate::hertz::HertzError;
 use crate::picture::PictureError;
 use crate::plot::PlotError;
@@ -69,3 +70,9 @@ from!(DispersionError, Dispersion);
 from!(EvaluateError, Evaluate);
 from!(PictureError, Picture);
 from!(PlotError, Plot);
+
+impl From<FieldError> for FigureError {
+    fn from(error: FieldError) -> FigureError {
+        PictureError::from(error).into()
+    }
+}

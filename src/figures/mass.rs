@@ -5,7 +5,7 @@ use super::error::FigureError;
 use super::largest_strain::LargestStrain;
 use super::scene::{caption, course, network, ratio, recurrence};
 use crate::ball::Ball;
-use crate::field::Quantity;
+use crate::field::{FieldEvaluator, Quantity};
 use crate::picture::lagrange;
 use crate::plot::{Axis, Chart, Figure, Look, Panel, Series};
 
@@ -23,7 +23,9 @@ pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let remarks =
         ["The mass of the bar is half the striking mass. Times in M/Z, strains in V/c. The mass \
                     is kept on the bar."];
-    let diagram = lagrange(&network, Quantity::Strain, window, caption(listed.number, &remarks))?;
+    let evaluator = FieldEvaluator::new(&network, window[1])?;
+    let caption = caption(listed.number, &remarks);
+    let diagram = lagrange(&evaluator, Quantity::Strain, window, caption)?;
     Ok(Box::new(diagram.titled(listed.title)))
 }
 

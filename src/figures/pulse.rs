@@ -3,7 +3,7 @@
 use super::Listed;
 use super::error::FigureError;
 use super::scene::{caption, course, network, ratio, recurrence};
-use crate::field::Quantity;
+use crate::field::{FieldEvaluator, Quantity};
 use crate::picture::lagrange;
 use crate::plot::{Axis, Chart, Figure, Panel, Series};
 
@@ -12,7 +12,9 @@ pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let network = network("cushioned-impact", &[("mu", ratio(1, 1))]);
     let window = [&ratio(0, 1), &ratio(6, 1)];
     let remarks = ["The contact is kept closed."];
-    let diagram = lagrange(&network, Quantity::Force, window, caption(listed.number, &remarks))?;
+    let evaluator = FieldEvaluator::new(&network, window[1])?;
+    let caption = caption(listed.number, &remarks);
+    let diagram = lagrange(&evaluator, Quantity::Force, window, caption)?;
     Ok(Box::new(diagram.titled(listed.title)))
 }
 

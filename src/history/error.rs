@@ -3,6 +3,7 @@
 use crate::ball::Ball;
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
+use crate::field::FieldError;
 use std::fmt;
 use wavestep_polynomial::Symbol;
 
@@ -58,6 +59,8 @@ pub enum HistoryError {
     Evaluate(Box<EvaluateError>),
     /// A window that does not end after it begins, at or after time 0.
     EmptyWindow,
+    /// Fields along the bars cannot be given.
+    Field(Box<FieldError>),
 }
 
 impl From<EnclosureError> for HistoryError {
@@ -103,6 +106,7 @@ impl fmt::Display for HistoryError {
                 let at = at.to_decimal(8);
                 write!(f, "more than {limit} cells of waves; followed until t = {at}")
             }
+            Self::Field(error) => error.fmt(f),
             Self::AfterLast => f.write_str("a time after the last one that was followed"),
             Self::Evaluate(error) => error.fmt(f),
             Self::EmptyWindow => f.write_str("the window is empty, or begins before time 0"),

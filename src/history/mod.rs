@@ -5,8 +5,9 @@
 //! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
 //! cannot be decided is refused by name.
 //!
-//! Read `engine` for the way from cell to cell, `crossing` for the proof that nothing is passed over,
-//! `observe` and `phased` for what is seen of it, `series` for the arithmetic, `body` for energies and for why bodies never meet again.
+//! Read `engine` for the way from cell to cell, `reading` for what is taken from it, `crossing` for the proof that nothing is passed over,
+//! `observe` and `phased` for what is seen of it, `waves` for the fields along the bars, `series` for the
+//! arithmetic, `body` for energies and for why bodies never meet again.
 
 mod body;
 mod crossing;
@@ -22,9 +23,11 @@ mod number;
 mod observe;
 mod part;
 mod phased;
+mod reading;
 mod series;
 mod track;
+mod waves;
 
 pub use error::HistoryError;
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History, MAX_BITS};
-pub(crate) use phased::PhasedSignal;
+pub use waves::field_evaluator;

@@ -137,6 +137,9 @@ impl Engine {
     /// # Errors
     /// [`HistoryError::Refused`] for energies and momenta, and for what is not measured.
     pub fn parts(&self, network: &Network, seen: &Seen) -> Outcome<Vec<Part>> {
+        if matches!(seen.measure, Measure::Energy | Measure::Momentum) {
+            return refuse("energies and momenta are followed by `eval` and `plot` alone");
+        }
         let bits = self.cut.bits;
         let coefficient = self.clock.number(&seen.coefficient)?;
         let unit = self.unit_of(network, seen.measure)?.multiply(&coefficient, bits);

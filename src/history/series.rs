@@ -359,6 +359,27 @@ mod tests {
         }
     }
 
+    /// The slope of e^{−x} is −e^{−x}, of two terms as well as of many; that of an integral is what was
+    /// integrated.
+    #[test]
+    fn slopes_are_enclosed() {
+        let x = rational(1, 2);
+        let at = Number::Exact(x.clone());
+        for rate in [2, 0, 1] {
+            let cut = Truncation::new(128, rate);
+            let slope = decay(&cut).derivative(&cut);
+            assert!(encloses(&slope.value(&at, &cut).negate(), &exponential(&x), 100));
+            let again = decay(&cut).integral(Number::one(), &cut).derivative(&cut);
+            assert!(encloses(&again.value(&at, &cut), &exponential(&x), 100));
+        }
+        let few = Truncation { bits: 128, order: 2, rate: 1 };
+        let slope = decay(&few).derivative(&few).value(&at, &few).ball(128);
+        assert!(slope.add(&exponential(&x), 900).contains_zero());
+        assert!(!slope.subtract(&exponential(&x), 900).contains_zero());
+        let line = Series::new(vec![Number::one(), Number::integer(5)], Magnitude::ZERO);
+        assert_eq!(line.derivative(&few), Series::constant(Number::integer(5)));
+    }
+
     /// With two terms only, the bound of the rest is what encloses.
     #[test]
     fn few_terms_enclose_by_their_bound() {

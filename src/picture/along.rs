@@ -5,7 +5,6 @@ use super::{PictureError, Prefixed};
 use crate::ball::Ball;
 use crate::field::{FieldEvaluator, Profile, Quantity};
 use crate::language::unit_of;
-use crate::network::Network;
 use crate::plot::{Caption, Figure, Panel, Series};
 use crate::scene::End;
 use wavestep_polynomial::Rational;
@@ -13,13 +12,14 @@ use wavestep_polynomial::Rational;
 /// How many points a bar has where fields are not constant.
 const POINTS: usize = 160;
 
-/// A figure of fields along the line: a panel for each, with one line for each time.
+/// A figure of fields along the line: a panel for each, with one line for each time, none of them after
+/// the last one of the evaluator.
 ///
 /// # Errors
 /// [`PictureError`].
 ///
 /// ```
-/// use wavestep::field::Quantity;
+/// use wavestep::field::{FieldEvaluator, Quantity};
 /// use wavestep::language::{Source, parse_number, read_scene};
 /// use wavestep::network::Network;
 /// use wavestep::picture::along_the_line;
@@ -30,21 +30,22 @@ const POINTS: usize = 160;
 /// let network = Network::new(&scene).unwrap();
 /// let times = [parse_number("50e-6")?, parse_number("100e-6")?];
 /// let fields = [Quantity::Velocity, Quantity::Force];
-/// let figure = along_the_line(&network, &fields, &times, Caption::default()).unwrap();
+/// let evaluator = FieldEvaluator::new(&network, &times[1]).unwrap();
+/// let figure = along_the_line(&evaluator, &fields, &times, Caption::default()).unwrap();
 /// assert_eq!(figure.panels().len(), 2);
 /// assert!(figure.svg().contains("t = 50 µs") && figure.svg().contains("force (kN)"));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub fn along_the_line(
-    network: &Network,
+    evaluator: &FieldEvaluator,
     quantities: &[Quantity],
     times: &[Rational],
     caption: Caption,
 ) -> Result<Figure, PictureError> {
-    let Some(last) = times.iter().max() else {
+    if times.is_empty() {
         return Err(PictureError::Evaluate(crate::evaluate::EvaluateError::EmptyWindow));
-    };
-    let evaluator = FieldEvaluator::new(network, last)?;
+    }
+    let network = evaluator.network();
     let mut found: Vec<Vec<Profile>> = Vec::with_capacity(times.len());
     for time in times {
         found.push(evaluator.profiles(time, POINTS)?);

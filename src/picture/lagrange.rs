@@ -11,7 +11,8 @@ use wavestep_polynomial::Rational;
 /// How many strips a wave that is not constant has on a window.
 const STRIPS: usize = 96;
 
-/// The diagram of a scene's velocity, strain or force on a window of time.
+/// The diagram of a scene's velocity, strain or force on a window of time, up to the last time of its
+/// evaluator.
 ///
 /// Where two constant waves cross, a cell is exact and as large as it can be; where a wave bends, it
 /// is cut into strips. No cell reaches over a front.
@@ -20,7 +21,7 @@ const STRIPS: usize = 96;
 /// [`PictureError`].
 ///
 /// ```
-/// use wavestep::field::Quantity;
+/// use wavestep::field::{FieldEvaluator, Quantity};
 /// use wavestep::language::{Source, parse_number, read_scene};
 /// use wavestep::network::Network;
 /// use wavestep::picture::lagrange;
@@ -30,15 +31,16 @@ const STRIPS: usize = 96;
 /// let scene = read_scene(&Source::new("pushed-bar", text)?, &Default::default()).unwrap();
 /// let network = Network::new(&scene).unwrap();
 /// let (from, to) = (parse_number("0")?, parse_number("4")?);
+/// let evaluator = FieldEvaluator::new(&network, &to).unwrap();
 /// let diagram =
-///     lagrange(&network, Quantity::Velocity, [&from, &to], Caption::default()).unwrap();
+///     lagrange(&evaluator, Quantity::Velocity, [&from, &to], Caption::default()).unwrap();
 /// // The bar moves the faster the more often the front has passed: 0, 1, 2, 3, 4.
 /// assert_eq!(diagram.colours(), (0.0, 4.0));
 /// assert_eq!(diagram.json()["lines"].as_array().unwrap().len(), 4);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub fn lagrange(
-    network: &Network,
+    evaluator: &FieldEvaluator,
     quantity: Quantity,
     [from, to]: [&Rational; 2],
     caption: Caption,
@@ -46,7 +48,8 @@ pub fn lagrange(
     if quantity == Quantity::Displacement {
         return Err(PictureError::NoDiagram(quantity));
     }
-    let bars = FieldEvaluator::new(network, to)?.waves([from, to], STRIPS)?;
+    let network = evaluator.network();
+    let bars = evaluator.waves([from, to], STRIPS)?;
     let places = Places::of(network, bars.iter().map(|bar| bar.length))?;
     let end = |bar: &BarWaves| bar.right.last().map_or(0.0, |strip| strip.to);
     let begin = |bar: &BarWaves| {

@@ -2,11 +2,9 @@
 
 use crate::ball::Ball;
 use crate::evaluate::{
-    At, Determined, EvaluateError, ObservedSignal, Piecewise, SceneEvaluator, Side, Signal,
+    At, Determined, EvaluateError, ObservedSignal, Piecewise, SceneEvaluator, Search, Side, Signal,
 };
-use crate::history::{History, HistoryError, PhasedSignal};
 use crate::network::{Network, Observed};
-use crate::scene::Measure;
 use wavestep_polynomial::Rational;
 
 /// Digits of energies.
@@ -79,43 +77,30 @@ pub fn sampled(signal: Signal, from: &Rational, to: &Rational) -> Result<Sampled
     sample(&ObservedSignal::of_signal(signal, [from, to])?)
 }
 
-/// Samples an observable across all phases of a scene's contacts, as [`sampled`] does; energies and
-/// momenta at so many equal steps.
+/// Samples what roots and extrema are looked for in, as [`sampled`] does; so for observables of scenes whose
+/// contacts open.
 ///
 /// # Errors
-/// [`HistoryError`], as of [`History::search`].
+/// [`EvaluateError`].
 ///
 /// ```
+/// use wavestep::history::History;
 /// use wavestep::language::{Source, parse_number, read_scene};
 /// use wavestep::network::Network;
-/// use wavestep::picture::sampled_phases;
+/// use wavestep::picture::sampled_search;
 ///
 /// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed\n\
 ///             contacts open\nobserve v = velocity(rod.at(1/2))";
 /// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
 /// let network = Network::new(&scene).unwrap();
 /// let window = [parse_number("0")?, parse_number("9")?];
-/// let line = sampled_phases(&network, "v", [&window[0], &window[1]], 9).unwrap();
+/// let search = History::search(&network, "v", [&window[0], &window[1]]).unwrap();
 /// // The bar is stopped, and thrown back from the wall.
-/// assert_eq!(line.jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
+/// assert_eq!(sampled_search(&search).unwrap().jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub fn sampled_phases(
-    network: &Network,
-    observable: &str,
-    [from, to]: [&Rational; 2],
-    steps: usize,
-) -> Result<Sampled, HistoryError> {
-    let seen = History::observable(network, observable)?;
-    if seen.terms.iter().all(|term| !matches!(term.measure, Measure::Energy | Measure::Momentum)) {
-        let signal = PhasedSignal::new(network, observable, [from, to])?;
-        return Ok(sample(&signal)?);
-    }
-    let time = |step: usize| from + (to - from) * Rational::new(step.into(), steps.max(1).into());
-    let times: Vec<Rational> = (0..=steps).map(time).collect();
-    let values = History::values(network, observable, &times, Side::Right, DIGITS)?;
-    let points = times.iter().zip(values).map(|(time, value)| (double(time), value.to_double()));
-    Ok(Sampled { points: points.collect(), jumps: Vec::new() })
+pub fn sampled_search(search: &Search<'_>) -> Result<Sampled, EvaluateError> {
+    sample(search.function.as_ref())
 }
 
 fn sample(function: &dyn Piecewise) -> Result<Sampled, EvaluateError> {

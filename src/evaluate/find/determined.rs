@@ -45,8 +45,17 @@ impl Determined {
         }
     }
 
-    /// A double near it.
-    pub(crate) fn to_double(&self) -> f64 {
+    /// A double near it, for pictures.
+    ///
+    /// ```
+    /// use wavestep::evaluate::{Determined, Value};
+    /// use wavestep::language::parse_number;
+    ///
+    /// let third = Determined::Digits(Value::Exact(parse_number("1/3")?));
+    /// assert_eq!(third.to_double(), 1.0 / 3.0);
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn to_double(&self) -> f64 {
         match self {
             Determined::Digits(Value::Exact(value)) => {
                 Ball::from_rational(value, DOUBLE_BITS).to_double().0

@@ -1,0 +1,340 @@
+//! Observables as functions of time: where they are smooth, and enclosures there.
+//!
+//! Between two arrivals an observable is one exponential polynomial. On a grid it is made of one piece
+//! of each wave that is seen; on a lattice of all echoes that have arrived. Either way it can be
+//! enclosed at a time, and expanded about a time with a proven remainder: what tables of polynomials,
+//! roots and largest values are made from. [`stretch`] tells where it is smooth, [`values`] what it is
+//! there.
+
+mod stretch;
+mod values;
+
+pub use stretch::Stretch;
+
+use crate::enclosure::Numbers;
+use crate::evaluate::cells::first_double;
+use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::periods::Periods;
+use crate::evaluate::scene::{Echoes, SceneEvaluator, solve_in, whole_periods};
+use crate::expression::{Fraction, Root};
+use crate::network::{Network, Observed, ObservedValue, Unfolded};
+use crate::recurrence::{Observation, Recurrence};
+use crate::solution::Demand;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// The most periods whose pieces are held: their coefficients grow with the square of that.
+///
+/// ```
+/// use wavestep::evaluate::{EvaluateError, MAX_PIECES, Signal};
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1/2")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let late = parse_number(&format!("{MAX_PIECES} + 2"))?;
+/// let stretches = signal.stretches(&(&late - parse_number("1/2")?), &late).unwrap();
+/// let refused = signal.enclose(&stretches[0], 0, stretches[0].from(), 64);
+/// assert!(matches!(refused, Err(EvaluateError::TooManyEchoes { limit: MAX_PIECES, .. })));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub const MAX_PIECES: usize = 2_000;
+
+/// The most stretches between arrivals of one window.
+const MAX_STRETCHES: usize = 200_000;
+
+/// The most periods that are counted.
+const MAX_ORDER: usize = 1_000_000_000;
+
+/// At how many precisions the waves are held at once.
+const MAX_PRECISIONS: usize = 3;
+
+/// An observable with numbers in place of all symbols, as a function of the user's time.
+///
+/// ```
+/// use wavestep::evaluate::{Side, Signal};
+/// use wavestep::expression::Fraction;
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// assert_eq!(signal.recurrence().statement().period.to_string(), "2");
+/// assert_eq!(signal.observation().waves.len(), 1);
+/// assert!(signal.is_on_grid() && *signal.slowness() == Fraction::one());
+/// assert_eq!(signal.period(), Some(2.0));
+///
+/// let (from, to) = (parse_number("0")?, parse_number("6")?);
+/// assert_eq!(signal.arrivals(&from, &to).unwrap(), [2.0, 4.0, 6.0]);
+/// assert_eq!(signal.order(&to), Ok(3));
+/// // One stretch for each arrival, the one at 0 included.
+/// let stretches = signal.stretches(&from, &to).unwrap();
+/// assert_eq!(stretches.len(), 4);
+/// let two = parse_number("2")?;
+/// assert_eq!(signal.stretch_at(&stretches, &two, Side::Left), Ok(0));
+/// assert_eq!(signal.stretch_at(&stretches, &two, Side::Right), Ok(1));
+/// // On the first one f = e^{−t}, whose derivative is −f; at 2 it rises by 1.
+/// let at = |stretch: usize, derivative, t: &str| {
+///     let time = signal.slowness().scale(&parse_number(t).unwrap());
+///     signal.enclose(&stretches[stretch], derivative, &time, 128).unwrap()
+/// };
+/// assert_eq!(at(0, 0, "1").rounded(), Some(0.36787944117144233));
+/// assert_eq!(at(0, 1, "1").rounded(), Some(-0.36787944117144233));
+/// assert!(at(1, 0, "2").subtract(&at(0, 0, "2"), 128).contains(&parse_number("1")?));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+///
+/// The observables of a scene are signals too:
+///
+/// ```
+/// use wavestep::evaluate::Signal;
+/// use wavestep::language::{Source, parse_number, read_scene};
+/// use wavestep::network::Network;
+///
+/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
+/// let network = Network::new(&scene).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("6")?);
+/// let signal = |place: usize| Signal::of_scene(&network, &network.observables()[place], &to);
+/// // The front reaches the far end at 1, and again every 2.
+/// assert_eq!(signal(2).unwrap().arrivals(&from, &to).unwrap(), [1.0, 3.0, 5.0]);
+/// let error = signal(4).err().unwrap();
+/// assert!(error.to_string().contains("energy"), "{error}");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub struct Signal {
+    recurrence: Recurrence,
+    observation: Observation,
+    /// What 1 in the scale of the waves is.
+    unit: Root,
+    /// Time in the scale of the waves for one unit of the user's.
+    slowness: Fraction,
+    numbers: Rc<Numbers>,
+    /// The echoes, where arrivals lie on no grid.
+    lattice: Option<Scattered>,
+    /// The waves, by bits.
+    solved: RefCell<BTreeMap<u64, Rc<RefCell<Solved>>>>,
+}
+
+/// Echoes on a lattice of several periods.
+struct Scattered {
+    unfolded: Unfolded,
+    /// By number, with their delays.
+    arrivals: Vec<(usize, Fraction)>,
+    /// Until when they are known.
+    last: Fraction,
+}
+
+/// The waves, in balls.
+enum Solved {
+    Periods(Box<Periods>),
+    Echoes(Rc<Echoes>),
+}
+
+impl Signal {
+    /// A wave or observable of a recurrence without symbols.
+    ///
+    /// # Errors
+    /// [`EvaluateError::MissingValue`] where a symbol is left.
+    pub fn of_recurrence(
+        recurrence: &Recurrence,
+        observation: &Observation,
+    ) -> Result<Signal, EvaluateError> {
+        Signal::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
+    }
+
+    /// An observable of a scene, for times up to `last`; on a grid this may be any.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where a symbol has no value or too many echoes arrive;
+    /// [`EvaluateError::NotLinear`] for energies.
+    pub fn of_scene(
+        network: &Network,
+        observed: &Observed,
+        last: &Rational,
+    ) -> Result<Signal, EvaluateError> {
+        let ObservedValue::Linear(observation) = &observed.value else {
+            return Err(EvaluateError::NotLinear(observed.name.clone()));
+        };
+        let (unit, slowness) = (observed.unit.clone(), network.model().slowness.clone());
+        if network.lattice().periods().len() == 1 {
+            let recurrence = network.recurrence()?;
+            return Signal::on_grid(&recurrence, observation, unit, slowness);
+        }
+        let last = slowness.scale(last);
+        let evaluator = SceneEvaluator::new(network, &last)?;
+        let (unfolded, arrivals) = evaluator.into_parts();
+        let signal = Signal::on_grid(unfolded.recurrence(), observation, unit, slowness)?;
+        Ok(Signal { lattice: Some(Scattered { unfolded, arrivals, last }), ..signal })
+    }
+
+    fn on_grid(
+        recurrence: &Recurrence,
+        observation: &Observation,
+        unit: Root,
+        slowness: Fraction,
+    ) -> Result<Signal, EvaluateError> {
+        if let Some(symbol) = recurrence.symbols().next() {
+            return Err(EvaluateError::MissingValue(symbol.clone()));
+        }
+        Ok(Signal {
+            numbers: Rc::new(Numbers::new(recurrence.constants())),
+            recurrence: recurrence.clone(),
+            observation: observation.clone(),
+            unit,
+            slowness,
+            lattice: None,
+            solved: RefCell::default(),
+        })
+    }
+
+    /// The recurrence of the waves that are seen.
+    pub fn recurrence(&self) -> &Recurrence {
+        &self.recurrence
+    }
+
+    /// What is seen of them.
+    pub fn observation(&self) -> &Observation {
+        &self.observation
+    }
+
+    /// The numbers of its constants.
+    pub(crate) fn numbers(&self) -> &Numbers {
+        &self.numbers
+    }
+
+    /// What 1 in the scale of the waves is.
+    pub(crate) fn unit(&self) -> &Root {
+        &self.unit
+    }
+
+    /// Time in the scale of the waves for one unit of the user's.
+    pub fn slowness(&self) -> &Fraction {
+        &self.slowness
+    }
+
+    /// The length of a period in the user's time, near it; `None` on a lattice.
+    pub fn period(&self) -> Option<f64> {
+        let period = self.numbers.enclose(&self.recurrence.statement().period, 128).ok()?;
+        let slowness = self.numbers.enclose(&self.slowness, 128).ok()?;
+        let inverse = slowness.reciprocal(128).ok()?;
+        self.is_on_grid().then(|| period.multiply(&inverse, 128).to_double().0)
+    }
+
+    /// The smallest doubles that are not before the arrivals within a window, its ends apart.
+    ///
+    /// # Errors
+    /// As [`Signal::stretches`].
+    pub fn arrivals(&self, from: &Rational, to: &Rational) -> Result<Vec<f64>, EvaluateError> {
+        let stretches = self.stretches(from, to)?;
+        stretches.iter().skip(1).map(|stretch| first_double(self, &stretch.from)).collect()
+    }
+
+    /// Whether unit and time are those of the waves, but for rational factors.
+    pub(crate) fn is_rational(&self) -> bool {
+        let unit = self.unit.exact().and_then(|unit| unit.as_constant());
+        unit.is_some() && self.slowness.as_constant().is_some()
+    }
+
+    /// Whether arrivals lie on one grid, so that pieces follow from earlier ones.
+    pub fn is_on_grid(&self) -> bool {
+        self.lattice.is_none()
+    }
+
+    /// How many periods have begun at a time, or one more; on a lattice, how many echoes can have
+    /// arrived.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyEchoes`] beyond a thousand million.
+    pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
+        let at = self.slowness.scale(at);
+        match &self.lattice {
+            None => {
+                // A wave may be seen before its own clock.
+                let period = &self.recurrence.statement().period;
+                let mut order = whole_periods(&self.numbers, &at, period, MAX_ORDER)?;
+                for seen in &self.observation.waves {
+                    let since = &at - &seen.delay;
+                    order = order.max(whole_periods(&self.numbers, &since, period, MAX_ORDER)?);
+                }
+                Ok(order)
+            }
+            Some(lattice) => Ok(lattice.arrivals.len()),
+        }
+    }
+
+    fn solved(&self, bits: u64) -> Result<Rc<RefCell<Solved>>, EvaluateError> {
+        if let Some(known) = self.solved.borrow().get(&bits) {
+            return Ok(known.clone());
+        }
+        let solved = match &self.lattice {
+            None => Solved::Periods(Box::new(Periods::new(
+                &self.recurrence,
+                self.numbers.clone(),
+                bits,
+            )?)),
+            Some(lattice) => {
+                let demand = self.demand(&lattice.arrivals);
+                let (echoes, _) = solve_in(&self.recurrence, self.numbers.field(bits), demand)?;
+                Solved::Echoes(Rc::new(echoes))
+            }
+        };
+        let solved = Rc::new(RefCell::new(solved));
+        let mut known = self.solved.borrow_mut();
+        // With more bits wanted, those with few have done their work.
+        while known.len() >= MAX_PRECISIONS {
+            known.pop_first();
+        }
+        known.insert(bits, solved.clone());
+        Ok(solved)
+    }
+
+    /// The echoes that are there until a time, by wave and number, with their numbers and delays.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyEchoes`] beyond `limit`.
+    pub(crate) fn echoes(
+        &self,
+        to: &Rational,
+        limit: usize,
+        bits: u64,
+    ) -> Result<(Echoes, Vec<(usize, Fraction)>), EvaluateError> {
+        let order = self.order(to)?;
+        if order > limit {
+            return Err(EvaluateError::TooManyEchoes { echoes: order as u128, limit });
+        }
+        let arrivals = match &self.lattice {
+            Some(lattice) => lattice.arrivals.clone(),
+            None => {
+                let period = &self.recurrence.statement().period;
+                let delay = |k: usize| period.scale(&Rational::from_integer(k.into()));
+                (0..=order).map(|k| (k, delay(k))).collect()
+            }
+        };
+        let (echoes, _) =
+            solve_in(&self.recurrence, self.numbers.field(bits), self.demand(&arrivals))?;
+        Ok((echoes, arrivals))
+    }
+
+    /// The echoes that are needed for those of the waves that are seen.
+    fn demand(&self, arrivals: &[(usize, Fraction)]) -> Demand {
+        let mut demand = Demand::none(&self.recurrence);
+        let exists = |k| self.lattice.as_ref().is_none_or(|l| l.unfolded.counts(k).is_some());
+        for seen in &self.observation.waves {
+            for (number, _) in arrivals {
+                demand.add_where(&self.recurrence, seen.wave, *number, exists);
+            }
+        }
+        demand
+    }
+
+    /// On a lattice, the echoes that can arrive: their numbers and delays.
+    pub(crate) fn scattered(&self) -> Option<&[(usize, Fraction)]> {
+        self.lattice.as_ref().map(|lattice| &lattice.arrivals[..])
+    }
+}

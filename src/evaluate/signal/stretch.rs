@@ -1,0 +1,206 @@
+//! Stretches between arrivals, on each of which a signal is one exponential polynomial.
+
+use super::{MAX_STRETCHES, Signal};
+use crate::enclosure::{EnclosureError, Numbers};
+use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::scene::{MAX_ECHOES, whole_periods};
+use crate::expression::Fraction;
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// A part of a signal: a piece of a wave, or an echo.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    /// Which of the waves that are seen.
+    pub(super) seen: usize,
+    /// The period, or the number of the echo.
+    pub(super) number: usize,
+    /// When it began, in the scale of the waves.
+    pub(super) origin: Fraction,
+}
+
+/// A time between arrivals, on which a signal is one exponential polynomial.
+///
+/// ```
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("strain_fixed").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("6")?);
+/// let stretches = signal.stretches(&from, &to).unwrap();
+/// // The far end is at rest until the front is there, at 1.
+/// assert!(stretches[0].from().is_zero() && stretches[0].to().to_string() == "1");
+/// let silent: Vec<bool> = stretches.iter().map(|stretch| stretch.from().is_zero()).collect();
+/// assert_eq!(silent, [true, false, false, false]);
+/// // Each begins where the one before it ends.
+/// assert!(stretches.windows(2).all(|pair| pair[0].to() == pair[1].from()));
+/// // Time has begun on all of them; before 0 there is nothing.
+/// let before = signal.stretches(&parse_number("-1")?, &to).unwrap();
+/// assert!(before[0].is_silent() && !stretches[0].is_silent());
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Stretch {
+    /// Its first time, in the scale of the waves.
+    pub(super) from: Fraction,
+    /// Its end: the next arrival, or the end of the window.
+    pub(super) to: Fraction,
+    pub(super) parts: Vec<Part>,
+    /// Whether time has begun.
+    pub(super) begun: bool,
+}
+
+/// An arrival: which of the waves seen, the number of the piece or echo, and when.
+type Break = (Option<usize>, usize, Fraction);
+
+impl Signal {
+    /// The arrivals after `from`, up to `to`, ascending, and those that are there at `from`.
+    fn breaks(
+        &self,
+        from: &Fraction,
+        to: &Fraction,
+    ) -> Result<(Vec<Break>, Vec<Break>), EvaluateError> {
+        let mut before = Vec::new();
+        let mut after = Vec::new();
+        let mut place = |found: Break| -> Result<bool, EvaluateError> {
+            if self.numbers.compare(&found.2, to)? == Ordering::Greater {
+                return Ok(false);
+            }
+            match self.numbers.compare(&found.2, from)? {
+                Ordering::Greater => after.push(found),
+                _ => before.push(found),
+            }
+            Ok(true)
+        };
+        place((None, 0, Fraction::zero()))?;
+        let period = &self.recurrence.statement().period;
+        for (seen, wave) in self.observation.waves.iter().enumerate() {
+            match &self.lattice {
+                None => {
+                    // The last piece that is there at `from` is the only one that still counts.
+                    let first =
+                        whole_periods(&self.numbers, &(from - &wave.delay), period, MAX_ECHOES)?
+                            .max(1)
+                            - 1;
+                    for n in first.. {
+                        let delay = period.scale(&Rational::from_integer(n.into()));
+                        if n > MAX_ECHOES {
+                            let (echoes, limit) = (n as u128, MAX_ECHOES);
+                            return Err(EvaluateError::TooManyEchoes { echoes, limit });
+                        }
+                        if !place((Some(seen), n, &delay + &wave.delay))? {
+                            break;
+                        }
+                    }
+                }
+                Some(lattice) => {
+                    for (number, delay) in &lattice.arrivals {
+                        place((Some(seen), *number, delay + &wave.delay))?;
+                    }
+                }
+            }
+        }
+        if after.len() > MAX_STRETCHES {
+            let (echoes, limit) = (after.len() as u128, MAX_STRETCHES);
+            return Err(EvaluateError::TooManyEchoes { echoes, limit });
+        }
+        Ok((before, sorted(after, &self.numbers)?))
+    }
+
+    /// The stretches of a window in the user's time, in order.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where the order of two arrivals cannot be told, or there are too many.
+    pub fn stretches(&self, from: &Rational, to: &Rational) -> Result<Vec<Stretch>, EvaluateError> {
+        let (from, to) = (self.slowness.scale(from), self.slowness.scale(to));
+        if let Some(lattice) = &self.lattice
+            && self.numbers.compare(&to, &lattice.last)? == Ordering::Greater
+        {
+            return Err(EvaluateError::AfterLast);
+        }
+        let (before, after) = self.breaks(&from, &to)?;
+        let mut now = Stretch { from, to: to.clone(), parts: Vec::new(), begun: false };
+        before.into_iter().for_each(|found| self.arrive(&mut now, found));
+        let mut stretches = Vec::new();
+        for found in after {
+            if self.numbers.compare(&found.2, &now.from)? == Ordering::Greater {
+                stretches.push(Stretch { to: found.2.clone(), ..now.clone() });
+                now.from = found.2.clone();
+            }
+            self.arrive(&mut now, found);
+        }
+        stretches.push(now);
+        Ok(stretches)
+    }
+
+    /// What has arrived is seen from now on: on a grid in place of the piece before it.
+    fn arrive(&self, stretch: &mut Stretch, (seen, number, origin): Break) {
+        let Some(seen) = seen else {
+            stretch.begun = true;
+            return;
+        };
+        let part = Part { seen, number, origin };
+        match stretch.parts.iter_mut().find(|known| self.is_on_grid() && known.seen == seen) {
+            Some(known) => *known = part,
+            None => stretch.parts.push(part),
+        }
+    }
+
+    /// The last of the stretches whose first time is at or before a time; on the left side, before it.
+    /// The first of them where there is none such.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where two times cannot be told apart.
+    pub fn stretch_at(
+        &self,
+        stretches: &[Stretch],
+        at: &Rational,
+        side: Side,
+    ) -> Result<usize, EvaluateError> {
+        let at = self.slowness.scale(at);
+        let (mut low, mut high) = (0, stretches.len());
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            let order = self.numbers.compare(&stretches[middle].from, &at)?;
+            match order == Ordering::Less || (order == Ordering::Equal && side == Side::Right) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        Ok(low)
+    }
+}
+
+impl Stretch {
+    /// Its first time, in the scale of the waves.
+    pub fn from(&self) -> &Fraction {
+        &self.from
+    }
+
+    /// Its end, in the scale of the waves: the next arrival, or the end of the window.
+    pub fn to(&self) -> &Fraction {
+        &self.to
+    }
+
+    /// Whether nothing is seen on it.
+    pub fn is_silent(&self) -> bool {
+        self.parts.is_empty() && !self.begun
+    }
+}
+
+/// Arrivals in order.
+fn sorted(mut breaks: Vec<Break>, numbers: &Numbers) -> Result<Vec<Break>, EvaluateError> {
+    let mut failed: Option<EnclosureError> = None;
+    breaks.sort_by(|left, right| {
+        numbers.compare(&left.2, &right.2).unwrap_or_else(|error| {
+            failed = Some(error);
+            Ordering::Equal
+        })
+    });
+    match failed {
+        Some(error) => Err(error.into()),
+        None => Ok(breaks),
+    }
+}

@@ -1,0 +1,139 @@
+//! What is read off nodes and contacts, once they have been followed to an instant.
+
+use crate::expression::Fraction;
+use crate::history::engine::{Cell, Engine};
+use crate::history::error::HistoryError;
+use crate::history::moment::Moment;
+use crate::history::node::{ContactPlace, Link, Node};
+use crate::history::number::Number;
+use crate::history::series::Series;
+use crate::history::track::Limit;
+use crate::network::Side;
+use std::cmp::Ordering;
+
+type Outcome<T> = Result<T, HistoryError>;
+
+impl Engine {
+    /// The force of a contact and the velocities beside it at an instant.
+    ///
+    /// # Errors
+    /// As [`Track::cell`].
+    pub fn beside(
+        &self,
+        contact: usize,
+        moment: &Moment,
+        limit: Limit,
+    ) -> Outcome<(Number, [Number; 2])> {
+        let ContactPlace { node, run, .. } = self.contacts[contact];
+        let own = &self.nodes[node];
+        let start = Moment::at(Fraction::zero());
+        if limit == Limit::Before && self.clock.compare(moment, &start)? == Ordering::Equal {
+            let (_, cell) = &self.cells[node][0];
+            let value = |run: usize| {
+                let known = self.velocity_before(own, run);
+                known.unwrap_or_else(|| cell.velocities[run].coefficient(0))
+            };
+            return Ok((Number::zero(), [value(run), value(run + 1)]));
+        }
+        let (start, cell) = self.cell(node, moment, limit)?;
+        let length = self.clock.since(start, moment)?;
+        let place = own.contacts().position(|(own, _)| own == contact);
+        let force = &cell.forces[place.expect("a contact of the node")];
+        let value = |series: &Series| series.value(&length, &self.cut);
+        let velocities = [value(&cell.velocities[run]), value(&cell.velocities[run + 1])];
+        Ok((value(force), velocities))
+    }
+
+    /// The gap of a contact at an instant.
+    ///
+    /// # Errors
+    /// As [`Track::cell`].
+    pub fn gap(&self, contact: usize, moment: &Moment) -> Outcome<Number> {
+        let node = self.contacts[contact].node;
+        let (start, cell) = self.cell(node, moment, Limit::After)?;
+        let place = self.nodes[node].contacts().position(|(own, _)| own == contact);
+        let gap = &cell.gaps[place.expect("a contact of the node")];
+        Ok(gap.value(&self.clock.since(start, moment)?, &self.cut))
+    }
+
+    /// `∫ F dt` of a contact from one instant to another.
+    ///
+    /// # Errors
+    /// As [`Track::cell`].
+    pub fn impulse(&self, contact: usize, [from, to]: [&Moment; 2]) -> Outcome<Number> {
+        let node = self.contacts[contact].node;
+        let place = self.nodes[node].contacts().position(|(own, _)| own == contact);
+        let place = place.expect("a contact of the node");
+        let mut sum = Number::zero();
+        for (number, (start, cell)) in self.cells[node].iter().enumerate() {
+            let force = &cell.forces[place];
+            let end = self.cells[node].get(number + 1).map(|(start, _)| start);
+            let end = end.unwrap_or(self.now(node));
+            let outside = force.is_zero()
+                || self.clock.compare(end, from)? != Ordering::Greater
+                || self.clock.compare(start, to)? != Ordering::Less;
+            if outside {
+                continue;
+            }
+            let first = self.clock.compare(start, from)? == Ordering::Less;
+            let begin = if first { from } else { start };
+            let end = self.clock.earlier(end.clone(), to.clone())?;
+            let shifted = force.shift(&self.clock.since(start, begin)?, &self.cut);
+            let length = self.clock.since(begin, &end)?;
+            let part = shifted.integral(Number::zero(), &self.cut).value(&length, &self.cut);
+            sum = sum.add(&part, self.cut.bits);
+        }
+        Ok(sum)
+    }
+
+    /// The cell of a node at an instant, with its start.
+    ///
+    /// # Errors
+    /// As [`Track::cell`].
+    pub fn cell(&self, node: usize, moment: &Moment, limit: Limit) -> Outcome<(&Moment, &Cell)> {
+        let cells = &self.cells[node];
+        let (mut low, mut high) = (0, cells.len());
+        while low < high {
+            let middle = low.midpoint(high);
+            let end = cells.get(middle + 1).map_or(self.now(node), |(start, _)| start);
+            let behind = match self.clock.compare(end, moment)? {
+                Ordering::Less => false,
+                Ordering::Equal => limit == Limit::Before,
+                Ordering::Greater => true,
+            };
+            if behind { high = middle } else { low = middle + 1 }
+        }
+        let (start, cell) = cells.get(low).ok_or(HistoryError::AfterLast)?;
+        Ok((start, cell))
+    }
+
+    /// The velocity beside a contact before the start: of a mass, a bar or a wall.
+    fn velocity_before(&self, node: &Node, run: usize) -> Option<Number> {
+        if node.held[run] {
+            return Some(Number::zero());
+        }
+        if let Some(velocity) = self.starting_velocity(node, run) {
+            return Some(velocity);
+        }
+        for (own, side) in node.side_runs().into_iter().zip([node.left, node.right]) {
+            if let (true, Side::Bar(bar)) = (own == run, side) {
+                let [right, left] = &self.waves[bar];
+                let sum = right.cells[0].1.add(&left.cells[0].1, self.cut.bits);
+                return Some(sum.coefficient(0));
+            }
+        }
+        // Beyond a spring without load is what it rests on.
+        let springs = node.links.iter().enumerate();
+        let mut springs = springs.filter(|(_, link)| matches!(link, Link::Spring(_)));
+        let next = springs.find_map(|(left, _)| match run {
+            run if run == left => Some(left + 1),
+            run if run == left + 1 => Some(left),
+            _ => None,
+        })?;
+        let beyond = node.side_runs().into_iter().zip([node.left, node.right]);
+        let is_end =
+            beyond.into_iter().any(|(own, side)| own == next && matches!(side, Side::Bar(_)));
+        let known = is_end || node.held[next] || self.starting_velocity(node, next).is_some();
+        if known { self.velocity_before(node, next) } else { None }
+    }
+}
