@@ -78,7 +78,7 @@ struct Prepared {
 ///
 /// # Errors
 /// [`FixedError::TooManyTaps`], [`FixedError::TimeNotFinite`], [`FixedError::TimeTooLate`], and
-/// those of [`March::new`].
+/// those of [`March::new`](super::March::new).
 ///
 /// # Cost
 /// A march up to the last time, of which two periods are held, and for each tap and time a reduction
