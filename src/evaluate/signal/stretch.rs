@@ -153,6 +153,22 @@ impl Signal {
     ///
     /// # Errors
     /// [`EvaluateError`] where two times cannot be told apart.
+    ///
+    /// ```
+    /// use wavestep::evaluate::{Side, Signal};
+    /// use wavestep::language::{Source, parse_number, read_recurrence};
+    ///
+    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
+    /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+    /// let f = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+    /// let stretches = f.stretches(&parse_number("0")?, &parse_number("6")?).unwrap();
+    /// // A front arrives at 2.
+    /// let at = parse_number("2")?;
+    /// let sides = [Side::Left, Side::Right].map(|side| f.stretch_at(&stretches, &at, side).unwrap());
+    /// assert_eq!(sides, [0, 1]);
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
     pub fn stretch_at(
         &self,
         stretches: &[Stretch],

@@ -95,6 +95,25 @@ impl Signal {
     ///
     /// # Errors
     /// [`EvaluateError`] where a constant cannot be enclosed.
+    ///
+    /// ```
+    /// use wavestep::evaluate::Signal;
+    /// use wavestep::language::{Source, parse_number, read_recurrence};
+    ///
+    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
+    /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+    /// let f = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+    /// let stretches = f.stretches(&parse_number("0")?, &parse_number("6")?).unwrap();
+    /// // A front arrives at 2.
+    /// let at = stretches[1].from();
+    /// let before = f.enclose(&stretches[0], 0, at, 80).unwrap();
+    /// let after = f.enclose(&stretches[1], 0, at, 80).unwrap();
+    /// // It rises by 1, from exp(-2).
+    /// assert!(before.to_string().starts_with("0.13533528323661269189"));
+    /// assert!(after.subtract(&before, 80).contains(&parse_number("1")?));
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
     pub fn enclose(
         &self,
         stretch: &Stretch,
