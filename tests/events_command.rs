@@ -68,7 +68,6 @@ fn eval_goes_on_across_phases() {
 #[test]
 fn what_does_not_follow_contacts_says_so() {
     for arguments in [
-        &["lock", "saint-venant", "--through", "1"][..],
         &[
             "eval",
             "saint-venant",
@@ -80,7 +79,7 @@ fn what_does_not_follow_contacts_says_so() {
             "1",
             "--tol",
             "1e-9",
-        ],
+        ][..],
         &[
             "export",
             "saint-venant",

@@ -32,7 +32,21 @@ const LAYERS: [(&str, &[&str]); 24] = [
         &["dispersion", "evaluate", "expression", "network", "recurrence", "scene", "solution"],
     ),
     ("language", &["dispersion", "expression", "recurrence", "scene"]),
-    ("lock", &["evaluate", "export", "expression", "language", "recurrence", "solution"]),
+    (
+        "lock",
+        &[
+            "ball",
+            "evaluate",
+            "export",
+            "expression",
+            "history",
+            "language",
+            "network",
+            "recurrence",
+            "scene",
+            "solution",
+        ],
+    ),
     ("study", &["answer", "evaluate", "language", "plot"]),
     (
         "picture",

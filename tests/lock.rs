@@ -183,7 +183,8 @@ fn damaged_files_are_explained() {
     let good = derived(scene("constant-force"), &request(1, "", &["1"])).to_text();
     let cases = [
         ("heading", good.replace("# wavestep lock 1", "# my notes")),
-        ("version", good.replace("lock 1", "lock 2")),
+        ("version", good.replace("lock 1", "lock 3")),
+        ("history", good.replace("lock 1", "lock 2")),
         ("empty", String::new()),
         ("count", good.replace("through 1", "through many")),
         ("value", good.replace("value f(1)", "value f")),

@@ -669,16 +669,21 @@ pub struct Check {
 #[command(after_help = "Examples:\n  \
     wavestep lock my.wave --through 4 -o my.lock\n  \
     wavestep lock rigid-mass --through 2 --set mu=1/4 --at 33/10 --at 5\n  \
+    wavestep lock saint-venant --set mu=1 --at 2 -o my.lock\n  \
     wavestep check my.wave --locked my.lock\n\n\
     The file holds what the scene states of its period, symbols and observables, the pieces of all\n\
     waves on the periods 0 … N, and at each time the values of all waves and observables, just\n\
-    after arrivals. A file that exists is replaced.")]
+    after arrivals. Of a scene whose contacts open it holds events instead of pieces, and values of\n\
+    observables. A file that exists is replaced.")]
 pub struct Lock {
     #[command(flatten)]
     pub scene: Scene,
     /// Lock the pieces on the periods 0 … N
     #[arg(long, value_name = "N")]
-    pub through: usize,
+    pub through: Option<usize>,
+    /// Lock the events until this scene time, where contacts open [default: as in `events`]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "through")]
+    pub until: Option<String>,
     /// Lock values at this scene time; may be given several times
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub at: Vec<String>,

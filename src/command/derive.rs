@@ -5,11 +5,7 @@ use super::derive_recurrence::of_recurrence;
 use super::derive_scene;
 use super::failure::Failure;
 use super::input::{self, Subject};
-use wavestep::history::{Event, EventKind, History};
-use wavestep::network::Network;
-
-/// Significant digits of the instant until which a form holds.
-const DIGITS: usize = 12;
+use super::validity;
 
 /// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
@@ -24,29 +20,8 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
         }
         Subject::Scene(network) => {
             let derived = derive_scene::run(&network, options)?;
-            if network.scene().contacts_open {
-                eprintln!("note: {}", validity(&network));
-            }
+            validity::note_derivation(&network);
             Ok(derived)
         }
-    }
-}
-
-/// Until when the form with closed contacts holds.
-fn validity(network: &Network) -> String {
-    let parts = |event: &&Event| matches!(event.kind, EventKind::Opening | EventKind::Release);
-    let history = History::of(network, None, DIGITS).ok();
-    let first = history.as_ref().and_then(|history| history.events.iter().find(parts));
-    match (&history, first) {
-        (_, Some(event)) => {
-            let second = if network.scene().dimensional { " s" } else { "" };
-            let [left, right] = &event.between;
-            let time = event.time.to_text(DIGITS);
-            format!("this holds until t = {time}{second}, when {left} and {right} part")
-        }
-        (Some(_), None) => {
-            "no contact was seen to open: this holds as far as it was followed".into()
-        }
-        (None, _) => "this holds until a contact opens: `wavestep events` tells when".into(),
     }
 }

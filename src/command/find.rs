@@ -7,6 +7,7 @@ use super::found::{self, Told};
 use super::input::{self, Subject};
 use super::progress;
 use super::quantity;
+use super::validity;
 use num_rational::BigRational;
 use wavestep::evaluate::{EvaluateError, Goal, Place, Search};
 use wavestep::history::History;
@@ -37,7 +38,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     let search = seen.search([&from, &to])?;
     let progress = progress::spinner("searching");
     let (digits, limit_bits) = (options.digits, options.max_bits);
-    match goal {
+    let found = match goal {
         Some(goal) => {
             let extremum = search.extremum(goal, digits, limit_bits)?;
             drop(progress);
@@ -50,7 +51,11 @@ pub fn run(options: &Find) -> Result<String, Failure> {
             drop(progress);
             settled(found::roots(&roots, &told), roots.undecided(), ["interval", "intervals"])
         }
+    };
+    if let (Ok(_), Seen::Scene { network, .. }) = (&found, &seen) {
+        validity::note_search(network, &to);
     }
+    found
 }
 
 /// What was found, as a failure where some of it stays undecided.

@@ -62,15 +62,11 @@ pub fn readable(arguments: &Scene) -> Result<Readable, Failure> {
     readable_with(&arguments.scene, &values(&arguments.set)?)
 }
 
-/// Reads a scene with values put in, as a recurrence.
-pub fn recurrence_with(
+/// Reads a scene with these values put in.
+pub fn subject_with(
     scene: &str,
     values: &BTreeMap<String, BigRational>,
-) -> Result<Recurrence, Failure> {
-    subject_with(scene, values)?.into_recurrence()
-}
-
-fn subject_with(scene: &str, values: &BTreeMap<String, BigRational>) -> Result<Subject, Failure> {
+) -> Result<Subject, Failure> {
     match readable_with(scene, values)? {
         Readable::Subject(subject) => Ok(subject),
         Readable::WithoutRecurrence(scaled) => Err(eval_contact::refused(&scaled)),

@@ -4,26 +4,44 @@ use super::arguments::Lock as Options;
 use super::bounds;
 use super::failure::Failure;
 use super::input::{self, Subject};
+use super::lock_history;
 use super::output::write_whole;
 use super::progress;
 use std::fs;
 use std::path::Path;
 use wavestep::evaluate::EvaluateError;
 use wavestep::language::Source;
-use wavestep::lock::{Lock, LockError, MAX_FILE_BYTES, Request};
+use wavestep::lock::{HistoryLock, Lock, LockError, Locked, MAX_FILE_BYTES, Request};
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
 
 /// Locks a scene.
 pub fn run(options: &Options) -> Result<String, Failure> {
-    let subject = input::subject(&options.scene)?.with_closed_contacts("lock")?;
-    if let Subject::Scene(network) = &subject
-        && network.scene().dimensional
-        && !options.at.is_empty()
-    {
-        let message = "values are not locked in scenes with units";
-        return Err(Failure::usage(message, "leave out --at: pieces are locked, without units"));
+    let subject = input::subject(&options.scene)?;
+    match &subject {
+        Subject::Scene(network) if network.scene().contacts_open => {
+            let lock = lock_history::of(network, options)?;
+            let read = |text: &Source| HistoryLock::read(text).is_ok_and(|read| read == lock);
+            return write(options, lock.to_text(), read, &lock_history::counted(&lock));
+        }
+        _ if options.until.is_some() => {
+            let message = "there are no events here: no contacts open";
+            return Err(Failure::usage(
+                message,
+                "give --through N for pieces and --at T for values",
+            ));
+        }
+        Subject::Scene(network) if network.scene().dimensional && !options.at.is_empty() => {
+            let message = "values are not locked in scenes with units";
+            let remedy = "leave out --at: pieces are locked, without units";
+            return Err(Failure::usage(message, remedy));
+        }
+        _ => {}
     }
+    let Some(through) = options.through else {
+        let message = "it is not said through which period the pieces are to be locked";
+        return Err(Failure::usage(message, "give --through N, for the periods 0 … N"));
+    };
     let recurrence = subject.into_recurrence()?;
     if let Some(constant) = recurrence.constants().first().filter(|_| !options.at.is_empty()) {
         let message =
@@ -35,21 +53,30 @@ pub fn run(options: &Options) -> Result<String, Failure> {
     }
     let times = options.at.iter().map(|time| input::time("--at", time, false));
     let request = Request {
-        through: options.through,
+        through,
         times: times.collect::<Result<_, _>>()?,
         digits: input::digits(options.digits)?,
         set: input::values(&options.scene.set)?,
     };
     let lock = derive(recurrence, &request)?;
-    let text = lock.to_text();
+    let read = |text: &Source| Lock::read(text).is_ok_and(|read| read == lock);
+    write(options, lock.to_text(), read, &counted(&lock))
+}
+
+/// Writes what is locked, where it can be read back and no scene is replaced by it.
+fn write(
+    options: &Options,
+    text: String,
+    is_read_back: impl FnOnce(&Source) -> bool,
+    counted: &str,
+) -> Result<String, Failure> {
     if text.len() > MAX_FILE_BYTES {
         let message = format!("this would be a file of {} bytes", text.len());
         let remedy = format!("files have at most {MAX_FILE_BYTES}: ask for a smaller --through");
         return Err(Failure::usage(message, remedy));
     }
     // What cannot be read back, such as numbers of a thousand digits, is not written.
-    let read = Source::with_limit("lock", &text, MAX_FILE_BYTES).and_then(|text| Lock::read(&text));
-    if !read.is_ok_and(|read| read == lock) {
+    if !Source::with_limit("lock", &text, MAX_FILE_BYTES).is_ok_and(|text| is_read_back(&text)) {
         let message = "the numbers or powers in these pieces are too long to be read back";
         return Err(Failure::usage(message, "ask for a smaller --through, or shorter values"));
     }
@@ -63,8 +90,11 @@ pub fn run(options: &Options) -> Result<String, Failure> {
         ));
     }
     write_whole(Path::new(file), text.as_bytes())?;
-    Ok(format!("{file}: locked {}\n", counted(&lock)))
+    Ok(format!("{file}: locked {counted}\n"))
 }
+
+/// What a differing scene is to be treated with.
+const AGAIN: &str = "undo what was changed in the scene, or lock it again";
 
 /// Compares a scene with what is locked.
 pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
@@ -72,13 +102,38 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
         let remedy = format!("write it with `wavestep lock {scene} --through N -o {file}`");
         Failure::usage(format!("the file `{file}` cannot be read: {error}"), remedy)
     })?;
-    let locked = Lock::read(&Source::with_limit(file, bytes, MAX_FILE_BYTES)?)?;
-    let recurrence = input::recurrence_with(scene, &locked.request().set)?;
-    let again = "undo what was changed in the scene, or lock it again";
-    let now = derive(recurrence, locked.request()).map_err(|failure| failure.with_remedy(again))?;
-    let differences = locked.differences(&now);
+    let locked = Locked::read(&Source::with_limit(file, bytes, MAX_FILE_BYTES)?)?;
+    let set = match &locked {
+        Locked::Pieces(locked) => &locked.request().set,
+        Locked::History(locked) => &locked.request().set,
+    };
+    let subject = input::subject_with(scene, set)?;
+    let opening = match &subject {
+        Subject::Scene(network) if network.scene().contacts_open => Some(network),
+        _ => None,
+    };
+    let (differences, counted) = match (&locked, opening) {
+        (Locked::Pieces(locked), None) => {
+            let now = derive(subject.into_recurrence()?, locked.request());
+            let now = now.map_err(|failure| failure.with_remedy(AGAIN))?;
+            (locked.differences(&now), counted(locked))
+        }
+        (Locked::History(locked), Some(network)) => {
+            let now = lock_history::derive(network, locked.request());
+            let now = now.map_err(|failure| failure.with_remedy(AGAIN))?;
+            (locked.differences(&now), lock_history::counted(locked))
+        }
+        (Locked::Pieces(_), Some(_)) => {
+            let message = format!("{file} holds pieces, and contacts open in {scene} now");
+            return Err(Failure::usage(message, AGAIN));
+        }
+        (Locked::History(_), None) => {
+            let message = format!("{file} holds events, and no contacts open in {scene} now");
+            return Err(Failure::usage(message, AGAIN));
+        }
+    };
     if differences.is_empty() {
-        return Ok(format!("{file}: {} as locked\n", counted(&locked)));
+        return Ok(format!("{file}: {counted} as locked\n"));
     }
     let report: String = differences.iter().map(ToString::to_string).collect();
     let count = match differences.len() {
@@ -106,13 +161,17 @@ fn derive(recurrence: Recurrence, request: &Request) -> Result<Lock, Failure> {
 }
 
 fn counted(lock: &Lock) -> String {
-    let plural = |count: usize, what: &str| match count {
-        1 => format!("1 {what}"),
-        count => format!("{count} {what}s"),
-    };
     let (pieces, values) = lock.counts();
     match values {
         0 => plural(pieces, "piece"),
         values => format!("{} and {}", plural(pieces, "piece"), plural(values, "value")),
+    }
+}
+
+/// So many things.
+pub fn plural(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
     }
 }

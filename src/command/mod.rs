@@ -30,6 +30,7 @@ mod generate;
 mod hertz;
 mod input;
 mod lock;
+mod lock_history;
 mod output;
 mod picture;
 mod plot;
@@ -38,6 +39,7 @@ mod progress;
 mod quantity;
 mod rates;
 mod rows;
+mod validity;
 
 use arguments::{Arguments, Scenes, Subcommand};
 use clap::Parser as _;

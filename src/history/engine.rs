@@ -54,6 +54,9 @@ pub(crate) struct Happening {
     pub smooth: bool,
     pub contact: usize,
     pub moment: Moment,
+    /// When the contact would have pulled, or the gap have become negative: later than the moment where a
+    /// contact had had no force for a while.
+    pub forced: Moment,
 }
 
 /// A contact as it is.
@@ -256,15 +259,19 @@ impl Engine {
     /// # Errors
     /// [`HistoryError`], all kinds but [`HistoryError::AfterLast`].
     pub fn follow_until(&mut self, until: &Moment) -> Outcome<()> {
-        loop {
-            let behind =
-                (0..self.states.len()).map(|node| (self.clock.about(&self.states[node].now), node));
-            let Some((_, node)) = behind.min_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
-            if self.clock.compare(&self.states[node].now, until)? == Ordering::Greater {
+        while let Some((node, now)) = self.behind() {
+            if self.clock.compare(now, until)? == Ordering::Greater {
                 return Ok(());
             }
             self.advance(node)?;
         }
+        Ok(())
+    }
+
+    /// The node that was followed the least far, and how far.
+    pub fn behind(&self) -> Option<(usize, &Moment)> {
+        let now = self.states.iter().map(|state| &state.now).enumerate();
+        now.min_by(|a, b| self.clock.about(a.1).total_cmp(&self.clock.about(b.1)))
     }
 
     fn ball_at(&self, moment: &Moment) -> Box<Ball> {
@@ -384,7 +391,10 @@ impl Engine {
     }
 
     /// Follows a node over one cell.
-    fn advance(&mut self, node: usize) -> Outcome<()> {
+    ///
+    /// # Errors
+    /// As [`Engine::follow_until`].
+    pub fn advance(&mut self, node: usize) -> Outcome<()> {
         self.count += 1;
         if self.count > MAX_CELLS {
             let at = self.ball_at(&self.states[node].now);
@@ -546,8 +556,8 @@ impl Engine {
             known.closed = !known.closed;
             known.gap = Number::zero();
             known.pressed = false;
-            let closes = known.closed;
-            self.happenings.push(Happening { closes, smooth, contact: *contact, moment });
+            let (closes, contact, forced) = (known.closed, *contact, now.clone());
+            self.happenings.push(Happening { closes, smooth, contact, moment, forced });
         }
         let state = &self.states[node];
         let open = &self.open;
@@ -577,7 +587,14 @@ impl Engine {
         for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
             if self.open[contact].closed && !forces[place].is_zero() {
                 let moment = self.states[node].now.clone();
-                self.happenings.push(Happening { closes: true, smooth: false, contact, moment });
+                let forced = moment.clone();
+                self.happenings.push(Happening {
+                    closes: true,
+                    smooth: false,
+                    contact,
+                    moment,
+                    forced,
+                });
             }
         }
     }

@@ -33,7 +33,7 @@ use wavestep_polynomial::Rational;
 pub const MAX_BITS: u64 = 1 << 11;
 
 /// How many of the longest travel times a history is followed where no end is given.
-const PATIENCE: u32 = 100;
+pub(crate) const PATIENCE: u32 = 100;
 
 /// What happens at a contact.
 ///
@@ -325,7 +325,7 @@ impl History {
 }
 
 /// The longest travel time; one unit where nothing travels.
-fn longest(engine: &Engine) -> Outcome<Fraction> {
+pub(crate) fn longest(engine: &Engine) -> Outcome<Fraction> {
     let mut longest = Fraction::zero();
     for travel in engine.bars.iter().filter_map(|(_, travel)| travel.as_ref()) {
         if engine.clock.numbers.compare(travel, &longest)? == Ordering::Greater {

@@ -5,9 +5,10 @@
 //! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
 //! cannot be decided is refused by name.
 //!
-//! Read `engine` for the way from cell to cell, `reading` for what is taken from it, `crossing` for the proof that nothing is passed over,
-//! `observe` and `phased` for what is seen of it, `waves` for the fields along the bars, `series` for the
-//! arithmetic, `body` for energies and for why bodies never meet again.
+//! Read `engine` for the way from cell to cell, `reading` for what is taken from it, `crossing` for the
+//! proof that nothing is passed over, `observe` and `phased` for what is seen of it, `waves` for the fields
+//! along the bars, `validity` for how long closed contacts are true, `series` for the arithmetic, `body`
+//! for energies and for why bodies never meet again.
 
 mod body;
 mod crossing;
@@ -26,8 +27,10 @@ mod phased;
 mod reading;
 mod series;
 mod track;
+mod validity;
 mod waves;
 
 pub use error::HistoryError;
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History, MAX_BITS};
+pub use validity::Validity;
 pub use waves::field_evaluator;

@@ -59,7 +59,7 @@ impl Lock {
 }
 
 /// The differences between entries of the same key, and the keys that only one side has.
-fn compared<K: Ord, V: PartialEq>(
+pub(super) fn compared<K: Ord, V: PartialEq>(
     old: &BTreeMap<K, V>,
     new: &BTreeMap<K, V>,
     name: impl Fn(&K) -> String,

@@ -22,17 +22,22 @@
 use crate::evaluate::MAX_DIGITS;
 use crate::export::{self, Formula, Head, TEXT_WIDTH};
 use crate::language::{Diagnostic, Source, Span, normalise_name, parse_number, read_listing};
-use crate::lock::{Lock, Piece, Request};
+use crate::lock::{Lock, Piece, Request, history_file};
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use wavestep_polynomial::Rational;
 
-/// The version of the format that is written. Every version up to it is read.
+/// The newest version of the format, that of histories; pieces are written in version 1, which says all of
+/// them. Every version up to it is read.
 ///
 /// ```
-/// assert_eq!(wavestep::lock::FORMAT_VERSION, 1);
+/// assert_eq!(wavestep::lock::FORMAT_VERSION, 2);
 /// ```
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = history_file::VERSION;
+
+/// The version of files of pieces.
+pub(super) const VERSION: u32 = 1;
 
 /// The most bytes of a file that is read.
 ///
@@ -41,12 +46,12 @@ pub const FORMAT_VERSION: u32 = 1;
 /// ```
 pub const MAX_FILE_BYTES: usize = 16 << 20;
 
-const HEADING: &str = "# wavestep lock ";
+pub(super) const HEADING: &str = "# wavestep lock ";
 
 /// One line of a file with its place.
 #[derive(Clone, Copy)]
-struct Line<'a> {
-    text: &'a str,
+pub(super) struct Line<'a> {
+    pub(super) text: &'a str,
     span: Span,
 }
 
@@ -54,7 +59,7 @@ impl Lock {
     /// The lock as text, in lines of at most 100 characters where they can be broken.
     pub fn to_text(&self) -> String {
         let Request { through, digits, set, .. } = &self.request;
-        let mut text = format!("{HEADING}{FORMAT_VERSION}\nthrough {through}\ndigits {digits}\n");
+        let mut text = format!("{HEADING}{VERSION}\nthrough {through}\ndigits {digits}\n");
         for (name, value) in set {
             let _ = writeln!(text, "set {name} = {value}");
         }
@@ -100,7 +105,7 @@ impl Lock {
     /// The first line that is none of a lock, with its place.
     pub fn read(source: &Source) -> Result<Lock, Diagnostic> {
         let lines = lines(source);
-        check_heading(source, &lines)?;
+        check_heading(source, &lines, VERSION)?;
         let mut lock = Lock {
             stated: BTreeMap::new(),
             request: Request::default(),
@@ -136,22 +141,8 @@ impl Lock {
                 }
             }
         }
-        let found = lock.contents();
-        let refuse = |message: String, span: Span, label: &str| {
-            Err(Diagnostic::new(source, message, span, label)
-                .with_remedy("restore the file, or lock again"))
-        };
-        match holds {
-            Some((said, _)) if said == found => Ok(lock),
-            Some((said, line)) => {
-                let message = format!("this file holds {found}, and says {said}");
-                refuse(message, line.span, "something is missing, or was added")
-            }
-            None => {
-                let message = "this file does not say what it holds".to_owned();
-                refuse(message, lines[0].span, "no line `holds …` follows: the file is cut off")
-            }
-        }
+        holds_as_said(source, lines[0], &lock.contents(), holds)?;
+        Ok(lock)
     }
 
     /// Takes one line that begins with `word`; whether it is none of the listing.
@@ -185,20 +176,11 @@ impl Lock {
                 return twice(self.stated.insert(what.to_owned(), value.to_owned()).is_some());
             }
             "value" => {
-                let (left, value) = equation(source, line, rest)?;
-                let call = left.strip_suffix(')').and_then(|left| left.split_once('('));
-                let Some((quantity, time)) = call else {
-                    return Err(refused(source, line, "write it as `value f(33/10) = 0.3`"));
-                };
-                let time = number(source, line, time)?;
-                if time.is_negative() || parse_number(value).is_err() {
-                    return Err(refused(source, line, "write a time from 0 on, and a number"));
-                }
+                let (quantity, time, value) = value_line(source, line, rest)?;
                 if !self.request.times.contains(&time) {
                     self.request.times.push(time.clone());
                 }
-                let key = (quantity.to_owned(), time);
-                return twice(self.values.insert(key, value.to_owned()).is_some());
+                return twice(self.values.insert((quantity, time), value).is_some());
             }
             _ => return Ok(false),
         }
@@ -206,7 +188,7 @@ impl Lock {
     }
 }
 
-fn lines(source: &Source) -> Vec<Line<'_>> {
+pub(super) fn lines(source: &Source) -> Vec<Line<'_>> {
     let mut start = 0;
     let mut lines = Vec::new();
     for line in source.text().split('\n') {
@@ -217,19 +199,19 @@ fn lines(source: &Source) -> Vec<Line<'_>> {
     lines
 }
 
-fn check_heading(source: &Source, lines: &[Line<'_>]) -> Result<(), Diagnostic> {
-    let first = lines[0];
+/// The version that the first line says.
+pub(super) fn version(source: &Source, first: Line<'_>) -> Result<u32, Diagnostic> {
     let Some(version) = first.text.strip_prefix(HEADING) else {
         return Err(Diagnostic::new(
             source,
             "this is no file of locked results",
             first.span,
-            format!("expected `{HEADING}{FORMAT_VERSION}`"),
+            format!("expected `{HEADING}{VERSION}`"),
         )
         .with_remedy("write one with `wavestep lock SCENE --through N -o FILE`"));
     };
     match version.trim().parse::<u32>() {
-        Ok(version) if (1..=FORMAT_VERSION).contains(&version) => Ok(()),
+        Ok(version) if (1..=FORMAT_VERSION).contains(&version) => Ok(version),
         _ => Err(Diagnostic::new(
             source,
             format!("this file is of version {}", version.trim()),
@@ -240,19 +222,85 @@ fn check_heading(source: &Source, lines: &[Line<'_>]) -> Result<(), Diagnostic> 
     }
 }
 
-fn refused(source: &Source, line: Line<'_>, remedy: &str) -> Diagnostic {
+/// Refuses a file of another version than this one.
+pub(super) fn check_heading(
+    source: &Source,
+    lines: &[Line<'_>],
+    expected: u32,
+) -> Result<(), Diagnostic> {
+    let first = lines[0];
+    if version(source, first)? == expected {
+        return Ok(());
+    }
+    let (message, label) = match expected {
+        VERSION => {
+            ("this file holds a history of contacts, and no pieces", "version 1 holds pieces")
+        }
+        _ => ("this file holds pieces, and no history of contacts", "version 2 holds histories"),
+    };
+    Err(Diagnostic::new(source, message, first.span, label).with_remedy("lock again"))
+}
+
+/// Refuses a file that does not hold what it says.
+pub(super) fn holds_as_said(
+    source: &Source,
+    first: Line<'_>,
+    found: &str,
+    said: Option<(&str, Line<'_>)>,
+) -> Result<(), Diagnostic> {
+    let refuse = |message: String, span: Span, label: &str| {
+        Err(Diagnostic::new(source, message, span, label)
+            .with_remedy("restore the file, or lock again"))
+    };
+    match said {
+        Some((said, _)) if said == found => Ok(()),
+        Some((said, line)) => {
+            let message = format!("this file holds {found}, and says {said}");
+            refuse(message, line.span, "something is missing, or was added")
+        }
+        None => {
+            let message = "this file does not say what it holds".to_owned();
+            refuse(message, first.span, "no line `holds …` follows: the file is cut off")
+        }
+    }
+}
+
+/// Whether this is a number as it stands in locks: a decimal or a fraction, or `0 ± 1e-20`.
+pub(super) fn is_value(text: &str) -> bool {
+    parse_number(text.strip_prefix("0 ± ").unwrap_or(text)).is_ok()
+}
+
+/// Quantity, time and value of `f(33/10) = 0.3`.
+pub(super) fn value_line(
+    source: &Source,
+    line: Line<'_>,
+    rest: &str,
+) -> Result<(String, Rational, String), Diagnostic> {
+    let (left, value) = equation(source, line, rest)?;
+    let call = left.strip_suffix(')').and_then(|left| left.split_once('('));
+    let Some((quantity, time)) = call else {
+        return Err(refused(source, line, "write it as `value f(33/10) = 0.3`"));
+    };
+    let time = number(source, line, time)?;
+    if time.is_negative() || !is_value(value) {
+        return Err(refused(source, line, "write a time from 0 on, and a number"));
+    }
+    Ok((quantity.to_owned(), time, value.to_owned()))
+}
+
+pub(super) fn refused(source: &Source, line: Line<'_>, remedy: &str) -> Diagnostic {
     Diagnostic::new(source, "this line cannot be read", line.span, "in a file of locked results")
         .with_remedy(remedy)
 }
 
-fn count(source: &Source, line: Line<'_>, text: &str) -> Result<usize, Diagnostic> {
+pub(super) fn count(source: &Source, line: Line<'_>, text: &str) -> Result<usize, Diagnostic> {
     let number = text.trim().parse::<u32>().ok();
     number
         .map(|number| number as usize)
         .ok_or_else(|| refused(source, line, "write a whole number, or lock again"))
 }
 
-fn equation<'a>(
+pub(super) fn equation<'a>(
     source: &Source,
     line: Line<'_>,
     text: &'a str,
@@ -261,11 +309,7 @@ fn equation<'a>(
     sides.ok_or_else(|| refused(source, line, "write it as `name = value`, or lock again"))
 }
 
-fn number(
-    source: &Source,
-    line: Line<'_>,
-    text: &str,
-) -> Result<wavestep_polynomial::Rational, Diagnostic> {
+pub(super) fn number(source: &Source, line: Line<'_>, text: &str) -> Result<Rational, Diagnostic> {
     parse_number(text)
         .map_err(|_| refused(source, line, "write a number such as 33/10, or lock again"))
 }

@@ -3,14 +3,19 @@
 //!
 //! A [`Lock`] is derived from a recurrence, written as text, read back, and compared with another.
 //! Pieces are compared as exact expressions, term by term; values as decimals, which are correctly
-//! rounded and therefore the same on every machine.
+//! rounded and therefore the same on every machine. A [`HistoryLock`] holds the events of a scene whose
+//! contacts open instead; [`Locked`] is either of them, as it is read from a file.
 
 mod difference;
 mod file;
+mod history;
+mod history_file;
+mod scene;
 
 use crate::evaluate::{EvaluateError, Evaluator, MAX_DIGITS, Side};
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
+use crate::language::{Diagnostic, Source};
 use crate::recurrence::{Observation, Statement};
 use crate::solution::{Solution, SolveError};
 use std::collections::BTreeMap;
@@ -19,6 +24,7 @@ use wavestep_polynomial::{Rational, Symbol};
 
 pub use difference::Difference;
 pub use file::{FORMAT_VERSION, MAX_FILE_BYTES};
+pub use history::{HistoryLock, HistoryLockError, HistoryRequest};
 
 /// How precisely the values of a lock may be worked out.
 const LIMIT_BITS: u64 = 1 << 18;
@@ -78,6 +84,40 @@ pub struct Request {
 impl Default for Request {
     fn default() -> Request {
         Request { through: 0, times: Vec::new(), digits: 20, set: BTreeMap::new() }
+    }
+}
+
+/// What a file of locked results holds.
+///
+/// ```
+/// use wavestep::language::Source;
+/// use wavestep::lock::Locked;
+///
+/// let text = "# wavestep lock 2\ndigits 20\nholds 0 statements, 0 events, 0 contacts, 0 values\n\n\
+///             ending = parted\n";
+/// let locked = Locked::read(&Source::new("mine.lock", text)?)?;
+/// assert!(matches!(locked, Locked::History(lock) if lock.counts() == (0, 0)));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Locked {
+    /// Pieces and values of a recurrence.
+    Pieces(Lock),
+    /// Events and values of a scene whose contacts open.
+    History(HistoryLock),
+}
+
+impl Locked {
+    /// Reads a file of any version.
+    ///
+    /// # Errors
+    /// The first line that is none of a lock, with its place.
+    pub fn read(source: &Source) -> Result<Locked, Diagnostic> {
+        let lines = file::lines(source);
+        Ok(match file::version(source, lines[0])? {
+            file::VERSION => Locked::Pieces(Lock::read(source)?),
+            _ => Locked::History(HistoryLock::read(source)?),
+        })
     }
 }
 

@@ -111,6 +111,17 @@ pub enum End {
     Endless,
 }
 
+impl End {
+    /// Its name in the language.
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            End::Free => "free",
+            End::Fixed => "fixed",
+            End::Endless => "endless",
+        }
+    }
+}
+
 /// How two neighbours in a line are joined.
 ///
 /// ```

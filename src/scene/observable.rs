@@ -80,6 +80,20 @@ pub enum Measure {
 }
 
 impl Measure {
+    /// Its name in the language.
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Measure::Velocity => "velocity",
+            Measure::Force => "force",
+            Measure::Strain => "strain",
+            Measure::Stress => "stress",
+            Measure::Displacement => "displacement",
+            Measure::Compression => "compression",
+            Measure::Energy => "energy",
+            Measure::Momentum => "momentum",
+        }
+    }
+
     /// The dimension of what is measured.
     ///
     /// ```

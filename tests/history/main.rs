@@ -2,9 +2,11 @@
 //! event, and a numerical method that shares nothing with what is tested.
 
 mod characteristics;
+mod locks;
 mod page;
 mod phases;
 mod refusals;
+mod validity;
 
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;

@@ -7,7 +7,6 @@ use nom::character::complete::{char, one_of};
 use nom::combinator::{opt, value};
 
 use super::super::name;
-use super::super::scene::print::{end_word, measure_word};
 use super::super::scope::FUNCTIONS;
 use super::super::syntax::{
     Declaration, Declared, Factor, Line, Name, ObservedPlace, ObservedTerm, Operator, Property,
@@ -249,7 +248,7 @@ fn contacts(input: Input<'_>) -> Parsed<'_, SceneStatementKind> {
 }
 
 fn end_of_line(word: &str) -> Option<End> {
-    ENDS.into_iter().find(|end| end_word(*end) == word)
+    ENDS.into_iter().find(|end| end.word() == word)
 }
 
 /// `-` or `|`
@@ -322,7 +321,7 @@ struct Reading {
 fn next_measure(input: Input<'_>) -> Result<Option<Spanned<Measure>>, nom::Err<super::Problem>> {
     let Some(word) = next_word(input) else { return Ok(None) };
     let after = input.extra.source.text()[word.span.end..].trim_start();
-    let measure = MEASURES.into_iter().find(|measure| measure_word(*measure) == word.value);
+    let measure = MEASURES.into_iter().find(|measure| measure.word() == word.value);
     match measure {
         Some(measure) if after.starts_with('(') => Ok(Some(Spanned::new(measure, word.span))),
         Some(_) => Err(complaint::measure_alone(input, word.value, word.span)),
@@ -338,7 +337,7 @@ fn next_measure(input: Input<'_>) -> Result<Option<Spanned<Measure>>, nom::Err<s
 }
 
 fn measure_words() -> [&'static str; 8] {
-    MEASURES.map(measure_word)
+    MEASURES.map(Measure::word)
 }
 
 /// Refuses a sum of measures in parentheses.

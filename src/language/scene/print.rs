@@ -8,7 +8,7 @@ use super::tree::{
 };
 use crate::language::print::{Listed, product};
 use crate::language::syntax::{Operator, Sign, Spanned};
-use crate::scene::{End, Joint, Measure};
+use crate::scene::Joint;
 
 impl Display for Scene {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -107,9 +107,9 @@ impl Display for AfterValue<'_> {
 
 impl Display for Line {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}", end_word(self.left.value))?;
+        write!(f, "line {}", self.left.value.word())?;
         let elements = self.elements.iter().map(|name| name.value.as_str());
-        let names = elements.chain([end_word(self.right.value)]);
+        let names = elements.chain([self.right.value.word()]);
         self.joints.iter().zip(names).try_for_each(|(joint, name)| {
             let sign = match joint.value {
                 Joint::Bonded => '-',
@@ -120,34 +120,11 @@ impl Display for Line {
     }
 }
 
-/// The word for an end of a line.
-pub(in crate::language) fn end_word(end: End) -> &'static str {
-    match end {
-        End::Free => "free",
-        End::Fixed => "fixed",
-        End::Endless => "endless",
-    }
-}
-
-/// The word for what is measured.
-pub(in crate::language) fn measure_word(measure: Measure) -> &'static str {
-    match measure {
-        Measure::Velocity => "velocity",
-        Measure::Force => "force",
-        Measure::Strain => "strain",
-        Measure::Stress => "stress",
-        Measure::Displacement => "displacement",
-        Measure::Compression => "compression",
-        Measure::Energy => "energy",
-        Measure::Momentum => "momentum",
-    }
-}
-
 /// Without the sign, which depends on the place in the sum.
 impl Display for ObservedTerm {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Spanned { value: measure, .. } = self.measure;
-        let reading = format!("{}({})", measure_word(measure), self.place);
+        let reading = format!("{}({})", measure.word(), self.place);
         match self.factors.first().map(|factor| factor.operator) {
             None => f.write_str(&reading),
             Some(Operator::Multiply) => {

@@ -1,7 +1,6 @@
 //! What is impossible about a scene, at its places in the text.
 
 use super::Lowering;
-use super::print::measure_word;
 use super::tree::{Declaration, Line, ObservedTerm, SceneStatementKind};
 use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
@@ -254,7 +253,7 @@ impl Lowering<'_> {
         let mut remedy = format!("give `{name}` a `{property}`");
         if let Some(end) = end {
             labels[0] = "without length".to_owned();
-            labels.push(format!("ends at `{}`", super::print::end_word(end)));
+            labels.push(format!("ends at `{}`", end.word()));
             remedy.push_str(", or end the line with `endless`");
         } else if scene.line.elements.len() == 1 {
             labels[0] = "without length".to_owned();
@@ -280,7 +279,7 @@ impl Lowering<'_> {
             return (fault.to_string(), Vec::new(), String::new());
         };
         let seen = &scene.observables[*observable].terms[*term];
-        let word = measure_word(seen.measure);
+        let word = seen.measure.word();
         let Some(element) = seen.place.element() else {
             return (
                 format!("the line as a whole has no {word}"),

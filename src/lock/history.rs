@@ -1,0 +1,340 @@
+//! Locks of scenes whose contacts open: their events, what became of each contact, and values.
+//!
+//! The formulas of waves are those of closed contacts and are not locked here. Numbers are rational and
+//! exact, or rounded correctly, so they are the same on every machine.
+
+use crate::ball::{Ball, certify};
+use crate::evaluate::{Determined, MAX_DIGITS, Side, Value};
+use crate::history::{ContactSummary, Ending, Event, EventKind, History, HistoryError};
+use crate::lock::difference::{Difference, compared};
+use crate::lock::scene::stated;
+use crate::network::Network;
+use num_bigint::BigInt;
+use num_traits::Zero;
+use std::collections::{BTreeMap, BTreeSet};
+use std::convert::Infallible;
+use std::fmt;
+use wavestep_polynomial::Rational;
+
+/// The longest fraction that is locked; numbers with longer ones are rounded.
+const MAX_FRACTION: usize = 60;
+
+/// With how many times the digits asked for the history is told until all that is locked has its own.
+const FACTORS: [usize; 3] = [1, 2, 4];
+
+/// What is locked of a history.
+///
+/// ```
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::lock::{HistoryLock, HistoryRequest};
+/// use wavestep::network::Network;
+///
+/// let derive = |text: &str| {
+///     let scene = read_scene(&Source::new("mine", text).unwrap(), &Default::default()).unwrap();
+///     HistoryLock::derive(&Network::new(&scene).unwrap(), &HistoryRequest::default()).unwrap()
+/// };
+/// let text = "scene \"A bar strikes a wall\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\n\
+///             line free - rod | fixed\ncontacts open\nobserve v = velocity(rod.left)\n";
+/// let lock = derive(text);
+/// let read = HistoryLock::read(&Source::new("mine.lock", lock.to_text())?)?;
+/// assert!(read.differences(&derive(text)).is_empty());
+/// // An impact and an opening, and no values.
+/// assert_eq!((read.request().digits, read.counts()), (20, (2, 0)));
+///
+/// let differences = read.differences(&derive(&text.replace("travel = 1", "travel = 2")));
+/// assert_eq!(differences[0].to_string(), "event 2 differs\n  time: locked 2, now 4\n");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+///
+/// # Invariants
+/// Events and contacts are numbered from 1, and each of their facts has a name of its own.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct HistoryLock {
+    /// What the scene states of itself: title, line, observables.
+    pub(super) stated: BTreeMap<String, String>,
+    pub(super) request: HistoryRequest,
+    pub(super) events: BTreeMap<usize, Facts>,
+    pub(super) contacts: BTreeMap<usize, Facts>,
+    /// How the history ends.
+    pub(super) ending: String,
+    pub(super) values: BTreeMap<(String, Rational), String>,
+}
+
+/// What is told of an event or a contact, by name, in the order in which it is written.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+pub(super) struct Facts(pub(super) Vec<(String, String)>);
+
+/// What to lock of a history.
+///
+/// ```
+/// let request = wavestep::lock::HistoryRequest::default();
+/// assert_eq!((request.until, request.digits), (None, 20));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct HistoryRequest {
+    /// The scene time until which contacts are followed; without it until nothing can meet again, as in
+    /// [`History::of`].
+    pub until: Option<Rational>,
+    /// The scene times at which the values of all observables are locked, each the limit from later times.
+    pub times: Vec<Rational>,
+    /// How many significant digits numbers have that are not rational.
+    pub digits: usize,
+    /// The values that the symbols had when the scene was read.
+    pub set: BTreeMap<String, Rational>,
+}
+
+impl Default for HistoryRequest {
+    fn default() -> HistoryRequest {
+        HistoryRequest { until: None, times: Vec::new(), digits: 20, set: BTreeMap::new() }
+    }
+}
+
+/// Why no history can be locked.
+///
+/// ```
+/// use wavestep::history::HistoryError;
+/// use wavestep::language::{Source, read_scene};
+/// use wavestep::lock::{HistoryLock, HistoryLockError, HistoryRequest};
+/// use wavestep::network::Network;
+///
+/// let text = wavestep::scenes::find("saint-venant").unwrap().text;
+/// let scene = read_scene(&Source::new("saint-venant", text)?, &Default::default()).unwrap();
+/// let error = HistoryLock::derive(&Network::new(&scene).unwrap(), &HistoryRequest::default());
+/// // A history needs a number for mu.
+/// let Err(HistoryLockError::History(HistoryError::MissingValue(symbol))) = error else { panic!() };
+/// assert_eq!(symbol.name(), "mu");
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub enum HistoryLockError {
+    /// The history, or a value, is not told.
+    History(HistoryError),
+    /// Numbers cannot have this many digits.
+    Digits(usize),
+    /// What has no proven digits, and is not so near to zero that it needs none.
+    AccuracyNotReached(String),
+}
+
+impl fmt::Display for HistoryLockError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            HistoryLockError::History(error) => error.fmt(f),
+            HistoryLockError::Digits(digits) => {
+                write!(f, "{digits} significant digits cannot be certified")
+            }
+            HistoryLockError::AccuracyNotReached(what) => {
+                write!(f, "accuracy not reached: {what} has no proven digits")
+            }
+        }
+    }
+}
+
+impl std::error::Error for HistoryLockError {}
+
+impl From<HistoryError> for HistoryLockError {
+    fn from(error: HistoryError) -> HistoryLockError {
+        HistoryLockError::History(error)
+    }
+}
+
+type Outcome<T> = Result<T, HistoryLockError>;
+
+impl HistoryLock {
+    /// Follows a scene and takes down what is to be locked.
+    ///
+    /// # Errors
+    /// [`HistoryLockError`] where the history is not told, a number has no proven digits, or the digits are
+    /// not between 1 and [`MAX_DIGITS`].
+    ///
+    /// # Cost
+    /// That of [`History::of`], and of [`History::values`] for each observable.
+    pub fn derive(network: &Network, request: &HistoryRequest) -> Outcome<HistoryLock> {
+        if request.digits == 0 || request.digits > MAX_DIGITS {
+            return Err(HistoryLockError::Digits(request.digits));
+        }
+        let mut request = request.clone();
+        request.times.sort();
+        request.times.dedup();
+        let mut factors = FACTORS.into_iter();
+        loop {
+            let digits = request.digits * factors.next().expect("the last one returns");
+            match told(network, &request, digits) {
+                Err(HistoryLockError::AccuracyNotReached(_)) if factors.len() > 0 => {}
+                told => return told,
+            }
+        }
+    }
+
+    /// What was asked for.
+    pub fn request(&self) -> &HistoryRequest {
+        &self.request
+    }
+
+    /// How many events and how many values are locked.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.events.len(), self.values.len())
+    }
+
+    /// How `now` differs from this lock, event by event, contact by contact and value by value. What only
+    /// one of them has is a difference as well.
+    pub fn differences(&self, now: &HistoryLock) -> Vec<Difference> {
+        let both =
+            |old: &String, new: &String| vec![format!("locked {old}"), format!("now    {new}")];
+        let mut differences = compared(&self.stated, &now.stated, String::clone, both);
+        let name = |number: &usize| format!("event {number}");
+        differences.extend(compared(&self.events, &now.events, name, of_facts));
+        let name = |number: &usize| format!("contact {number}");
+        differences.extend(compared(&self.contacts, &now.contacts, name, of_facts));
+        let ending = |ending: &String| BTreeMap::from([((), ending.clone())]);
+        let name = |(): &()| "ending".to_owned();
+        differences.extend(compared(&ending(&self.ending), &ending(&now.ending), name, both));
+        let name = |(quantity, time): &(String, Rational)| format!("{quantity}({time})");
+        differences.extend(compared(&self.values, &now.values, name, both));
+        differences
+    }
+}
+
+/// The facts that differ, one in a line.
+fn of_facts(old: &Facts, new: &Facts) -> Vec<String> {
+    let by_name = |facts: &Facts| facts.0.iter().cloned().collect::<BTreeMap<String, String>>();
+    let (old_facts, new_facts) = (by_name(old), by_name(new));
+    let mut seen = BTreeSet::new();
+    let names = old.0.iter().chain(&new.0).map(|(name, _)| name);
+    let mut lines = Vec::new();
+    for name in names.filter(|name| seen.insert(*name)) {
+        lines.push(match (old_facts.get(name), new_facts.get(name)) {
+            (Some(old), Some(new)) if old == new => continue,
+            (Some(old), Some(new)) => format!("{name}: locked {old}, now {new}"),
+            (Some(old), None) => format!("{name}: locked {old}, not there now"),
+            (None, new) => format!("{name}: not locked, now {}", new.map_or("", String::as_str)),
+        });
+    }
+    match lines.is_empty() {
+        true => vec!["the same facts stand in another order".to_owned()],
+        false => lines,
+    }
+}
+
+/// The lock, from a history that is told with so many digits.
+fn told(network: &Network, request: &HistoryRequest, digits: usize) -> Outcome<HistoryLock> {
+    let history = History::of(network, request.until.as_ref(), digits)?;
+    let teller = Teller { digits: request.digits };
+    let mut events = BTreeMap::new();
+    for (number, event) in (1..).zip(&history.events) {
+        events.insert(number, teller.event(number, event)?);
+    }
+    let mut contacts = BTreeMap::new();
+    for (number, contact) in (1..).zip(&history.contacts) {
+        contacts.insert(number, teller.contact(number, contact)?);
+    }
+    let ending = match &history.ending {
+        Ending::Parted => "parted".to_owned(),
+        Ending::Followed(time) => {
+            format!("followed until {}", teller.number(time, || "the end".to_owned())?)
+        }
+    };
+    let mut values = BTreeMap::new();
+    for observable in network.scene().observables.iter().filter(|_| !request.times.is_empty()) {
+        let name = &observable.name;
+        let told = History::values(network, name, &request.times, Side::Right, digits)?;
+        for (time, value) in request.times.iter().zip(&told) {
+            let value = teller.number(value, || format!("{name}({time})"))?;
+            values.insert((name.clone(), time.clone()), value);
+        }
+    }
+    let stated = stated(network.scene());
+    Ok(HistoryLock { stated, request: request.clone(), events, contacts, ending, values })
+}
+
+/// Writes numbers with so many digits.
+struct Teller {
+    digits: usize,
+}
+
+impl Teller {
+    fn event(&self, number: usize, event: &Event) -> Outcome<Facts> {
+        let mut numbers = vec![("time".to_owned(), &event.time)];
+        let moments = ["before", "after"];
+        for (moment, force) in moments.iter().zip(&event.forces) {
+            numbers.push((format!("force {moment}"), force));
+        }
+        for (side, name) in event.between.iter().enumerate().filter(|(_, name)| *name != "wall") {
+            for (moment, pair) in moments.iter().zip(&event.velocities) {
+                numbers.push((format!("velocity of {name} {moment}"), &pair[side]));
+            }
+        }
+        let mut facts = vec![
+            ("kind".to_owned(), word(event.kind).to_owned()),
+            ("between".to_owned(), event.between.join(" | ")),
+        ];
+        for (name, value) in numbers {
+            let value = self.number(value, || format!("the {name} of event {number}"))?;
+            facts.push((name, value));
+        }
+        Ok(Facts(facts))
+    }
+
+    fn contact(&self, number: usize, contact: &ContactSummary) -> Outcome<Facts> {
+        let mut facts = vec![("between".to_owned(), contact.between.join(" | "))];
+        let told = |name: &str, value: &Determined| {
+            let value = self.number(value, || format!("the {name} of contact {number}"))?;
+            Ok::<_, HistoryLockError>((name.to_owned(), value))
+        };
+        for (time, (duration, impulse)) in
+            (1..).zip(contact.durations.iter().zip(&contact.impulses))
+        {
+            let name = format!("duration {time}");
+            facts.push(match duration {
+                Some(duration) => told(&name, duration)?,
+                None => (name, "still closed".to_owned()),
+            });
+            facts.push(told(&format!("impulse {time}"), impulse)?);
+        }
+        if let Some(restitution) = &contact.restitution {
+            facts.push(told("restitution", restitution)?);
+        }
+        Ok(Facts(facts))
+    }
+
+    /// A rational as a fraction, where that is short; else its digits. What is not decided to be zero,
+    /// and is nearer to it than one unit in the last of so many decimal places, is `0 ± 1e-20`: the bound is
+    /// that of the digits, whatever enclosure proved it.
+    fn number(&self, value: &Determined, what: impl FnOnce() -> String) -> Outcome<String> {
+        let ball = match value {
+            Determined::Digits(Value::Exact(value)) => {
+                let fraction = value.to_string();
+                return Ok(match fraction.len() <= MAX_FRACTION {
+                    true => fraction,
+                    false => Value::Exact(value.clone()).decimal(self.digits).0.to_string(),
+                });
+            }
+            Determined::Digits(Value::Certified(certified)) => &certified.ball,
+            Determined::Enclosed(ball) => ball,
+        };
+        if let Ok(certified) = certify(self.digits, 1, |_| Ok::<Ball, Infallible>(ball.clone()))
+            && !certified.decimal.is_zero()
+        {
+            return Ok(certified.decimal.to_string());
+        }
+        let places = u32::try_from(self.digits).unwrap_or(u32::MAX);
+        let bound = Rational::new(1.into(), BigInt::from(10).pow(places));
+        let [low, high] = [-&bound, bound].map(|end| Ball::from_rational(&end, 64));
+        let sign = |ball: Ball| (!ball.contains_zero()).then(|| ball.midpoint_is_positive());
+        let above = sign(ball.subtract(&low, 64)) == Some(true);
+        let below = sign(ball.subtract(&high, 64)) == Some(false);
+        match above && below && ball.contains(&Rational::zero()) {
+            true => Ok(format!("0 ± 1e-{}", self.digits)),
+            false => Err(HistoryLockError::AccuracyNotReached(what())),
+        }
+    }
+}
+
+/// The name of a kind of events.
+pub(super) fn word(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Impact => "impact",
+        EventKind::Opening => "opening",
+        EventKind::Release => "release",
+        EventKind::Closing => "closing",
+    }
+}
