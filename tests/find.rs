@@ -507,7 +507,15 @@ fn answers_look_as_recorded() {
         ),
     ] {
         let (code, text, errors) = command(&format!("find {line}"));
-        assert_eq!((code, errors.as_str()), (0, ""), "{line}");
+        // This window reaches beyond the end of what is true of its contact.
+        let note = match name {
+            "critical" => {
+                "note: from t = 3.37156268062 on the contact between striker and cushion would pull; \
+                 with `contacts open` it opens then\n"
+            }
+            _ => "",
+        };
+        assert_eq!((code, errors.as_str()), (0, note), "{line}");
         snapshot(name, &text);
     }
     let line = "find rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4 --format json";

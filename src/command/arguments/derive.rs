@@ -1,0 +1,99 @@
+//! Arguments of `derive`.
+
+use super::Scene;
+use clap::{Args, ValueEnum, ValueHint};
+use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
+
+/// Options of `derive`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep derive rigid-mass                              f[0] … f[3] and g[0] … g[3]\n  \
+    wavestep derive rigid-mass --wave f --from 4 --through 8 --format latex\n  \
+    wavestep derive rigid-mass --wave f --piece 80 --format json\n  \
+    wavestep derive rigid-mass --form echo --through 5\n  \
+    wavestep derive rigid-mass --observable strain_impact\n  \
+    wavestep derive pulse-shape --through 4 --source-form --format latex\n  \
+    wavestep derive two-bars --general\n  \
+    wavestep derive rigid-mass --set mu=1/4 --wave f")]
+pub struct Derive {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Derive this wave only
+    #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
+    pub wave: Option<String>,
+    /// Derive this observable instead of the waves
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["wave", "general"])]
+    pub observable: Option<String>,
+    /// Derive the periods 0 … N [default: 3, or three after --from]
+    #[arg(long, value_name = "N", conflicts_with_all = ["piece", "general"])]
+    pub through: Option<usize>,
+    /// Begin with period N, before --through
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with_all = ["piece", "general"])]
+    pub from: usize,
+    /// Derive period N only
+    #[arg(long, value_name = "N", conflicts_with = "general")]
+    pub piece: Option<usize>,
+    /// Derive the form for every n
+    #[arg(long)]
+    pub general: bool,
+    /// In which form
+    #[arg(long, value_enum, default_value_t = Form::Period, conflicts_with = "general")]
+    pub form: Form,
+    /// Use the symbols, units and shorthand of the scene's source, as its `written` statements say:
+    /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
+    #[arg(long, conflicts_with_all = ["observable", "form"])]
+    pub source_form: bool,
+    /// Say how the recurrence follows from the bars and elements of a scene: scales, waves, laws at
+    /// ends and joints, the recurrence, and its first pieces
+    #[arg(long, conflicts_with_all = ["wave", "observable", "general", "form", "source_form",
+          "through", "from", "piece"])]
+    pub explain: bool,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = DeriveFormat::Text)]
+    pub format: DeriveFormat,
+    /// The most characters in a line, on the page in LaTeX [default: 100 for text, 84 for LaTeX]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(20..))]
+    pub line_length: Option<u16>,
+}
+
+impl Derive {
+    /// The first and the last order asked for.
+    pub fn orders(&self) -> (usize, usize) {
+        match (self.piece, self.through) {
+            (Some(n), _) => (n, n),
+            (None, Some(through)) => (self.from, through),
+            (None, None) => (self.from, self.from.saturating_add(3)),
+        }
+    }
+
+    /// The most characters in a line.
+    pub fn width(&self) -> usize {
+        let own = match self.format {
+            DeriveFormat::Latex => LATEX_WIDTH,
+            _ => TEXT_WIDTH,
+        };
+        self.line_length.map_or(own, usize::from)
+    }
+}
+
+/// The form in which wave functions are given.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    /// One function of local time for each period
+    Period,
+    /// The echoes that arrive period by period, and add up
+    Echo,
+    /// The pieces with the half-open intervals on which they hold
+    Piecewise,
+}
+
+/// How formulas are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DeriveFormat {
+    /// Plain text; pieces and echoes in the scene's own symbols can be read back
+    Text,
+    /// An `align*` environment for amsmath
+    Latex,
+    /// Terms with reduced rationals
+    Json,
+}

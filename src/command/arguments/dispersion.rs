@@ -1,0 +1,61 @@
+//! Arguments of `dispersion`.
+
+use clap::{Args, ValueEnum, ValueHint};
+
+/// Options of `dispersion`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep dispersion lattice --at 1\n  \
+    wavestep dispersion 'k*sqrt(1 + a*k^2)' --set a=1/12 --at 1/2 --digits 30\n  \
+    wavestep dispersion cubic --pulse triangle\n  \
+    wavestep dispersion cubic --length 10 --propagate 20\n  \
+    wavestep dispersion lattice --pulse 'exp(-k^2)' --duration 8\n\n\
+Relations that have names: string, lattice, cubic, stiff-string, beam, love. Parameters stand for\n\
+positive numbers. A pulse counts wavenumbers to 2 pi/length, or to the root of omega(k) duration = 2 pi.")]
+pub struct Dispersion {
+    /// A formula in k, or the name of a relation
+    pub relation: String,
+    /// Put an exact value in place of a parameter; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true,
+          value_hint = ValueHint::Other)]
+    pub set: Vec<String>,
+    /// Values at this wavenumber; may be given several times
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// The pulse: square, triangle, gaussian, or its spectrum as a formula in k [default: square, where
+    /// a length or a duration is given]
+    #[arg(long, value_name = "PULSE", allow_hyphen_values = true)]
+    pub pulse: Option<String>,
+    /// The length of a pulse given in space
+    #[arg(long, value_name = "B", allow_hyphen_values = true, conflicts_with = "duration")]
+    pub length: Option<String>,
+    /// The duration of a pulse given in time, at one place
+    #[arg(long, value_name = "TAU", allow_hyphen_values = true)]
+    pub duration: Option<String>,
+    /// Send the pulse on its way until this time, and say how fast its peak was
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub propagate: Option<String>,
+    /// How many points the grid of --propagate has
+    #[arg(long, value_name = "N", requires = "propagate")]
+    pub points: Option<usize>,
+    /// How many significant digits
+    #[arg(long, value_name = "D", default_value_t = 15)]
+    pub digits: usize,
+    /// The most bits of working precision
+    #[arg(long, value_name = "BITS", default_value_t = 1 << 12)]
+    pub max_bits: u64,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = DispersionFormat::Text)]
+    pub format: DispersionFormat,
+}
+
+/// How velocities are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DispersionFormat {
+    /// Formulas that read back, and digits
+    Text,
+    /// An `align*` environment for amsmath
+    Latex,
+    /// Formulas as text, decimal strings with proven radii
+    Json,
+}

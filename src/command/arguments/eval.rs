@@ -1,0 +1,89 @@
+//! Arguments of `eval`.
+
+use super::Scene;
+use clap::{Args, ValueEnum};
+
+/// Options of `eval`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity strain_fixed --from 0 --to 6 --points 13\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity velocity --at 2 --side left\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json\n  \
+    wavestep eval rigid-mass --set mu=1 --quantity f --from 0 --to 80 --points 9 --tol 1e-9 --explain\n  \
+    wavestep eval mass-on-fixed-bar --set mu=1 --quantity velocity --at 3 --method modes:100 --tol 1e-3\n\n\
+    Times and values are exact: 33/10, 12.34, 1e3. Rational values are printed exactly where\n\
+    they have no more digits than asked for; all others are rounded correctly, ties to even.")]
+pub struct Eval {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// A wave or an observable
+    #[arg(long, value_name = "NAME")]
+    pub quantity: String,
+    /// At this scene time; may be given several times
+    #[arg(long, value_name = "T", allow_hyphen_values = true,
+          conflicts_with_all = ["from", "to", "points", "piece", "local"])]
+    pub at: Vec<String>,
+    /// First of evenly spaced times
+    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["to", "points"])]
+    pub from: Option<String>,
+    /// Last of evenly spaced times
+    #[arg(long, value_name = "T", allow_hyphen_values = true, requires_all = ["from", "points"])]
+    pub to: Option<String>,
+    /// How many evenly spaced times
+    #[arg(long, value_name = "N", requires_all = ["from", "to"])]
+    pub points: Option<usize>,
+    /// On this period of the quantity, at the local time given by --local
+    #[arg(long, value_name = "N", requires = "local", conflicts_with_all = ["from", "to", "points"])]
+    pub piece: Option<usize>,
+    /// Local time on the period given by --piece
+    #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "piece")]
+    pub local: Option<String>,
+    /// How many significant digits
+    #[arg(long, value_name = "D", default_value_t = 15)]
+    pub digits: usize,
+    /// Which limit is meant where an echo arrives
+    #[arg(long, value_enum, default_value_t = SideOption::Right)]
+    pub side: SideOption,
+    /// Say on standard error how many echoes were worked out
+    #[arg(long)]
+    pub stats: bool,
+    /// The most bits of working precision
+    #[arg(long, value_name = "BITS", default_value_t = 1 << 18)]
+    pub max_bits: u64,
+    /// In doubles, by the cheapest method that is proven to be off by at most so much: 1e-9 of the
+    /// largest value, abs:1e-9 in the unit of the quantity, ulp:4 units in the last place of the
+    /// largest value
+    #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
+    pub tol: Option<String>,
+    /// In doubles, by this method or model: certified, compiled, marched, stable, double-double,
+    /// plain, expanded; rigid, third, modes[:N], leapfrog[:CELLS[,CFL]], steps[:TOL]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
+    pub method: Option<String>,
+    /// Say on standard error which method was picked, and why
+    #[arg(long)]
+    pub explain: bool,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
+    pub format: EvalFormat,
+}
+
+/// Which limit is meant.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SideOption {
+    /// From earlier times
+    Left,
+    /// From later times
+    Right,
+}
+
+/// How values are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum EvalFormat {
+    /// A line a time
+    Text,
+    /// Decimal strings with proven radii
+    Json,
+    /// Columns with a heading
+    Csv,
+}

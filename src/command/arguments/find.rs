@@ -1,0 +1,55 @@
+//! Arguments of `find`.
+
+use super::{EvalFormat, Scene};
+use clap::{ArgGroup, Args};
+
+/// Options of `find`.
+#[derive(Args)]
+#[command(group = ArgGroup::new("goal").required(true).args(["max", "min", "zero", "level"]),
+    after_help = "Examples:\n  \
+    wavestep find rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4\n  \
+    wavestep find rigid-mass --set mu=1 --level velocity=1/2 --from 0 --to 6\n  \
+    wavestep find hopkinson --max force --from 0 --to 350us --digits 9\n  \
+    wavestep find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu\n\n\
+    Both ends of the window belong to it. Every root in it is told, with what is proven of it; exit\n\
+    code 3 when some of it stays undecided. Levels are in the unit of the quantity, or have one.")]
+pub struct Find {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// The largest value of this wave or observable
+    #[arg(long, value_name = "QUANTITY")]
+    pub max: Option<String>,
+    /// The smallest value
+    #[arg(long, value_name = "QUANTITY")]
+    pub min: Option<String>,
+    /// All times at which it is zero
+    #[arg(long, value_name = "QUANTITY")]
+    pub zero: Option<String>,
+    /// All times at which it has this value
+    #[arg(long, value_name = "QUANTITY=VALUE", allow_hyphen_values = true)]
+    pub level: Option<String>,
+    /// The first time of the window
+    #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "equal")]
+    pub from: Option<String>,
+    /// The last time of the window
+    #[arg(long, value_name = "T", allow_hyphen_values = true, required_unless_present = "equal")]
+    pub to: Option<String>,
+    /// A value of this symbol between two bounds for which the largest or smallest values in two
+    /// windows are equal
+    #[arg(long, value_name = "SYMBOL=LOW..HIGH", requires = "between",
+          conflicts_with_all = ["from", "to", "zero", "level"])]
+    pub equal: Option<String>,
+    /// The windows from T1 to T2 and from T2 to T3, without their last instants; times may hold the
+    /// symbol of --equal
+    #[arg(long, value_name = "T1,T2,T3", requires = "equal")]
+    pub between: Option<String>,
+    /// How many significant digits
+    #[arg(long, value_name = "D", default_value_t = 15)]
+    pub digits: usize,
+    /// The most bits of working precision
+    #[arg(long, value_name = "BITS", default_value_t = 1 << 12)]
+    pub max_bits: u64,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
+    pub format: EvalFormat,
+}

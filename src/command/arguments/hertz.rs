@@ -1,0 +1,42 @@
+//! Arguments of `hertz`.
+
+use super::Scene;
+use clap::{Args, ValueEnum};
+
+/// Options of `hertz`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep hertz local-contact\n  \
+    wavestep hertz hertz-striker --rise 1/2,9/10 --at 20us --digits 9\n\n\
+The bars are taken to be long: all is valid until a wave from a far end may be felt, which is told.")]
+pub struct Hertz {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Rise times to these shares of the largest force, separated by commas
+    #[arg(
+        long,
+        value_name = "SHARE",
+        value_delimiter = ',',
+        default_value = "1/10,1/2,9/10",
+        allow_hyphen_values = true
+    )]
+    pub rise: Vec<String>,
+    /// The force at these times, separated by commas
+    #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// How many significant digits
+    #[arg(long, value_name = "D", default_value_t = 12)]
+    pub digits: usize,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = HertzFormat::Text)]
+    pub format: HertzFormat,
+}
+
+/// How closed forms of a contact are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum HertzFormat {
+    /// A line a value
+    Text,
+    /// Decimal strings
+    Json,
+}

@@ -1,0 +1,49 @@
+//! Arguments of `check` and `lock`.
+
+use super::Scene;
+use clap::{Args, ValueHint};
+
+/// Options of `check`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep check my.wave\n  \
+    wavestep check rigid-mass\n  \
+    wavestep check my.wave --locked my.lock")]
+pub struct Check {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Compare with what `wavestep lock` wrote to this file, with the values that stand there
+    #[arg(long, value_name = "FILE", conflicts_with = "set", value_hint = ValueHint::FilePath)]
+    pub locked: Option<String>,
+}
+
+/// Options of `lock`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep lock my.wave --through 4 -o my.lock\n  \
+    wavestep lock rigid-mass --through 2 --set mu=1/4 --at 33/10 --at 5\n  \
+    wavestep lock saint-venant --set mu=1 --at 2 -o my.lock\n  \
+    wavestep check my.wave --locked my.lock\n\n\
+    The file holds what the scene states of its period, symbols and observables, the pieces of all\n\
+    waves on the periods 0 … N, and at each time the values of all waves and observables, just\n\
+    after arrivals. Of a scene whose contacts open it holds events instead of pieces, and values of\n\
+    observables. A file that exists is replaced.")]
+pub struct Lock {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Lock the pieces on the periods 0 … N
+    #[arg(long, value_name = "N")]
+    pub through: Option<usize>,
+    /// Lock the events until this scene time, where contacts open [default: as in `events`]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, conflicts_with = "through")]
+    pub until: Option<String>,
+    /// Lock values at this scene time; may be given several times
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// How many significant digits values have
+    #[arg(long, value_name = "D", default_value_t = 20)]
+    pub digits: usize,
+    /// The file to write; standard output without it
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<String>,
+}

@@ -1,0 +1,95 @@
+//! The arguments of the command, with their help.
+
+mod book;
+mod derive;
+mod dispersion;
+mod eval;
+mod events;
+mod export;
+mod find;
+mod hertz;
+mod locks;
+mod pictures;
+mod tools;
+
+pub use book::{Book, BookFormat};
+pub use derive::{Derive, DeriveFormat, Form};
+pub use dispersion::{Dispersion, DispersionFormat};
+pub use eval::{Eval, EvalFormat, SideOption};
+pub use events::{Events, EventsFormat};
+pub use export::Export;
+pub use find::Find;
+pub use hertz::{Hertz, HertzFormat};
+pub use locks::{Check, Lock};
+pub use pictures::{Chart, DiagramOption, Field, FieldFormat, Figure, Plot};
+pub use tools::{Generate, Generated, Scenes};
+
+use clap::{Args, Parser, Subcommand as Subcommands, ValueHint};
+
+/// Exact solutions of wave propagation in bars with lumped ends.
+#[derive(Parser)]
+#[command(
+    name = "wavestep",
+    version,
+    about,
+    after_help = "Examples:\n  \
+        wavestep derive rigid-mass\n  \
+        wavestep derive rigid-mass --wave f --through 8 --format latex\n  \
+        wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n\n\
+        Exit codes: 0 done, 1 could not compute or not as locked, 2 usage or bad scene,\n\
+        3 accuracy not reached."
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub subcommand: Subcommand,
+}
+
+/// What the command can do.
+#[derive(Subcommands)]
+pub enum Subcommand {
+    /// Derive wave functions exactly: pieces, echoes, or the general form
+    Derive(Derive),
+    /// Evaluate a wave or an observable with certified digits
+    Eval(Eval),
+    /// Write values on a window as a program with a proven bound
+    Export(Export),
+    /// Measure accuracy and speed of all methods, as charts with their data and one page
+    Chart(Chart),
+    /// Draw observables against time, a diagram of place and time, or fields along the line
+    Plot(Plot),
+    /// Give velocity, strain, displacement and force along the bars at a time, with bounds
+    Field(Field),
+    /// Find all roots, or the largest or smallest value, in a window of time, with proof
+    Find(Find),
+    /// Velocities of crests, groups and pulses for a dispersion relation omega(k)
+    Dispersion(Dispersion),
+    /// Closed forms of a local contact between two bars: largest force, rise times, equivalent spring
+    Hertz(Hertz),
+    /// Draw a figure of the source
+    Figure(Figure),
+    /// List the equations of the source with what is found about each, or show one of them
+    Book(Book),
+    /// Tell when contacts open and close: a time line with forces, velocities and energies
+    Events(Events),
+    /// Check a scene: read it, order its equations, and derive it in two ways
+    Check(Check),
+    /// Lock derived forms and certified values in a file, for `check --locked`
+    Lock(Lock),
+    /// List the built-in scenes, or show the text of one
+    Scenes(Scenes),
+    /// Write the completions of a shell, or the manual page
+    Generate(Generate),
+}
+
+/// A scene, with values in place of symbols.
+#[derive(Args)]
+pub struct Scene {
+    /// A file, or the name of a built-in scene (see `wavestep scenes`), which comes first
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub scene: String,
+    /// Put an exact value in place of a symbol, before anything is derived; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true,
+          value_hint = ValueHint::Other)]
+    pub set: Vec<String>,
+}

@@ -1,0 +1,149 @@
+//! Arguments of the commands that draw and give fields.
+
+use super::{Scene, SideOption};
+use clap::{Args, ValueEnum, ValueHint};
+
+/// Options of `chart`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep chart rigid-mass --set mu=1 -o charts\n  \
+    wavestep chart hopkinson --quantity gauge_output --to 2ms -o charts\n\n\
+Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table. With one symbol\n\
+set, there are maps over the order and that symbol as well. Times are those of this machine.")]
+pub struct Chart {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// A wave or an observable [default: the first observable]
+    #[arg(long, value_name = "NAME")]
+    pub quantity: Option<String>,
+    /// The first time of the window
+    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
+    pub from: String,
+    /// The last time of the window [default: 40 periods]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// At how many times errors are measured
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub points: usize,
+    /// The seed of the times
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Fewer orders and runs: to see whether it works
+    #[arg(long)]
+    pub quick: bool,
+    /// The folder to write to; it is made where there is none
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub output: String,
+}
+
+/// Options of `plot`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep plot rigid-mass --set mu=1 --to 8 -o strain.svg\n  \
+    wavestep plot hopkinson --diagram velocity --to 400us -o hopkinson.svg\n  \
+    wavestep plot hopkinson --at-time 50us,100us,150us --quantity velocity,force -o fields.png\n\n\
+The ending of the file says what is written: .svg, .png, or the numbers as .json or .csv.")]
+pub struct Plot {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// These waves and observables, separated by commas [default: all observables]; with --at-time,
+    /// these of velocity, strain, displacement and force [default: the first three]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', conflicts_with = "diagram")]
+    pub quantity: Vec<String>,
+    /// The first time of the window
+    #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
+    pub from: String,
+    /// The last time of the window [default: four periods]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// Place across and time upwards, with this quantity by colour
+    #[arg(long, value_enum)]
+    pub diagram: Option<DiagramOption>,
+    /// Fields along the line at these times, separated by commas
+    #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
+          conflicts_with_all = ["diagram", "from", "to"])]
+    pub at_time: Vec<String>,
+    /// The title [default: that of the scene]; nothing for none
+    #[arg(long, value_name = "TEXT")]
+    pub title: Option<String>,
+    /// The width of a PNG in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 1800)]
+    pub width: u32,
+    /// The file to write
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: String,
+}
+
+/// The quantity of a diagram of place and time.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DiagramOption {
+    /// Positive to the right
+    Velocity,
+    /// Positive where it pulls
+    Strain,
+    /// Positive where it compresses
+    Force,
+}
+
+/// Options of `field`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep field mass-on-fixed-bar --set mu=1 --time 5/2 --mesh 100\n  \
+    wavestep field hopkinson --time 120us --mesh 200 --bar striker --averages --format json\n\n\
+Each value is a double with a proven bound on its error. Where a field jumps at a node, the limit from\n\
+the right is given, at the right end of a bar that from within; --side left gives the other.")]
+pub struct Field {
+    #[command(flatten)]
+    pub scene: Scene,
+    /// At this scene time
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub time: String,
+    /// How many cells each bar has
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub mesh: usize,
+    /// The averages over the cells instead of the values at the nodes
+    #[arg(long)]
+    pub averages: bool,
+    /// From which side limits are taken where a field jumps at a node
+    #[arg(long, value_enum, default_value_t = SideOption::Right)]
+    pub side: SideOption,
+    /// This bar only; may be given several times
+    #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
+    pub bar: Vec<String>,
+    /// Endless bars up to this distance from their end [default: as far as waves have come]
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    /// Written how
+    #[arg(long, value_enum, default_value_t = FieldFormat::Csv)]
+    pub format: FieldFormat,
+    /// The file to write; standard output without it
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<String>,
+}
+
+/// How fields are written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FieldFormat {
+    /// A row a node or cell, with a heading
+    Csv,
+    /// Lists of numbers for each bar
+    Json,
+}
+
+/// Options of `figure`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    wavestep figure\n  \
+    wavestep figure 6.18 -o pulses.svg\n  \
+    wavestep figure 6.22 -o strains.png --width 1200")]
+pub struct Figure {
+    /// The number of the figure; without one, all of them are listed
+    #[arg(requires = "output")]
+    pub number: Option<String>,
+    /// The width of a PNG in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 1800)]
+    pub width: u32,
+    /// The file to write: .svg, .png, .json or .csv
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "number")]
+    pub output: Option<String>,
+}
