@@ -95,7 +95,7 @@ fn what_does_not_follow_contacts_says_so() {
     ] {
         let (code, told) = refusal(arguments);
         assert_eq!(code, 2, "{told}");
-        assert!(told.contains("does not follow contacts that open"), "{told}");
+        assert!(told.contains("contacts that open are not followed by"), "{told}");
     }
     let (code, told) = refusal(&["events", "rigid-mass"]);
     assert!(code == 2 && told.contains("a recurrence has no contacts"), "{told}");

@@ -16,7 +16,10 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         Readable::Subject(subject) => subject,
     };
     if options.tol.is_some() || options.method.is_some() {
-        return eval_doubles::run(subject.with_closed_contacts("eval --tol")?, options);
+        return eval_doubles::run(
+            subject.with_closed_contacts("eval --tol` and `eval --method")?,
+            options,
+        );
     }
     if options.explain {
         let message = "--explain tells how values in doubles are computed";

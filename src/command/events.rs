@@ -10,6 +10,7 @@ use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use wavestep::evaluate::{Determined, Value};
 use wavestep::export::SCHEMA_VERSION;
+use wavestep::export::expression_text;
 use wavestep::history::{Body, Ending, Event, EventKind, History, HistoryError};
 use wavestep::language;
 use wavestep::network::Network;
@@ -61,7 +62,9 @@ impl From<HistoryError> for Failure {
                 "ask for an earlier end"
             }
             HistoryError::Field(error) => return (**error).clone().into(),
-            HistoryError::Refused(_) => "describe the scene without it",
+            HistoryError::Refused(_) => {
+                "docs/scene-language.md says under `Contacts` what is followed"
+            }
             _ => "ask for an earlier time",
         };
         Failure::Computation(message, remedy.to_owned())
@@ -119,7 +122,10 @@ impl Told<'_> {
     fn text(&self) -> String {
         let mut text = format!("{}\n", self.network.scene().title);
         for event in &self.history.events {
-            let time = self.value(&event.time, Dimension::TIME);
+            let mut time = self.value(&event.time, Dimension::TIME);
+            if let Some(exact) = &event.exact {
+                let _ = write!(time, " = {}", expression_text(exact));
+            }
             let [left, right] = &event.between;
             let _ = write!(text, "\nt = {time}: {}\n", self.sentence(event));
             let _ = writeln!(text, "  force    {}", self.pair(&event.forces, Dimension::FORCE));
@@ -202,10 +208,14 @@ impl Told<'_> {
             })
         };
         let events = self.history.events.iter().map(|event| {
+            let mut time = number(&event.time);
+            if let Some(exact) = &event.exact {
+                time["expression"] = expression_text(exact).into();
+            }
             json!({
                 "kind": word(event.kind),
                 "between": event.between,
-                "time": number(&event.time),
+                "time": time,
                 "force": pair(&event.forces),
                 "velocities": { "before": pair(&event.velocities[0]),
                                 "after": pair(&event.velocities[1]) },

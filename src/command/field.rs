@@ -1,6 +1,6 @@
 //! `field`: velocity, strain, displacement and force along the bars at a time.
 
-use super::arguments::{Field, FieldFormat, SideOption};
+use super::arguments::{Field, FieldFormat, FieldSide};
 use super::failure::Failure;
 use super::input::{self, Subject};
 use super::output::written;
@@ -24,7 +24,7 @@ pub fn run(options: &Field) -> Result<String, Failure> {
     if options.averages {
         mesh = mesh.averages();
     }
-    if options.side == SideOption::Left {
+    if options.side == FieldSide::Left {
         mesh = mesh.on_the(Side::Left);
     }
     for bar in &options.bar {

@@ -35,8 +35,8 @@ impl Subject {
     pub fn with_closed_contacts(self, command: &str) -> Result<Subject, Failure> {
         match &self {
             Subject::Scene(network) if network.scene().contacts_open => {
-                let message = format!("`{command}` does not follow contacts that open");
-                let remedy = "leave `contacts open` out of the scene, or use `events` and `eval`";
+                let message = format!("contacts that open are not followed by `{command}`");
+                let remedy = "leave `contacts open` out of the scene, or use `events`, `eval` with --digits, `find` or `plot`";
                 Err(Failure::usage(message, remedy))
             }
             _ => Ok(self),

@@ -3,8 +3,9 @@
 use crate::ball::{Ball, CertifyError, certify};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::evaluate::{Determined, Value};
-use crate::expression::{Fraction, Root};
+use crate::expression::{Expression, Fraction, Root};
 use crate::history::body::parts;
+use crate::history::closed_form;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
@@ -126,6 +127,9 @@ pub struct Event {
     pub between: [String; 2],
     /// When.
     pub time: Determined,
+    /// When, in closed form: of the first opening, where the force of the closed contact is a linear
+    /// function times an exponential there.
+    pub exact: Option<Expression>,
     /// The force just before and just after, positive where it presses.
     pub forces: [Determined; 2],
     /// The velocities at the left and the right of the contact, just before and just after.
@@ -203,6 +207,8 @@ pub enum Ending {
 /// let history = History::of(&Network::new(&scene).unwrap(), None, 20).unwrap();
 /// // It leaves the bar at 3 + exp(-2)/2.
 /// assert_eq!(history.events[1].time.to_text(20), "3.0676676416183063459");
+/// let exact = history.events[1].exact.as_ref().unwrap();
+/// assert_eq!(wavestep::export::expression_text(exact), "3 + 1/2*exp(-2)");
 /// assert_eq!(history.contacts.len(), 1);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
@@ -398,9 +404,14 @@ impl Story<'_> {
         let units = Units::of(self.network, &self.engine.clock.numbers, self.engine.cut.bits)?;
         let mut closed = vec![true; self.engine.contacts.len()];
         let mut events = Vec::new();
-        for row in &rows {
+        let first = rows.iter().position(|row| row.kind != EventKind::Impact);
+        for (number, row) in rows.iter().enumerate() {
             closed[row.contact] = matches!(row.kind, EventKind::Impact | EventKind::Closing);
-            events.push(self.event(row, &closed, &units)?);
+            let mut event = self.event(row, &closed, &units)?;
+            if first == Some(number) && row.kind == EventKind::Opening {
+                event.exact = self.opening(row)?;
+            }
+            events.push(event);
         }
         let mut contacts = Vec::new();
         for contact in 0..self.engine.contacts.len() {
@@ -458,6 +469,15 @@ impl Story<'_> {
         Ok(kept)
     }
 
+    /// An opening in closed form, where its instant is not rational.
+    fn opening(&self, row: &Row) -> Outcome<Option<Expression>> {
+        let Number::Enclosed(instant) = self.engine.clock.time(&row.moment)? else {
+            return Ok(None);
+        };
+        let joint = self.engine.contacts[row.contact].joint;
+        Ok(closed_form::opening(self.network, joint, &instant))
+    }
+
     fn event(&self, row: &Row, closed: &[bool], units: &Units) -> Outcome<Event> {
         let (engine, bits) = (&self.engine, self.engine.cut.bits);
         let (before, old) = engine.beside(row.contact, &row.moment, Limit::Before)?;
@@ -479,6 +499,7 @@ impl Story<'_> {
             contact: row.contact,
             between: engine.contacts[row.contact].names.clone(),
             time: told(&time, &units.time),
+            exact: None,
             forces: [before, after].map(|force| told(&force, &units.force)),
             velocities: [old, new].map(|pair| pair.map(|v| told(&v, &units.velocity))),
             bodies: self.bodies(&row.moment, closed, units)?,

@@ -7,10 +7,12 @@
 //!
 //! Read `engine` for the way from cell to cell, `reading` for what is taken from it, `crossing` for the
 //! proof that nothing is passed over, `observe` and `phased` for what is seen of it, `waves` for the fields
-//! along the bars, `validity` for how long closed contacts are true, `series` for the arithmetic, `body`
+//! along the bars, `validity` for how long closed contacts are true, `closed_form` for
+//! instants in closed form, `series` for the arithmetic, `body`
 //! for energies and for why bodies never meet again.
 
 mod body;
+mod closed_form;
 mod crossing;
 mod engine;
 mod error;

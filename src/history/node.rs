@@ -85,6 +85,30 @@ impl Node {
         [0, self.links.len()]
     }
 
+    /// Whether nothing acts on a run but the links beside it: no mass, load, support, bar or wall.
+    pub fn is_bare(&self, run: usize) -> bool {
+        !self.held[run]
+            && self.masses.iter().all(|mass| mass.run != run)
+            && self.loads.iter().all(|load| load.run != run)
+            && self.supports.iter().all(|(support, _)| *support != run)
+            && !self.reaches_bar(run)
+    }
+
+    /// Whether a bar begins or ends at a run.
+    pub fn reaches_bar(&self, run: usize) -> bool {
+        let mut sides = self.side_runs().into_iter().zip([self.left, self.right]);
+        sides.any(|(end, side)| end == run && matches!(side, Side::Bar(_)))
+    }
+
+    /// The contact beside a run, at its left or at its right, with its place among those of the node.
+    pub fn contact_beside(&self, run: usize, right: bool) -> Option<usize> {
+        let link = if right { Some(run) } else { run.checked_sub(1) };
+        let Some(Link::Contact(contact)) = link.and_then(|link| self.links.get(link)) else {
+            return None;
+        };
+        self.contacts().position(|(own, _)| own == *contact)
+    }
+
     /// The mass of a run.
     pub fn mass_of(&self, run: usize, bits: u64) -> Number {
         let own = self.masses.iter().filter(|mass| mass.run == run);

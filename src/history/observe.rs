@@ -10,7 +10,6 @@ use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{History, MAX_BITS, determined, unit};
 use crate::history::moment::Moment;
-use crate::history::node::Link;
 use crate::history::number::Number;
 use crate::history::part::{Part, Signal, Source};
 use crate::history::track::Limit;
@@ -201,17 +200,13 @@ impl Engine {
         if loaded {
             return None;
         }
-        let beyond = match side {
-            0 => run.checked_sub(1).map(|link| &own.links[link]),
-            _ => own.links.get(run),
-        };
-        match (beyond, [own.left, own.right][side]) {
-            (Some(Link::Contact(contact)), _) => {
-                let place = own.contacts().position(|(own, _)| own == *contact)?;
-                Some(Some(Source::Node { node, signal: Signal::Force(place) }).into_iter())
+        let force = |place| Source::Node { node, signal: Signal::Force(place) };
+        match own.contact_beside(run, side == 1) {
+            Some(place) => Some(Some(force(place)).into_iter()),
+            None if own.links.is_empty() && [own.left, own.right][side] == End::Free => {
+                Some(None.into_iter())
             }
-            (None, End::Free) => Some(None.into_iter()),
-            _ => None,
+            None => None,
         }
     }
 
@@ -262,8 +257,26 @@ impl Engine {
         if let Some((place, (run, own, spring))) = &yields {
             let yielded = Signal::Yield(*place);
             match measure {
+                // A damper alone has no spring that remembers: what its ends have moved tells.
+                Measure::Compression if own.stiffness.is_zero() => {
+                    let mut parts = vec![part(Signal::Displacement(*run), one.clone())];
+                    if *spring {
+                        parts.push(part(Signal::Displacement(run + 1), one.negate()));
+                    }
+                    return Ok(parts);
+                }
                 Measure::Compression => return Ok(vec![part(yielded, one.clone())]),
                 Measure::Force => {
+                    // A contact at a bare end of a spring presses as the spring does.
+                    let joined = &self.nodes[node];
+                    let beside = |run: usize, right| {
+                        joined.contact_beside(run, right).filter(|_| joined.is_bare(run))
+                    };
+                    if *spring
+                        && let Some(place) = beside(*run, false).or_else(|| beside(run + 1, true))
+                    {
+                        return Ok(vec![part(Signal::Force(place), one.clone())]);
+                    }
                     let damping = own.damping.multiply(one, bits);
                     let mut parts = vec![part(yielded, own.stiffness.multiply(one, bits))];
                     if !damping.is_zero() {

@@ -4,11 +4,9 @@ use crate::expression::Fraction;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::node::Link;
 use crate::history::number::Number;
 use crate::history::series::Series;
 use crate::history::track::Limit;
-use crate::network::Side;
 
 type Outcome<T> = Result<T, HistoryError>;
 
@@ -152,20 +150,16 @@ impl Engine {
     pub fn slope_of(&self, part: &Part) -> Option<Part> {
         let Source::Node { node, signal: Signal::Velocity(run) } = part.source else { return None };
         let own = &self.nodes[node];
-        let sides = own.side_runs().into_iter().zip([own.left, own.right]);
-        let reaches_bar =
-            sides.into_iter().any(|(end, side)| end == run && matches!(side, Side::Bar(_)));
-        let acted = reaches_bar
-            || own.held[run]
+        let acted = own.held[run]
             || own.masses.iter().all(|mass| mass.run != run)
             || own.loads.iter().any(|load| load.run == run)
-            || own.supports.iter().any(|(support, _)| *support == run);
-        let before = run.checked_sub(1).and_then(|before| own.links.get(before));
-        let contact = match (before, own.links.get(run)) {
-            (Some(Link::Contact(contact)), None) | (None, Some(Link::Contact(contact))) => *contact,
-            _ => return None,
-        };
-        let place = own.contacts().position(|(own, _)| own == contact)?;
+            || own.supports.iter().any(|(support, _)| *support == run)
+            || own.reaches_bar(run);
+        let links = usize::from(run > 0) + usize::from(run < own.links.len());
+        let place = own.contact_beside(run, false).or_else(|| own.contact_beside(run, true))?;
+        if links > 1 {
+            return None;
+        }
         let source = Source::Node { node, signal: Signal::Force(place) };
         (!acted).then(|| Part { source, ..part.clone() })
     }

@@ -6,6 +6,7 @@ mod locks;
 mod page;
 mod phases;
 mod refusals;
+mod springs;
 mod validity;
 
 use std::collections::BTreeMap;
@@ -205,4 +206,23 @@ fn observables_go_on_across_phases() {
         (text(&left), text(&right)),
         (vec!["0.5 = 1/2".to_owned(), "1".to_owned()], vec!["1".to_owned(), "1".to_owned()],)
     );
+}
+
+/// The closed form of the first opening lies in its enclosure: 3 + e^(−2)/2 for equal masses; none is told
+/// where the force is no line times an exponential.
+#[test]
+fn the_first_opening_is_told_in_closed_form() {
+    for (mu, told) in [("1", Some("3 + 1/2*exp(-2)")), ("2", None), ("1/2", None)] {
+        let history = History::of(&shipped("saint-venant", &[("mu", mu)]), None, 15).unwrap();
+        let exact = history.events[1].exact.as_ref().map(wavestep::export::expression_text);
+        if told.is_some() {
+            assert_eq!(exact.as_deref(), told);
+        }
+        if let Some(exact) = &history.events[1].exact {
+            let value = wavestep::enclosure::enclose_expression(exact, &|_, _| None, 300).unwrap();
+            let off = value.real().subtract(&ball(&history.events[1].time), 300);
+            assert!(is_zero(&off) || off.contains(&rational(0, 1)), "{mu}: {off}");
+        }
+        assert!(history.events[2..].iter().all(|event| event.exact.is_none()));
+    }
 }

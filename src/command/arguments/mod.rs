@@ -21,7 +21,7 @@ pub use export::Export;
 pub use find::Find;
 pub use hertz::{Hertz, HertzFormat};
 pub use locks::{Check, Lock};
-pub use pictures::{Chart, DiagramOption, Field, FieldFormat, Figure, Plot};
+pub use pictures::{Chart, DiagramOption, Field, FieldFormat, FieldSide, Figure, Plot};
 pub use tools::{Generate, Generated, Scenes};
 
 use clap::{Args, Parser, Subcommand as Subcommands, ValueHint};

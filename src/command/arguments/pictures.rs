@@ -1,6 +1,6 @@
 //! Arguments of the commands that draw and give fields.
 
-use super::{Scene, SideOption};
+use super::Scene;
 use clap::{Args, ValueEnum, ValueHint};
 
 /// Options of `chart`.
@@ -105,8 +105,8 @@ pub struct Field {
     #[arg(long)]
     pub averages: bool,
     /// From which side limits are taken where a field jumps at a node
-    #[arg(long, value_enum, default_value_t = SideOption::Right)]
-    pub side: SideOption,
+    #[arg(long, value_enum, default_value_t = FieldSide::Right)]
+    pub side: FieldSide,
     /// This bar only; may be given several times
     #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
     pub bar: Vec<String>,
@@ -146,4 +146,13 @@ pub struct Figure {
     /// The file to write: .svg, .png, .json or .csv
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "number")]
     pub output: Option<String>,
+}
+
+/// Which limit of a field is meant.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FieldSide {
+    /// From smaller x
+    Left,
+    /// From larger x
+    Right,
 }
