@@ -163,6 +163,37 @@ fn energy_and_momentum_are_kept_through_every_event() {
     }
 }
 
+/// With a wall the momentum of the striker alone is kept: it changes by the impulses of its contact, and by
+/// what the load gives, at every opening.
+#[test]
+fn impulses_are_the_momentum_that_a_striker_loses() {
+    for (name, values, load) in [
+        ("saint-venant", &[("mu", "1")][..], 0),
+        ("saint-venant", &[("mu", "1/4")], 0),
+        ("mass-that-bounces", &[], 1),
+    ] {
+        let network = shipped(name, values);
+        let until = rational(25, 1);
+        let until = (load > 0).then_some(&until);
+        let history = History::of(&network, until, 12).unwrap();
+        let striker = |event: &Event| {
+            let body = event.bodies.iter().find(|body| body.elements.last().unwrap() == "hammer");
+            body.map(|body| ball(body.momentum.as_ref().unwrap()))
+        };
+        let mut held = ball(history.events[0].bodies[0].momentum.as_ref().unwrap());
+        let mut impulses = history.contacts[0].impulses.iter();
+        let mut openings = 0;
+        for event in history.events.iter().filter(|event| event.kind == EventKind::Opening) {
+            held = held.subtract(&ball(impulses.next().unwrap()), 300);
+            let given = ball(&event.time).multiply_rational(&rational(load, 20), 300);
+            let off = striker(event).unwrap().subtract(&held.add(&given, 300), 300);
+            assert!(is_zero(&off), "{name}: {off}");
+            openings += 1;
+        }
+        assert!(openings > 0, "{name}");
+    }
+}
+
 /// The same at times between events, and with the work of the constant force.
 #[test]
 fn the_force_does_the_work_that_the_bodies_hold() {
