@@ -4,7 +4,7 @@
 //! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
 //! place that is observed.
 
-use crate::ball::{Ball, BallError, Binary, Certified, ComplexBall, Decimal, Magnitude};
+use crate::ball::{Ball, BallError, Binary, ComplexBall, Magnitude};
 use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::evaluator::{EvaluateError, Side, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
@@ -318,16 +318,10 @@ impl<'a> SceneEvaluator<'a> {
         let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
         match certified(digits, tie_bits, in_unit) {
             Err(EvaluateError::AccuracyNotReached { best, bits }) => {
-                if tie_bits == limit_bits && best.contains_zero() && best.radius() <= &negligible()
+                if tie_bits == limit_bits
+                    && let Some(value) = Value::near_zero(&best, digits, bits)
                 {
-                    // Zero as far as can be told: the enclosure says how far.
-                    let decimal = Decimal::from_rational(&Rational::zero(), digits).0;
-                    return Ok(Value::Certified(Certified {
-                        decimal,
-                        ball: *best,
-                        bits,
-                        attempts: 1,
-                    }));
+                    return Ok(value);
                 }
             }
             Ok(Value::Certified(certified)) if certified.ball.is_exact() => {
@@ -584,11 +578,6 @@ fn patient(found: Result<Ball, EvaluateError>, bits: u64) -> Result<Ball, Evalua
         }
         found => found,
     }
-}
-
-/// A size that is nothing beside any value of a scene.
-fn negligible() -> Magnitude {
-    Magnitude::power_of_two(-(TIE_BITS as i64) / 4)
 }
 
 /// How many whole periods fit into a time, or one more.

@@ -1,10 +1,13 @@
 //! Values: rational ones exactly, others with proven digits.
 
-use crate::ball::{Certified, Decimal, Exactness};
+use crate::ball::{Ball, Certified, Decimal, Exactness, Magnitude};
 use wavestep_polynomial::Rational;
 
 /// The longest fraction that is written beside its decimals.
 const MAX_FRACTION: usize = 60;
+
+/// `−log₂` of a size that is nothing beside any value of a scene.
+const NEGLIGIBLE_BITS: i64 = 1024;
 
 /// A value at one time.
 ///
@@ -47,6 +50,15 @@ impl Value {
             Value::Exact(value) => Decimal::from_rational(value, digits),
             Value::Certified(certified) => (certified.decimal.clone(), Exactness::Rounded),
         }
+    }
+
+    /// Zero as far as can be told, where an enclosure says so: it is told as `0 ± r`.
+    pub(crate) fn near_zero(ball: &Ball, digits: usize, bits: u64) -> Option<Value> {
+        if !ball.contains_zero() || *ball.radius() > Magnitude::power_of_two(-NEGLIGIBLE_BITS) {
+            return None;
+        }
+        let decimal = Decimal::from_rational(&Rational::default(), digits).0;
+        Some(Value::Certified(Certified { decimal, ball: ball.clone(), bits, attempts: 1 }))
     }
 
     /// The value as plain text: its digits; a rational number that is no integer of so many digits

@@ -4,7 +4,7 @@
 //! In a bar, at the time `s` from its left end, the wave that left the left end at `t − s` meets the one
 //! that left the right end at `t − (τ − s)`. Energies and momenta of bodies are sums over bars instead.
 
-use crate::evaluate::{Determined, Side};
+use crate::evaluate::{Determined, Side, Value};
 use crate::expression::{Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
@@ -64,8 +64,16 @@ impl History {
                     let told = values.iter().map(|value| determined(value, digits));
                     let told: Vec<Determined> = told.collect();
                     let known = |value: &Determined| matches!(value, Determined::Digits(_));
-                    if last || told.iter().all(known) {
+                    if told.iter().all(known) {
                         return Ok(told);
+                    }
+                    if last {
+                        let near_zero = |value: Determined| match &value {
+                            Determined::Enclosed(ball) => Value::near_zero(ball, digits, bits)
+                                .map_or(value, Determined::Digits),
+                            Determined::Digits(_) => value,
+                        };
+                        return Ok(told.into_iter().map(near_zero).collect());
                     }
                 }
                 Err(HistoryError::Undecided { .. }) if !last => {}

@@ -50,3 +50,17 @@ fn a_damped_spring_is_without_force_after_an_opening() {
     let force = History::values(&open, "F", &times, Side::Right, 12).unwrap();
     assert_eq!(force, vec![Determined::Digits(Value::Exact(rational(0, 1))); 2]);
 }
+
+/// Both sides of a closed contact move alike: their difference is zero as far as can be told.
+#[test]
+fn a_difference_that_is_zero_is_told_as_that() {
+    let text = "scene \"Together\"\nmass m { mass = 1, velocity = 1 }\n\
+        bar b { impedance = 1, travel = 1 }\nline free - m | b - free\n\
+        observe apart = displacement(b.left) - displacement(m)\ncontacts open";
+    let network = network_of(text, &[]);
+    let times = [rational(1, 2), rational(1, 1)];
+    for value in History::values(&network, "apart", &times, Side::Right, 9).unwrap() {
+        assert!(value.to_text(9).starts_with("0 ± "), "{value:?}");
+        assert!(ball(&value).contains(&rational(0, 1)));
+    }
+}
