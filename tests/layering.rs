@@ -25,7 +25,10 @@ const LAYERS: [(&str, &[&str]); 24] = [
         &["ball", "enclosure", "expression", "network", "recurrence", "scene", "solution"],
     ),
     ("field", &["ball", "enclosure", "evaluate", "expression", "network", "scene"]),
-    ("history", &["ball", "enclosure", "evaluate", "expression", "field", "network", "scene"]),
+    (
+        "history",
+        &["ball", "enclosure", "evaluate", "expression", "field", "network", "scene", "solution"],
+    ),
     ("answer", &["evaluate", "model", "network"]),
     (
         "export",
