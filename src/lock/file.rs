@@ -55,17 +55,36 @@ pub(super) struct Line<'a> {
     span: Span,
 }
 
+/// Adds the values of symbols, and what the scene states.
+pub(super) fn write_stated(
+    text: &mut String,
+    set: &BTreeMap<String, Rational>,
+    stated: &BTreeMap<String, String>,
+) {
+    for (name, value) in set {
+        let _ = writeln!(text, "set {name} = {value}");
+    }
+    for (what, value) in stated {
+        let _ = writeln!(text, "stated {what} = {value}");
+    }
+}
+
+/// Adds values of observables, after an empty line.
+pub(super) fn write_values(text: &mut String, values: &BTreeMap<(String, Rational), String>) {
+    if !values.is_empty() {
+        text.push('\n');
+    }
+    for ((quantity, time), value) in values {
+        let _ = writeln!(text, "value {quantity}({time}) = {value}");
+    }
+}
+
 impl Lock {
     /// The lock as text, in lines of at most 100 characters where they can be broken.
     pub fn to_text(&self) -> String {
         let Request { through, digits, set, .. } = &self.request;
         let mut text = format!("{HEADING}{VERSION}\nthrough {through}\ndigits {digits}\n");
-        for (name, value) in set {
-            let _ = writeln!(text, "set {name} = {value}");
-        }
-        for (what, value) in &self.stated {
-            let _ = writeln!(text, "stated {what} = {value}");
-        }
+        write_stated(&mut text, set, &self.stated);
         let _ = writeln!(text, "holds {}\n", self.contents());
         let formula = |((wave, n), piece): (&(String, usize), &Piece)| {
             let head = Head::Piece { wave: wave.clone(), n: *n, local: piece.variable.clone() };
@@ -73,12 +92,7 @@ impl Lock {
         };
         let formulas: Vec<Formula> = self.pieces.iter().map(formula).collect();
         text.push_str(&export::text(&formulas, TEXT_WIDTH));
-        if !self.values.is_empty() {
-            text.push('\n');
-        }
-        for ((quantity, time), value) in &self.values {
-            let _ = writeln!(text, "value {quantity}({time}) = {value}");
-        }
+        write_values(&mut text, &self.values);
         text
     }
 

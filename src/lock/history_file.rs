@@ -27,7 +27,7 @@ use crate::history::EventKind;
 use crate::language::{Diagnostic, Source, normalise_name};
 use crate::lock::file::{
     HEADING, Line, check_heading, count, equation, holds_as_said, is_value, lines, number, refused,
-    value_line,
+    value_line, write_stated, write_values,
 };
 use crate::lock::history::{Facts, HistoryLock, HistoryRequest, word};
 use std::collections::BTreeMap;
@@ -48,12 +48,7 @@ impl HistoryLock {
             let _ = writeln!(text, "until {until}");
         }
         let _ = writeln!(text, "digits {digits}");
-        for (name, value) in set {
-            let _ = writeln!(text, "set {name} = {value}");
-        }
-        for (what, value) in &self.stated {
-            let _ = writeln!(text, "stated {what} = {value}");
-        }
+        write_stated(&mut text, set, &self.stated);
         let _ = writeln!(text, "holds {}", self.contents());
         for (what, all) in [("event", &self.events), ("contact", &self.contacts)] {
             for (number, Facts(facts)) in all {
@@ -64,12 +59,7 @@ impl HistoryLock {
             }
         }
         let _ = writeln!(text, "\nending = {}", self.ending);
-        if !self.values.is_empty() {
-            text.push('\n');
-        }
-        for ((quantity, time), value) in &self.values {
-            let _ = writeln!(text, "value {quantity}({time}) = {value}");
-        }
+        write_values(&mut text, &self.values);
         text
     }
 
