@@ -12,6 +12,9 @@ use wavestep_kernels::{Level, Piece, Table};
 /// Points of a table. With their times they fill more than a cache of the second level.
 const POINTS: usize = 1_000_000;
 
+/// Points of a table whose values stay in a cache.
+const CACHED: usize = 16_384;
+
 /// Points of a sum.
 const ECHO_POINTS: usize = 4096;
 
@@ -55,14 +58,19 @@ fn measure(name: &str, values: usize, mut work: impl FnMut()) {
     if !wanted.iter().all(|part| name.contains(part.as_str())) {
         return;
     }
+    // Asking for the time takes some microseconds: as many calls as make that nothing.
+    let mut timed = |count: usize| {
+        let start = seconds();
+        (0..count).for_each(|_| work());
+        seconds() - start
+    };
+    let mut count = 1;
+    while timed(count) < 0.01 {
+        count *= 2;
+    }
     let mut round = || {
         let before = clock();
-        let (mut count, start) = (0, seconds());
-        while count == 0 || seconds() - start < 0.02 {
-            work();
-            count += 1;
-        }
-        let seconds = (seconds() - start) / (count * values) as f64;
+        let seconds = timed(2 * count) / (2 * count * values) as f64;
         (seconds * 0.5 * (before + clock()), seconds.recip())
     };
     round();
@@ -117,6 +125,10 @@ fn main() {
         let at = |table| Table::evaluator(table).with_level(level);
         let (plain, certified) = (at(&plain), at(&certified));
         measure(&name("grid"), POINTS, || plain.grid(0.0, step, black_box(&mut out)));
+        measure(&name("fine grid"), POINTS, || plain.grid(0.0, step / 16.0, black_box(&mut out)));
+        measure(&name("grid in cache"), CACHED, || {
+            plain.grid(0.0, step / 16.0, black_box(&mut out[..CACHED]));
+        });
         measure(&name("unsorted"), POINTS, || plain.unsorted(&scattered, black_box(&mut out)));
         measure(&name("rounded grid"), POINTS, || {
             black_box(certified.rounded_grid(0.0, step, &mut out));

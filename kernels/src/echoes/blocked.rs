@@ -5,9 +5,9 @@ use super::delay::{Delays, counts, since};
 use super::description::{Echoes, Family};
 use super::double_double::first_rounded;
 use super::exponential::exponential_lanes;
-use super::lanes::{Lanes, WIDTH};
-use super::pair::Pair;
 use super::sum::EchoSum;
+use crate::double_double::DoubleDouble;
+use crate::lanes::{Lanes, WIDTH, Work};
 use std::array::from_fn;
 
 /// Lanes are used while the exponents of `e^{−bx}` and of a bound of the polynomials are within this:
@@ -20,34 +20,53 @@ const NOTHING: f64 = -760.0;
 /// `V` vectors of points: what one block holds.
 type Vectors<L, const V: usize> = [L; V];
 
-/// The values of the wave, block by block.
-#[inline(always)]
-pub(super) fn fill_blocks<L: Lanes, const V: usize>(
-    sum: &EchoSum,
-    times: &[f64],
-    include_arriving: bool,
-    values: &mut [f64],
-) {
-    let size = V * WIDTH;
-    for (times, values) in times.chunks(size).zip(values.chunks_mut(size)) {
-        // A block that is not full is filled up with its last point.
-        let block = match times.as_chunks() {
-            (vectors, []) if vectors.len() == V => from_fn(|v| L::from_array(vectors[v])),
-            _ => {
-                let mut padded = [[times[times.len() - 1]; WIDTH]; V];
-                padded.as_flattened_mut()[..times.len()].copy_from_slice(times);
-                padded.map(L::from_array)
-            }
-        };
-        let result = match sum.echoes.family {
-            Family::Laguerre => Block::<L, V>::new(sum, block, include_arriving).sum::<false>(),
-            Family::Powers => Block::<L, V>::new(sum, block, include_arriving).sum::<true>(),
-        };
-        for (values, lanes) in values.chunks_mut(WIDTH).zip(result) {
-            let lanes = lanes.to_array();
-            match values.as_mut_array() {
-                Some(values) => *values = lanes,
-                None => values.copy_from_slice(&lanes[..values.len()]),
+/// The values of the wave at some times.
+pub(super) struct Fill<'a> {
+    pub sum: &'a EchoSum,
+    pub times: &'a [f64],
+    pub include_arriving: bool,
+    pub values: &'a mut [f64],
+}
+
+impl Work for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        match L::IN_FLIGHT {
+            8.. => self.blocks::<L, 8>(),
+            2.. => self.blocks::<L, 2>(),
+            _ => self.blocks::<L, 1>(),
+        }
+    }
+}
+
+impl Fill<'_> {
+    /// Block by block.
+    #[inline(always)]
+    fn blocks<L: Lanes, const V: usize>(self) {
+        let Fill { sum, times, include_arriving, values } = self;
+        let size = V * WIDTH;
+        for (times, values) in times.chunks(size).zip(values.chunks_mut(size)) {
+            // A block that is not full is filled up with its last point.
+            let block = match times.as_chunks() {
+                (vectors, []) if vectors.len() == V => from_fn(|v| L::from_array(vectors[v])),
+                _ => {
+                    let mut padded = [[times[times.len() - 1]; WIDTH]; V];
+                    padded.as_flattened_mut()[..times.len()].copy_from_slice(times);
+                    padded.map(L::from_array)
+                }
+            };
+            let result = match sum.echoes.family {
+                Family::Laguerre => Block::<L, V>::new(sum, block, include_arriving).sum::<false>(),
+                Family::Powers => Block::<L, V>::new(sum, block, include_arriving).sum::<true>(),
+            };
+            for (values, lanes) in values.chunks_mut(WIDTH).zip(result) {
+                let lanes = lanes.to_array();
+                match values.as_mut_array() {
+                    Some(values) => *values = lanes,
+                    None => values.copy_from_slice(&lanes[..values.len()]),
+                }
             }
         }
     }
@@ -101,7 +120,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
         let mut total = [L::splat(0.0); V];
         let first = self.echoes.first.len().min(self.some);
         for k in 0..first {
-            let echo = |since: Pair| first_rounded(&self.echoes.first[k], since);
+            let echo = |since: DoubleDouble| first_rounded(&self.echoes.first[k], since);
             self.add_lane_by_lane(k, echo, &mut total);
         }
         if first < self.full {
@@ -123,58 +142,73 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     #[inline(always)]
     fn add_arrived<const POWERS: bool>(&self, first: usize, total: &mut Vectors<L, V>) {
         let latest = self.full - 1;
-        let mut high = [L::splat(0.0); V];
-        let mut low = high;
-        let mut decay = high;
-        let rate = self.echoes.rate.pair();
+        let zero = L::splat(0.0);
+        let (mut lead, mut rest, mut decay) = ([zero; V], [zero; V], [zero; V]);
         for v in 0..V {
-            (high[v], low[v]) = since_lanes(self.times[v], self.delays.of(latest));
-            let (product, rest) = times_pair(high[v], low[v], -rate);
-            decay[v] = exponential_lanes(product, rest);
+            let (high, low) = since_lanes(self.times[v], self.delays.of(latest));
+            let (product, error) = times_pair(high, low, -self.echoes.rate.pair());
+            decay[v] = exponential_lanes(product, error);
+            (lead[v], rest[v]) = times_pair(high, low, self.scale::<POWERS>());
         }
+        // The last echo may have arrived this very moment: its argument is not split.
+        let newest = Arguments { lead, rest, is_exact: false };
+        let anchor = Anchor::above(self.latest * self.scale::<POWERS>().high);
+        let split = newest.split(anchor);
+        let mut sum = [zero; V];
+        let mut nothing = true;
         // Beyond their range these exponentials are wrong, and no echo asks for them. Powers of the
         // ratio lie between 1 and the last, and the first echo is the oldest.
         let all = self.is_within(latest, first);
         for k in first..self.full {
+            let periods = latest - k;
             if all || self.is_within(k, k) {
-                let periods = latest - k;
-                let [lead, rest, _] = self.delays.of(periods);
-                let (lead, rest) = (L::splat(lead), L::splat(rest));
-                let since = |v: usize| {
-                    let (sum, rounding) = high[v].two_sum(lead);
-                    (sum, rounding + (low[v] + rest))
+                let factor = self.sum.decays[periods] * self.sum.ratio_powers[k];
+                let arguments = match periods {
+                    0 => newest,
+                    _ => split.plus(anchor.split(signed::<POWERS>(self.sum.arguments[periods]))),
                 };
-                let factor = L::splat(self.sum.decays[periods] * self.sum.ratio_powers[k]);
-                let weight = |v: usize| decay[v] * factor;
-                self.add_echo::<POWERS>(k, since, weight, total);
+                if arguments.is_exact {
+                    self.add_echo::<POWERS, false>(k, &arguments, factor, &mut sum);
+                } else {
+                    self.add_echo::<POWERS, true>(k, &arguments, factor, &mut sum);
+                }
+                nothing = false;
             } else if !self.is_nothing(k) {
                 self.add_scaled(k, total);
             }
         }
+        if nothing {
+            return;
+        }
+        for v in 0..V {
+            total[v] = decay[v].fused(sum[v], total[v]);
+        }
     }
 
-    /// Adds echo `k`, from the time since it arrived, as two doubles, and the factor of its
-    /// polynomial, of each vector.
+    /// The scale of the arguments.
     #[inline(always)]
-    fn add_echo<const POWERS: bool>(
+    fn scale<const POWERS: bool>(&self) -> DoubleDouble {
+        signed::<POWERS>(self.echoes.scale.pair())
+    }
+
+    /// Adds `factor` times the polynomial of echo `k`, `CORRECTED` by what is left of its arguments.
+    #[inline(always)]
+    fn add_echo<const POWERS: bool, const CORRECTED: bool>(
         &self,
         k: usize,
-        since: impl Fn(usize) -> (L, L),
-        weight: impl Fn(usize) -> L,
-        total: &mut Vectors<L, V>,
+        arguments: &Arguments<L, V>,
+        factor: f64,
+        sum: &mut Vectors<L, V>,
     ) {
-        // Laguerre polynomials ask for the argument with its sign turned.
-        let scale = self.echoes.scale.pair();
-        let scale = if POWERS { scale } else { -scale };
-        let (mut argument, mut relative) = ([L::splat(0.0); V], [L::splat(0.0); V]);
-        for v in 0..V {
-            let (high, low) = since(v);
-            let (high, low) = times_pair(high, low, scale);
-            relative[v] = low * high.rough_reciprocal();
-            argument[v] = high;
+        let Arguments { lead: argument, rest, .. } = arguments;
+        let mut relative = *rest;
+        if CORRECTED {
+            for v in 0..V {
+                relative[v] = rest[v] * argument[v].rough_reciprocal();
+            }
         }
         let (mut value, mut slope) = ([L::splat(1.0); V], [L::splat(0.0); V]);
-        let (mut index, mut polynomial) = (0, slope);
+        let mut index = 0;
         for term in &self.echoes.terms {
             let Some(target) = k.checked_add_signed(-term.lag) else { continue };
             for &reciprocal in &self.sum.reciprocals[index..target] {
@@ -184,32 +218,38 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
                 }
             }
             index = target;
-            let coefficient = L::splat(term.coefficient.high());
+            let coefficient = L::splat(term.coefficient.high() * factor);
             for v in 0..V {
-                let slope = if POWERS { value[v] * L::splat(index as f64) } else { slope[v] };
-                let corrected = slope.fused(relative[v], value[v]);
-                polynomial[v] = corrected.fused(coefficient, polynomial[v]);
+                let mut corrected = value[v];
+                if CORRECTED {
+                    let slope = if POWERS { value[v] * L::splat(index as f64) } else { slope[v] };
+                    corrected = slope.fused(relative[v], corrected);
+                }
+                sum[v] = corrected.fused(coefficient, sum[v]);
             }
-        }
-        for v in 0..V {
-            total[v] = weight(v).fused(polynomial[v], total[v]);
         }
     }
 
     /// Adds an echo of which not all points have heard.
     #[inline(always)]
     fn add_masked<const POWERS: bool>(&self, k: usize, total: &mut Vectors<L, V>) {
-        let (mut high, mut low, mut weight) = (self.times, self.times, self.times);
-        let rate = self.echoes.rate.pair();
+        let zero = L::splat(0.0);
+        let (mut lead, mut rest, mut weight) = ([zero; V], [zero; V], [zero; V]);
         let ratio = L::splat(self.sum.ratio_powers[k]);
         for v in 0..V {
             let since = since_lanes(self.times[v], self.delays.of(k));
-            let counted = |lanes: L| lanes.where_counted(since.0, self.include_arriving);
-            (high[v], low[v]) = (counted(since.0), counted(since.1));
-            let (product, rest) = times_pair(high[v], low[v], -rate);
-            weight[v] = exponential_lanes(product, rest) * counted(ratio);
+            let counted = |lanes: L| lanes.where_positive(since.0, self.include_arriving);
+            let (high, low) = (counted(since.0), counted(since.1));
+            let (product, error) = times_pair(high, low, -self.echoes.rate.pair());
+            weight[v] = exponential_lanes(product, error) * counted(ratio);
+            (lead[v], rest[v]) = times_pair(high, low, self.scale::<POWERS>());
         }
-        self.add_echo::<POWERS>(k, |v| (high[v], low[v]), |v| weight[v], total);
+        let mut sum = [zero; V];
+        let arguments = Arguments { lead, rest, is_exact: false };
+        self.add_echo::<POWERS, true>(k, &arguments, 1.0, &mut sum);
+        for v in 0..V {
+            total[v] = weight[v].fused(sum[v], total[v]);
+        }
     }
 
     /// Adds an echo by the scaled summation, point by point.
@@ -219,11 +259,16 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     }
 
     #[inline(always)]
-    fn add_lane_by_lane(&self, k: usize, echo: impl Fn(Pair) -> f64, total: &mut Vectors<L, V>) {
+    fn add_lane_by_lane(
+        &self,
+        k: usize,
+        echo: impl Fn(DoubleDouble) -> f64,
+        total: &mut Vectors<L, V>,
+    ) {
         for (times, total) in self.times.iter().zip(total) {
             let mut sums = total.to_array();
             for (time, sum) in times.to_array().into_iter().zip(&mut sums) {
-                let since = since(self.delays.of(k), Pair::from(time));
+                let since = since(self.delays.of(k), DoubleDouble::from(time));
                 if counts(since.high, self.include_arriving) {
                     *sum += echo(since);
                 }
@@ -284,9 +329,81 @@ fn step<L: Lanes, const POWERS: bool>(argument: L, reciprocal: L, value: &mut L,
     }
 }
 
+/// Laguerre polynomials ask for arguments with their sign turned.
+#[inline(always)]
+fn signed<const POWERS: bool>(number: DoubleDouble) -> DoubleDouble {
+    if POWERS { number } else { -number }
+}
+
+/// Arguments of polynomials, one a point, as sums of two doubles.
+#[derive(Clone, Copy)]
+struct Arguments<L, const V: usize> {
+    lead: Vectors<L, V>,
+    /// What is left, for a correction of first order.
+    rest: Vectors<L, V>,
+    /// Whether nothing is left, so that there is none to be made.
+    is_exact: bool,
+}
+
+impl<L: Lanes, const V: usize> Arguments<L, V> {
+    /// Split at an anchor. Nothing is left where times, period and scale have few bits.
+    #[inline(always)]
+    fn split(&self, Anchor(anchor): Anchor) -> Self {
+        let (mut lead, mut rest, mut left) = (self.lead, self.rest, L::splat(0.0));
+        for v in 0..V {
+            let kept = (lead[v] + L::splat(anchor)) - L::splat(anchor);
+            rest[v] = (lead[v] - kept) + rest[v];
+            lead[v] = kept;
+            left = left.greater(rest[v].abs());
+        }
+        Arguments { lead, rest, is_exact: left.to_array() == [0.0; WIDTH] }
+    }
+
+    /// With the same number added to all, split at the same anchor: without rounding in what leads.
+    #[inline(always)]
+    fn plus(&self, DoubleDouble { high, low }: DoubleDouble) -> Self {
+        let (mut lead, mut rest) = (self.lead, self.rest);
+        let is_exact = self.is_exact && low == 0.0;
+        for v in 0..V {
+            lead[v] = lead[v] + L::splat(high);
+            if !is_exact {
+                rest[v] = rest[v] + L::splat(low);
+            }
+        }
+        Arguments { lead, rest, is_exact }
+    }
+}
+
+/// Where arguments are split, so that sums of their leading parts are exact.
+///
+/// # Invariants
+/// `H` is 0 or a power of two, with the sign of the arguments, and none of them is beyond `2H`.
+///
+/// `x + H`, rounded, is a multiple of `u = 2^−52 |H|`, and taking `H` away again is exact. So every
+/// leading part is a multiple of `u`; a sum of two that is not beyond `2H` is a double. What is left
+/// of `x` is at most `u`, and has no bit below the last of `x`.
+#[derive(Clone, Copy)]
+struct Anchor(f64);
+
+impl Anchor {
+    /// For arguments up to the given one, with its sign.
+    #[inline(always)]
+    fn above(most: f64) -> Anchor {
+        let roomy = most * (1.0 + 4.0 * f64::EPSILON);
+        Anchor(f64::from_bits(roomy.to_bits() & (0xfff << 52)))
+    }
+
+    /// The leading part of a number, and what is left.
+    #[inline(always)]
+    fn split(self, DoubleDouble { high, low }: DoubleDouble) -> DoubleDouble {
+        let lead = (high + self.0) - self.0;
+        DoubleDouble { high: lead, low: (high - lead) + low }
+    }
+}
+
 /// `(high + low) · factor` as two doubles, the second good to some bits.
 #[inline(always)]
-fn times_pair<L: Lanes>(high: L, low: L, factor: Pair) -> (L, L) {
+fn times_pair<L: Lanes>(high: L, low: L, factor: DoubleDouble) -> (L, L) {
     let lead = L::splat(factor.high);
     let (product, rounding) = high.product(lead);
     let rest = low.fused(lead, rounding);
@@ -300,4 +417,56 @@ fn since_lanes<L: Lanes>(time: L, [lead, middle, last]: [f64; 3]) -> (L, L) {
     let (high, low) = high.two_sum(error - L::splat(middle));
     let (high, low) = high.two_sum(low - L::splat(last));
     (high, low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::echoes::{Echoes, Expansion, Family, Method, Term, Time};
+    use crate::lanes::each_way;
+
+    /// Values at times of a sum, by any lanes.
+    #[derive(Clone)]
+    struct Values<'a>(&'a EchoSum, &'a [f64]);
+
+    impl Work for Values<'_> {
+        type Output = Vec<f64>;
+
+        fn run<L: Lanes>(self) -> Vec<f64> {
+            let filled = |by_three: bool| {
+                let mut values = vec![f64::NAN; self.1.len()];
+                let fill = Fill {
+                    sum: self.0,
+                    times: self.1,
+                    include_arriving: true,
+                    values: &mut values,
+                };
+                if by_three {
+                    fill.blocks::<L, 3>()
+                } else {
+                    fill.run::<L>()
+                }
+                values
+            };
+            assert_eq!(filled(false).len(), filled(true).len());
+            filled(true)
+        }
+    }
+
+    /// Every version that this machine runs agrees with the scalar summation.
+    #[test]
+    fn all_versions_agree() {
+        let number = |value: f64| Expansion::try_from(value).expect("a number");
+        let (one, two) = (Expansion::ONE, number(2.0));
+        let terms = [Term { lag: 0, coefficient: one }];
+        let wave = Echoes::new(Family::Laguerre, one, two, one, &terms, number(0.7)).expect("fine");
+        let sum = EchoSum::new(wave, 60).expect("fine");
+        let times: Vec<f64> = (0..1003).map(|i| f64::from(i) * 0.0417).collect();
+        for version in each_way(&Values(&sum, &times)) {
+            for (&time, value) in times.iter().zip(&version) {
+                let right = sum.value(Method::Scaled, Time::from(time), true).expect("in range");
+                assert!((value - right).abs() < 1e-14, "{time}: {value} and not {right}");
+            }
+        }
+    }
 }

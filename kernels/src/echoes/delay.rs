@@ -3,7 +3,7 @@
 
 use super::error::EchoError;
 use super::expansion::Expansion;
-use super::pair::{Pair, fast_two_sum, two_sum};
+use crate::double_double::{DoubleDouble, fast_two_sum, two_sum};
 
 /// A time as the sum of two doubles.
 ///
@@ -20,7 +20,7 @@ use super::pair::{Pair, fast_two_sum, two_sum};
 /// # Ok::<(), wavestep_kernels::echoes::EchoError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Time(Pair);
+pub struct Time(DoubleDouble);
 
 impl Time {
     /// The sum of two doubles, in any order.
@@ -30,7 +30,7 @@ impl Time {
     pub fn new(high: f64, low: f64) -> Result<Time, EchoError> {
         let (high, low) = two_sum(high, low);
         match high.is_finite() && low.is_finite() {
-            true => Ok(Time(Pair { high, low })),
+            true => Ok(Time(DoubleDouble { high, low })),
             false => Err(EchoError::NotFinite),
         }
     }
@@ -45,7 +45,7 @@ impl Time {
         self.0.low
     }
 
-    pub(super) fn pair(self) -> Pair {
+    pub(super) fn pair(self) -> DoubleDouble {
         self.0
     }
 }
@@ -53,7 +53,7 @@ impl Time {
 impl From<f64> for Time {
     /// The time that a double is. Sums refuse what is not finite.
     fn from(high: f64) -> Time {
-        Time(Pair::from(high))
+        Time(DoubleDouble::from(high))
     }
 }
 
@@ -78,7 +78,7 @@ impl Delays {
 
     /// `T − kD`: its sign and its being 0 are those of the difference with the three doubles, and
     /// it has a relative error of at most `2^−103`.
-    pub fn since(&self, k: usize, time: Time) -> Pair {
+    pub fn since(&self, k: usize, time: Time) -> DoubleDouble {
         since(self.0[k], time.pair())
     }
 
@@ -103,7 +103,7 @@ pub(super) fn counts(since: f64, include_arriving: bool) -> bool {
 /// that remain, `v − delay[2]`, are at most `2^−52` of it or the sum of `s` and `u` is itself exact:
 /// then one rounding of `v − delay[2]` is left, and a sum with it.
 #[inline(always)]
-pub(super) fn since(delay: [f64; 3], time: Pair) -> Pair {
+pub(super) fn since(delay: [f64; 3], time: DoubleDouble) -> DoubleDouble {
     let (lead, error) = two_sum(time.high, -delay[0]);
     let (next, rest) = two_sum(time.low, -delay[1]);
     let (high, low) = two_sum(lead, next);
@@ -112,7 +112,7 @@ pub(super) fn since(delay: [f64; 3], time: Pair) -> Pair {
     let (high, low) = two_sum(high, low);
     let (low, _) = fast_two_sum(low, last);
     let (high, low) = two_sum(high, low);
-    Pair { high, low }
+    DoubleDouble { high, low }
 }
 
 #[cfg(test)]

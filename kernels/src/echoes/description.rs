@@ -1,8 +1,9 @@
 //! What a wave made of echoes is: which functions, how fast they decay, when they arrive.
 
+use super::LARGEST_LAG;
 use super::error::EchoError;
 use super::expansion::Expansion;
-use super::{LARGEST_LAG, pair::Pair};
+use crate::double_double::DoubleDouble;
 
 /// The polynomials `q_j` that echoes are made of; those of negative index are 0.
 ///
@@ -161,13 +162,13 @@ impl Echoes {
     }
 
     /// `ρ^k` as a pair times a power of two, `k = 0 … last`; relative error at most `k·2^−102`.
-    pub(super) fn ratios(&self, last: usize) -> Vec<(Pair, i64)> {
-        let mut power = (Pair::ONE, 0i64);
+    pub(super) fn ratios(&self, last: usize) -> Vec<(DoubleDouble, i64)> {
+        let mut power = (DoubleDouble::ONE, 0i64);
         let mut powers = Vec::with_capacity(last + 1);
         for _ in 0..=last {
             powers.push(power);
             let next = power.0 * self.ratio.pair();
-            let exponent = super::pair::split(next.high).1;
+            let exponent = crate::exponent::split(next.high).1;
             power = (next.scaled(-exponent), power.1 + exponent);
         }
         powers

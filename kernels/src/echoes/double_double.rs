@@ -2,7 +2,8 @@
 
 use super::description::{Echoes, ExponentialPolynomial, Family};
 use super::exponential::exponential;
-use super::pair::{Pair, scale};
+use crate::double_double::DoubleDouble;
+use crate::exponent::scale;
 
 /// The step after which sizes are looked at, and what is large: as in the scaled summation.
 const STEPS: usize = 8;
@@ -16,16 +17,16 @@ const SHIFT: i64 = 400;
 /// `2^−103` of itself. The exponent is carried apart as in the scaled summation.
 pub(super) fn echo(
     echoes: &Echoes,
-    ratio: (Pair, i64),
-    reciprocals: &[Pair],
+    ratio: (DoubleDouble, i64),
+    reciprocals: &[DoubleDouble],
     k: usize,
-    since: Pair,
-) -> Pair {
+    since: DoubleDouble,
+) -> DoubleDouble {
     let (decay, exponent) = exponential(-(since * echoes.rate.pair()));
     let weight = decay * ratio.0;
     let argument = since * echoes.scale.pair();
-    let (mut index, mut value, mut slope) = (0, Pair::ONE, Pair::ZERO);
-    let (mut sum, mut carried) = (Pair::ZERO, exponent + ratio.1);
+    let (mut index, mut value, mut slope) = (0, DoubleDouble::ONE, DoubleDouble::ZERO);
+    let (mut sum, mut carried) = (DoubleDouble::ZERO, exponent + ratio.1);
     for term in &echoes.terms {
         let Some(target) = k.checked_add_signed(-term.lag) else { continue };
         while index < target {
@@ -56,10 +57,11 @@ pub(super) fn echo(
 }
 
 /// A first echo as a pair.
-pub(super) fn first(parts: &[ExponentialPolynomial], since: Pair) -> Pair {
-    parts.iter().fold(Pair::ZERO, |sum, part| {
-        let horner = |sum: Pair, coefficient: &super::Expansion| sum * since + coefficient.pair();
-        let polynomial = part.coefficients.iter().rev().fold(Pair::ZERO, horner);
+pub(super) fn first(parts: &[ExponentialPolynomial], since: DoubleDouble) -> DoubleDouble {
+    parts.iter().fold(DoubleDouble::ZERO, |sum, part| {
+        let horner =
+            |sum: DoubleDouble, coefficient: &super::Expansion| sum * since + coefficient.pair();
+        let polynomial = part.coefficients.iter().rev().fold(DoubleDouble::ZERO, horner);
         let (decay, exponent) = exponential(-(since * part.rate.pair()));
         sum + (decay * polynomial).scaled(exponent)
     })
@@ -67,7 +69,7 @@ pub(super) fn first(parts: &[ExponentialPolynomial], since: Pair) -> Pair {
 
 /// A first echo in doubles: the slope times the low part of the time corrects it, and the exponential
 /// is taken apart from its power of two.
-pub(super) fn first_rounded(parts: &[ExponentialPolynomial], since: Pair) -> f64 {
+pub(super) fn first_rounded(parts: &[ExponentialPolynomial], since: DoubleDouble) -> f64 {
     let mut sum = 0.0;
     for part in parts {
         let (mut value, mut slope) = (0.0, 0.0);
@@ -81,7 +83,7 @@ pub(super) fn first_rounded(parts: &[ExponentialPolynomial], since: Pair) -> f64
             true => (-decay.high).exp() * (value - value * decay.low),
             false => {
                 let (mantissa, exponent) = exponential(-decay);
-                scale(mantissa.value() * value, exponent)
+                scale(mantissa.high * value, exponent)
             }
         };
     }

@@ -2,7 +2,8 @@
 //! `μ = 1/3` is kept to some 159 bits, so that the time since an echo arrived loses nothing.
 
 use super::error::EchoError;
-use super::pair::{Pair, fast_two_sum, split, two_product, two_sum};
+use crate::double_double::{DoubleDouble, fast_two_sum, two_product, two_sum};
+use crate::exponent::split;
 use std::cmp::Ordering;
 
 /// The sum `a + b + c` of three doubles, never evaluated.
@@ -92,8 +93,8 @@ impl Expansion {
     }
 
     /// The two leading parts: relative error at most `2^−105`.
-    pub(super) fn pair(self) -> Pair {
-        Pair { high: self.0[0], low: self.0[1] }
+    pub(super) fn pair(self) -> DoubleDouble {
+        DoubleDouble { high: self.0[0], low: self.0[1] }
     }
 
     pub(super) fn high(self) -> f64 {

@@ -1,8 +1,8 @@
 //! The exponential of a sum of two doubles: in pairs with the power of two apart, and in lanes for
 //! arguments whose exponential is a double.
 
-use super::lanes::Lanes;
-use super::pair::{Pair, two_product};
+use crate::double_double::{DoubleDouble, two_product};
+use crate::lanes::Lanes;
 use std::f64::consts::LOG2_E;
 
 /// `ln 2` in three doubles.
@@ -14,23 +14,23 @@ const LN_2: [f64; 3] = [std::f64::consts::LN_2, 2.3190468138462996e-17, 5.707708
 /// `e^{r/512} − 1` is cut after the ninth power, which leaves less than `2^−124`, and
 /// `w → 2w + w²` nine times gives `e^r − 1`. Every doubling doubles an absolute error that starts
 /// below `2^−113`: about `2^−104` at the end, and `|y|·2^−105` from the argument besides.
-pub(super) fn exponential(y: Pair) -> (Pair, i64) {
+pub(super) fn exponential(y: DoubleDouble) -> (DoubleDouble, i64) {
     let multiple = (y.high * LOG2_E).round_ties_even();
     let product = |part: f64| {
         let (high, low) = two_product(part, multiple);
-        Pair { high, low }
+        DoubleDouble { high, low }
     };
     let rest = ((y - product(LN_2[0])) - product(LN_2[1])) - product(LN_2[2]);
     let small = rest.scaled(-9);
     let mut series = small.over(9.0);
     for j in (1..9).rev() {
-        series = small.over(j as f64) * (Pair::ONE + series);
+        series = small.over(j as f64) * (DoubleDouble::ONE + series);
     }
     let mut less_one = series;
     for _ in 0..9 {
         less_one = less_one.times(2.0) + less_one * less_one;
     }
-    (Pair::ONE + less_one, multiple as i64)
+    (DoubleDouble::ONE + less_one, multiple as i64)
 }
 
 /// `1/j!` for `j = 2 … 13`.
@@ -80,8 +80,8 @@ pub(super) fn exponential_lanes<L: Lanes>(y: L, low: L) -> L {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::echoes::lanes::Portable;
-    use crate::echoes::pair::scale;
+    use crate::exponent::scale;
+    use crate::lanes::Portable;
 
     type Eight = Portable<true>;
 
@@ -91,12 +91,12 @@ mod tests {
         for i in -7000..=7000 {
             let y = f64::from(i) * 0.0997;
             let low = y * 2f64.powi(-54);
-            let (mantissa, exponent) = exponential(Pair { high: y, low });
+            let (mantissa, exponent) = exponential(DoubleDouble { high: y, low });
             assert!(mantissa.high > 0.7 && mantissa.high < 1.42, "{y}");
             let lanes = exponential_lanes(Eight::splat(y), Eight::splat(low)).to_array()[3];
-            let off = Pair::from(scale(lanes, -exponent)) - mantissa;
+            let off = DoubleDouble::from(scale(lanes, -exponent)) - mantissa;
             let ulp = if mantissa.high < 1.0 { 2f64.powi(-53) } else { 2f64.powi(-52) };
-            worst = worst.max(off.value().abs() / ulp);
+            worst = worst.max(off.high.abs() / ulp);
         }
         println!("14001 exponentials, off by at most {worst:.3} ulp");
         assert!(worst < 1.0);
@@ -105,14 +105,14 @@ mod tests {
     #[test]
     fn the_functional_equation_holds_to_a_hundred_bits() {
         for i in 1..2000 {
-            let y = Pair::from(f64::from(i) * 0.37);
+            let y = DoubleDouble::from(f64::from(i) * 0.37);
             let (one, exponent) = exponential(y);
             let (two, double) = exponential(y.times(2.0));
             let off = (one * one).scaled(2 * exponent - double) - two;
-            assert!(off.value().abs() < 2f64.powi(-88), "{i}: {off:?}");
+            assert!(off.high.abs() < 2f64.powi(-88), "{i}: {off:?}");
             let (back, negative) = exponential(-y);
-            let off = (one * back).scaled(exponent + negative) - Pair::ONE;
-            assert!(off.value().abs() < 2f64.powi(-94), "{i}: {off:?}");
+            let off = (one * back).scaled(exponent + negative) - DoubleDouble::ONE;
+            assert!(off.high.abs() < 2f64.powi(-94), "{i}: {off:?}");
         }
     }
 }

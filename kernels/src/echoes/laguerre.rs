@@ -4,7 +4,8 @@
 
 use super::description::{Echoes, Family};
 use super::exponential::exponential;
-use super::pair::{Pair, scale};
+use crate::double_double::DoubleDouble;
+use crate::exponent::scale;
 
 /// `q_j(X)` and `j (q_j − q_{j−1})`, carried from index to index.
 ///
@@ -55,7 +56,7 @@ impl Differences {
 
 /// `δ/X` of a pair `X + δ`.
 #[inline(always)]
-pub(super) fn relative(argument: Pair) -> f64 {
+pub(super) fn relative(argument: DoubleDouble) -> f64 {
     if argument.high == 0.0 { 0.0 } else { argument.low / argument.high }
 }
 
@@ -65,13 +66,13 @@ pub(super) fn relative(argument: Pair) -> f64 {
 /// both happen long before the echo itself is small or large.
 pub(super) fn difference(
     echoes: &Echoes,
-    ratio: (Pair, i64),
+    ratio: (DoubleDouble, i64),
     reciprocals: &[f64],
     k: usize,
-    since: Pair,
+    since: DoubleDouble,
 ) -> f64 {
     let (decay, exponent) = exponential(-(since * echoes.rate.pair()));
-    let weight = scale((decay * ratio.0).value(), exponent + ratio.1);
+    let weight = scale((decay * ratio.0).high, exponent + ratio.1);
     if weight == 0.0 {
         return 0.0;
     }

@@ -27,15 +27,12 @@
 mod blocked;
 mod delay;
 mod description;
-mod dispatch;
 mod double_double;
 mod error;
 mod expanded;
 mod expansion;
 mod exponential;
 mod laguerre;
-mod lanes;
-mod pair;
 mod scaled;
 mod sum;
 

@@ -5,7 +5,8 @@
 use super::description::Echoes;
 use super::exponential::exponential;
 use super::laguerre::{Differences, relative};
-use super::pair::{Pair, scale};
+use crate::double_double::DoubleDouble;
+use crate::exponent::scale;
 
 /// Above this the polynomials are scaled down, below its reciprocal up.
 const LARGE: f64 = f64::from_bits((1023 + 200) << 52);
@@ -23,13 +24,13 @@ const STEPS: usize = 8;
 /// `j ≤ 2^21`, and for smaller `X` what underflows is below `2^−800`.
 pub(super) fn scaled(
     echoes: &Echoes,
-    ratio: (Pair, i64),
+    ratio: (DoubleDouble, i64),
     reciprocals: &[f64],
     k: usize,
-    since: Pair,
+    since: DoubleDouble,
 ) -> f64 {
     let (decay, exponent) = exponential(-(since * echoes.rate.pair()));
-    let weight = (decay * ratio.0).value();
+    let weight = (decay * ratio.0).high;
     let argument = since * echoes.scale.pair();
     let relative = relative(argument);
     let (mut state, mut carried) = (Differences::START, exponent + ratio.1);

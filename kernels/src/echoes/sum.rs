@@ -1,11 +1,13 @@
 //! A wave, ready to be summed: delays, powers of the ratio and reciprocals are formed once.
 
+use super::blocked::Fill;
 use super::delay::{Delays, Time};
 use super::description::Echoes;
 use super::error::EchoError;
-use super::lanes::WIDTH;
-use super::pair::{Pair, scale, two_sum};
-use super::{LARGEST_ECHO, dispatch, double_double, expanded, exponential, laguerre, scaled};
+use super::{LARGEST_ECHO, double_double, expanded, exponential, laguerre, scaled};
+use crate::double_double::{DoubleDouble, two_sum};
+use crate::exponent::scale;
+use crate::lanes::{Lanes, WIDTH, Work, widest};
 
 /// The largest `|b|x` and `|c|x`.
 const LARGEST_ARGUMENT: f64 = (1u64 << 40) as f64;
@@ -70,14 +72,16 @@ pub struct EchoSum {
     /// `kD` to `k = last + 1`.
     pub(super) delays: Delays,
     /// `ρ^k`.
-    ratios: Vec<(Pair, i64)>,
+    ratios: Vec<(DoubleDouble, i64)>,
     /// `1/(j+1)`.
     pub(super) reciprocals: Vec<f64>,
-    reciprocal_pairs: Vec<Pair>,
+    reciprocal_pairs: Vec<DoubleDouble>,
     /// `ρ^k`, rounded.
     pub(super) ratio_powers: Vec<f64>,
     /// `e^{−bmD}`, rounded.
     pub(super) decays: Vec<f64>,
+    /// `cmD`, as pairs.
+    pub(super) arguments: Vec<DoubleDouble>,
 }
 
 impl EchoSum {
@@ -93,20 +97,25 @@ impl EchoSum {
         let ratios = echoes.ratios(last);
         let steps = echoes.largest_index(last).unwrap_or(0);
         let divisors = || (1..=steps).map(|divisor| divisor as f64);
-        let decay = |m: usize| {
+        let delay = |m: usize| {
             let [high, low, _] = delays.of(m);
-            let product = Pair { high, low } * echoes.rate.pair();
+            DoubleDouble { high, low }
+        };
+        let argument = |m: usize| delay(m) * echoes.scale.pair();
+        let decay = |m: usize| {
+            let product = delay(m) * echoes.rate.pair();
             if product.high.abs() > LARGEST_ARGUMENT {
                 return 0.0;
             }
             let (mantissa, exponent) = exponential::exponential(-product);
-            scale(mantissa.value(), exponent)
+            scale(mantissa.high, exponent)
         };
         Ok(EchoSum {
+            arguments: (0..=last).map(argument).collect(),
             decays: (0..=last).map(decay).collect(),
             reciprocals: divisors().map(f64::recip).collect(),
-            reciprocal_pairs: divisors().map(|divisor| Pair::ONE.over(divisor)).collect(),
-            ratio_powers: ratios.iter().map(|power| scale(power.0.value(), power.1)).collect(),
+            reciprocal_pairs: divisors().map(|divisor| DoubleDouble::ONE.over(divisor)).collect(),
+            ratio_powers: ratios.iter().map(|power| scale(power.0.high, power.1)).collect(),
             ratios,
             delays,
             echoes,
@@ -138,10 +147,10 @@ impl EchoSum {
     ) -> Result<f64, EchoError> {
         self.admit(time, include_arriving)?;
         let rounded = matches!(method, Method::Expanded | Method::Plain);
-        let mut sum = Pair::ZERO;
+        let mut sum = DoubleDouble::ZERO;
         for k in 0..=self.last() {
             let since = match rounded {
-                true => Pair::from(time.high() - k as f64 * self.echoes.period.high()),
+                true => DoubleDouble::from(time.high() - k as f64 * self.echoes.period.high()),
                 false => self.delays.since(k, time),
             };
             if !super::delay::counts(since.high, include_arriving) {
@@ -150,10 +159,10 @@ impl EchoSum {
             let echo = self.echo_since(method, k, since, time);
             sum = match method {
                 Method::DoubleDouble => sum + echo,
-                _ => Pair::from(sum.high + echo.high),
+                _ => DoubleDouble::from(sum.high + echo.high),
             };
         }
-        Ok(sum.value())
+        Ok(sum.high)
     }
 
     /// `φ_k(x)` alone, by one method.
@@ -187,19 +196,25 @@ impl EchoSum {
             }
             _ => self.echo_since(method, k, since.pair(), since),
         };
-        Ok(echo.value())
+        Ok(echo.high)
     }
 
     /// Echo `k`, whose time since arrival and absolute time are given.
-    fn echo_since(&self, method: Method, k: usize, since: Pair, time: Time) -> Pair {
+    fn echo_since(
+        &self,
+        method: Method,
+        k: usize,
+        since: DoubleDouble,
+        time: Time,
+    ) -> DoubleDouble {
         let (echoes, ratio) = (&self.echoes, self.ratios[k]);
         if let Some(parts) = echoes.first.get(k) {
             return match method {
                 Method::DoubleDouble => double_double::first(parts, since),
-                _ => Pair::from(double_double::first_rounded(parts, since)),
+                _ => DoubleDouble::from(double_double::first_rounded(parts, since)),
             };
         }
-        Pair::from(match method {
+        DoubleDouble::from(match method {
             Method::Expanded => expanded::expanded(echoes, k, time.high()),
             Method::Plain => laguerre::plain(echoes, k, time.high()),
             Method::Difference => laguerre::difference(echoes, ratio, &self.reciprocals, k, since),
@@ -227,17 +242,17 @@ impl EchoSum {
         if times.len() != values.len() {
             return Err(EchoError::LengthsDiffer { times: times.len(), values: values.len() });
         }
-        let Some(latest) = latest(times) else { return Err(EchoError::NotFinite) };
+        let Some(latest) = widest(Latest(times)) else { return Err(EchoError::NotFinite) };
         if times.is_empty() {
             return Ok(());
         }
         self.admit(Time::from(latest), include_arriving)?;
-        dispatch::fill(self, times, include_arriving, values);
+        widest(Fill { sum: self, times, include_arriving, values });
         Ok(())
     }
 
     /// Echo `k` by the scaled summation, where lanes do not reach.
-    pub(super) fn scaled_echo(&self, k: usize, since: Pair) -> f64 {
+    pub(super) fn scaled_echo(&self, k: usize, since: DoubleDouble) -> f64 {
         scaled::scaled(&self.echoes, self.ratios[k], &self.reciprocals, k, since)
     }
 
@@ -262,18 +277,23 @@ impl EchoSum {
 
 /// The latest of some times, none if one of them is not finite. Lanes run side by side, so that no
 /// comparison waits for the one before.
-fn latest(times: &[f64]) -> Option<f64> {
-    let (mut latest, mut zeros) = ([f64::NEG_INFINITY; WIDTH], [0.0; WIDTH]);
-    let (vectors, rest) = times.as_chunks();
-    let mut rest_padded = [f64::MIN; WIDTH];
-    rest_padded[..rest.len()].copy_from_slice(rest);
-    for vector in vectors.iter().chain([&rest_padded]) {
-        for lane in 0..WIDTH {
-            latest[lane] = if vector[lane] > latest[lane] { vector[lane] } else { latest[lane] };
+struct Latest<'a>(&'a [f64]);
+
+impl Work for Latest<'_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Option<f64> {
+        let (mut latest, mut zeros) = (L::splat(f64::MIN), L::splat(0.0));
+        let (vectors, rest) = self.0.as_chunks();
+        let mut padded = [f64::MIN; WIDTH];
+        padded[..rest.len()].copy_from_slice(rest);
+        for vector in vectors.iter().chain([&padded]) {
+            let vector = L::from_array(*vector);
+            latest = latest.greater(vector);
             // What is not finite times 0 is no number, and stays so in a sum.
-            zeros[lane] += 0.0 * vector[lane];
+            zeros = zeros + vector * L::splat(0.0);
         }
+        (zeros.sum() == 0.0).then(|| latest.to_array().into_iter().fold(f64::MIN, f64::max))
     }
-    let finite = zeros.iter().all(|zero| !zero.is_nan());
-    finite.then(|| latest.into_iter().fold(f64::MIN, f64::max))
 }

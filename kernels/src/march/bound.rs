@@ -77,9 +77,10 @@
 //! `ε`, together less than `2⁻²²`, and the result is multiplied by `1 + 2⁻²⁰`. Below the normal
 //! doubles an operation loses at most `2⁻¹⁰⁷⁴`: [`UNDERFLOW`] covers a period's, weights included.
 
-use super::compensated::{Ends, Pair, ends};
+use super::compensated::{Ends, ends};
 use super::reflection::{Parameter, Reflection};
-use crate::double_double::UNIT;
+use crate::double_double::{DoubleDouble, UNIT};
+use crate::lanes::{Lanes, WIDTH, Work, widest};
 
 /// More than all relative errors of sums of non-negative numbers.
 const SLACK: f64 = 1.0 + 1.0 / (1 << 20) as f64;
@@ -89,8 +90,6 @@ const UNDERFLOW: f64 = 1e-280;
 const MOST_COEFFICIENTS: usize = 1 << 20;
 /// Beyond this many periods the chains of operations are longer than the proof allows.
 const LAST_PERIOD: usize = 1 << 28;
-/// Rows measured side by side.
-const LANES: usize = 4;
 
 /// A proof in progress: how far recorded polynomials can be from the wave of a [`Reflection`].
 ///
@@ -126,11 +125,12 @@ pub struct Certificate {
     gamma: Parameter,
     /// `√κ` and `Γ`, upper bounds; `None` where the lemma does not hold.
     energy_weights: Option<(f64, f64)>,
-    /// What was recorded last, padded: the wave, and the measured ends.
+    /// What was recorded last: the wave with zeros behind it, its length, and the measured ends.
     before: Vec<f64>,
+    length: usize,
     last: Option<Joint>,
     /// `ρⁿ` of the next period, and upper bounds of `|ρ|ⁿ` and of `n |ρ|^{n−1}`.
-    power: Pair,
+    power: DoubleDouble,
     magnitude: f64,
     slope: f64,
     periods: usize,
@@ -138,8 +138,11 @@ pub struct Certificate {
     slope_energy: f64,
     mass: f64,
     supremum: f64,
-    /// Scratch: the padded increment and `|e_k|`.
+    /// `1/k` at place `k − 1`.
+    inverses: Vec<f64>,
+    /// Scratch: the increment and the wave with zeros behind them, and `|e_k|`.
     increment: Vec<f64>,
+    wave: Vec<f64>,
     mismatch: Vec<f64>,
 }
 
@@ -164,6 +167,22 @@ struct Residual {
     constant: f64,
 }
 
+/// The next period for a certificate.
+struct Record<'a> {
+    certificate: &'a mut Certificate,
+    increment: &'a [f64],
+    wave: &'a [f64],
+}
+
+impl Work for Record<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        self.certificate.take::<L>(self.increment, self.wave);
+    }
+}
+
 impl Certificate {
     /// The certificate before the first period. O(1).
     pub fn new(reflection: &Reflection) -> Certificate {
@@ -180,8 +199,9 @@ impl Certificate {
             gamma: quarter(coupling, radius),
             energy_weights: energy_weights(reflection),
             before: Vec::new(),
+            length: 0,
             last: None,
-            power: Pair::new(1.0),
+            power: DoubleDouble::ONE,
             magnitude: 1.0,
             slope: 0.0,
             periods: 0,
@@ -189,7 +209,9 @@ impl Certificate {
             slope_energy: 0.0,
             mass: 0.0,
             supremum: 0.0,
+            inverses: Vec::new(),
             increment: Vec::new(),
+            wave: Vec::new(),
             mismatch: Vec::new(),
         }
     }
@@ -203,10 +225,16 @@ impl Certificate {
     /// `y_n`, as somebody computed them. More than 2²⁰ coefficients, infinities and not-a-numbers
     /// end the proof: from there on there is no bound. O(N).
     pub fn record(&mut self, increment: &[f64], wave: &[f64]) {
-        let residual = self.measure(increment, wave);
+        widest(Record { certificate: self, increment, wave });
+    }
+
+    /// The same with the instructions of the caller.
+    #[inline(always)]
+    pub(super) fn take<L: Lanes>(&mut self, increment: &[f64], wave: &[f64]) {
+        let residual = self.measure::<L>(increment, wave);
         let here = Joint {
-            wave: ends(wave),
-            increment: ends(increment),
+            wave: ends::<L>(wave),
+            increment: ends::<L>(increment),
             smooth: residual.smooth,
             jump: 0.0,
         };
@@ -214,8 +242,8 @@ impl Certificate {
         if increment.len().max(wave.len()) > MOST_COEFFICIENTS {
             (self.energy, self.mass) = (f64::INFINITY, f64::INFINITY);
         }
-        self.before.clear();
-        self.before.extend_from_slice(wave);
+        std::mem::swap(&mut self.before, &mut self.wave);
+        self.length = wave.len();
         self.periods += 1;
         self.power = self.power.times(self.ratio.value());
         self.slope = self.slope * self.ratio.magnitude() + self.magnitude;
@@ -233,42 +261,44 @@ impl Certificate {
     /// The radii of `β` and `γ` add their multiple of the differences, and `e` adds
     /// `k|e_k| + β (|e_{k−1}| + |e_{k+1}|)`. Without `k|e_k|` the same is a bound of
     /// `k |u_k − G_k|`.
-    fn measure(&mut self, increment: &[f64], wave: &[f64]) -> Residual {
-        let most = increment.len().max(wave.len()).max(self.before.len()).max(1);
-        let rows = most.div_ceil(LANES);
-        let length = LANES * rows + 2;
-        let (u, g, e) = (&mut self.increment, &mut self.before, &mut self.mismatch);
-        u.clear();
-        u.extend_from_slice(increment);
-        u.resize(length, 0.0);
+    #[inline(always)]
+    fn measure<L: Lanes>(&mut self, increment: &[f64], wave: &[f64]) -> Residual {
+        let most = increment.len().max(wave.len()).max(self.length).max(1);
+        let groups = most.div_ceil(WIDTH);
+        // The rows of a group ask for its places and the two behind it.
+        let length = WIDTH * (groups + 1);
+        let known = self.inverses.len();
+        self.inverses.extend((known..length).map(|k| 1.0 / (k + 1) as f64));
+        let Certificate { increment: u, before: g, wave: p, mismatch: e, inverses, .. } = self;
+        for (padded, given) in [(&mut *u, increment), (&mut *p, wave)] {
+            padded.clear();
+            padded.extend_from_slice(given);
+            padded.resize(length, 0.0);
+        }
         g.resize(length, 0.0);
-        e.clear();
         e.resize(length, 0.0);
         let ratio = self.ratio.value();
         let product = if self.ratio.is_exact_unit() { 0.0 } else { UNIT * ratio.abs() };
         let product = product + self.ratio.radius();
-        let missing = |p: f64, g: f64, u: f64| {
-            let sum = ratio * g + u;
-            (p - sum).abs() + UNIT * sum.abs() + product * g.abs()
-        };
-        let (head, tail) = e.split_at_mut(wave.len());
-        for (((to, p), g), u) in head.iter_mut().zip(wave).zip(&*g).zip(&*u) {
-            *to = missing(*p, *g, *u);
-        }
-        for ((to, g), u) in tail.iter_mut().zip(&g[wave.len()..]).zip(&u[wave.len()..]) {
-            *to = missing(0.0, *g, *u);
+        let (ratio, product, unit) = (L::splat(ratio), L::splat(product), L::splat(UNIT));
+        for group in 0..=groups {
+            let k = WIDTH * group;
+            let old = L::load(&g[k..]);
+            let sum = ratio * old + L::load(&u[k..]);
+            let missing = (L::load(&p[k..]) - sum).abs() + unit * sum.abs() + product * old.abs();
+            e[k..k + WIDTH].copy_from_slice(&missing.to_array());
         }
         let constant = e[0];
         // The constant coefficient counts twice in the row k = 1, and in no other.
         u[0] *= 2.0;
         g[0] *= 2.0;
         e[0] *= 2.0;
-        let mut sums = Sums::new(self.beta, self.gamma);
-        for row in 0..rows {
-            let k = LANES * row;
-            sums.add(k, &u[k..k + LANES + 2], &g[k..k + LANES + 2], &e[k..k + LANES + 2]);
+        let mut sums = Sums::<L>::new(self.beta, self.gamma);
+        for group in 0..groups {
+            let k = WIDTH * group;
+            sums.add([&u[k..], &g[k..], &e[k..]], L::load(&inverses[k..]));
         }
-        Residual { squares: sums.squares(), smooth: sums.smooth.iter().sum(), constant }
+        Residual { squares: sums.squares(), smooth: sums.smooth.sum(), constant }
     }
 
     /// Adds a period to the energies and to the mass.
@@ -281,14 +311,14 @@ impl Certificate {
         let (expected, error) = (self.power, self.power_error());
         let (kink, jump, jump_before) = match &self.last {
             None => {
-                let one = Pair::new(1.0);
+                let one = DoubleDouble::ONE;
                 let kink = distance(here.increment, one, 0.0) + here.smooth;
                 (kink, distance(here.wave, one, 0.0), 0.0)
             }
             Some(last) => {
                 let kink = distance(here.increment, last.increment.right, last.increment.radius);
-                let target = last.wave.right.plus(expected);
-                // Joining the pairs rounds their low parts: 3ε of at most ε of the sums.
+                let target = last.wave.right + expected;
+                // A sum of pairs is off by at most 3.1 ε² of itself.
                 let joined = 8.0 * UNIT * UNIT * (last.wave.absolute + self.magnitude);
                 let radius = last.wave.radius + joined + error;
                 (kink + here.smooth + last.smooth, distance(here.wave, target, radius), last.jump)
@@ -376,59 +406,62 @@ fn energy_weights(reflection: &Reflection) -> Option<(f64, f64)> {
 }
 
 /// An upper bound of the distance of a left end from `target`, which is known within `radius`.
-fn distance(end: Ends, target: Pair, radius: f64) -> f64 {
-    let rest = end.left.minus(target);
+fn distance(end: Ends, target: DoubleDouble, radius: f64) -> f64 {
+    let rest = end.left - target;
     let joined = 8.0 * UNIT * UNIT * (end.absolute + target.high.abs());
-    rest.value().abs() * (1.0 + 2.0 * UNIT) + end.radius + radius + joined
+    rest.high.abs() * (1.0 + 2.0 * UNIT) + end.radius + radius + joined
 }
 
-/// The sums over rows, four rows side by side.
-struct Sums {
+/// The sums over rows, eight rows side by side.
+struct Sums<L> {
     beta: Parameter,
     gamma: Parameter,
     largest_beta: f64,
-    plain: [f64; LANES],
-    first: [f64; LANES],
-    second: [f64; LANES],
-    smooth: [f64; LANES],
+    /// The rows that come next.
+    rows: L,
+    plain: L,
+    first: L,
+    second: L,
+    smooth: L,
 }
 
-impl Sums {
-    fn new(beta: Parameter, gamma: Parameter) -> Sums {
-        let zero = [0.0; LANES];
-        let largest_beta = beta.magnitude();
-        Sums { beta, gamma, largest_beta, plain: zero, first: zero, second: zero, smooth: zero }
+impl<L: Lanes> Sums<L> {
+    #[inline(always)]
+    fn new(beta: Parameter, gamma: Parameter) -> Self {
+        let (zero, largest_beta) = (L::splat(0.0), beta.magnitude());
+        let rows = L::from_array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+        let (plain, first, second, smooth) = (zero, zero, zero, zero);
+        Sums { beta, gamma, largest_beta, rows, plain, first, second, smooth }
     }
 
-    /// The rows `k + 1 ..= k + 4`, from the coefficients `k ..= k + 5`.
+    /// The rows `k + 1 ..= k + 8`, from the coefficients of `u`, `g` and `|e|` from `k` on and the
+    /// reciprocals of the rows.
     #[inline(always)]
-    fn add(&mut self, k: usize, u: &[f64], g: &[f64], e: &[f64]) {
-        let near: &[f64; LANES + 2] = u.try_into().expect("four rows and their neighbours");
-        let old: &[f64; LANES + 2] = g.try_into().expect("four rows and their neighbours");
-        let mismatch: &[f64; LANES + 2] = e.try_into().expect("four rows and their neighbours");
-        let (beta, gamma) = (self.beta.value(), self.gamma.value());
-        for lane in 0..LANES {
-            let row = (k + lane + 1) as f64;
-            let (du, dg) = (near[lane] - near[lane + 2], old[lane] - old[lane + 2]);
-            let (a, b, c) = (row * near[lane + 1], beta * du, gamma * dg);
-            let sizes = a.abs() + b.abs() + c.abs();
-            let radii = self.beta.radius() * du.abs() + self.gamma.radius() * dg.abs();
-            let around = self.largest_beta * (mismatch[lane] + mismatch[lane + 2]);
-            let smooth = ((a + b) + c).abs() + 4.01 * UNIT * sizes + radii + around;
-            let whole = smooth + row * mismatch[lane + 1];
-            let inverse = 1.0 / row;
-            let plain = whole * inverse;
-            let second = whole * row;
-            self.plain[lane] += plain * plain;
-            self.first[lane] += whole * whole;
-            self.second[lane] += second * second;
-            self.smooth[lane] += smooth * inverse;
-        }
+    fn add(&mut self, [u, g, e]: [&[f64]; 3], inverse: L) {
+        let (row, own, mismatch) = (self.rows, L::load(&u[1..]), L::load(&e[1..]));
+        let du = L::load(u) - L::load(&u[2..]);
+        let dg = L::load(g) - L::load(&g[2..]);
+        let beta = L::splat(self.beta.value());
+        let (a, b, c) = (row * own, beta * du, L::splat(self.gamma.value()) * dg);
+        let sizes = a.abs() + b.abs() + c.abs();
+        let (beta, gamma) = (L::splat(self.beta.radius()), L::splat(self.gamma.radius()));
+        let radii = beta * du.abs() + gamma * dg.abs();
+        let around = L::splat(self.largest_beta) * (L::load(e) + L::load(&e[2..]));
+        let lost = L::splat(4.01 * UNIT) * sizes;
+        let smooth = ((a + b) + c).abs() + lost + radii + around;
+        let whole = smooth + row * mismatch;
+        let (plain, second) = (whole * inverse, whole * row);
+        self.plain = self.plain + plain * plain;
+        self.first = self.first + whole * whole;
+        self.second = self.second + second * second;
+        self.smooth = self.smooth + smooth * inverse;
+        self.rows = row + L::splat(WIDTH as f64);
     }
 
     /// `Σ R_k²`, `Σ k² R_k²`, `Σ k⁴ R_k²`.
+    #[inline(always)]
     fn squares(&self) -> [f64; 3] {
-        [self.plain, self.first, self.second].map(|lanes| lanes.iter().sum())
+        [self.plain.sum(), self.first.sum(), self.second.sum()]
     }
 }
 

@@ -3,8 +3,7 @@
 //! Values are summed from the end nearer to `x` in Reinsch's form of Clenshaw's recurrence, which
 //! needs no small difference of large numbers there and has an error bound that is uniform in `x`.
 
-/// How many points are evaluated side by side: the recurrence of one point waits for itself.
-const LANES: usize = 8;
+use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
 
 /// The value of the series at `x` in `[0, 1]`, within [`evaluation_error`]. O(N). An empty series
 /// is zero.
@@ -16,8 +15,9 @@ const LANES: usize = 8;
 /// assert_eq!(chebyshev::value(&[0.0, 0.0, 1.0], 0.75), -0.5);
 /// ```
 pub fn value(coefficients: &[f64], x: f64) -> f64 {
-    let [found] = reinsch(coefficients, [x]);
-    found
+    let mut found = [0.0];
+    values(coefficients, &[x], &mut found);
+    found[0]
 }
 
 /// The values of the series at all `points` of `[0, 1]`, in any order, into `values`: as [`value`],
@@ -34,20 +34,90 @@ pub fn value(coefficients: &[f64], x: f64) -> f64 {
 /// assert_eq!(values, [0.0, 1.0, 2.0]);
 /// ```
 pub fn values(coefficients: &[f64], points: &[f64], values: &mut [f64]) {
-    assert_eq!(points.len(), values.len(), "one value for each point");
-    for (points, values) in points.chunks(LANES).zip(values.chunks_mut(LANES)) {
-        // A short group is filled up with its first point.
-        let mut group = [points[0]; LANES];
-        group[..points.len()].copy_from_slice(points);
-        match points.len() {
-            1 => values[0] = value(coefficients, points[0]),
-            2..=4 => {
-                let [a, b, c, d, ..] = group;
-                values.copy_from_slice(&reinsch(coefficients, [a, b, c, d])[..values.len()]);
+    values_of([Samples { coefficients, points, values }]);
+}
+
+/// A series, points of `[0, 1]`, and the places of the values there.
+///
+/// ```
+/// use wavestep_kernels::march::chebyshev::Samples;
+/// let mut values = [0.0; 2];
+/// let line = Samples { coefficients: &[1.0, 1.0], points: &[0.0, 1.0], values: &mut values };
+/// assert_eq!(line.points.len(), line.values.len());
+/// ```
+#[derive(Debug)]
+pub struct Samples<'a> {
+    /// The coefficients of the series.
+    pub coefficients: &'a [f64],
+    /// Where it is evaluated.
+    pub points: &'a [f64],
+    /// The values there.
+    pub values: &'a mut [f64],
+}
+
+/// The values of many series: the same as one after the other, and faster, because each step of a
+/// recurrence waits for the one before, and here two go side by side. O(N · points).
+///
+/// # Panics
+/// Where points and values of one differ in length.
+///
+/// ```
+/// use wavestep_kernels::march::chebyshev::{Samples, values_of};
+///
+/// let (mut line, mut parabola) = ([0.0; 2], [0.0]);
+/// values_of([
+///     Samples { coefficients: &[1.0, 1.0], points: &[0.0, 1.0], values: &mut line },
+///     Samples { coefficients: &[0.0, 0.0, 1.0], points: &[0.75], values: &mut parabola },
+/// ]);
+/// assert_eq!((line, parabola), ([0.0, 2.0], [-0.5]));
+/// ```
+pub fn values_of<'a>(series: impl IntoIterator<Item = Samples<'a>>) {
+    let groups = series.into_iter().flat_map(|samples| {
+        let Samples { coefficients, points, values } = samples;
+        assert_eq!(points.len(), values.len(), "one value for each point");
+        let groups = points.chunks(WIDTH).zip(values.chunks_mut(WIDTH));
+        groups.map(move |(points, values)| Samples { coefficients, points, values })
+    });
+    widest(Pairs(groups));
+}
+
+/// Samples at eight points or fewer, of which two go side by side.
+struct Pairs<I>(I);
+
+impl<'a, I: Iterator<Item = Samples<'a>>> Work for Pairs<I> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self) {
+        while let Some(one) = self.0.next() {
+            let mut here = Reinsch::<L>::new(&one);
+            let Some(other) = self.0.next() else {
+                here.down(1);
+                store(here.end(), one.values);
+                return;
+            };
+            let mut there = Reinsch::<L>::new(&other);
+            let (a, b) = (one.coefficients, other.coefficients);
+            // What one of them has more is stepped through alone.
+            let common = a.len().min(b.len()).saturating_sub(1) / 2 * 2 + 1;
+            here.down(common);
+            there.down(common);
+            for odd in (1..common).step_by(2).rev() {
+                here.even(a[odd + 1]);
+                there.even(b[odd + 1]);
+                here.odd(a[odd]);
+                there.odd(b[odd]);
             }
-            _ => values.copy_from_slice(&reinsch(coefficients, group)[..values.len()]),
+            store(here.end(), one.values);
+            store(there.end(), other.values);
         }
     }
+}
+
+/// Writes the first lanes.
+#[inline(always)]
+fn store<L: Lanes>(lanes: L, values: &mut [f64]) {
+    values.copy_from_slice(&lanes.to_array()[..values.len()]);
 }
 
 /// A bound of `|value(c, x) − p(x)|` for all `x` in `[0, 1]`: `9 ε Σ (k + 1) |c_k|`, `ε = 2⁻⁵³`,
@@ -80,7 +150,7 @@ pub fn values(coefficients: &[f64], points: &[f64], values: &mut [f64]) {
 /// assert!(error <= chebyshev::evaluation_error(&c) && chebyshev::evaluation_error(&c) < 2e-15);
 /// ```
 pub fn evaluation_error(coefficients: &[f64]) -> f64 {
-    9.0 * (f64::EPSILON / 2.0) * sizes(coefficients).weighted + 1e-290
+    sizes(coefficients).evaluation_error()
 }
 
 /// Sums of the sizes of coefficients. For fewer than 2²⁰ of them each is off by less than `2⁻³⁴` of
@@ -103,9 +173,20 @@ pub struct Sizes {
     pub slope: f64,
 }
 
+impl Sizes {
+    /// A bound of the error of evaluation, see [`evaluation_error`].
+    ///
+    /// ```
+    /// use wavestep_kernels::march::chebyshev::{evaluation_error, sizes};
+    /// let c = [0.3, -0.2, 0.1];
+    /// assert_eq!(sizes(&c).evaluation_error(), evaluation_error(&c));
+    /// ```
+    pub fn evaluation_error(&self) -> f64 {
+        9.0 * (f64::EPSILON / 2.0) * self.weighted + 1e-290
+    }
+}
+
 /// The sums of sizes of a series. O(N).
-///
-/// A sum waits for itself at each term; four lanes are summed side by side.
 ///
 /// ```
 /// use wavestep_kernels::march::chebyshev::sizes;
@@ -114,52 +195,93 @@ pub struct Sizes {
 /// assert_eq!((found.absolute, found.weighted, found.slope), (15.0, 55.0, 260.0));
 /// ```
 pub fn sizes(coefficients: &[f64]) -> Sizes {
-    let mut sums = [[0.0; 4]; 3];
-    let mut place = [0.0, 1.0, 2.0, 3.0];
-    let mut add = |group: &[f64; 4]| {
-        for lane in 0..4 {
-            let (k, size) = (place[lane], group[lane].abs());
-            sums[0][lane] += size;
-            sums[1][lane] += (k + 1.0) * size;
-            sums[2][lane] += 2.0 * k * k * size;
-            place[lane] = k + 4.0;
-        }
-    };
-    let (groups, rest) = coefficients.as_chunks::<4>();
-    groups.iter().for_each(&mut add);
-    let mut last = [0.0; 4];
-    last[..rest.len()].copy_from_slice(rest);
-    add(&last);
-    let [absolute, weighted, slope] = sums.map(|lanes| lanes.iter().sum());
-    Sizes { absolute, weighted, slope }
+    widest(Measure(coefficients))
 }
 
-/// The recurrence at several points, each from the end nearer to it. The mirrored series, whose odd
+/// The sizes of a series.
+struct Measure<'a>(&'a [f64]);
+
+impl Work for Measure<'_> {
+    type Output = Sizes;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Sizes {
+        let zero = L::splat(0.0);
+        let (mut absolute, mut weighted, mut slope) = (zero, zero, zero);
+        let mut place = L::from_array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        let (groups, rest) = self.0.as_chunks();
+        for group in groups.iter().chain([&padded(rest)]) {
+            let size = L::from_array(*group).abs();
+            let weight = place * size;
+            absolute = absolute + size;
+            weighted = weighted + weight;
+            slope = slope + place * weight;
+            place = place + L::splat(WIDTH as f64);
+        }
+        let absolute = absolute.sum();
+        Sizes { absolute, weighted: weighted.sum() + absolute, slope: 2.0 * slope.sum() }
+    }
+}
+
+/// The recurrence at eight points, each from the end nearer to it. The mirrored series, whose odd
 /// coefficients change sign, serves the left half. `h` is exact on both sides.
-fn reinsch<const N: usize>(coefficients: &[f64], x: [f64; N]) -> [f64; N] {
-    let Some((constant, rest)) = coefficients.split_first() else { return [0.0; N] };
-    let h = x.map(|x| if x < 0.5 { -4.0 * x } else { 4.0 * (x - 1.0) });
-    let sign = x.map(|x| if x < 0.5 { -1.0 } else { 1.0 });
-    let (mut b, mut d) = ([0.0; N], [0.0; N]);
-    let odd = |b: &mut [f64; N], d: &mut [f64; N], c: f64| {
-        for lane in 0..N {
-            d[lane] = (sign[lane] * c + d[lane]) + h[lane] * b[lane];
-            b[lane] += d[lane];
+struct Reinsch<'a, L> {
+    coefficients: &'a [f64],
+    h: L,
+    /// 1 on the right, −1 on the left.
+    sign: L,
+    b: L,
+    d: L,
+}
+
+impl<'a, L: Lanes> Reinsch<'a, L> {
+    #[inline(always)]
+    fn new(samples: &Samples<'a>) -> Self {
+        let x = padded(samples.points);
+        Reinsch {
+            coefficients: samples.coefficients,
+            h: L::from_array(x.map(|x| if x < 0.5 { -4.0 * x } else { 4.0 * (x - 1.0) })),
+            sign: L::from_array(x.map(|x| if x < 0.5 { -1.0 } else { 1.0 })),
+            b: L::splat(0.0),
+            d: L::splat(0.0),
         }
-    };
-    // Odd and even places in turn: `rest` begins at place 1.
-    let pairs = rest.chunks_exact(2);
-    if let [last] = pairs.remainder() {
-        odd(&mut b, &mut d, *last);
     }
-    for pair in pairs.rev() {
-        for lane in 0..N {
-            d[lane] = (pair[1] + d[lane]) + h[lane] * b[lane];
-            b[lane] += d[lane];
+
+    /// The places from the last one down to `first`, which is odd.
+    #[inline(always)]
+    fn down(&mut self, first: usize) {
+        let pairs = self.coefficients.get(first..).unwrap_or_default().chunks_exact(2);
+        if let [last] = pairs.remainder() {
+            self.odd(*last);
         }
-        odd(&mut b, &mut d, pair[0]);
+        for pair in pairs.rev() {
+            self.even(pair[1]);
+            self.odd(pair[0]);
+        }
     }
-    std::array::from_fn(|lane| (constant + 0.5 * h[lane] * b[lane]) + d[lane])
+
+    #[inline(always)]
+    fn even(&mut self, coefficient: f64) {
+        self.step(L::splat(coefficient));
+    }
+
+    #[inline(always)]
+    fn odd(&mut self, coefficient: f64) {
+        self.step(self.sign * L::splat(coefficient));
+    }
+
+    #[inline(always)]
+    fn step(&mut self, coefficient: L) {
+        self.d = (coefficient + self.d) + self.h * self.b;
+        self.b = self.b + self.d;
+    }
+
+    /// The value, from the constant coefficient.
+    #[inline(always)]
+    fn end(self) -> L {
+        let Some(constant) = self.coefficients.first() else { return L::splat(0.0) };
+        (L::splat(*constant) + L::splat(0.5) * self.h * self.b) + self.d
+    }
 }
 
 #[cfg(test)]

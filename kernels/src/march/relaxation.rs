@@ -116,6 +116,7 @@ impl Relaxation {
     ///
     /// The two passes are first-order recurrences, each step waiting for the one before. Written
     /// over four steps, `s_k = h_k + θ_k … θ_{k+3} s_{k+4}`, four places wait together.
+    #[inline(always)]
     pub fn particular(&mut self, g: &[f64], solution: &mut Vec<f64>) {
         let last = g.len();
         self.reserve(last);

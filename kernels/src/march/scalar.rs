@@ -14,6 +14,7 @@ use super::bound::Certificate;
 use super::chebyshev;
 use super::reflection::Reflection;
 use super::relaxation::Relaxation;
+use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
 use std::fmt;
 
 /// Whether a march proves bounds as it goes, at some three times the cost.
@@ -126,14 +127,14 @@ impl March {
         let step = Relaxation::new(rate, coupling);
         let mut increment = step.decay().to_vec();
         trim(&mut increment, threshold);
-        let wave_end = sums(&increment).1;
+        let wave_end = widest(Sums(&increment)).1;
         let mut march = March {
             ratio,
             options,
             period: 0,
             wave: increment.clone(),
             end: wave_end,
-            decay_end: sums(step.decay()).1,
+            decay_end: widest(Sums(step.decay())).1,
             wave_end,
             front: 1.0,
             drift: 0.0,
@@ -144,6 +145,9 @@ impl March {
             failed: None,
         };
         march.check()?;
+        if let Some(certificate) = &mut march.certificate {
+            certificate.record(&march.increment, &march.wave);
+        }
         Ok(march)
     }
 
@@ -173,12 +177,17 @@ impl March {
         if let Some(error) = self.failed {
             return Err(error);
         }
+        widest(Advance(self))
+    }
+
+    #[inline(always)]
+    fn step<L: Lanes>(&mut self) -> Result<(), MarchError> {
         self.period += 1;
         let before = self.end - RESTORE * self.ratio * self.drift;
         let March { wave, increment, step, .. } = self;
         step.particular(wave, increment);
         // v = particular + (v(0) − particular(0)) e^{−Bx}.
-        let (left, right) = sums(increment);
+        let (left, right) = sums::<L>(increment);
         let start = before - left;
         let mut end = right + start * self.decay_end;
         // The particular solution behind its last place, where it has no right side.
@@ -203,27 +212,30 @@ impl March {
         }
         self.end = end;
         wave.resize(increment.len().max(wave.len()), 0.0);
-        let largest = advance_wave(self.ratio, wave, increment);
+        let largest = advance_wave::<L>(self.ratio, wave, increment);
         trim(wave, threshold);
-        let (left, right) = sums(wave);
+        let (left, right) = sums::<L>(wave);
         self.front *= self.ratio;
         self.drift = left - self.wave_end - self.front;
         self.wave_end = right;
         self.largest = if largest < 1.0 { 1.0 } else { largest };
-        self.check().inspect_err(|error| self.failed = Some(*error))
+        self.failed = self.check().err();
+        match (self.failed, &mut self.certificate) {
+            (Some(error), _) => return Err(error),
+            (None, Some(certificate)) => certificate.take::<L>(&self.increment, &self.wave),
+            (None, None) => {}
+        }
+        Ok(())
     }
 
-    /// The checks at the end of a step, and its proof.
-    fn check(&mut self) -> Result<(), MarchError> {
+    /// The checks at the end of a step.
+    fn check(&self) -> Result<(), MarchError> {
         let (period, limit) = (self.period, self.options.limit);
         if !(self.largest.is_finite() && self.end.is_finite()) {
             return Err(MarchError::NotFinite { period });
         }
         if self.wave.len() > limit {
             return Err(MarchError::TooManyCoefficients { period, limit });
-        }
-        if let Some(certificate) = &mut self.certificate {
-            certificate.record(&self.increment, &self.wave);
         }
         Ok(())
     }
@@ -244,50 +256,89 @@ impl March {
     /// How far [`March::value`] can be from the true wave anywhere on this period, the rounding of
     /// the evaluation included; `None` where nothing is proven. O(N).
     pub fn bound(&self) -> Option<f64> {
+        self.certificate.as_ref()?;
+        self.bound_by(&chebyshev::sizes(&self.wave))
+    }
+
+    /// The same from the sizes of the coefficients, for who has them already. O(1).
+    ///
+    /// ```
+    /// use wavestep_kernels::march::{March, MarchOptions, Reflection, chebyshev};
+    ///
+    /// let march = March::new(&Reflection::exact(2.0, 2.0, 1.0)?, MarchOptions::default())?;
+    /// assert_eq!(march.bound_by(&chebyshev::sizes(march.coefficients())), march.bound());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn bound_by(&self, sizes: &chebyshev::Sizes) -> Option<f64> {
         if self.failed.is_some() {
             return None;
         }
         let bound = self.certificate.as_ref()?.bound()?;
-        Some((bound + chebyshev::evaluation_error(&self.wave)).next_up())
+        Some((bound + sizes.evaluation_error()).next_up())
+    }
+}
+
+/// One period further.
+struct Advance<'a>(&'a mut March);
+
+impl Work for Advance<'_> {
+    type Output = Result<(), MarchError>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Result<(), MarchError> {
+        self.0.step::<L>()
     }
 }
 
 /// Drops trailing coefficients up to the threshold; one always stays.
+#[inline(always)]
 fn trim(coefficients: &mut Vec<f64>, threshold: f64) {
     let kept = coefficients.iter().rposition(|c| c.abs() > threshold || c.is_nan()).unwrap_or(0);
     coefficients.truncate(kept + 1);
 }
 
-/// The values at both ends, summed in four lanes.
-fn sums(coefficients: &[f64]) -> (f64, f64) {
-    let mut lanes = [0.0; 4];
-    let (groups, rest) = coefficients.as_chunks::<4>();
-    for group in groups {
-        (0..4).for_each(|lane| lanes[lane] += group[lane]);
+/// The values of a series at both ends.
+struct Sums<'a>(&'a [f64]);
+
+impl Work for Sums<'_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> (f64, f64) {
+        sums::<L>(self.0)
     }
-    rest.iter().enumerate().for_each(|(lane, c)| lanes[lane] += c);
-    let (even, odd) = (lanes[0] + lanes[2], lanes[1] + lanes[3]);
+}
+
+#[inline(always)]
+fn sums<L: Lanes>(coefficients: &[f64]) -> (f64, f64) {
+    let mut sums = L::splat(0.0);
+    let (groups, rest) = coefficients.as_chunks();
+    for group in groups.iter().chain([&padded(rest)]) {
+        sums = sums + L::from_array(*group);
+    }
+    let [a, b, c, d, e, f, g, h] = sums.to_array();
+    let (even, odd) = ((a + e) + (c + g), (b + f) + (d + h));
     (even - odd, even + odd)
 }
 
 /// `w ← ρ w + u` on the places of `u`, behind which `w` is zero or multiplied by ρ; gives the
-/// largest absolute value, or not-a-number if one of them is none.
-fn advance_wave(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f64 {
-    let mut lanes = [0.0; 4];
-    let larger = |a: f64, b: f64| if b <= a { a } else { b };
-    let (groups, rest) = wave.as_chunks_mut::<4>();
-    let (added, last) = increment.as_chunks::<4>();
-    for (group, added) in groups.iter_mut().zip(added) {
-        for lane in 0..4 {
-            group[lane] = ratio * group[lane] + added[lane];
-            lanes[lane] = larger(lanes[lane], group[lane].abs());
-        }
+/// largest absolute value, or not-a-number if one of them is not finite.
+#[inline(always)]
+fn advance_wave<L: Lanes>(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f64 {
+    let (mut largest, mut zeros) = (L::splat(0.0), L::splat(0.0));
+    let whole = increment.len() / WIDTH * WIDTH;
+    let mut last = padded(&wave[whole..increment.len()]);
+    let last_added = padded(&increment[whole..]);
+    let groups = wave[..whole].as_chunks_mut().0.iter_mut().chain([&mut last]);
+    for (group, added) in groups.zip(increment.as_chunks().0.iter().chain([&last_added])) {
+        let new = L::splat(ratio) * L::from_array(*group) + L::from_array(*added);
+        largest = largest.greater(new.abs());
+        // What is not finite times 0 is no number, and stays so in a sum.
+        zeros = zeros + new * L::splat(0.0);
+        *group = new.to_array();
     }
-    for (w, u) in rest.iter_mut().zip(last) {
-        *w = ratio * *w + u;
-        lanes[0] = larger(lanes[0], w.abs());
-    }
-    lanes.into_iter().fold(0.0, larger)
+    wave[whole..increment.len()].copy_from_slice(&last[..increment.len() - whole]);
+    largest.to_array().into_iter().fold(0.0, f64::max) + zeros.sum()
 }
 
 /// Why a march cannot go on.

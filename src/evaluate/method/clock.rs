@@ -3,10 +3,11 @@
 use super::MethodError;
 use crate::ball::Ball;
 use crate::enclosure::Numbers;
+use crate::evaluate::cells::{at_or_after, rational};
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::expression::Fraction;
 use num_traits::{Signed as _, ToPrimitive as _};
-use wavestep_kernels::fixed::Reduction;
+use wavestep_kernels::fixed::{self, FixedError, Reduction};
 use wavestep_polynomial::Rational;
 
 /// The most periods that are marched through.
@@ -19,6 +20,51 @@ pub(super) struct Clock {
     pub slowness: Fraction,
     /// The length of a period in the scale of the waves.
     pub period: Fraction,
+}
+
+/// Places of times that are doubles, just after arrivals.
+pub(super) enum DoublePlaces {
+    /// The period is a double, and so many of them are the delay.
+    Whole { period: f64, delay: u32 },
+    /// Any rational numbers.
+    Any(Reduction),
+}
+
+impl DoublePlaces {
+    /// The period and the place on it, off by `2^−53` at most; `None` before the start.
+    ///
+    /// Where the period D is a double, the remainder `T − nD`, `0 ≤ T − nD < D`, is a double too: it is
+    /// below D, and a multiple of the last bits of T and of D. The number n comes from a rounded
+    /// quotient and may be off by one, which the sign of the remainder, rounded once, tells.
+    ///
+    /// # Errors
+    /// Where the time is not finite or too late.
+    pub fn of(&self, time: f64) -> Result<Option<(usize, f64)>, FixedError> {
+        let (period, delay) = match self {
+            DoublePlaces::Whole { period, delay } => (*period, *delay as usize),
+            DoublePlaces::Any(reduction) => {
+                let place = reduction.of_double(time, fixed::Side::Right)?;
+                return Ok(place.map(|place| (place.period() as usize, place.local())));
+            }
+        };
+        let quotient = time / period;
+        if !(quotient < f64::from(u32::MAX)) {
+            return Err(FixedError::TimeTooLate);
+        }
+        if time < 0.0 {
+            return Ok(None);
+        }
+        let mut number = f64::from(quotient as u32);
+        let mut rest = number.mul_add(-period, time);
+        if rest < 0.0 {
+            number -= 1.0;
+            rest = number.mul_add(-period, time);
+        } else if rest >= period {
+            number += 1.0;
+            rest = number.mul_add(-period, time);
+        }
+        Ok((number as usize).checked_sub(delay).map(|number| (number, rest / period)))
+    }
 }
 
 impl Clock {
@@ -73,10 +119,18 @@ impl Clock {
     }
 
     /// The same for doubles, just after arrivals, where period and delay are rational numbers.
-    pub fn reduction(&self, delay: &Fraction) -> Option<Reduction> {
+    pub fn double_places(&self, delay: &Fraction) -> Option<DoublePlaces> {
         let slowness = self.slowness.as_constant()?;
         let period = self.period.as_constant()? / &slowness;
-        Reduction::new(&period, &(delay.as_constant()? / &slowness)).ok()
+        let delay = delay.as_constant()? / &slowness;
+        let periods = &delay / &period;
+        let double = at_or_after(&period);
+        let normal = (1e-100..1e100).contains(&double) && rational(double) == period;
+        if normal && periods.is_integer() {
+            let delay = u32::try_from(periods.to_integer()).ok()?;
+            return Some(DoublePlaces::Whole { period: double, delay });
+        }
+        Reduction::new(&period, &delay).ok().map(DoublePlaces::Any)
     }
 
     /// The last period that is seen with one of these delays until a time.
@@ -99,5 +153,48 @@ impl Clock {
             return Err(MethodError::TooManyPeriods { periods, limit: MAX_PERIODS as usize });
         }
         Ok(last)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Times near joints and anywhere: the quick reduction is the exact one.
+    fn compare(period: f64, delay: u32, time: f64) {
+        let exact = rational(period);
+        let delayed = &exact * &Rational::from_integer(delay.into());
+        let any = DoublePlaces::Any(Reduction::new(&exact, &delayed).unwrap());
+        let quick = DoublePlaces::Whole { period, delay };
+        let (quick, any) = (quick.of(time).unwrap(), any.of(time).unwrap());
+        assert_eq!(quick.map(|place| place.0), any.map(|place| place.0), "{time} by {period}");
+        if let (Some((_, quick)), Some((_, any))) = (quick, any) {
+            assert!((quick - any).abs() <= 2f64.powi(-53) && quick < 1.0, "{quick} {any}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn quick_places_are_exact_places(
+            period in 0.01..100.0_f64,
+            number in 0..100_000_u32,
+            place in 0.0..1.0_f64,
+            delay in 0..3_u32,
+        ) {
+            let joint = f64::from(number) * period;
+            for time in [joint, joint.next_up(), joint.next_down(), joint + place * period] {
+                compare(period, delay, time);
+            }
+        }
+    }
+
+    #[test]
+    fn times_that_have_no_place_are_told() {
+        let places = DoublePlaces::Whole { period: 2.0, delay: 1 };
+        assert_eq!(places.of(-1.0), Ok(None));
+        assert_eq!(places.of(1.0), Ok(None));
+        assert_eq!(places.of(2.0), Ok(Some((0, 0.0))));
+        assert!(places.of(f64::NAN).is_err() && places.of(1e300).is_err());
     }
 }

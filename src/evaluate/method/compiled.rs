@@ -17,7 +17,7 @@ use wavestep_polynomial::Rational;
 
 /// The degree of polynomials in doubles: shorter ones need more pieces, longer ones more operations. With
 /// this one a row of a table fills two lines of a cache.
-const DEGREE: usize = 12;
+const DEGREE: usize = 11;
 
 /// The error of polynomials that is aimed at, relative to the largest value: an eighth of a unit in
 /// the last place.

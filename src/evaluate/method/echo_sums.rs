@@ -38,9 +38,22 @@ struct Arrivals {
     slowness: Fraction,
     exact_period: Fraction,
     period: [f64; 3],
+    /// Whether the period is a double: then doubles tell on which side of an arrival another one lies.
+    is_double: bool,
 }
 
 impl Arrivals {
+    fn new(
+        numbers: Numbers,
+        slowness: &Fraction,
+        exact_period: &Fraction,
+    ) -> Result<Arrivals, EvaluateError> {
+        let period = three(&numbers, exact_period)?;
+        let is_double = exact_period.as_constant() == Some(rational(period[0]));
+        let (slowness, exact_period) = (slowness.clone(), exact_period.clone());
+        Ok(Arrivals { numbers, slowness, exact_period, period, is_double })
+    }
+
     /// How near to an arrival times are ordered exactly, and how far from it they are kept, as parts
     /// of the time: more than what delays in doubles are off, and nothing to the value.
     const NEAR: f64 = 1.0 / (1_u64 << 60) as f64 / (1_u64 << 26) as f64;
@@ -51,16 +64,24 @@ impl Arrivals {
     /// arrival to be rounded.
     const FAR: f64 = 1.0 / (1_u64 << 40) as f64;
 
+    /// Whether doubles alone tell that a time since a delay is far from all arrivals. Only
+    /// operations that run side by side.
+    #[inline]
+    fn is_far(&self, since: f64, size: f64) -> bool {
+        /// A number below `2^51` added to `1.5·2^52` is rounded to an integer.
+        const ROUNDER: f64 = 6_755_399_441_055_744.0;
+        let period = self.period[0];
+        let number = (since / period + ROUNDER) - ROUNDER;
+        (since - number * period).abs() > Self::FAR * (size + period)
+    }
+
     /// The number of the arrival that a time since a delay is so near to, and the distance from it;
     /// the time is the sum of two doubles, off by some parts of `size`.
     fn near(&self, (high, low): (f64, f64), size: f64) -> Option<(f64, f64)> {
-        let [period, rest, _] = self.period;
-        // Most times are far from all arrivals, which doubles alone tell: what follows is a call of a
-        // library or two where instructions for it are not taken for granted.
-        let number = (high / period + 0.5) as i64 as f64;
-        if (high - number * period).abs() > Self::FAR * (size + period) {
+        if self.is_far(high, size) {
             return None;
         }
+        let [period, rest, _] = self.period;
         let number = (high / period).round();
         let product = number * period;
         let error = number.mul_add(period, -product) + number * rest;
@@ -141,12 +162,8 @@ impl EchoSums {
         let [high, low, _] = three(&numbers, signal.slowness()).map_err(EvaluateError::from)?;
         let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
         let (unit, slowness) = (unit.to_double().0, [high, low]);
-        let arrivals = Arrivals {
-            slowness: signal.slowness().clone(),
-            exact_period: statement.period.clone(),
-            period: three(&numbers, &statement.period).map_err(EvaluateError::from)?,
-            numbers,
-        };
+        let arrivals = Arrivals::new(numbers, signal.slowness(), &statement.period)
+            .map_err(EvaluateError::from)?;
         let (from, to) = (end(from), end(to));
         Ok(EchoSums { seen, arrivals, added, unit, slowness, from, to })
     }
@@ -188,40 +205,51 @@ impl EchoSums {
         Ok(sum * self.unit)
     }
 
-    /// Many values by the blocked sum of differences, where there is one wave without delay in its own
-    /// scale; else `None`.
+    /// Many values by the blocked sum of differences, where waves have no delay and the scale of the
+    /// time; else `None`.
     pub(super) fn fill(&self, at: &[f64], values: &mut [f64]) -> Option<Result<(), MethodError>> {
-        if self.slowness != [1.0, 0.0] || !self.added.is_empty() {
-            return None;
+        // A delay that does not subtract without error would cost digits behind fronts.
+        let plain = self.seen.iter().all(|seen| seen.delay == [0.0, 0.0]);
+        let plain = plain && self.slowness == [1.0, 0.0] && self.added.is_empty();
+        plain.then(|| self.fill_plain(at, values))
+    }
+
+    fn fill_plain(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
+        let inside = |&time: &f64| (time >= self.from) & (time <= self.to);
+        if !at.iter().fold(true, |all, time| all & inside(time)) {
+            return Err(MethodError::Outside);
         }
-        if at.iter().any(|time| !(*time >= self.from && *time <= self.to)) {
-            return Some(Err(MethodError::Outside));
+        let Some((first, others)) = self.seen.split_first() else {
+            values.fill(0.0);
+            return Ok(());
+        };
+        first.sum.fill(at, true, values).map_err(refused)?;
+        let weight = first.weight * self.unit;
+        if weight != 1.0 {
+            values.iter_mut().for_each(|value| *value *= weight);
         }
-        let mut part = vec![0.0; at.len()];
-        let mut shifted = vec![0.0; at.len()];
-        values.fill(0.0);
-        for Seen { weight, delay, sum, .. } in &self.seen {
-            // A delay that does not subtract without error would cost digits behind fronts.
-            if *delay != [0.0, 0.0] {
-                return None;
-            }
-            shifted.copy_from_slice(at);
-            if let Err(error) = sum.fill(&shifted, true, &mut part) {
-                return Some(Err(refused(error)));
-            }
+        let mut part = if others.is_empty() { Vec::new() } else { vec![0.0; at.len()] };
+        for seen in others {
+            seen.sum.fill(at, true, &mut part).map_err(refused)?;
+            let weight = seen.weight * self.unit;
             values.iter_mut().zip(&part).for_each(|(value, part)| *value += weight * part);
         }
-        values.iter_mut().for_each(|value| *value *= self.unit);
-        for (time, value) in at.iter().zip(values) {
-            if self.arrivals.near((*time, 0.0), time.abs()).is_some() {
-                let method = echoes::Method::Scaled;
-                match self.value(method, (*time, 0.0), &|| rational(*time), Side::Right) {
-                    Ok(exact) => *value = exact,
-                    Err(error) => return Some(Err(error)),
+        if self.arrivals.is_double {
+            return Ok(());
+        }
+        for (times, values) in at.chunks(64).zip(values.chunks_mut(64)) {
+            if times.iter().fold(true, |all, time| all & self.arrivals.is_far(*time, time.abs())) {
+                continue;
+            }
+            for (time, value) in times.iter().zip(values) {
+                if self.arrivals.near((*time, 0.0), time.abs()).is_some() {
+                    let exact = || rational(*time);
+                    let method = echoes::Method::Scaled;
+                    *value = self.value(method, (*time, 0.0), &exact, Side::Right)?;
                 }
             }
         }
-        Some(Ok(()))
+        Ok(())
     }
 }
 

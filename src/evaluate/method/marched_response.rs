@@ -17,8 +17,8 @@ use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::Taps;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Root, Transform};
-use wavestep_kernels::fixed;
-use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection, chebyshev};
+use wavestep_kernels::march::chebyshev::{self, Samples};
+use wavestep_kernels::march::{Bounds, March, MarchOptions, Parameter, Reflection};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Bits of the sum of the response and what is added, whatever their sizes.
@@ -115,7 +115,7 @@ impl MarchedResponse {
             sum = sum.max(sizes.absolute);
             held = held.and_then(|held| held.and(march.coefficients()));
             // Evaluation loses most where the polynomial is largest, which need not be at the end.
-            match march.bound() {
+            match march.bound_by(&sizes) {
                 Some(here) => bound = bound.max(here),
                 None => return Ok((None, None)),
             }
@@ -218,12 +218,12 @@ impl MarchedResponse {
         if !self.taps.extras.is_empty() {
             return None;
         }
-        let mut reductions = Vec::new();
+        let mut delays = Vec::new();
         for tap in &self.taps.taps {
             if tap.since != tap.delay {
                 return None;
             }
-            reductions.push(self.clock.reduction(&tap.delay)?);
+            delays.push(self.clock.double_places(&tap.delay)?);
         }
         let weights = match self.weights() {
             Ok(weights) => weights,
@@ -231,12 +231,10 @@ impl MarchedResponse {
         };
         let mut places = Vec::with_capacity(times.len() * weights.len());
         for (value, time) in times.iter().enumerate() {
-            for (reduction, weight) in reductions.iter().zip(&weights) {
-                let Some(position) = reduction.of_double(*time, fixed::Side::Right).ok()? else {
-                    continue;
-                };
-                let (period, local) = (position.period() as usize, position.local());
-                places.push(Place { period, local, value, weight: *weight });
+            for (delay, &weight) in delays.iter().zip(&weights) {
+                if let Some((period, local)) = delay.of(*time).ok()? {
+                    places.push(Place { period, local, value, weight });
+                }
             }
         }
         Some(self.march(places, times.len()))
@@ -244,28 +242,38 @@ impl MarchedResponse {
 
     /// The weighted sums of the response at all places, for so many values.
     fn march(&self, mut places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError> {
-        let mut values = vec![0.0; count];
         places.sort_by_key(|place| place.period);
-        let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
-        let start = || March::new(&self.reflection, options).map_err(refused);
-        let mut march = self.held.is_none().then(start).transpose()?;
-        let (mut points, mut found) = (Vec::new(), Vec::new());
-        for group in places.chunk_by(|a, b| a.period == b.period) {
-            let period = group[0].period;
-            points.clear();
-            points.extend(group.iter().map(|place| place.local));
-            found.resize(points.len(), 0.0);
-            if let Some(held) = &self.held {
-                held.values(period, &points, &mut found);
-            } else if let Some(march) = &mut march {
-                while march.period() < period {
-                    march.advance().map_err(refused)?;
+        let points: Vec<f64> = places.iter().map(|place| place.local).collect();
+        let mut responses = vec![0.0; points.len()];
+        let groups = places.chunk_by(|a, b| a.period == b.period);
+        let (mut points, mut found) = (&points[..], &mut responses[..]);
+        let groups = groups.map(|group| {
+            let (points, found) = (
+                points.split_off(..group.len()).unwrap_or_default(),
+                found.split_off_mut(..group.len()).unwrap_or_default(),
+            );
+            (group[0].period, points, found)
+        });
+        match &self.held {
+            Some(held) => chebyshev::values_of(groups.map(|(period, points, values)| Samples {
+                coefficients: held.period(period),
+                points,
+                values,
+            })),
+            None => {
+                let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
+                let mut march = March::new(&self.reflection, options).map_err(refused)?;
+                for (period, points, values) in groups {
+                    while march.period() < period {
+                        march.advance().map_err(refused)?;
+                    }
+                    march.values(points, values);
                 }
-                march.values(&points, &mut found);
             }
-            for (place, response) in group.iter().zip(&found) {
-                values[place.value] += place.weight * response;
-            }
+        }
+        let mut values = vec![0.0; count];
+        for (place, response) in places.iter().zip(&responses) {
+            values[place.value] += place.weight * response;
         }
         Ok(values)
     }

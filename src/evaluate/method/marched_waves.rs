@@ -12,7 +12,6 @@ use crate::evaluate::taps::NoTaps;
 use crate::expression::{Fraction, Transform};
 use crate::recurrence::WaveIndex;
 use num_complex::Complex64;
-use wavestep_kernels::fixed;
 use wavestep_kernels::march::{Scalar, WaveMarch, WaveSystem};
 use wavestep_polynomial::Rational;
 
@@ -130,13 +129,12 @@ impl MarchedWaves {
     /// The same for doubles, just after arrivals, where periods and delays are rational numbers: their
     /// places are found in integers.
     fn at_doubles(&self, times: &[f64]) -> Option<Result<Vec<f64>, MethodError>> {
-        let reductions = self.seen.iter().map(|seen| self.clock.reduction(&seen.delay));
-        let reductions: Vec<_> = reductions.collect::<Option<_>>()?;
-        let mut places = Vec::with_capacity(times.len() * reductions.len());
+        let delays = self.seen.iter().map(|seen| self.clock.double_places(&seen.delay));
+        let delays: Vec<_> = delays.collect::<Option<_>>()?;
+        let mut places = Vec::with_capacity(times.len() * delays.len());
         for (value, time) in times.iter().enumerate() {
-            for (seen, reduction) in reductions.iter().enumerate() {
-                if let Some(position) = reduction.of_double(*time, fixed::Side::Right).ok()? {
-                    let (period, local) = (position.period() as usize, position.local());
+            for (seen, delay) in delays.iter().enumerate() {
+                if let Some((period, local)) = delay.of(*time).ok()? {
                     places.push(Place { period, seen, local, value });
                 }
             }

@@ -1,61 +1,22 @@
-//! Eight doubles that take the same operations: one register of the widest machines, two or four of
-//! others. What echoes ask of them is a trait, and here is its version for any machine.
+//! Eight doubles in an array, for any machine.
 
-use super::delay::counts;
+use super::{Lanes, WIDTH};
 use std::array::from_fn;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// How many doubles lie side by side.
-pub(super) const WIDTH: usize = 8;
-
-/// Eight doubles side by side. Each operation is that of doubles, lane by lane.
-pub(super) trait Lanes:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
-{
-    fn splat(value: f64) -> Self;
-    fn from_array(array: [f64; WIDTH]) -> Self;
-    fn to_array(self) -> [f64; WIDTH];
-
-    /// The lesser of each two.
-    fn lesser(self, other: Self) -> Self;
-    /// The greater of each two.
-    fn greater(self, other: Self) -> Self;
-
-    /// `self · factor + addend`, rounded once where the machine has the instruction, else twice.
-    fn fused(self, factor: Self, addend: Self) -> Self;
-
-    /// The product and its rounding, without error.
-    #[inline(always)]
-    fn product(self, factor: Self) -> (Self, Self) {
-        let product = self * factor;
-        (product, self.fused(factor, -product))
-    }
-
-    /// The sum and its rounding, without error.
-    #[inline(always)]
-    fn two_sum(self, other: Self) -> (Self, Self) {
-        let sum = self + other;
-        let part = sum - self;
-        (sum, (self - (sum - part)) + (other - part))
-    }
-
-    /// `1/x` to at least 13 bits for `10^−30 ≤ |x| ≤ 10^30`; where `|x|` is smaller, at most `10^30`.
-    fn rough_reciprocal(self) -> Self;
-
-    /// `self · 2^n`, where `n` stands in the last bits of `shifted`, added to `1.5 · 2^52`, and both
-    /// `2^n` and the result are normal.
-    fn times_power(self, shifted: Self) -> Self;
-
-    /// The lanes in which an echo counts that arrived `since` ago, and 0 in the others.
-    fn where_counted(self, since: Self, include_arriving: bool) -> Self;
-}
+/// What a machine without registers of its own here takes: a fused operation is an instruction only where
+/// the target has it from the start.
+#[cfg(not(target_arch = "x86_64"))]
+pub(super) type Native = Portable<{ cfg!(target_arch = "aarch64") }>;
 
 /// Eight doubles in an array. `FUSED` says whether the machine multiplies and adds with one rounding;
 /// where it does not, that operation would be a call of a library.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Portable<const FUSED: bool>([f64; WIDTH]);
+pub(crate) struct Portable<const FUSED: bool>([f64; WIDTH]);
 
 impl<const FUSED: bool> Lanes for Portable<FUSED> {
+    const IN_FLIGHT: usize = 1;
+
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Portable([value; WIDTH])
@@ -120,9 +81,9 @@ impl<const FUSED: bool> Lanes for Portable<FUSED> {
     }
 
     #[inline(always)]
-    fn where_counted(self, since: Self, include_arriving: bool) -> Self {
-        let kept = |i: usize| if counts(since.0[i], include_arriving) { self.0[i] } else { 0.0 };
-        Portable(from_fn(kept))
+    fn where_positive(self, other: Self, or_zero: bool) -> Self {
+        let counts = |number: f64| number > 0.0 || (or_zero && number == 0.0);
+        Portable(from_fn(|i| if counts(other.0[i]) { self.0[i] } else { 0.0 }))
     }
 }
 

@@ -1,0 +1,101 @@
+//! The table of costs of `src/answer/cost.rs`, measured.
+//!
+//! Prints each constant as it stands there, from the method whose cost it makes up, at one size: the
+//! rigid mass with `μ = 1` and 200 periods, and a recurrence of two poles for what is marched wave by
+//! wave. Run `cargo bench --bench costs` on a quiet machine and round to one or two digits.
+
+use std::hint::black_box;
+use std::time::Instant;
+use wavestep::evaluate::{Certified, Compiled, Marched, Method, Side, Signal, Stable};
+use wavestep::evaluate::{StablePrecision, Taps};
+use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep_polynomial::Rational;
+
+/// The order at which costs are measured, and the count of echoes that its values sum.
+const ORDER: u32 = 200;
+const ECHOES: f64 = (ORDER + 1) as f64 * (ORDER + 1) as f64 / 2.0;
+
+/// Coefficients of a march to that order, as the model counts them.
+const COEFFICIENTS: f64 = (ORDER + 1) as f64 * 30.0;
+
+/// Pieces between two arrivals, and terms of their polynomials, as the model counts them.
+const PIECES: f64 = 16.0;
+const TERMS: f64 = 40.0;
+
+const TWO_POLES: &str = r#"
+recurrence "Two poles"
+period 2, local s, time t
+wave h, f
+equation h[n]' + h[n] = h[n-1]' - h[n-1]
+equation f[n]' + 2*f[n] = h[n]
+continuous h[n] - h[n-1] starts at 1
+continuous f[n] starts at 0
+"#;
+
+/// Seconds of a call, the least of some.
+fn seconds<T>(mut work: impl FnMut() -> T) -> f64 {
+    let begin = Instant::now();
+    let mut least = f64::INFINITY;
+    for calls in 1.. {
+        let start = Instant::now();
+        black_box(work());
+        least = least.min(start.elapsed().as_secs_f64());
+        if calls >= 3 && begin.elapsed().as_secs_f64() > 0.3 {
+            break;
+        }
+    }
+    least
+}
+
+/// Calls `work` with what a recurrence shows of a wave.
+fn with_signal(text: &str, mass: Option<&str>, work: impl FnOnce(&Signal)) {
+    let values = mass.map(|mass| ("mu".to_owned(), parse_number(mass).unwrap()));
+    let source = Source::new("costs", text).unwrap();
+    let recurrence = read_recurrence(&source, &values.into_iter().collect()).unwrap();
+    let observation = recurrence.observation("f").unwrap();
+    work(&Signal::of_recurrence(&recurrence, &observation).unwrap());
+}
+
+fn print(name: &str, what: &str, seconds: f64) {
+    println!("const {name}: f64 = {seconds:.1e}; // {what}");
+}
+
+fn main() {
+    let (from, to) = (Rational::default(), Rational::from_integer((2 * ORDER).into()));
+    let late = &to - &parse_number("1/3").unwrap();
+    let value = |method: &dyn Method| seconds(|| method.value(&late, Side::Right).unwrap());
+    let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    with_signal(text, Some("1"), |signal| {
+        assert!(Taps::of(signal).is_ok(), "the march in integers is measured");
+        let balls = seconds(|| {
+            let method = Certified::new(signal, &late, &late, &|_, _| Ok(None)).unwrap();
+            method.value(&late, Side::Right).unwrap()
+        });
+        print("BALL", "an operation in balls", balls / (3.0 * ECHOES));
+        let pieces = seconds(|| Compiled::new(signal, &from, &to, None).unwrap());
+        print("MOVED", "a polynomial of a march", pieces / (PIECES * f64::from(ORDER + 1)));
+        let compiled = Compiled::new(signal, &from, &to, None).unwrap();
+        let lookup = value(&compiled);
+        print("LOOKUP", "the piece of an exact time, and its value", lookup);
+        for (name, what, precision) in [
+            ("STEP", "a step of a recurrence in doubles", StablePrecision::Double),
+            ("PAIR_STEP", "the same in pairs", StablePrecision::DoubleDouble),
+        ] {
+            let stable = Stable::new(signal, &from, &to, precision).unwrap();
+            print(name, what, value(&stable) / ECHOES);
+        }
+        let march = |proven| seconds(|| Marched::new(signal, &from, &to, proven).unwrap());
+        let (plain, proven) = (march(false), march(true));
+        let march = Marched::new(signal, &from, &to, false).unwrap();
+        print("COEFFICIENT", "a coefficient of a march", value(&march) / COEFFICIENTS);
+        print("PROVEN_COEFFICIENT", "its bound", (proven - plain) / COEFFICIENTS);
+    });
+    with_signal(TWO_POLES, None, |signal| {
+        let end = parse_number("20").unwrap();
+        let made = seconds(|| Compiled::new(signal, &from, &end, None).unwrap());
+        let n = 11.0;
+        print("BALL", "the same, of pieces without a march", made / (PIECES * n * TERMS * n));
+        let march = Marched::new(signal, &from, &to, false).unwrap();
+        print("WAVE", "a wave on a period", value(&march) / (2.0 * f64::from(ORDER + 1)));
+    });
+}

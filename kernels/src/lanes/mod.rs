@@ -1,0 +1,202 @@
+//! Eight doubles that take the same operations: one register of the widest machines, two or four of
+//! others.
+//!
+//! The count is the same everywhere, so that sums of lanes have the same terms in the same order on every
+//! machine; only what is [fused](Lanes::fused) is rounded twice where there is no instruction for it.
+//! Work in lanes is inlined whole into a function that is compiled for the registers: it has loops and no
+//! closures, which compilers may leave outside.
+//! Loops over arrays would do the same, but compilers unroll them before they look for vectors.
+
+mod portable;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+#[cfg(test)]
+pub(crate) use portable::Portable;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// How many doubles lie side by side.
+pub(crate) const WIDTH: usize = 8;
+
+/// Eight doubles side by side. Each operation is that of doubles, lane by lane.
+pub(crate) trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// How many of them are worked on at once where steps wait for each other and nothing else: as
+    /// many as leave registers for what a step needs.
+    const IN_FLIGHT: usize;
+
+    fn splat(value: f64) -> Self;
+    fn from_array(array: [f64; WIDTH]) -> Self;
+    fn to_array(self) -> [f64; WIDTH];
+
+    /// The lesser of each two.
+    fn lesser(self, other: Self) -> Self;
+    /// The greater of each two.
+    fn greater(self, other: Self) -> Self;
+
+    /// `self · factor + addend`, rounded once where the machine has the instruction, else twice.
+    fn fused(self, factor: Self, addend: Self) -> Self;
+
+    /// The product and its rounding, without error.
+    #[inline(always)]
+    fn product(self, factor: Self) -> (Self, Self) {
+        let product = self * factor;
+        (product, self.fused(factor, -product))
+    }
+
+    /// The sum and its rounding, without error.
+    #[inline(always)]
+    fn two_sum(self, other: Self) -> (Self, Self) {
+        let sum = self + other;
+        let part = sum - self;
+        (sum, (self - (sum - part)) + (other - part))
+    }
+
+    /// `1/x` to at least 13 bits for `10^−30 ≤ |x| ≤ 10^30`; where `|x|` is smaller, at most `1.01 · 10^30`.
+    fn rough_reciprocal(self) -> Self;
+
+    /// `self · 2^n`, where `n` stands in the last bits of `shifted`, added to `1.5 · 2^52`, and both
+    /// `2^n` and the result are normal.
+    fn times_power(self, shifted: Self) -> Self;
+
+    /// The lanes in which another number is positive, or 0 if `or_zero`, and 0 in the others.
+    fn where_positive(self, other: Self, or_zero: bool) -> Self;
+
+    /// Absolute values.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.greater(-self)
+    }
+
+    /// The first eight of some doubles, of which there are as many.
+    #[inline(always)]
+    fn load(values: &[f64]) -> Self {
+        Self::from_array(*values.first_chunk().expect("there are eight"))
+    }
+
+    /// The sum of all lanes, pair by pair.
+    #[inline(always)]
+    fn sum(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.to_array();
+        ((a + e) + (c + g)) + ((b + f) + (d + h))
+    }
+}
+
+/// Work that is written in lanes.
+pub(crate) trait Work {
+    /// What it gives.
+    type Output;
+
+    /// Does it. Implementations are inlined, and so is what they call.
+    fn run<L: Lanes>(self) -> Self::Output;
+}
+
+/// Does work with the widest registers that the machine has.
+pub(crate) fn widest<W: Work>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        x86::widest(work)
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        work.run::<portable::Native>()
+    }
+}
+
+/// Fewer than eight doubles, filled up with zeros.
+#[inline(always)]
+pub(crate) fn padded(rest: &[f64]) -> [f64; WIDTH] {
+    let mut lanes = [0.0; WIDTH];
+    lanes[..rest.len()].copy_from_slice(rest);
+    lanes
+}
+
+/// Does work in every way that this machine has, the plainest first.
+#[cfg(test)]
+pub(crate) fn each_way<W: Work + Clone>(work: &W) -> Vec<W::Output> {
+    let mut outputs =
+        vec![work.clone().run::<Portable<false>>(), work.clone().run::<Portable<true>>()];
+    #[cfg(target_arch = "x86_64")]
+    x86::each_way(work, &mut outputs);
+    outputs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All operations, on numbers of all kinds of sizes.
+    #[derive(Clone)]
+    struct Operations;
+
+    impl Work for Operations {
+        type Output = Vec<[f64; WIDTH]>;
+
+        fn run<L: Lanes>(self) -> Self::Output {
+            let a = L::from_array([1.5, -2.25, 0.0, 1e-40, 3.0, -0.0, 7e30, 0.1]);
+            let b = L::from_array([0.3, 2.0, -1.0, 5.0, -3.0, 0.0, 1e-20, 11.0]);
+            let exponents = L::from_array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 40.0]);
+            let (sum, rest) = a.two_sum(b);
+            let (product, error) = a.product(b);
+            [
+                a + b,
+                a - b,
+                a * b,
+                -a,
+                a.abs(),
+                a.lesser(b),
+                a.greater(b),
+                a.where_positive(b, false),
+                a.where_positive(b, true),
+                a.times_power(exponents + L::splat(6755399441055744.0)),
+                sum,
+                rest,
+                product,
+                error,
+                L::splat(a.sum()),
+                L::load(&b.to_array()),
+            ]
+            .map(L::to_array)
+            .to_vec()
+        }
+    }
+
+    #[test]
+    fn all_ways_give_the_same_doubles() {
+        let ways = each_way(&Operations);
+        for way in &ways {
+            assert_eq!(way, &ways[0]);
+        }
+        let [sum, rest, product, error] = [10, 11, 12, 13].map(|row| ways[0][row]);
+        assert_eq!((sum[3], rest[3]), (5.0, 1e-40));
+        assert_eq!((product[0], error[0]), (1.5 * 0.3, 1.5_f64.mul_add(0.3, -(1.5 * 0.3))));
+        println!("{} ways", ways.len());
+    }
+
+    /// Reciprocals are rough, but as good as is said, and never large.
+    #[derive(Clone)]
+    struct Reciprocals([f64; WIDTH]);
+
+    impl Work for Reciprocals {
+        type Output = [f64; WIDTH];
+
+        fn run<L: Lanes>(self) -> Self::Output {
+            L::from_array(self.0).rough_reciprocal().to_array()
+        }
+    }
+
+    #[test]
+    fn reciprocals_have_thirteen_bits() {
+        let values = [1.0, -3.0, 1e-20, 7e25, 0.3, -1e-29, 0.0, 1e-300];
+        for way in each_way(&Reciprocals(values)) {
+            for (value, found) in values.iter().zip(way) {
+                let fine = (value * found - 1.0).abs() < 2f64.powi(-13);
+                assert!(
+                    fine || (value.abs() < 1e-30 && found.abs() <= 1.01e30),
+                    "{value}: {found}"
+                );
+            }
+        }
+    }
+}
