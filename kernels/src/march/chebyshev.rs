@@ -305,6 +305,26 @@ mod tests {
         }
     }
 
+    /// Series of all pairs of lengths, side by side and alone.
+    #[test]
+    fn series_side_by_side_do_not_mix() {
+        let series = |length: usize, factor: f64| -> Vec<f64> {
+            (0..length).map(|k| (k as f64 * factor).sin()).collect()
+        };
+        let (here, there) = ([0.1, 0.8, 0.4], [0.3, 0.9]);
+        for (one, other) in (0..12).flat_map(|one| (0..12).map(move |other| (one, other))) {
+            let (one, other) = (series(one, 1.3), series(other, 0.7));
+            let (mut alone, mut paired) = (([0.0; 3], [0.0; 2]), ([1.0; 3], [1.0; 2]));
+            values(&one, &here, &mut alone.0);
+            values(&other, &there, &mut alone.1);
+            values_of([
+                Samples { coefficients: &one, points: &here, values: &mut paired.0 },
+                Samples { coefficients: &other, points: &there, values: &mut paired.1 },
+            ]);
+            assert_eq!(paired, alone);
+        }
+    }
+
     #[test]
     fn groups_give_the_same_bits() {
         let c: Vec<f64> = (0..33).map(|k| (k as f64).sin() / (1.0 + k as f64)).collect();

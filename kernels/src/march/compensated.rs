@@ -51,12 +51,15 @@ mod tests {
 
     #[test]
     fn cancelled_terms_leave_the_small_ones() {
-        // 1 + 2⁻⁸⁰ − 1 on even places of one lane, 2⁻⁷⁰ on an odd one.
+        // 1 + 2⁻⁸⁰ − 1 in one lane of even places, 2⁻⁷⁰ in an odd one.
         let (small, odd) = (2f64.powi(-80), 2f64.powi(-70));
-        let found = ends::<Portable<false>>(&[1.0, odd, 0.0, 0.0, small, 0.0, 0.0, 0.0, -1.0]);
-        assert!((found.right.high - (small + odd)).abs() <= found.radius);
-        assert!((found.left.high - (small - odd)).abs() <= found.radius);
+        let mut coefficients = [0.0; 17];
+        (coefficients[0], coefficients[8], coefficients[16]) = (1.0, small, -1.0);
+        coefficients[1] = odd;
+        let found = ends::<Portable<false>>(&coefficients);
         assert_eq!(found.right.high, small + odd);
+        assert_eq!(found.left.high, small - odd);
         assert_eq!(found.absolute, 2.0 + odd);
+        assert!(found.radius < 1e-28);
     }
 }
