@@ -67,11 +67,16 @@ fn main() {
     let text = wavestep::scenes::find("rigid-mass").unwrap().text;
     with_signal(text, Some("1"), |signal| {
         assert!(Taps::of(signal).is_ok(), "the march in integers is measured");
-        let balls = seconds(|| {
-            let method = Certified::new(signal, &late, &late, &|_, _| Ok(None)).unwrap();
-            method.value(&late, Side::Right).unwrap()
-        });
-        print("BALL", "an operation in balls", balls / (3.0 * ECHOES));
+        let certified = |times: &[Rational]| {
+            let method = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();
+            method.exact_values(times, Side::Right).unwrap()
+        };
+        let many: Vec<Rational> =
+            (1..1000).map(|i| &late * &Rational::new(i.into(), 1000.into())).collect();
+        let one = seconds(|| certified(std::slice::from_ref(&late)));
+        let point = (seconds(|| certified(&many)) - one) / many.len() as f64;
+        print("FIXED_PERIOD", "a period of a march in integers", one / f64::from(ORDER + 1));
+        print("FIXED_POINT", "a value of it, at an exact time", point);
         let pieces = seconds(|| Compiled::new(signal, &from, &to, None).unwrap());
         print("MOVED", "a polynomial of a march", pieces / (PIECES * f64::from(ORDER + 1)));
         let compiled = Compiled::new(signal, &from, &to, None).unwrap();
@@ -92,9 +97,14 @@ fn main() {
     });
     with_signal(TWO_POLES, None, |signal| {
         let end = parse_number("20").unwrap();
-        let made = seconds(|| Compiled::new(signal, &from, &end, None).unwrap());
         let n = 11.0;
-        print("BALL", "the same, of pieces without a march", made / (PIECES * n * TERMS * n));
+        let certified = seconds(|| {
+            let method = Certified::new(signal, &from, &end, &|_, _| Ok(None)).unwrap();
+            method.value(&(&end - &parse_number("1/3").unwrap()), Side::Right).unwrap()
+        });
+        print("BALL", "an operation in balls", certified / (3.0 * n * n / 2.0));
+        let made = seconds(|| Compiled::new(signal, &from, &end, None).unwrap());
+        print("TERM", "a term of a piece without a march", made / (PIECES * n * TERMS * n));
         let march = Marched::new(signal, &from, &to, false).unwrap();
         print("WAVE", "a wave on a period", value(&march) / (2.0 * f64::from(ORDER + 1)));
     });

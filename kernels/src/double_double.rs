@@ -178,13 +178,12 @@ impl DoubleDouble {
         Self::quick(high, low + error)
     }
 
-    /// The quotient by a double; relative error at most `3.5 ε²`: theorem 6.1 (for `DWDivFP1`) of the
-    /// same paper.
+    /// The quotient by a double; relative error at most `3 ε²`: `DWDivFP3` of the same paper.
     #[inline(always)]
     pub(crate) fn over(self, divisor: f64) -> Self {
         let quotient = self.high / divisor;
         let (product, error) = two_product(quotient, divisor);
-        let rest = ((self.high - product) + (self.low - error)) / divisor;
+        let rest = (((self.high - product) - error) + self.low) / divisor;
         Self::quick(quotient, rest)
     }
 

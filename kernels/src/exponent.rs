@@ -27,11 +27,38 @@ pub(crate) fn split(value: f64) -> (f64, i64) {
 pub(crate) fn scale(value: f64, exponent: i64) -> f64 {
     let (mantissa, own) = split(value);
     match own.saturating_add(exponent) {
-        _ if mantissa == 0.0 => mantissa,
+        _ if mantissa == 0.0 || !mantissa.is_finite() => mantissa,
         total if total > 1023 => mantissa * f64::INFINITY,
         total if total >= -1022 => mantissa * power_of_two(total),
         total if total < -1080 => mantissa * 0.0,
         // The first product is exact, the second rounds.
         total => mantissa * power_of_two(total + 60) * power_of_two(-60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_come_apart_and_together() {
+        for value in [1.0, -3.75, 1e300, -1e-300, 5e-324, f64::MIN_POSITIVE, f64::MAX] {
+            let (mantissa, exponent) = split(value);
+            assert!((1.0..2.0).contains(&mantissa.abs()), "{value}");
+            assert_eq!(scale(mantissa, exponent), value);
+        }
+        for value in [0.0, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!((split(value), scale(value, -2000)), ((value, 0), value));
+        }
+        assert!(scale(f64::NAN, 3).is_nan());
+    }
+
+    #[test]
+    fn the_end_of_the_range_is_rounded_once() {
+        // Half-way between two subnormal numbers, and just above.
+        assert_eq!(scale(1.0, -1075), 0.0);
+        assert_eq!(scale(1.0_f64.next_up(), -1075), 5e-324);
+        assert_eq!((scale(1.0, 1024), scale(-1.0, 5000)), (f64::INFINITY, f64::NEG_INFINITY));
+        assert_eq!(scale(-1.0, -5000), 0.0);
     }
 }

@@ -1,8 +1,8 @@
 //! What ways cost: a measured table.
 //!
-//! The figures are seconds on one core of the machine of `docs/performance.md`, as measured by
-//! `cargo bench --bench methods` and rounded to one digit: they rank ways against each other and are
-//! not promises. `docs/accuracy-and-speed.md` shows the measurements that they come from.
+//! The figures are seconds on one core of the machine of `docs/performance.md`, as printed by
+//! `cargo bench --bench costs` and rounded: they rank ways against each other and are not promises.
+//! `docs/accuracy-and-speed.md` draws such measurements.
 
 use crate::answer::way::Kind;
 use crate::evaluate::StablePrecision;
@@ -51,39 +51,44 @@ pub struct Cost {
     pub point: f64,
 }
 
-/// Operations in balls.
-const BALL: f64 = 2e-7;
+/// An operation in balls.
+const BALL: f64 = 1.7e-7;
+/// A period of a march in integers, and a value of it at an exact time.
+const FIXED_PERIOD: f64 = 6e-6;
+const FIXED_POINT: f64 = 6e-6;
 /// The polynomials on a stretch between arrivals, and the terms that they are expanded to.
 const PIECES: f64 = 16.0;
 const TERMS: f64 = 40.0;
-/// A polynomial of a march in fixed-point numbers, moved to another middle.
-const MOVED: f64 = 1e-4;
+/// A term of such a polynomial, and one from a march in integers, moved to another middle.
+const TERM: f64 = 7e-7;
+const MOVED: f64 = 8e-5;
 /// Finding the piece of an exact time, and evaluating it.
-const LOOKUP: f64 = 3e-6;
+const LOOKUP: f64 = 4e-6;
 /// A step of a recurrence in doubles, in pairs of doubles.
-const STEP: f64 = 1e-9;
-const PAIR_STEP: f64 = 3e-8;
+const STEP: f64 = 1.2e-8;
+const PAIR_STEP: f64 = 4e-8;
 /// A Chebyshev coefficient of a march, without and with a bound.
-const COEFFICIENT: f64 = 2e-9;
-const PROVEN_COEFFICIENT: f64 = 1.2e-8;
+const COEFFICIENT: f64 = 9e-9;
+const PROVEN_COEFFICIENT: f64 = 2e-8;
 /// A wave on a period, in a march of all waves.
-const WAVE: f64 = 5e-6;
+const WAVE: f64 = 1.2e-6;
 
 impl Cost {
     /// The cost of a method; `None` for models, which are never picked.
     pub fn of(kind: Kind, size: Size) -> Option<Cost> {
         let n = size.order as f64 + 1.0;
-        let pieces = PIECES * n * if size.marches { MOVED } else { TERMS * n * BALL };
+        let pieces = PIECES * n * if size.marches { MOVED } else { TERMS * n * TERM };
         let echoes = n * n / 2.0;
         let coefficients = n * (4.0 * n).sqrt().max(30.0);
         let (setup, point) = match kind {
+            Kind::Certified if size.marches => (n * FIXED_PERIOD, FIXED_POINT),
             Kind::Certified => (3.0 * echoes * BALL, n * BALL + LOOKUP),
             Kind::Compiled => (pieces, LOOKUP),
             Kind::Stable(StablePrecision::Double) => (0.0, echoes * STEP + LOOKUP),
             Kind::Stable(StablePrecision::DoubleDouble) => (0.0, echoes * PAIR_STEP + LOOKUP),
             Kind::Plain | Kind::Expanded => (0.0, echoes * STEP + LOOKUP),
             Kind::Marched { proven } => {
-                let each = COEFFICIENT + if proven { PROVEN_COEFFICIENT } else { 0.0 };
+                let each = if proven { PROVEN_COEFFICIENT } else { COEFFICIENT };
                 (coefficients * each, LOOKUP + COEFFICIENT * coefficients / n)
             }
             _ => return None,

@@ -182,7 +182,7 @@ impl<'a> Window<'a> {
         let times: Vec<f64> = stretches
             .flat_map(|(first, last)| [first, first + (last - first) / 2.0, last])
             .collect();
-        let (values, _) = marched.certified(&times)?;
+        let (values, _) = marched.certified(&times, Side::Right)?;
         Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
     }
 

@@ -7,14 +7,14 @@
 use crate::ball::{Ball, Binary, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::{at_or_after, rational};
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::{Extra, Taps};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::{Field as _, Transform};
 use num_traits::{Signed as _, ToPrimitive as _};
 use std::cell::OnceCell;
-use wavestep_kernels::fixed::{self, DelayEquation, March, MarchOptions, Spans};
+use wavestep_kernels::fixed::{self, DelayEquation, ExactTime, March, MarchOptions, Spans};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The bits below the point of the march.
@@ -104,9 +104,13 @@ impl MarchedPieces {
         })
     }
 
-    /// Correctly rounded values at doubles, just after arrivals, and the places of those that the bound
-    /// does not decide; `None` where more than taps is added up.
-    pub(crate) fn certified(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
+    /// Correctly rounded values, and the places of those that the bound does not decide; `None` where
+    /// more than taps is added up.
+    pub(crate) fn certified(
+        &self,
+        times: &[impl ExactTime],
+        side: Side,
+    ) -> Option<(Vec<f64>, Vec<usize>)> {
         if !self.extras.is_empty() || self.taps.iter().any(|tap| tap.since != tap.delay) {
             return None;
         }
@@ -115,7 +119,11 @@ impl MarchedPieces {
             delay: &tap.delay / &self.slowness,
         };
         let taps: Vec<fixed::Tap> = self.taps.iter().map(tap).collect();
-        let found = fixed::certified(&self.equation, &taps, times, fixed::Side::Right).ok()?;
+        let side = match side {
+            Side::Left => fixed::Side::Left,
+            Side::Right => fixed::Side::Right,
+        };
+        let found = fixed::certified(&self.equation, &taps, times, side).ok()?;
         Some((found.values, found.undecided))
     }
 

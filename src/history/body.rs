@@ -6,6 +6,7 @@
 
 use crate::ball::{Ball, Magnitude};
 use crate::expression::Fraction;
+use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
@@ -97,7 +98,7 @@ impl Engine {
         let (mut energy, mut momentum) = (Number::zero(), Number::zero());
         for (direction, track) in self.waves[bar].iter().enumerate() {
             if travel.is_none() {
-                if !track.cells[0].1.is_zero() {
+                if !track.before().is_zero() {
                     return Ok(Held { energy: None, momentum: None });
                 }
                 // Nothing leaves the far end.
@@ -107,8 +108,9 @@ impl Engine {
                 }
             }
             let window = [&start, moment];
-            energy = energy.add(&track.energy(&self.clock, window, &self.cut)?, bits);
-            momentum = momentum.add(&track.integral(&self.clock, window, &self.cut)?, bits);
+            let integral = |integrand| track.integral(integrand, &self.clock, window, &self.cut);
+            energy = energy.add(&integral(Integrand::Square)?, bits);
+            momentum = momentum.add(&integral(Integrand::Wave)?, bits);
         }
         let times = |value: Number| Some(value.multiply(impedance, bits));
         Ok(Held { energy: times(energy), momentum: times(momentum) })
@@ -190,7 +192,7 @@ impl Engine {
         for bar in bars.filter_map(|element| self.layout.bar(*element)) {
             if self.bars[bar].1.is_none() {
                 let [right, left] = &self.waves[bar];
-                let velocity = right.cells[0].1.add(&left.cells[0].1, bits);
+                let velocity = right.before().add(left.before(), bits);
                 return Ok(Some(velocity.coefficient(0)));
             }
         }
@@ -295,7 +297,7 @@ impl Engine {
             [None, Some(_)] => 0,
             _ => return Ok(Drift::Unknown),
         };
-        let wave = self.waves[bar][arriving].cells[0].1.coefficient(0);
+        let wave = self.waves[bar][arriving].before().coefficient(0);
         let mut energy = Number::zero();
         let mut alone = true;
         for element in elements.iter().filter(|element| self.layout.bar(**element) != Some(bar)) {

@@ -7,7 +7,7 @@
 
 use crate::ball::{Ball, Magnitude};
 use crate::expression::Fraction;
-use crate::history::crossing::{Beginning, Course, beginning, follow};
+use crate::history::contacts::{Contact, Happening};
 use crate::history::error::HistoryError;
 use crate::history::junction::{Junction, Motion};
 use crate::history::moment::{Clock, Moment};
@@ -18,9 +18,6 @@ use crate::history::track::{Arriving, Track};
 use crate::network::{Layout, Network, Side};
 use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};
-
-/// The most events that are followed.
-pub(crate) const MAX_EVENTS: usize = 1_000;
 
 /// The most cells of all nodes together.
 pub(crate) const MAX_CELLS: usize = 100_000;
@@ -45,36 +42,11 @@ pub(crate) struct Cell {
     pub gaps: Vec<Series>,
 }
 
-/// That a contact closed or opened.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Happening {
-    /// Whether the contact closed.
-    pub closes: bool,
-    /// Whether its force or its gap came to zero by itself, not by a jump of what arrives.
-    pub smooth: bool,
-    pub contact: usize,
-    pub moment: Moment,
-    /// When the contact would have pulled, or the gap have become negative: later than the moment where a
-    /// contact had had no force for a while.
-    pub forced: Moment,
-}
-
-/// A contact as it is.
-struct Contact {
-    closed: bool,
-    gap: Number,
-    /// Whether the gap begins to open with velocity zero, exactly.
-    rests: bool,
-    /// Since when the force is exactly zero, after it was positive.
-    idle: Option<Moment>,
-    pressed: bool,
-}
-
 /// A node as it is.
-struct State {
-    now: Moment,
-    junction: Junction,
-    state: Vec<Number>,
+pub(crate) struct State {
+    pub now: Moment,
+    pub junction: Junction,
+    pub state: Vec<Number>,
     arriving: [Arriving; 2],
     displacements: Vec<Number>,
 }
@@ -93,9 +65,9 @@ pub(crate) struct Engine {
     /// What each node did, with the start of each cell.
     pub cells: Vec<Vec<(Moment, Cell)>>,
     pub happenings: Vec<Happening>,
-    states: Vec<State>,
-    open: Vec<Contact>,
-    places: Vec<String>,
+    pub states: Vec<State>,
+    pub open: Vec<Contact>,
+    pub places: Vec<String>,
     count: usize,
     /// The longest cell; none where nothing has a rate.
     step: Option<Rational>,
@@ -136,7 +108,8 @@ impl Engine {
             bars.push((clock.number(&data.impedance)?, data.travel.clone()));
             let time = data.travel.clone().unwrap_or_else(Fraction::one);
             let values = before(network, &layout, &clock, bar)?;
-            waves.push(values.map(|value| Track::before(value, &time)));
+            let [right, left] = values.map(|value| Track::new(value, &time, &clock));
+            waves.push([right?, left?]);
         }
         let places: Vec<String> =
             (0..nodes.len()).map(|node| format!("{}:", network.place_in_words(node))).collect();
@@ -220,8 +193,8 @@ impl Engine {
                         Arriving::Delayed { bar, direction, travel: travel.clone(), cell: 0 }
                     }
                     None => {
-                        let (_, series) = &self.waves[bar][direction].cells[0];
-                        Arriving::Constant(series.coefficient(0))
+                        let before = self.waves[bar][direction].before();
+                        Arriving::Constant(before.coefficient(0))
                     }
                 },
                 _ => Arriving::Nothing,
@@ -274,22 +247,17 @@ impl Engine {
         now.min_by(|a, b| self.clock.about(a.1).total_cmp(&self.clock.about(b.1)))
     }
 
-    fn ball_at(&self, moment: &Moment) -> Box<Ball> {
+    pub fn ball_at(&self, moment: &Moment) -> Box<Ball> {
         let ball = self.clock.time(moment).map(|time| time.ball(self.cut.bits));
         Box::new(ball.unwrap_or_else(|_| Ball::zero()))
     }
 
-    fn undecided<T>(&self, what: String, at: &Moment, by: Option<&Ball>) -> Outcome<T> {
+    pub fn undecided<T>(&self, what: String, at: &Moment, by: Option<&Ball>) -> Outcome<T> {
         let mut at = self.ball_at(at);
         if let Some(by) = by {
             *at = at.add(by, self.cut.bits);
         }
         Err(HistoryError::Undecided { what, at, bits: self.cut.bits })
-    }
-
-    fn between(&self, contact: usize) -> String {
-        let [left, right] = &self.contacts[contact].names;
-        format!("between {left} and {right}")
     }
 
     /// When the inputs of a node change next, but no later than the longest cell allows.
@@ -347,49 +315,6 @@ impl Engine {
         Ok(inputs)
     }
 
-    /// Forces and gaps of the contacts of a node on a cell.
-    fn contact_series(&self, node: usize, motion: &Motion) -> (Vec<Series>, Vec<Series>) {
-        let (mut forces, mut gaps) = (Vec::new(), Vec::new());
-        for (contact, run) in self.nodes[node].contacts() {
-            let closed = self.states[node].junction.closed.iter().position(|own| own.0 == contact);
-            let Some(row) = closed else {
-                let apart =
-                    motion.velocities[run + 1].subtract(&motion.velocities[run], self.cut.bits);
-                let own = &self.open[contact];
-                let mut gap = apart.integral(own.gap.clone(), &self.cut);
-                if own.rests && gap.coefficients.len() > 1 {
-                    gap.coefficients[1] = Number::zero();
-                }
-                forces.push(Series::zero());
-                gaps.push(gap);
-                continue;
-            };
-            forces.push(motion.forces[row].clone());
-            gaps.push(Series::zero());
-        }
-        (forces, gaps)
-    }
-
-    /// Which contacts of a node change at once: those that would pull, and those whose gap would become
-    /// negative.
-    fn changes(&self, node: usize, forces: &[Series], gaps: &[Series]) -> Outcome<Vec<usize>> {
-        let mut changes = Vec::new();
-        for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
-            let closed = self.open[contact].closed;
-            let series = if closed { &forces[place] } else { &gaps[place] };
-            match beginning(series) {
-                Beginning::Positive | Beginning::Zero => {}
-                Beginning::Negative => changes.push(contact),
-                Beginning::Undecided => {
-                    let what = if closed { "whether the force" } else { "whether the gap" };
-                    let what = format!("{what} {} is positive", self.between(contact));
-                    return self.undecided(what, &self.states[node].now, None);
-                }
-            }
-        }
-        Ok(changes)
-    }
-
     /// Follows a node over one cell.
     ///
     /// # Errors
@@ -423,47 +348,7 @@ impl Engine {
         let mut end = self.next_change(node)?;
         let now = self.states[node].now.clone();
         let length = self.clock.since(&now, &end)?;
-        let mut first: Option<(usize, Number)> = None;
-        for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
-            let closed = self.open[contact].closed;
-            let series = if closed { &forces[place] } else { &gaps[place] };
-            if series.is_zero() {
-                continue;
-            }
-            let quantity = if closed { "the force" } else { "the gap" };
-            let at = match follow(series, &length, &self.cut) {
-                Course::Positive => continue,
-                Course::Falls(at) => at,
-                Course::Undecided(at) => {
-                    let between = self.between(contact);
-                    let what = format!("whether {quantity} {between} becomes zero");
-                    return self.undecided(what, &now, Some(&at));
-                }
-            };
-            match at.subtract(&length, self.cut.bits).sign() {
-                Some(Ordering::Less) => {}
-                Some(_) => continue,
-                None => {
-                    let between = self.between(contact);
-                    let what = format!(
-                        "whether {quantity} {between} becomes zero before something arrives there"
-                    );
-                    return self.undecided(what, &now, Some(&at.ball(self.cut.bits)));
-                }
-            }
-            first = Some(match first {
-                None => (contact, at),
-                Some((other, earliest)) => match at.subtract(&earliest, self.cut.bits).sign() {
-                    Some(Ordering::Less) => (contact, at),
-                    Some(Ordering::Greater) => (other, earliest),
-                    _ => {
-                        let (one, two) = (self.between(other), self.between(contact));
-                        let what = format!("whether the contact {one} or {two} changes first");
-                        return self.undecided(what, &now, Some(&at.ball(self.cut.bits)));
-                    }
-                },
-            });
-        }
+        let first = self.first_change(node, [&forces, &gaps], &length)?;
         let length = match &first {
             Some((_, at)) => {
                 end = self.clock.later(&now, at)?;
@@ -510,7 +395,7 @@ impl Engine {
             let bar = if side == 0 { own.left } else { own.right };
             let Side::Bar(bar) = bar else { continue };
             let leaving = motion.velocities[run].subtract(&inputs[side], bits);
-            self.waves[bar][1 - side].push(leaving, end.clone());
+            self.waves[bar][1 - side].push(leaving, end.clone(), length.clone());
         }
         let state = &mut self.states[node];
         let mut displacements = Vec::new();
@@ -538,81 +423,6 @@ impl Engine {
         self.cells[node].push((now, cell));
         self.states[node].now = end;
         Ok(())
-    }
-
-    /// Opens closed contacts and closes open ones at the time of a node; `smooth` where a force or a gap
-    /// came to zero by itself, and not by a jump of what arrives.
-    fn change(&mut self, node: usize, changes: &[usize], smooth: bool) -> Outcome<()> {
-        let bits = self.cut.bits;
-        let now = self.states[node].now.clone();
-        let own = &self.nodes[node];
-        if self.happenings.len() + changes.len() > MAX_EVENTS {
-            let at = self.ball_at(&now);
-            return Err(HistoryError::TooManyEvents { limit: MAX_EVENTS, at });
-        }
-        for contact in changes {
-            let known = &mut self.open[*contact];
-            let moment = known.idle.take().unwrap_or_else(|| now.clone());
-            known.closed = !known.closed;
-            known.gap = Number::zero();
-            known.pressed = false;
-            let (closes, contact, forced) = (known.closed, *contact, now.clone());
-            self.happenings.push(Happening { closes, smooth, contact, moment, forced });
-        }
-        let state = &self.states[node];
-        let open = &self.open;
-        let junction = Junction::of(own, |contact| open[contact].closed, &self.places[node], bits)?;
-        let yielded: Vec<Number> = (0..state.junction.active.len())
-            .map(|number| {
-                let place = state.junction.place_of_yield(number);
-                place.map_or_else(Number::zero, |place| state.state[place].clone())
-            })
-            .collect();
-        let velocity = |run: usize| state.junction.velocity_of(run, &state.state);
-        let next = junction.state(own, velocity, &yielded, &self.places[node])?;
-        let loosened = junction.active != state.junction.active;
-        for contact in changes {
-            let run = self.contacts[*contact].run;
-            let inert = junction.has_inertia(run) && junction.has_inertia(run + 1);
-            let own = &mut self.open[*contact];
-            own.rests = !own.closed && (inert || smooth && !loosened);
-        }
-        let state = &mut self.states[node];
-        (state.junction, state.state) = (junction, next);
-        Ok(())
-    }
-
-    /// Contacts that press from the start close then.
-    fn tell_impacts(&mut self, node: usize, forces: &[Series]) {
-        for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
-            if self.open[contact].closed && !forces[place].is_zero() {
-                let moment = self.states[node].now.clone();
-                let forced = moment.clone();
-                self.happenings.push(Happening {
-                    closes: true,
-                    smooth: false,
-                    contact,
-                    moment,
-                    forced,
-                });
-            }
-        }
-    }
-
-    /// Whether a contact is open, or touches without force since an instant.
-    pub fn is_open(&self, contact: usize) -> bool {
-        !self.open[contact].closed
-    }
-
-    /// Since when a closed contact has had no force.
-    pub fn idle_since(&self, contact: usize) -> Option<&Moment> {
-        self.open[contact].idle.as_ref()
-    }
-
-    /// Whether a closed contact has no force now.
-    pub fn is_idle(&self, contact: usize) -> bool {
-        let own = &self.open[contact];
-        own.closed && (own.idle.is_some() || !own.pressed)
     }
 
     /// Until when a node was followed.

@@ -5,15 +5,17 @@
 //! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
 //! cannot be decided is refused by name.
 //!
-//! Read `engine` for the way from cell to cell, `reading` for what is taken from it, `crossing` for the
-//! proof that nothing is passed over, `observe` and `phased` for what is seen of it, `waves` for the fields
-//! along the bars, `validity` for how long closed contacts are true, `closed_form` for
-//! instants in closed form, `series` for the arithmetic, `body`
-//! for energies and for why bodies never meet again.
+//! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what
+//! is taken from it, `crossing` for the proof that nothing is passed over, `observe` and `phased` for what is
+//! seen of it, `waves` for the fields along the bars, `validity` for how long closed contacts are true,
+//! `closed_form` for instants in closed form, `series` for the arithmetic, `energy` for what a wave holds,
+//! `body` for energies and momenta of bodies and for why they never meet again.
 
 mod body;
 mod closed_form;
+mod contacts;
 mod crossing;
+mod energy;
 mod engine;
 mod error;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]

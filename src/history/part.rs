@@ -1,6 +1,7 @@
 //! The parts that an observable is the sum of: waves with their delays, motions of nodes, compressions.
 
 use crate::expression::Fraction;
+use crate::history::energy::Integrand;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
@@ -82,12 +83,12 @@ impl Engine {
                     (Some(delay), true) => {
                         let start = Moment::at(Fraction::zero());
                         let window = [&start.before(delay), &moment.before(delay)];
-                        track.integral(&self.clock, window, &self.cut)?
+                        track.integral(Integrand::Wave, &self.clock, window, &self.cut)?
                     }
-                    (None, false) => track.cells[0].1.coefficient(0),
+                    (None, false) => track.before().coefficient(0),
                     (None, true) => {
                         let time = self.clock.time(moment)?;
-                        track.cells[0].1.coefficient(0).multiply(&time, self.cut.bits)
+                        track.before().coefficient(0).multiply(&time, self.cut.bits)
                     }
                 }
             }
@@ -108,11 +109,11 @@ impl Engine {
             (Source::Wave { bar, direction }, Some(delay)) => {
                 let track = &self.waves[bar][direction];
                 let cell = track.cell(&self.clock, &now.before(delay), Limit::After)?;
-                let (start, series) = &track.cells[cell];
-                (start.after(delay), series)
+                let (start, wave) = &track.cells[cell];
+                (start.after(delay), wave.series())
             }
             (Source::Wave { bar, direction }, None) => {
-                (now.clone(), &self.waves[bar][direction].cells[0].1)
+                (now.clone(), self.waves[bar][direction].before())
             }
         };
         let (bits, zero) = (self.cut.bits, Number::zero());

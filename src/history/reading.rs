@@ -118,7 +118,7 @@ impl Engine {
         for (own, side) in node.side_runs().into_iter().zip([node.left, node.right]) {
             if let (true, Side::Bar(bar)) = (own == run, side) {
                 let [right, left] = &self.waves[bar];
-                let sum = right.cells[0].1.add(&left.cells[0].1, self.cut.bits);
+                let sum = right.before().add(left.before(), self.cut.bits);
                 return Some(sum.coefficient(0));
             }
         }

@@ -4,7 +4,8 @@
 //! opening of the one is the end of the other. It is found without following anything beyond it.
 
 use crate::evaluate::Determined;
-use crate::history::engine::{Engine, Happening};
+use crate::history::contacts::Happening;
+use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{MAX_BITS, PATIENCE, Units, determined, longest};
 use crate::history::moment::Moment;

@@ -9,6 +9,7 @@ use crate::ball::{Ball, Magnitude};
 use crate::evaluate::{EvaluateError, Side};
 use crate::expression::Fraction;
 use crate::field::{Entering, EnteringWaves, FieldError, FieldEvaluator, Heading, Instant, Order};
+use crate::history::energy::Wave;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::MAX_BITS;
@@ -286,11 +287,11 @@ impl Course {
     fn of(track: Track, clock: &Clock, cut: &Truncation) -> Result<Course, HistoryError> {
         let mut cells = track.cells.into_iter();
         let (_, before) = cells.next().expect("a wave before the start");
-        let cells: Vec<(Moment, Series)> = cells.collect();
+        let cells: Vec<(Moment, Wave)> = cells.collect();
         let mut sums = [Number::zero(), Number::zero()];
         let mut pieces = Vec::with_capacity(cells.len());
         for (number, (start, wave)) in cells.iter().enumerate() {
-            let value = wave.subtract(&before, cut.bits);
+            let value = wave.series().subtract(before.series(), cut.bits);
             let integral = value.integral(sums[0].clone(), cut);
             let second = integral.integral(sums[1].clone(), cut);
             let end = cells.get(number + 1).map_or(&track.end, |(start, _)| start);

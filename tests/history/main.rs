@@ -2,6 +2,7 @@
 //! event, and a numerical method that shares nothing with what is tested.
 
 mod characteristics;
+mod energies;
 mod locks;
 mod page;
 mod phases;

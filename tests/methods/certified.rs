@@ -291,3 +291,41 @@ fn values_are_no_neighbours() {
         }
     });
 }
+
+/// Exact times that are no doubles, and arrivals on both sides: a march in integers gives many of them
+/// what a ball gives each alone.
+#[test]
+fn exact_times_together_are_rounded_as_alone() {
+    let mut compared = 0;
+    for (scene, values, quantity) in [
+        ("rigid-mass", &[("mu", "1/3")][..], "f"),
+        ("rigid-mass", &[("mu", "5")], "strain_fixed"),
+        ("mass-on-fixed-bar", &[("mu", "2/7")], "velocity"),
+    ] {
+        with(scene, values, quantity, ("0", "30"), |subject| {
+            let mut random = random(19);
+            let mut at = times::arrivals(subject);
+            let places = 60 - at.len().min(30);
+            at.extend((0..places).map(|_| {
+                let denominator = random.random_range(1..1_000_i64);
+                BigRational::new(
+                    random.random_range(0..30 * denominator).into(),
+                    denominator.into(),
+                )
+            }));
+            at.retain(|time| (&subject.from..=&subject.to).contains(&time));
+            let certified =
+                Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise)
+                    .unwrap();
+            for side in [Side::Left, Side::Right] {
+                let together = certified.exact_values(&at, side).unwrap();
+                for (time, value) in at.iter().zip(together) {
+                    assert_eq!(certified.value(time, side), Ok(value), "{quantity} at {time}");
+                    compared += 1;
+                }
+            }
+        });
+    }
+    println!("{compared} values");
+    assert!(compared > 200);
+}

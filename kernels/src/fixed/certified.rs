@@ -7,7 +7,7 @@ use super::equation::DelayEquation;
 use super::error::FixedError;
 use super::march::FRACTION_BITS;
 use super::multiplier::Multiplier;
-use super::position::{Position, Reduction, Side};
+use super::position::{ExactTime, Position, Reduction, Side};
 use super::scheme::Scheme;
 use super::value::{round_to_double, scaled};
 use super::walk::Walk;
@@ -68,8 +68,8 @@ struct Prepared {
     reduction: Reduction,
 }
 
-/// The sum `Σ wᵢ Y(T − dᵢ)` at given times, as correctly rounded doubles; times are the exact
-/// numbers that the doubles are. At a jump `side` says which limit is meant. Before the start, Y is
+/// The sum `Σ wᵢ Y(T − dᵢ)` at given times, as correctly rounded doubles; times that are
+/// doubles are the exact numbers that they are. At a jump `side` says which limit is meant. Before the start, Y is
 /// zero exactly.
 ///
 /// The weights are scaled by a power of two so that the largest is from 1/2 to below 1 in
@@ -95,10 +95,10 @@ struct Prepared {
 /// assert_eq!(strains.values, [0.0, -2.0, -0.7357588823428847]);
 /// assert!(strains.undecided.is_empty());
 /// ```
-pub fn certified(
+pub fn certified<T: ExactTime>(
     equation: &DelayEquation,
     taps: &[Tap],
-    times: &[f64],
+    times: &[T],
     side: Side,
 ) -> Result<CertifiedDoubles, FixedError> {
     if taps.len() > MOST_TAPS {
@@ -106,9 +106,9 @@ pub fn certified(
     }
     let (taps, scale) = prepare(equation, taps)?;
     let mut seen = Vec::with_capacity(times.len() * taps.len());
-    for (place, &time) in times.iter().enumerate() {
+    for (place, time) in times.iter().enumerate() {
         for tap in &taps {
-            if let Some(position) = tap.reduction.of_double(time, side)? {
+            if let Some(position) = time.position(&tap.reduction, side)? {
                 seen.push(Seen { place, weight: tap.weight, position });
             }
         }

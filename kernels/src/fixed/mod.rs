@@ -101,7 +101,7 @@ pub use equation::DelayEquation;
 pub use error::FixedError;
 pub use march::{FRACTION_BITS, March};
 pub use part::Part;
-pub use position::{Position, Reduction, Side};
+pub use position::{ExactTime, Position, Reduction, Side};
 pub use scheme::MarchOptions;
 pub use spans::{Interpolant, Spans};
 pub use value::{FixedValue, round_to_double};

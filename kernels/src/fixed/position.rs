@@ -77,7 +77,7 @@ impl Position {
         self.fraction
     }
 
-    /// The place on the period as a double from 0 to 1, off by `2^−53` of itself at most.
+    /// The place on the period as a double from 0 to 1, off by `2^−53` of itself and `2^−120` at most.
     #[must_use]
     pub fn local(&self) -> f64 {
         self.fraction as f64 / END as f64
@@ -198,6 +198,48 @@ impl Reduction {
         let fraction = fraction.to_u128().ok_or(FixedError::PositionOutside)?;
         let position = Position { period, fraction, exact: rest.is_zero() };
         Ok(position.on_side(side))
+    }
+}
+
+/// A time that is taken as the exact number it is: a double or a rational number.
+///
+/// ```
+/// use num_rational::BigRational;
+/// use wavestep_kernels::fixed::{ExactTime as _, Reduction, Side};
+/// let half = BigRational::new(1.into(), 2.into());
+/// let reduction = Reduction::new(&half, &BigRational::default()).unwrap();
+/// let rational = BigRational::new(3.into(), 4.into());
+/// let position = rational.position(&reduction, Side::Left).unwrap();
+/// assert_eq!(0.75.position(&reduction, Side::Left).unwrap(), position);
+/// ```
+pub trait ExactTime {
+    /// Whether it is a number.
+    fn is_finite(&self) -> bool;
+
+    /// Its position; none before the start.
+    ///
+    /// # Errors
+    /// [`FixedError::TimeNotFinite`] and [`FixedError::TimeTooLate`].
+    fn position(&self, reduction: &Reduction, side: Side) -> Result<Option<Position>, FixedError>;
+}
+
+impl ExactTime for f64 {
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+
+    fn position(&self, reduction: &Reduction, side: Side) -> Result<Option<Position>, FixedError> {
+        reduction.of_double(*self, side)
+    }
+}
+
+impl ExactTime for BigRational {
+    fn is_finite(&self) -> bool {
+        true
+    }
+
+    fn position(&self, reduction: &Reduction, side: Side) -> Result<Option<Position>, FixedError> {
+        reduction.of_rational(self, side)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Eight doubles in an array, for any machine.
 
 use super::{Lanes, WIDTH};
+use crate::double_double::SPLITTER;
 use std::array::from_fn;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -43,6 +44,11 @@ impl<const FUSED: bool> Lanes for Portable<FUSED> {
     }
 
     #[inline(always)]
+    fn abs(self) -> Self {
+        Portable(self.0.map(f64::abs))
+    }
+
+    #[inline(always)]
     fn fused(self, factor: Self, addend: Self) -> Self {
         match FUSED {
             true => Portable(from_fn(|i| self.0[i].mul_add(factor.0[i], addend.0[i]))),
@@ -58,7 +64,7 @@ impl<const FUSED: bool> Lanes for Portable<FUSED> {
             return (product, self.fused(factor, -product));
         }
         let split = |lanes: Self| {
-            let large = lanes * Self::splat(134217729.0);
+            let large = lanes * Self::splat(SPLITTER);
             let head = large - (large - lanes);
             (head, lanes - head)
         };

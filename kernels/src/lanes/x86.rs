@@ -7,34 +7,22 @@
 
 use super::portable::Portable;
 use super::{Lanes, WIDTH, Work};
+use crate::Level;
 use std::arch::x86_64::*;
 use std::ops::{Add, Mul, Neg, Sub};
 
-fn has_avx512() -> bool {
-    is_x86_feature_detected!("avx512f")
-        && is_x86_feature_detected!("avx512vl")
-        && is_x86_feature_detected!("avx512dq")
-        && is_x86_feature_detected!("fma")
-}
-
-fn has_avx2() -> bool {
-    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
-}
-
 /// Does work with the widest registers that the machine has.
 pub(super) fn widest<W: Work>(work: W) -> W::Output {
-    if has_avx512() {
-        // SAFETY: the machine has every feature that the function is compiled for.
-        return unsafe { with_avx512(work) };
+    match Level::best() {
+        // SAFETY: the level is available: the machine has AVX-512F, AVX2 and fused multiply-add.
+        Level::Avx512 => unsafe { with_avx512(work) },
+        // SAFETY: the level is available: the machine has AVX2 and fused multiply-add.
+        Level::Avx2 => unsafe { with_avx2(work) },
+        Level::Baseline => work.run::<Portable<false>>(),
     }
-    if has_avx2() {
-        // SAFETY: as above.
-        return unsafe { with_avx2(work) };
-    }
-    work.run::<Portable<{ cfg!(target_feature = "fma") }>>()
 }
 
-#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma")]
+#[target_feature(enable = "avx512f,avx2,fma")]
 fn with_avx512<W: Work>(work: W) -> W::Output {
     work.run::<Wide>()
 }
@@ -47,11 +35,11 @@ fn with_avx2<W: Work>(work: W) -> W::Output {
 /// Appends what the registers of this machine give.
 #[cfg(test)]
 pub(super) fn each_way<W: Work + Clone>(work: &W, outputs: &mut Vec<W::Output>) {
-    if has_avx2() {
-        // SAFETY: the machine has every feature that the function is compiled for.
+    if Level::Avx2.is_available() {
+        // SAFETY: the line above has asked for what the function is compiled for.
         outputs.push(unsafe { with_avx2(work.clone()) });
     }
-    if has_avx512() {
+    if Level::Avx512.is_available() {
         // SAFETY: as above.
         outputs.push(unsafe { with_avx512(work.clone()) });
     }
@@ -98,6 +86,11 @@ impl Lanes for Wide {
     #[inline(always)]
     fn fused(self, factor: Self, addend: Self) -> Self {
         Wide(unsafe { _mm512_fmadd_pd(self.0, factor.0, addend.0) })
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Wide(unsafe { _mm512_abs_pd(self.0) })
     }
 
     #[inline(always)]
@@ -173,6 +166,11 @@ impl Lanes for Halves {
             let low = _mm256_fmadd_pd(self.0, factor.0, addend.0);
             Halves(low, _mm256_fmadd_pd(self.1, factor.1, addend.1))
         }
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.each(|half| unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), half) })
     }
 
     #[inline(always)]

@@ -337,10 +337,10 @@ impl Certificate {
         self.last = Some(here);
     }
 
-    /// How far `ρⁿ` can be from the two doubles of `power`: `n` roundings of `2⁻¹⁰³`, and
+    /// How far `ρⁿ` can be from the two doubles of `power`: `n` roundings of `2 ε²`, and
     /// `|ρⁿ − ρ'ⁿ| ≤ n |ρ|^{n−1} |ρ − ρ'|` with the larger ratio.
     fn power_error(&self) -> f64 {
-        let rounding = if self.ratio.is_exact_unit() { 0.0 } else { 2f64.powi(-102) };
+        let rounding = if self.ratio.is_exact_unit() { 0.0 } else { 2.0 * UNIT * UNIT };
         self.periods as f64 * rounding * self.magnitude
             + self.slope * self.ratio.radius()
             + UNDERFLOW

@@ -37,7 +37,7 @@ pub fn values(coefficients: &[f64], points: &[f64], values: &mut [f64]) {
     values_of([Samples { coefficients, points, values }]);
 }
 
-/// A series, points of `[0, 1]`, and the places of the values there.
+/// A series, points of `[0, 1]`, and where the values there go.
 ///
 /// ```
 /// use wavestep_kernels::march::chebyshev::Samples;
@@ -137,8 +137,10 @@ fn store<L: Lanes>(lanes: L, values: &mut [f64]) {
 /// as `ζ` in `c_k` and `−ζ` in `c_{k−1}`: it reaches `p` times `|T_k − T_{k−1}| ≤ 2 sin(θ/2)`, and
 /// with `ζ ≤ ε A_k/sin θ` that is at most `ε √2 A_k`. All together `(4 + 3√2) ε A_k < 8.25 ε A_k`;
 /// the last line is no worse, and `Σ_k A_k = Σ_k (k + 1) |c_k|`. The sizes above are those of the
-/// exact recurrence on coefficients moved by the roundings: larger by the factor `1 + 9Nε` at most.
-/// That, and the rounding of this sum itself, are far within `9/8.25`. Below the normal doubles a
+/// exact recurrence. An error in `d_k` moves those below by what the same coefficient would; the pair
+/// of `ζ` and `−ζ` moves `b_j` by `√2 ζ` and `d_j` by `2ζ tan(θ/2) ≤ 2ε A_k` at most: the computed sizes
+/// are larger by the factor `1 + 9Nε` at most. That, and the rounding of this sum itself, are far within
+/// `9/8.25`. Below the normal doubles a
 /// product is off by at most `2⁻¹⁰⁷⁵`: `1e−290` covers all of them. ∎
 ///
 /// ```

@@ -17,7 +17,7 @@ use super::relaxation::Relaxation;
 use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
 use std::fmt;
 
-/// Whether a march proves bounds as it goes, at some three times the cost.
+/// Whether a march proves bounds as it goes, at some two or three times the cost.
 ///
 /// ```
 /// use wavestep_kernels::march::{Bounds, March, MarchOptions, Reflection};
@@ -211,7 +211,7 @@ impl March {
             end += next;
         }
         self.end = end;
-        wave.resize(increment.len().max(wave.len()), 0.0);
+        wave.resize(increment.len(), 0.0);
         let largest = advance_wave::<L>(self.ratio, wave, increment);
         trim(wave, threshold);
         let (left, right) = sums::<L>(wave);
@@ -321,8 +321,8 @@ fn sums<L: Lanes>(coefficients: &[f64]) -> (f64, f64) {
     (even - odd, even + odd)
 }
 
-/// `w ← ρ w + u` on the places of `u`, behind which `w` is zero or multiplied by ρ; gives the
-/// largest absolute value, or not-a-number if one of them is not finite.
+/// `w ← ρ w + u`, both of one length; gives the largest absolute value, or not-a-number if one of them is
+/// not finite.
 #[inline(always)]
 fn advance_wave<L: Lanes>(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f64 {
     let (mut largest, mut zeros) = (L::splat(0.0), L::splat(0.0));

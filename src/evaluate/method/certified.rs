@@ -28,6 +28,9 @@ const MAX_BITS: u64 = 1 << 13;
 /// From how many values on polynomials pay: about what they cost over what a ball costs.
 const MANY: usize = 2_000;
 
+/// From how many exact times on a march in integers pays: about what it costs over what a ball costs.
+const SOME: usize = 8;
+
 /// Tells a value that is a rational number: it gives the number at a time and a side, or nothing.
 ///
 /// ```
@@ -114,7 +117,7 @@ impl<'a> Certified<'a> {
     fn by_march(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
         let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
         let inside = times.iter().all(|time| window.contains(time));
-        self.marched.as_ref().filter(|_| inside)?.certified(times)
+        self.marched.as_ref().filter(|_| inside)?.certified(times, Side::Right)
     }
 
     /// The polynomials in pairs of doubles, made when they are first asked for.
@@ -207,6 +210,20 @@ impl Method for Certified<'_> {
 
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
         self.alone(at, side)
+    }
+
+    /// Some times by the march in integers, where there is one: it takes as long for one of them.
+    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+        let inside = || at.iter().all(|at| *at >= self.from && *at <= self.to);
+        let marched = self.marched.as_ref().filter(|_| at.len() >= SOME && inside());
+        let Some((mut values, undecided)) = marched.and_then(|march| march.certified(at, side))
+        else {
+            return at.iter().map(|at| self.alone(at, side)).collect();
+        };
+        for i in undecided {
+            values[i] = self.alone(&at[i], side)?;
+        }
+        Ok(values)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {

@@ -1,4 +1,4 @@
-//! When on which period a delayed wave is seen: places in time, without a rounding before the last.
+//! The period, and the place on it, at which a delayed wave is seen: rounded once, at the end.
 
 use super::MethodError;
 use crate::ball::Ball;
@@ -33,9 +33,10 @@ pub(super) enum DoublePlaces {
 impl DoublePlaces {
     /// The period and the place on it, off by `2^−53` at most; `None` before the start.
     ///
-    /// Where the period D is a double, the remainder `T − nD`, `0 ≤ T − nD < D`, is a double too: it is
-    /// below D, and a multiple of the last bits of T and of D. The number n comes from a rounded
-    /// quotient and may be off by one, which the sign of the remainder, rounded once, tells.
+    /// Where the period D is a double, the remainder `T − nD`, `0 ≤ T − nD < D`, is a double too: it is a
+    /// multiple of the smaller of the last places of T and D, below D and not beyond T. The number n is the
+    /// whole part of a rounded quotient, which is not below n and may be `n + 1`: then the remainder,
+    /// rounded once, is negative.
     ///
     /// # Errors
     /// Where the time is not finite or too late.
@@ -47,8 +48,11 @@ impl DoublePlaces {
                 return Ok(place.map(|place| (place.period() as usize, place.local())));
             }
         };
+        if !time.is_finite() {
+            return Err(FixedError::TimeNotFinite);
+        }
         let quotient = time / period;
-        if !(quotient < f64::from(u32::MAX)) {
+        if quotient >= f64::from(u32::MAX) {
             return Err(FixedError::TimeTooLate);
         }
         if time < 0.0 {
@@ -58,9 +62,6 @@ impl DoublePlaces {
         let mut rest = number.mul_add(-period, time);
         if rest < 0.0 {
             number -= 1.0;
-            rest = number.mul_add(-period, time);
-        } else if rest >= period {
-            number += 1.0;
             rest = number.mul_add(-period, time);
         }
         Ok((number as usize).checked_sub(delay).map(|number| (number, rest / period)))
@@ -195,6 +196,8 @@ mod tests {
         assert_eq!(places.of(-1.0), Ok(None));
         assert_eq!(places.of(1.0), Ok(None));
         assert_eq!(places.of(2.0), Ok(Some((0, 0.0))));
-        assert!(places.of(f64::NAN).is_err() && places.of(1e300).is_err());
+        for time in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+            assert!(places.of(time).is_err(), "{time}");
+        }
     }
 }

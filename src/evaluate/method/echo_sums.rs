@@ -162,8 +162,7 @@ impl EchoSums {
         let [high, low, _] = three(&numbers, signal.slowness()).map_err(EvaluateError::from)?;
         let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
         let (unit, slowness) = (unit.to_double().0, [high, low]);
-        let arrivals = Arrivals::new(numbers, signal.slowness(), &statement.period)
-            .map_err(EvaluateError::from)?;
+        let arrivals = Arrivals::new(numbers, signal.slowness(), &statement.period)?;
         let (from, to) = (end(from), end(to));
         Ok(EchoSums { seen, arrivals, added, unit, slowness, from, to })
     }
@@ -205,7 +204,7 @@ impl EchoSums {
         Ok(sum * self.unit)
     }
 
-    /// Many values by the blocked sum of differences, where waves have no delay and the scale of the
+    /// Many values by the blocked sum of differences, where waves have no delay and run on the user's
     /// time; else `None`.
     pub(super) fn fill(&self, at: &[f64], values: &mut [f64]) -> Option<Result<(), MethodError>> {
         // A delay that does not subtract without error would cost digits behind fronts.

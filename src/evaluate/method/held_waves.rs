@@ -19,7 +19,7 @@ pub(super) struct HeldWaves {
 
 impl HeldWaves {
     /// With the next period; none where there is no room for it.
-    pub fn and(mut self, coefficients: &[f64]) -> Option<HeldWaves> {
+    pub fn with_period(mut self, coefficients: &[f64]) -> Option<HeldWaves> {
         self.coefficients.extend_from_slice(coefficients);
         self.ends.push(self.coefficients.len());
         (self.coefficients.len() <= MOST).then_some(self)
@@ -46,13 +46,13 @@ mod tests {
         let mut march = March::new(&reflection, MarchOptions::default()).unwrap();
         let (mut held, mut expected) = (HeldWaves::default(), Vec::new());
         for _ in 0..20 {
-            held = held.and(march.coefficients()).unwrap();
+            held = held.with_period(march.coefficients()).unwrap();
             expected.push(march.coefficients().to_vec());
             march.advance().unwrap();
         }
         for (period, expected) in expected.iter().enumerate() {
             assert_eq!(held.period(period), expected);
         }
-        assert!(held.and(&vec![0.0; MOST]).is_none());
+        assert!(held.with_period(&vec![0.0; MOST]).is_none());
     }
 }

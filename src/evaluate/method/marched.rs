@@ -76,7 +76,7 @@ impl Marched {
     ///
     /// # Cost
     /// With one pole and one lag some hundred operations a coefficient for each period, of which there
-    /// are about `√(2nD)`; ten times as many with a bound. Otherwise that for each term of each step.
+    /// are about `√(2nD)`; two or three times as many with a bound. Otherwise that for each term of each step.
     pub fn new(
         signal: &Signal,
         from: &Rational,

@@ -57,8 +57,8 @@ impl MarchedResponse {
     /// [`MethodError::Kernel`] where waves grow without bound.
     ///
     /// # Cost
-    /// For each period some hundred operations a coefficient, of which there are about `√(2nD)`; ten
-    /// times as many with a bound.
+    /// For each period some hundred operations a coefficient, of which there are about `√(2nD)`; two
+    /// or three times as many with a bound.
     pub fn new(
         taps: Taps,
         signal: &Signal,
@@ -113,7 +113,7 @@ impl MarchedResponse {
             let sizes = chebyshev::sizes(march.coefficients());
             slope = slope.max(sizes.slope);
             sum = sum.max(sizes.absolute);
-            held = held.and_then(|held| held.and(march.coefficients()));
+            held = held.and_then(|held| held.with_period(march.coefficients()));
             // Evaluation loses most where the polynomial is largest, which need not be at the end.
             match march.bound_by(&sizes) {
                 Some(here) => bound = bound.max(here),
@@ -151,8 +151,12 @@ impl MarchedResponse {
         let mut bits = FIRST_BITS;
         loop {
             let sum = self.extras_in(at, side, bits)?;
-            if bits >= MAX_BITS || allowed.is_none_or(|allowed| *sum.radius() <= allowed) {
+            if allowed.is_none_or(|allowed| *sum.radius() <= allowed) {
                 return Ok(sum);
+            }
+            if bits >= MAX_BITS {
+                let best = Box::new(sum);
+                return Err(EvaluateError::AccuracyNotReached { best, bits }.into());
             }
             bits *= 2;
         }
