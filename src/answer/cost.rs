@@ -12,7 +12,7 @@ use crate::evaluate::StablePrecision;
 /// ```
 /// use wavestep::answer::{Cost, Kind, Size};
 ///
-/// let size = |points| Size { order: 200, points, marches: true };
+/// let size = |points| Size { order: 200, points, marches: false };
 /// let cost = |kind, points| Cost::of(kind, size(points)).unwrap().seconds(points);
 /// // A few values come cheapest without preparation, many with it.
 /// assert!(cost(Kind::Certified, 1) < cost(Kind::Compiled, 1));
@@ -55,7 +55,7 @@ pub struct Cost {
 const BALL: f64 = 1.7e-7;
 /// A period of a march in integers, and a value of it at an exact time.
 const FIXED_PERIOD: f64 = 6e-6;
-const FIXED_POINT: f64 = 6e-6;
+const FIXED_POINT: f64 = 2e-6;
 /// The polynomials on a stretch between arrivals, and the terms that they are expanded to.
 const PIECES: f64 = 16.0;
 const TERMS: f64 = 40.0;

@@ -107,9 +107,17 @@ pub struct Weighed {
 /// use wavestep::evaluate::Signal;
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// // Two poles: no march in integers, which gives certified values at little cost.
+/// let source = Source::new("two poles", r#"
+///     recurrence "Two poles"
+///     period 2, local s, time t
+///     wave h, f
+///     equation h[n]' + h[n] = h[n-1]' - h[n-1]
+///     equation f[n]' + 2*f[n] = h[n]
+///     continuous h[n] - h[n-1] starts at 1
+///     continuous f[n] starts at 0
+/// "#)?;
+/// let recurrence = read_recurrence(&source, &Default::default())?;
 /// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
 /// let (from, to) = (parse_number("0")?, parse_number("80")?);
 /// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };

@@ -31,7 +31,7 @@ impl Series {
     ///
     /// # Cost
     /// `n²/4` products for `n` coefficients, `n²` for rational ones.
-    pub fn energy(&self, cut: &Truncation) -> Energy {
+    pub(crate) fn energy(&self, cut: &Truncation) -> Energy {
         let bits = cut.bits;
         let mut own = self.coefficients.clone();
         let mut length = (2 * own.len()).saturating_sub(1);
@@ -196,7 +196,7 @@ pub(in crate::history) mod tests {
 
     /// `∫_0^x f²` by its definition, each time anew: all products of coefficients that are kept. With
     /// `f = P + R`, `|R| ≤ ε`, the other part is at most `x (2 ε |P| + ε²)`.
-    pub fn direct_energy(f: &Series, x: &Number, cut: &Truncation) -> Number {
+    pub(in crate::history) fn direct_energy(f: &Series, x: &Number, cut: &Truncation) -> Number {
         let bits = cut.bits;
         let length = f.coefficients.len();
         let mut sum = Number::zero();
@@ -216,7 +216,10 @@ pub(in crate::history) mod tests {
     }
 
     /// `Σ a e^{λx}` for pairs `(a, λ)`, `|λ| ≤ γ`, cut off after N terms.
-    pub fn exponentials(terms: &[(Rational, Rational)], cut: &Truncation) -> Series {
+    pub(in crate::history) fn exponentials(
+        terms: &[(Rational, Rational)],
+        cut: &Truncation,
+    ) -> Series {
         let mut coefficients = Vec::new();
         let mut rest = Magnitude::ZERO;
         let mut powers: Vec<Rational> = terms.iter().map(|(a, _)| a.clone()).collect();

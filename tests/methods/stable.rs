@@ -3,7 +3,7 @@
 
 use crate::response::Response;
 use crate::subject::with;
-use crate::tally::Tally;
+use crate::tally::{Tally, ends};
 use crate::{exact, mass_ratio, random, unit_in_the_last_place};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
@@ -70,6 +70,29 @@ fn the_laws_of_stable_sums_hold() {
     }
     doubles.report(12_000);
     pairs.report(1_000);
+}
+
+/// An observable of two waves, each some times as large: their sum is rounded once.
+#[test]
+fn waves_that_cancel_keep_the_law_of_pairs() {
+    let mut pairs = Tally::new("double-double of a velocity, of 2 units in the last place");
+    with("rigid-mass", &[("mu", "1/100")], "velocity", ("3", "15/4"), |subject| {
+        let (from, to) = (&subject.from, &subject.to);
+        let stable = Stable::new(subject.signal, from, to, StablePrecision::DoubleDouble).unwrap();
+        let unit = unit_in_the_last_place(0.998);
+        for i in 0..=150 {
+            let time = from + (to - from) * BigRational::new(i.into(), 150.into());
+            let value = stable.value(&time, Side::Right).unwrap();
+            let place = || format!("{time}");
+            pairs.within(
+                value,
+                ends(&subject.enclose(&time, Side::Right, 1 << 12)),
+                &exact(2.0 * unit),
+                place,
+            );
+        }
+    });
+    pairs.report(150);
 }
 
 /// Two thousand echoes: `e^{−x}` of the first ones is far below the smallest double, and its products

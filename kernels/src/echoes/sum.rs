@@ -145,6 +145,32 @@ impl EchoSum {
         time: Time,
         include_arriving: bool,
     ) -> Result<f64, EchoError> {
+        self.pair(method, time, include_arriving).map(DoubleDouble::high)
+    }
+
+    /// The same, not rounded by [`Method::DoubleDouble`]: for sums of waves that cancel.
+    ///
+    /// ```
+    /// use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Method, Term, Time};
+    ///
+    /// let [one, two] = [Expansion::ONE, Expansion::try_from(2.0)?];
+    /// let terms = [Term { lag: 0, coefficient: one }];
+    /// let sum = EchoSum::new(Echoes::new(Family::Laguerre, one, two, one, &terms, two)?, 3)?;
+    /// let pair = sum.pair(Method::DoubleDouble, Time::from(1.0), true)?;
+    /// // e^{−1}, and what the double of it lacks.
+    /// assert_eq!(pair.high(), 0.36787944117144233);
+    /// assert!((pair.low() + 1.2428753672788363e-17).abs() < 1e-31);
+    /// # Ok::<(), wavestep_kernels::echoes::EchoError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`EchoSum::value`].
+    pub fn pair(
+        &self,
+        method: Method,
+        time: Time,
+        include_arriving: bool,
+    ) -> Result<DoubleDouble, EchoError> {
         self.admit(time, include_arriving)?;
         let rounded = matches!(method, Method::Expanded | Method::Plain);
         let mut sum = DoubleDouble::ZERO;
@@ -162,7 +188,7 @@ impl EchoSum {
                 _ => DoubleDouble::from(sum.high + echo.high),
             };
         }
-        Ok(sum.high)
+        Ok(sum)
     }
 
     /// `φ_k(x)` alone, by one method.

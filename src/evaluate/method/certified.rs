@@ -28,9 +28,6 @@ const MAX_BITS: u64 = 1 << 13;
 /// From how many values on polynomials pay: about what they cost over what a ball costs.
 const MANY: usize = 2_000;
 
-/// From how many exact times on a march in integers pays: about what it costs over what a ball costs.
-const SOME: usize = 8;
-
 /// Tells a value that is a rational number: it gives the number at a time and a side, or nothing.
 ///
 /// ```
@@ -209,13 +206,13 @@ impl Method for Certified<'_> {
     }
 
     fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
-        self.alone(at, side)
+        Ok(self.exact_values(std::slice::from_ref(at), side)?[0])
     }
 
-    /// Some times by the march in integers, where there is one: it takes as long for one of them.
+    /// By the march in integers, where there is one, and by a ball where that does not decide.
     fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
         let inside = || at.iter().all(|at| *at >= self.from && *at <= self.to);
-        let marched = self.marched.as_ref().filter(|_| at.len() >= SOME && inside());
+        let marched = self.marched.as_ref().filter(|_| inside());
         let Some((mut values, undecided)) = marched.and_then(|march| march.certified(at, side))
         else {
             return at.iter().map(|at| self.alone(at, side)).collect();

@@ -75,6 +75,11 @@ impl<'a> Compiled<'a> {
         let from = lower.as_ref().unwrap_or(from);
         let window = Window::new(signal, from, to)?.marching();
         let scale = window.scale()?;
+        if scale.is_zero() && from == to {
+            // Nothing is small against a single zero: a little later there are values.
+            let later = to + Rational::new(1.into(), (1 << 20).into());
+            return Compiled::new(signal, from, &later, tolerance);
+        }
         let fine = scale.scale(-ERROR_BITS);
         let coarse = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 4.0));
         let error = coarse.map_or(fine, |coarse| coarse.max(fine));

@@ -2,7 +2,7 @@
 //! [`Expanded`](super::Expanded) share.
 
 use super::MethodError;
-use super::doubles::three;
+use super::doubles::{three, three_of};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
 use crate::evaluate::evaluator::{EvaluateError, Side};
@@ -11,7 +11,7 @@ use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
 use crate::solution::{EchoTemplate, Family, Solution};
 use std::cmp::Ordering;
-use wavestep_kernels::double_double::two_sum;
+use wavestep_kernels::double_double::{DoubleDouble, two_sum};
 use wavestep_kernels::echoes::{
     self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term, Time,
 };
@@ -22,7 +22,7 @@ const MAX_ECHOES: usize = 5_000;
 
 /// One wave that is seen.
 struct Seen {
-    weight: f64,
+    weight: DoubleDouble,
     delay: [f64; 2],
     exact_delay: Fraction,
     sum: EchoSum,
@@ -119,7 +119,7 @@ pub(super) struct EchoSums {
     arrivals: Arrivals,
     /// What is added from the start, as sums of polynomials times exponentials.
     added: Vec<ExponentialPolynomial>,
-    unit: f64,
+    unit: DoubleDouble,
     slowness: [f64; 2],
     from: f64,
     to: f64,
@@ -150,7 +150,7 @@ impl EchoSums {
             let weight = wave.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
             let [high, low, _] = three(&numbers, &wave.delay).map_err(EvaluateError::from)?;
             seen.push(Seen {
-                weight: three(&numbers, &weight).map_err(EvaluateError::from)?[0],
+                weight: pair(three(&numbers, &weight).map_err(EvaluateError::from)?)?,
                 delay: [high, low],
                 exact_delay: wave.delay.clone(),
                 sum: EchoSum::new(echoes, order.max(1)).map_err(refused)?,
@@ -161,7 +161,7 @@ impl EchoSums {
         let unit = numbers.enclose_root(signal.unit(), 128).map_err(EvaluateError::from)?;
         let [high, low, _] = three(&numbers, signal.slowness()).map_err(EvaluateError::from)?;
         let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
-        let (unit, slowness) = (unit.to_double().0, [high, low]);
+        let (unit, slowness) = (pair(three_of(unit))?, [high, low]);
         let arrivals = Arrivals::new(numbers, signal.slowness(), &statement.period)?;
         let (from, to) = (end(from), end(to));
         Ok(EchoSums { seen, arrivals, added, unit, slowness, from, to })
@@ -183,7 +183,8 @@ impl EchoSums {
         let time = high * rate;
         let low = high.mul_add(rate, -time) + (high * rest + low * rate);
         let arriving = side == Side::Right;
-        let mut sum = 0.0;
+        // Waves can cancel: their sum is rounded once.
+        let mut sum = DoubleDouble::default();
         for Seen { weight, delay, exact_delay, sum: echoes } in &self.seen {
             let (since, error) = two_sum(time, -delay[0]);
             let since = (since, error + (low - delay[1]));
@@ -192,16 +193,16 @@ impl EchoSums {
             if since.high() < 0.0 || (since.high() == 0.0 && since.low() < 0.0) {
                 continue;
             }
-            sum += weight * echoes.value(method, since, arriving).map_err(refused)?;
+            sum = sum + *weight * echoes.pair(method, since, arriving).map_err(refused)?;
         }
         if time > 0.0 || (time == 0.0 && arriving) {
             for part in &self.added {
                 let horner = |value: f64, c: &Expansion| value * time + c.parts()[0];
                 let polynomial = part.coefficients.iter().rev().fold(0.0, horner);
-                sum += polynomial * (-part.rate.parts()[0] * time).exp();
+                sum = sum + DoubleDouble::from(polynomial * (-part.rate.parts()[0] * time).exp());
             }
         }
-        Ok(sum * self.unit)
+        Ok((sum * self.unit).high())
     }
 
     /// Many values by the blocked sum of differences, where waves have no delay and run on the user's
@@ -223,14 +224,14 @@ impl EchoSums {
             return Ok(());
         };
         first.sum.fill(at, true, values).map_err(refused)?;
-        let weight = first.weight * self.unit;
+        let weight = (first.weight * self.unit).high();
         if weight != 1.0 {
             values.iter_mut().for_each(|value| *value *= weight);
         }
         let mut part = if others.is_empty() { Vec::new() } else { vec![0.0; at.len()] };
         for seen in others {
             seen.sum.fill(at, true, &mut part).map_err(refused)?;
-            let weight = seen.weight * self.unit;
+            let weight = (seen.weight * self.unit).high();
             values.iter_mut().zip(&part).for_each(|(value, part)| *value += weight * part);
         }
         if self.arrivals.is_double {
@@ -250,6 +251,11 @@ impl EchoSums {
         }
         Ok(())
     }
+}
+
+/// The two leading ones of three doubles.
+fn pair([high, low, _]: [f64; 3]) -> Result<DoubleDouble, MethodError> {
+    DoubleDouble::from_sum(high, low).ok_or_else(|| refused(echoes::EchoError::NotFinite))
 }
 
 /// What the kernel says, in the words of this layer.

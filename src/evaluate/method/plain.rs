@@ -53,7 +53,9 @@ impl Method for Plain {
     }
 
     fn law(&self) -> String {
-        "no bound: some thousand units in the last place by n = 200, measured".to_owned()
+        "no bound: some thousand units in the last place by n = 200, measured; \
+         the whole jump at times within a rounding of an arrival"
+            .to_owned()
     }
 
     fn bound(&self) -> Option<f64> {

@@ -100,12 +100,12 @@ impl Method for Stable {
     fn law(&self) -> String {
         match self.precision {
             StablePrecision::Double => {
-                "at most 64 units in the last place of the largest value, \
-                measured for n ≤ 200 and mu from 1/100 to 10"
+                "at most 64 units in the last place of the largest value of each wave that is seen, \
+                measured on rigid masses for n ≤ 200 and mu from 1/100 to 10"
             }
             StablePrecision::DoubleDouble => {
-                "at most 2 units in the last place of the largest \
-                value, measured for n ≤ 200 and mu from 1/100 to 10"
+                "at most 2 units in the last place of the largest value, \
+                measured on rigid masses for n ≤ 200 and mu from 1/100 to 10"
             }
         }
         .to_owned()
