@@ -2,7 +2,7 @@
 //!
 //! Prints each constant as it stands there, from the method whose cost it makes up, at one size: the
 //! rigid mass with `μ = 1` and 200 periods, and a recurrence of two poles for what is marched wave by
-//! wave. Run `cargo bench --bench costs` on a quiet machine and round to one or two digits.
+//! wave. Run `cargo bench --bench costs` on a quiet machine and round to one or two digits; the clock counts.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -93,7 +93,7 @@ fn main() {
         let (plain, proven) = (march(false), march(true));
         let march = Marched::new(signal, &from, &to, false).unwrap();
         print("COEFFICIENT", "a coefficient of a march", value(&march) / COEFFICIENTS);
-        print("PROVEN_COEFFICIENT", "its bound", (proven - plain) / COEFFICIENTS);
+        print("PROVEN_COEFFICIENT", "the same with its bound", (proven - plain) / COEFFICIENTS);
     });
     with_signal(TWO_POLES, None, |signal| {
         let end = parse_number("20").unwrap();
