@@ -453,7 +453,7 @@ fn long_constants_are_refused() {
 // ---- Random texts and trees ---------------------------------------------------------------------
 
 /// Pieces of which wrong texts are usually made.
-const PIECES: [&str; 60] = [
+const PIECES: [&str; 62] = [
     "recurrence ",
     "\"A\"",
     "symbol ",
@@ -498,6 +498,8 @@ const PIECES: [&str; 60] = [
     ".",
     "1",
     "0.5",
+    ".0",
+    "00",
     "1e3",
     "1e",
     "1e9999",

@@ -42,7 +42,8 @@ pub(super) fn literal(text: &str) -> Result<BigRational, LiteralError> {
         return Err(LiteralError::TooManyDigits);
     }
     let fraction = fraction.trim_end_matches('0');
-    let integer = digits(&format!("{whole}{fraction}"));
+    // The zero in front is the whole number of `.0`, whose digits are all trimmed away.
+    let integer = digits(&format!("0{whole}{fraction}"));
     let exponent = signed_exponent(exponent).ok_or(LiteralError::ExponentTooLarge)?;
     let scale = exponent - fraction.len().to_i64().expect("at most MAX_DIGITS");
     if scale.abs() > MAX_DECIMAL_EXPONENT {
@@ -173,6 +174,9 @@ mod tests {
             ("0.1", ratio(1, 10)),
             ("1.50e+1", ratio(15, 1)),
             ("0.000", ratio(0, 1)),
+            (".0", ratio(0, 1)),
+            (".000e-7", ratio(0, 1)),
+            ("0.", ratio(0, 1)),
             ("125e-4", ratio(1, 80)),
         ] {
             assert_eq!(literal(text), Ok(value), "{text}");
@@ -191,10 +195,17 @@ mod tests {
         }
     }
 
+    /// Digits on at least one side of the point, zeros alone among them.
+    fn digits_around_a_point() -> impl Strategy<Value = (String, String)> {
+        let some = || prop_oneof!["[0-9]{1,30}", "0{1,3}"];
+        let any = || prop_oneof!["[0-9]{0,30}", "0{0,3}"];
+        prop_oneof![(some(), any()), (any(), some())]
+    }
+
     proptest! {
         #[test]
         fn reading_is_in_lowest_terms_and_writing_reads_back(
-            whole in "[0-9]{1,30}", fraction in "[0-9]{0,30}", exponent in -900_i64..900,
+            (whole, fraction) in digits_around_a_point(), exponent in -900_i64..900,
         ) {
             let value = literal(&format!("{whole}.{fraction}e{exponent}")).unwrap();
             let reduced = BigRational::new(value.numer().clone(), value.denom().clone());
