@@ -5,7 +5,6 @@ use super::failure::Failure;
 use super::input;
 use num_rational::BigRational;
 use serde_json::{Map, Value, json};
-use wavestep::ball::Ball;
 use wavestep::dispersion::{
     Builtin, DispersionError, Formula, PeakValue, PeakVelocity, Pulse, Quantity, Relation, Seen,
     Shape, Travel, exact_peak_velocity, peak_velocity, propagate,
@@ -97,7 +96,7 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
         }
     }
     Ok(match options.format {
-        DispersionFormat::Text => text(&answer, options.digits),
+        DispersionFormat::Text => text(&answer),
         DispersionFormat::Latex => latex(&answer),
         DispersionFormat::Json => json(&answer, options.digits),
     })
@@ -181,7 +180,7 @@ fn seen_number(value: f64) -> String {
     format!("{value:.SEEN_DIGITS$}")
 }
 
-fn text(answer: &Answer, digits: usize) -> String {
+fn text(answer: &Answer) -> String {
     let mut lines = Vec::new();
     if !answer.title.is_empty() {
         lines.extend([answer.title.clone(), String::new()]);
@@ -198,7 +197,7 @@ fn text(answer: &Answer, digits: usize) -> String {
     if let Some((name, peak, symbolic)) = &answer.pulse {
         lines.extend([String::new(), name.clone()]);
         if let Some(peak) = peak {
-            lines.push(format!("k_co  = {}", peak.cut_off.to_decimal(digits.min(15)).midpoint()));
+            lines.push(format!("k_co  = {}", peak.cut_off));
         }
         let exact = symbolic.as_ref().or_else(|| peak.as_ref()?.exact.as_ref());
         if let Some(exact) = exact {
@@ -237,6 +236,9 @@ fn latex(answer: &Answer) -> String {
     }
     if let Some((_, peak, symbolic)) = &answer.pulse {
         let exact = symbolic.as_ref().or_else(|| peak.as_ref()?.exact.as_ref());
+        if let Some(peak) = peak {
+            rows.push(format!("k_{{\\mathrm{{co}}}} &= {}", value(&peak.cut_off)));
+        }
         let exact = exact.map(dispersion_latex);
         let digits = peak.as_ref().and_then(|peak| match &peak.value {
             PeakValue::Rational(_) => None,
@@ -251,17 +253,16 @@ fn latex(answer: &Answer) -> String {
     format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", rows.join(" \\\\\n"))
 }
 
-fn ball_json(ball: &Ball, digits: usize) -> Value {
-    let decimal = ball.to_decimal(digits);
-    json!({"value": decimal.midpoint().to_string(), "radius": format!("{:e}", decimal.radius())})
-}
-
 fn value_json(value: &PeakValue, digits: usize) -> Value {
     match value {
         PeakValue::Rational(exact) => json!({"exact": exact.to_string()}),
         PeakValue::Certified(certified) => {
             let mut told = json!({"value": certified.decimal.to_string()});
-            told["enclosure"] = ball_json(&certified.ball, digits + 10);
+            let ball = certified.ball.to_decimal(digits + 10);
+            told["enclosure"] = json!({
+                "value": ball.midpoint().to_string(),
+                "radius": format!("{:e}", ball.radius()),
+            });
             told
         }
     }
@@ -291,7 +292,7 @@ fn json(answer: &Answer, digits: usize) -> String {
             pulse["exact"] = json!(dispersion_text(exact));
         }
         if let Some(peak) = peak {
-            pulse["cut_off"] = ball_json(&peak.cut_off, 18);
+            pulse["cut_off"] = value_json(&peak.cut_off, digits);
             pulse["peak_velocity"] = value_json(&peak.value, digits);
         }
         if let Some((time, seen)) = &answer.seen {

@@ -205,11 +205,21 @@ impl Pulse {
     /// [`DispersionError::NoCutOff`] and [`DispersionError::UndecidedCutOff`] for pulses in time.
     pub fn cut_off(&self, relation: &Relation, bits: u64) -> Result<Ball, DispersionError> {
         match &self.extent {
-            Extent::Length(b) => {
-                let formula = Formula::integer(2).multiply(&Formula::pi()).divide(b)?;
-                value(&formula, &Ball::zero(), bits)
-            }
+            Extent::Length(b) => value(&cut_off_of_length(b)?, &Ball::zero(), bits),
             Extent::Duration(duration) => cut_off_of_duration(relation, duration, bits),
         }
     }
+
+    /// The cut-off in closed form, where a length is given.
+    pub(super) fn exact_cut_off(&self) -> Result<Option<Formula>, DispersionError> {
+        match &self.extent {
+            Extent::Length(b) => cut_off_of_length(b).map(Some),
+            Extent::Duration(_) => Ok(None),
+        }
+    }
+}
+
+/// `2π/b`.
+fn cut_off_of_length(b: &Formula) -> Result<Formula, DispersionError> {
+    Ok(Formula::integer(2).multiply(&Formula::pi()).divide(b)?)
 }
