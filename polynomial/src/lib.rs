@@ -21,6 +21,7 @@ mod univariate;
 
 pub use binomial::{binomial, factorial};
 pub use decimal::decimal;
+pub use integer::fraction;
 pub use num_bigint::BigInt as Integer;
 pub use num_rational::BigRational as Rational;
 pub use ordinary::Ordinary;

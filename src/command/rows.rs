@@ -3,12 +3,14 @@
 use super::arguments::{Eval, EvalFormat, SideOption};
 use super::failure::Failure;
 use super::input;
+use num_integer::Integer as _;
 use num_rational::BigRational;
 use num_traits::Signed as _;
 use serde_json::{Value as Json, json};
 use wavestep::ball::{Decimal, Exactness};
 use wavestep::evaluate::{Side, Value};
 use wavestep::export::SCHEMA_VERSION;
+use wavestep_polynomial::fraction;
 
 /// The most times that are evaluated at once.
 pub const MAX_POINTS: usize = 1_000_000;
@@ -58,15 +60,21 @@ pub fn times(options: &Eval, dimensional: bool) -> Result<Vec<BigRational>, Fail
             let message = format!("{points} points cannot be evaluated at once");
             return Err(Failure::usage(message, format!("ask for 1 to {MAX_POINTS} points")));
         }
-        let step = (&to - &from) / BigRational::from_integer((points.max(2) - 1).into());
-        let time = |i: usize| &from + &step * BigRational::from_integer(i.into());
-        return Ok((0..points).map(time).collect());
+        return Ok(evenly_spaced(&from, &to, points));
     }
     if options.at.is_empty() {
         let remedy = "give --at T, or --from T --to T --points N, or --piece N --local S";
         return Err(Failure::usage("no time is given", remedy));
     }
     options.at.iter().map(|time| input::time("--at", time, dimensional)).collect()
+}
+
+/// So many times from the first to the last, over one denominator before they are reduced.
+fn evenly_spaced(from: &BigRational, to: &BigRational, points: usize) -> Vec<BigRational> {
+    let step = (to - from) / BigRational::from_integer((points.max(2) - 1).into());
+    let denominator = from.denom().lcm(step.denom());
+    let [first, stride] = [from, &step].map(|value| value.numer() * (&denominator / value.denom()));
+    (0..points).map(|i| fraction(&first + &stride * i, denominator.clone())).collect()
 }
 
 /// Rows in the format asked for, with the unit of time, the unit after a space, and the unit.
