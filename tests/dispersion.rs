@@ -376,6 +376,24 @@ fn cut_offs_of_durations() {
         let error = pulse(tau, 1).cut_off(&relation, 60).unwrap_err();
         assert!(matches!(error, DispersionError::NoCutOff { .. }), "{error}");
     }
+    // Far above 2π/τ, and far below it.
+    let slow = read("k/1000");
+    let k = pulse(3, 1).cut_off(&slow, 60).unwrap();
+    let two_pi = k.multiply_rational(&rational(3, 1000), 80);
+    assert!(
+        two_pi
+            .subtract(&Ball::pi(80).multiply_rational(&rational(2, 1), 80), 80)
+            .contains(&rational(0, 1))
+    );
+    let long = Rational::from_integer(10.into()).pow(25);
+    let k = Pulse::in_time(Shape::Square, &long).unwrap().cut_off(&Builtin::Beam.relation(), 80);
+    let k = k.unwrap();
+    let two_pi = k.multiply(&k, 80).multiply_rational(&long, 80);
+    assert!(
+        two_pi
+            .subtract(&Ball::pi(80).multiply_rational(&rational(2, 1), 80), 80)
+            .contains(&rational(0, 1))
+    );
     // √k is steep at zero, and has a root all the same: k = (2π/τ)².
     let k = pulse(2, 1).cut_off(&read("sqrt(k)"), 100).unwrap();
     let square = Ball::pi(120).multiply(&Ball::pi(120), 120);

@@ -86,3 +86,21 @@ fn mistakes_are_told_with_a_remedy() {
         }
     }
 }
+
+#[test]
+fn a_wavenumber_with_a_negative_frequency_is_named() {
+    let (code, errors) = refused(&["cubic", "--at", "1", "--at", "4"]);
+    assert!(code != 0 && errors.contains("ω is negative at k = 4"), "{errors}");
+}
+
+#[test]
+fn a_parameter_is_not_the_length_of_the_pulse() {
+    let (code, errors) = refused(&["k - b*k^3", "--pulse", "square"]);
+    assert!(code != 0 && errors.contains("`b` is the length of the pulse"), "{errors}");
+    // With a value it is a parameter as others are.
+    let [b, a] = ["b", "a"].map(|name| {
+        let formula = format!("k - {name}*k^3");
+        text(&[&formula, "--set", &format!("{name}=1/12"), "--length", "10"])
+    });
+    assert_eq!(a, b);
+}

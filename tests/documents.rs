@@ -10,16 +10,16 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
 
-const DOCUMENTS: [&str; 8] = [
-    "README.md",
-    "docs/dispersion.md",
-    "docs/language.md",
-    "docs/local-contact.md",
-    "docs/output.md",
-    "docs/saint-venant.md",
-    "docs/scene-language.md",
-    "docs/tutorial.md",
-];
+/// The README and all pages of `docs/`.
+fn documents() -> Vec<String> {
+    let pages = fs::read_dir(path("docs")).expect("the documents exist");
+    let names = pages.map(|page| page.expect("a page").file_name().into_string().expect("a name"));
+    let mut pages: Vec<String> =
+        names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}")).collect();
+    pages.sort();
+    pages.insert(0, "README.md".to_owned());
+    pages
+}
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
@@ -126,7 +126,7 @@ fn with_real_output(name: &str) -> (String, usize) {
 #[test]
 fn console_blocks_show_the_real_output() {
     let mut shown = 0;
-    for name in DOCUMENTS {
+    for name in &documents() {
         let (real, commands) = with_real_output(name);
         shown += commands;
         if real != read(name) && std::env::var_os("UPDATE_DOCUMENTS").is_some() {
@@ -140,7 +140,7 @@ fn console_blocks_show_the_real_output() {
 #[test]
 fn wave_blocks_are_read() {
     let mut read_blocks = 0;
-    for name in DOCUMENTS {
+    for name in &documents() {
         let document = read(name);
         for block in blocks(&document).into_iter().flatten() {
             if block.info.split(' ').next() != Some("wave") {

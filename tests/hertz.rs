@@ -3,7 +3,7 @@
 
 use ode_solvers::{DVector, Dop853, OutputType, System};
 use wavestep::ball::Ball;
-use wavestep::hertz::{HertzError, LongBars, PowerLaw, equal_bars_constant};
+use wavestep::hertz::{HertzError, LongBars, PowerLaw, distance_from_spring, equal_bars_constant};
 use wavestep_polynomial::Rational;
 
 fn ratio(numerator: i64, denominator: i64) -> Rational {
@@ -41,6 +41,60 @@ fn closed_forms_and_series_agree() {
             let series = law.time_by_series(&ball(&share), &ball(&deficit), 200).unwrap();
             assert!(agree(&closed, &series, 120), "{share}: {closed} {series}");
         }
+    }
+}
+
+/// Early on nothing resists: β is the time, `t̄ = φ^{1/m}` but for a part φ of it.
+#[test]
+fn small_shares_keep_their_digits() {
+    let tenth = |power: u32| ratio(1, 10).pow(power as i32);
+    for (exponent, share, time) in [
+        (ratio(1, 1), tenth(60), tenth(60)),
+        (ratio(3, 2), tenth(60), tenth(40)),
+        (ratio(3, 2), tenth(300), tenth(200)),
+        (ratio(3, 1), tenth(60), tenth(20)),
+        (ratio(1, 2), tenth(60), tenth(120)),
+    ] {
+        let law = PowerLaw::new(exponent.clone()).unwrap();
+        let near = law.time(&share, 100).unwrap().multiply_rational(&time.recip(), 200);
+        assert!(agree(&near, &near, 90), "{exponent} {share}: {near}");
+        assert!(ball(&(ratio(1, 1) - tenth(15))).is_below(&near), "{exponent}: {near}");
+        assert!(near.is_below(&ball(&(ratio(1, 1) + tenth(15)))), "{exponent}: {near}");
+        let back = law.share(&time, 100).unwrap().force().multiply_rational(&share.recip(), 200);
+        assert!(agree(&back, &back, 80), "{exponent} {share}: {back}");
+    }
+}
+
+#[test]
+fn after_a_very_long_time_the_largest_force_is_there() {
+    for exponent in [ratio(1, 10), ratio(1, 1), ratio(3, 2), ratio(100, 1)] {
+        let law = PowerLaw::new(exponent.clone()).unwrap();
+        let share = law.share(&ratio(10, 1).pow(300), 100).unwrap();
+        assert!(agree(share.force(), &ball(&ratio(1, 1)), 90), "{exponent}: {}", share.force());
+    }
+}
+
+/// The largest difference is not exceeded at many times, and nearly met at one of them.
+#[test]
+fn the_distance_from_a_spring_is_the_largest_difference() {
+    let spring = PowerLaw::new(ratio(1, 1)).unwrap();
+    for exponent in [ratio(1, 2), ratio(3, 2), ratio(5, 2), ratio(6, 5)] {
+        let law = PowerLaw::new(exponent.clone()).unwrap();
+        let distance = distance_from_spring(&law, 6).unwrap();
+        let mut met = false;
+        for step in 0..400 {
+            let time = ratio(step, 100);
+            let [own, other] =
+                [&law, &spring].map(|law| law.share(&time, 80).unwrap().force().clone());
+            let difference = own.subtract(&other, 100);
+            for sign in [1, -1] {
+                let difference = difference.multiply_rational(&ratio(sign, 1), 100);
+                assert!(!distance.is_below(&difference), "{exponent} {time}: {difference}");
+                let nearly = difference.add(&ball(&ratio(1, 1000)), 100);
+                met |= distance.is_below(&nearly);
+            }
+        }
+        assert!(met, "{exponent}: {distance}");
     }
 }
 

@@ -3,13 +3,13 @@
 
 use super::arguments::Check;
 use super::failure::Failure;
-use super::input::{self, Subject};
+use super::input::{self, Readable, Subject};
 use super::lock;
 use super::progress;
 use super::rates::{failure_of_rates, rates};
 use wavestep::evaluate::{ArrivalError, EvaluateError, arrivals};
 use wavestep::export;
-use wavestep::network::Network;
+use wavestep::network::{Network, ScaledScene};
 use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution, SolveError};
 use wavestep_polynomial::Symbol;
 
@@ -22,12 +22,27 @@ const PERIODS_WITH_CONSTANTS: usize = 2;
 /// How many periods of a lattice are followed in a check.
 const FIRST_ECHOES: usize = 3;
 
+/// What can be said of a scene that has no recurrence: it was read, and its parts fit.
+fn with_local_contact(scaled: &ScaledScene) -> String {
+    let scene = scaled.scene();
+    let contact = scaled.local_contact().map(|contact| scene.elements[contact].name.as_str());
+    format!(
+        "{}: consistent\n  `{}` is a local contact: no recurrence, values by the method of steps\n",
+        scene.title,
+        contact.unwrap_or_default()
+    )
+}
+
 /// Checks a scene and says what was found.
 pub fn run(options: &Check) -> Result<String, Failure> {
     if let Some(file) = &options.locked {
         return lock::check(&options.scene.scene, file);
     }
-    let (recurrence, network) = match input::subject(&options.scene)? {
+    let subject = match input::readable(&options.scene)? {
+        Readable::Subject(subject) => subject,
+        Readable::WithoutRecurrence(scaled) => return Ok(with_local_contact(&scaled)),
+    };
+    let (recurrence, network) = match subject {
         Subject::Recurrence(recurrence) => (*recurrence, None),
         Subject::Scene(network) if network.lattice().periods().len() > 1 => {
             return on_lattice(&network);

@@ -3,14 +3,18 @@
 use super::arguments::{Dispersion, DispersionFormat};
 use super::failure::Failure;
 use super::input;
+use super::progress;
 use num_rational::BigRational;
+use num_traits::Signed as _;
 use serde_json::{Map, Value, json};
+use wavestep::ball::Ball;
 use wavestep::dispersion::{
     Builtin, DispersionError, Formula, PeakValue, PeakVelocity, Pulse, Quantity, Relation, Seen,
     Shape, Travel, exact_peak_velocity, peak_velocity, propagate,
 };
 use wavestep::export::{SCHEMA_VERSION, dispersion_latex, dispersion_text};
 use wavestep::language::{self, Source, read_relation, read_spectrum};
+use wavestep_polynomial::Symbol;
 
 /// The three formulas with their names in text, JSON and LaTeX.
 const QUANTITIES: [(Quantity, &str, &str, &str); 3] = [
@@ -38,6 +42,10 @@ impl From<DispersionError> for Failure {
     }
 }
 
+/// How a wavenumber that is refused is told.
+const PLACE_BITS: u64 = 64;
+const PLACE_DIGITS: usize = 8;
+
 /// The three quantities at one wavenumber.
 struct At {
     k: BigRational,
@@ -57,10 +65,11 @@ struct Answer {
 pub fn run(options: &Dispersion) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let (title, relation) = relation(options)?;
+    let _progress = progress::spinner("enclosing velocities");
     let mut at = Vec::new();
     for text in &options.at {
         let k = input::number("--at", text)?;
-        if num_traits::Signed::is_negative(&k) {
+        if k.is_negative() {
             let message = format!("the wavenumber {k} is negative");
             return Err(Failure::usage(message, "give wavenumbers from 0 on"));
         }
@@ -76,6 +85,11 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
         Told::Nothing => {}
         // A shape without a length: its length stays a symbol.
         Told::Shape(shape) => {
+            let is_length = |symbol: &Symbol| symbol.name() == "b";
+            if answer.relation.parameters().iter().any(is_length) {
+                let message = "`b` is the length of the pulse, and a parameter of the relation too";
+                return Err(Failure::usage(message, "give the parameter another name"));
+            }
             let name = format!("{} pulse of length b", shape.name());
             let Some(exact) = exact_peak_velocity(&answer.relation, shape) else {
                 let message = format!("the peak velocity of a {name} has no closed form here");
@@ -132,7 +146,17 @@ fn values(relation: &Relation, k: BigRational, options: &Dispersion) -> Result<A
             }
         });
     }
-    Ok(At { k, values })
+    let is_negative = match &values[0] {
+        PeakValue::Rational(omega) => omega.is_negative(),
+        PeakValue::Certified(omega) => omega.decimal.to_rational().is_negative(),
+    };
+    match is_negative {
+        true => {
+            let place = Ball::from_rational(&k, PLACE_BITS).to_decimal(PLACE_DIGITS);
+            Err(DispersionError::NegativeFrequency(Box::new(place)).into())
+        }
+        false => Ok(At { k, values }),
+    }
 }
 
 /// Which pulse is told of.

@@ -52,6 +52,16 @@ fn equivalent(scaled: &ScaledScene) -> Option<String> {
     Some(format!("spring {name} {{ stiffness = {stiffness}{unit} }}"))
 }
 
+/// Says how sure values by the method of steps are.
+pub fn noted(scaled: &ScaledScene, kind: Kind) {
+    let (Some(contact), Kind::Steps { tolerance }) = (scaled.local_contact(), kind) else { return };
+    let name = &scaled.scene().elements[contact].name;
+    eprintln!(
+        "note: `{name}` is a local contact; these values are tested, not certified: computed to \
+         {tolerance:e} of the largest"
+    );
+}
+
 /// Evaluates an observable by a model: the method of steps, where none is named.
 pub fn run(scaled: &ScaledScene, options: &Eval) -> Result<String, Failure> {
     let scene = scaled.scene();
@@ -91,12 +101,7 @@ pub fn run(scaled: &ScaledScene, options: &Eval) -> Result<String, Failure> {
         SideOption::Right => Side::Right,
     };
     let values = way.exact_values(&times, side)?;
-    if let Kind::Steps { tolerance } = kind {
-        eprintln!(
-            "note: `{contact}` is a local contact; these values are tested, not certified: computed to \
-             {tolerance:e} of the largest"
-        );
-    }
+    noted(scaled, kind);
     if options.explain {
         eprintln!("{kind}: {}", way.law());
         if let Some(spring) = equivalent(scaled) {

@@ -4,10 +4,11 @@ use super::arguments::{Hertz, HertzFormat};
 use super::failure::Failure;
 use super::input::{self, Readable, Subject};
 use num_rational::BigRational;
+use num_traits::One as _;
 use serde_json::{Map, Value, json};
 use wavestep::ball::Ball;
 use wavestep::export::SCHEMA_VERSION;
-use wavestep::hertz::{ContactOfScene, HertzError};
+use wavestep::hertz::{ContactOfScene, HertzError, distance_from_spring};
 use wavestep::language::unit_of;
 use wavestep::network::ScaledScene;
 use wavestep::scene::Dimension;
@@ -22,18 +23,23 @@ impl From<HertzError> for Failure {
             HertzError::NotPositive(..) => "let the left bar run into the right one",
             HertzError::Share(_) => "give shares such as 1/10,1/2,9/10",
             HertzError::Time(_) => "give times from 0 on",
+            HertzError::Exponent(_) => "give an exponent such as 3/2",
             _ => "see `wavestep scenes local-contact` for an example",
         };
         Failure::usage(error.to_string(), remedy)
     }
 }
 
-/// A value with its name, what it is in JSON, and its dimension.
+/// Decimal places of the distance from the equivalent spring.
+const PLACES: u32 = 6;
+
+/// A value with its name, what it is in JSON, its unit, and how many digits of it are told.
 struct Row {
     name: String,
     key: String,
     value: Ball,
-    dimension: Dimension,
+    unit: String,
+    digits: usize,
 }
 
 /// Tells what is asked for.
@@ -51,22 +57,15 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
     };
     let bits = 10 * options.digits as u64 / 3 + SPARE_BITS;
     let contact = ContactOfScene::new(&scaled, bits)?;
-    let dimensional = scaled.scene().dimensional;
-    let rows = rows(&contact, options, dimensional, bits)?;
-    let digits = options.digits;
-    let text = |ball: &Ball| ball.to_decimal(digits).midpoint().to_string();
-    let unit = |dimension: Dimension| match dimensional {
-        true => unit_of(dimension),
-        false => String::new(),
-    };
+    let rows = rows(&contact, options, scaled.scene().dimensional, bits)?;
+    let text = |row: &Row| row.value.to_decimal(row.digits).midpoint().to_string();
     let name = &scaled.scene().elements[contact.element].name;
     Ok(match options.format {
         HertzFormat::Text => {
             let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);
             let line = |row: &Row| {
                 let fill = " ".repeat(width - row.name.chars().count());
-                let line =
-                    format!("{}{fill}  {} {}", row.name, text(&row.value), unit(row.dimension));
+                let line = format!("{}{fill}  {} {}", row.name, text(row), row.unit);
                 format!("{}\n", line.trim_end())
             };
             rows.iter().map(line).collect()
@@ -74,11 +73,11 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
         HertzFormat::Json => {
             let mut values = Map::new();
             for row in &rows {
-                let value = json!({ "value": text(&row.value), "unit": unit(row.dimension) });
+                let value = json!({ "value": text(row), "unit": row.unit });
                 values.insert(row.key.clone(), value);
             }
             let value: Value =
-                json!({ "schema": SCHEMA_VERSION, "contact": name, "values": values });
+                json!({ "schema_version": SCHEMA_VERSION, "contact": name, "values": values });
             format!("{value}\n")
         }
     })
@@ -93,12 +92,29 @@ fn rows(
 ) -> Result<Vec<Row>, Failure> {
     let bars = &contact.bars;
     let spring = bars.equivalent_spring();
-    let row =
-        |name: String, key: String, value: Ball, dimension| Row { name, key, value, dimension };
+    let unit = |dimension: Dimension| match dimensional {
+        true => unit_of(dimension),
+        false => String::new(),
+    };
+    let row = |name: String, key: String, value: &Ball, unit: String| Row {
+        name,
+        key,
+        value: value.clone(),
+        unit,
+        digits: options.digits,
+    };
     let fixed = |name: &str, key: &str, value: &Ball, dimension| {
-        row(name.to_owned(), key.to_owned(), value.clone(), dimension)
+        row(name.to_owned(), key.to_owned(), value, unit(dimension))
+    };
+    let exponent = bars.law().exponent();
+    let unit_of_law = match (dimensional, exponent.is_integer()) {
+        (true, true) if exponent.is_one() => "N/m".to_owned(),
+        (true, true) => format!("N/m^{exponent}"),
+        (true, false) => format!("N/m^({exponent})"),
+        (false, _) => String::new(),
     };
     let mut rows = vec![
+        row("stiffness".to_owned(), "stiffness".to_owned(), bars.stiffness(), unit_of_law),
         fixed("largest force", "largest_force", bars.largest_force(), Dimension::FORCE),
         fixed(
             "largest compression",
@@ -108,40 +124,56 @@ fn rows(
         ),
         fixed("characteristic time", "time_unit", bars.time_unit(), Dimension::TIME),
         fixed("equivalent spring", "equivalent_spring", spring.stiffness(), Dimension::STIFFNESS),
+        Row {
+            digits: options.digits.min(PLACES as usize - 2),
+            ..row(
+                "its force is off by at most".to_owned(),
+                "distance_from_spring".to_owned(),
+                &distance_from_spring(bars.law(), PLACES)?,
+                "of the largest force".to_owned(),
+            )
+        },
     ];
     for text in &options.rise {
         let share = input::number("--rise", text)?;
-        let time = bars.rise_time(&share)?;
-        rows.push(row(
-            format!("rise to {share}"),
-            format!("rise_to_{share}"),
-            time,
-            Dimension::TIME,
-        ));
-        rows.push(row(
-            format!("rise to {share}, equivalent spring"),
-            format!("spring_rise_to_{share}"),
-            spring.rise_time(&share)?,
-            Dimension::TIME,
-        ));
+        let text = text.trim();
+        let times = [
+            (format!("rise to {text}"), format!("rise_to_{text}"), bars.rise_time(&share)?),
+            (
+                format!("rise to {text}, equivalent spring"),
+                format!("spring_rise_to_{text}"),
+                spring.rise_time(&share)?,
+            ),
+        ];
+        for (name, key, time) in times {
+            told_past_return(contact, &name, &time);
+            rows.push(row(name, key, &time, unit(Dimension::TIME)));
+        }
     }
     for text in &options.at {
+        let text = text.trim();
         let time: BigRational = input::time("--at", text, dimensional)?;
         let at = Ball::from_rational(&time, bits);
-        let is_start = num_traits::Zero::is_zero(&time);
-        let force = match is_start {
-            true => Ball::from_rational(&time, bits),
+        let force = match num_traits::Zero::is_zero(&time) {
+            true => at.clone(),
             false => bars.force(&at)?,
         };
-        rows.push(row(
-            format!("force at {text}"),
-            format!("force_at_{text}"),
-            force,
-            Dimension::FORCE,
-        ));
+        let name = format!("force at {text}");
+        told_past_return(contact, &name, &at);
+        rows.push(row(name, format!("force_at_{text}"), &force, unit(Dimension::FORCE)));
     }
     if let Some(time) = &contact.first_return {
         rows.push(fixed("valid until", "valid_until", time, Dimension::TIME));
     }
     Ok(rows)
+}
+
+/// Notes that a value belongs to a time at which waves from far ends are felt.
+fn told_past_return(contact: &ContactOfScene, name: &str, time: &Ball) {
+    if contact.first_return.as_ref().is_some_and(|until| until.is_below(time)) {
+        eprintln!(
+            "note: {name} is that of endless bars, and a wave from a far end is felt earlier; `eval` \
+             follows it"
+        );
+    }
 }

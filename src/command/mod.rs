@@ -34,6 +34,7 @@ mod lock_history;
 mod output;
 mod picture;
 mod plot;
+mod plot_contact;
 mod problem;
 mod progress;
 mod quantity;

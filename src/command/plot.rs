@@ -3,8 +3,9 @@
 use super::arguments::{DiagramOption, Plot};
 use super::failure::Failure;
 use super::field::{evaluator, scene};
-use super::input::{self, Subject};
+use super::input::{self, Readable, Subject};
 use super::picture;
+use super::plot_contact;
 use super::quantity;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
@@ -39,7 +40,10 @@ pub fn run(options: &Plot) -> Result<String, Failure> {
 }
 
 fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
-    let subject = input::subject(&options.scene)?;
+    let subject = match input::readable(&options.scene)? {
+        Readable::Subject(subject) => subject,
+        Readable::WithoutRecurrence(scaled) => return plot_contact::chart(&scaled, options),
+    };
     let caption = Caption::default();
     if !options.at_time.is_empty() {
         let network = scene(subject)?;
@@ -77,7 +81,7 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
     Ok(Box::new(against_time(title, &courses, dimensional, ends, caption)?))
 }
 
-fn double(time: &BigRational) -> f64 {
+pub fn double(time: &BigRational) -> f64 {
     time.to_f64().unwrap_or(f64::NAN)
 }
 
@@ -225,7 +229,7 @@ fn across_phases(
 }
 
 /// The names asked for, or all.
-fn names(options: &Plot, all: impl Iterator<Item = String>) -> Result<Vec<String>, Failure> {
+pub fn names(options: &Plot, all: impl Iterator<Item = String>) -> Result<Vec<String>, Failure> {
     let names: Vec<String> = match options.quantity.is_empty() {
         true => all.collect(),
         false => options.quantity.iter().map(|name| language::normalise_name(name)).collect(),

@@ -2,7 +2,8 @@
 //!
 //! From zero on, cells are excluded where an enclosure of `ω − 2π/τ` is negative, or where it is
 //! monotone without a change of sign. The first cell with a change of sign and a positive derivative
-//! holds the root, which the interval method of Newton narrows.
+//! holds the root, which the interval method of Newton narrows. Next to zero cells shrink in proportion
+//! to their distance from it, so that roots far below `2π/τ` are found as well.
 
 use num_traits::{One, Zero};
 use wavestep_polynomial::Rational;
@@ -14,10 +15,13 @@ use crate::ball::Ball;
 
 /// Bits of the search.
 const SEARCH_BITS: u64 = 64;
-/// The search goes to `2^DOUBLINGS` times the larger of 1 and `2π/τ`.
-const DOUBLINGS: u32 = 8;
-/// How often a cell is halved.
-const MAX_DEPTH: u32 = 40;
+/// The search goes to `2^DOUBLINGS` times the larger of 1 and `2π/τ`, or through so many cells.
+const DOUBLINGS: u32 = 64;
+const MAX_CELLS: usize = 40_000;
+/// A cell is as narrow as `2^{−NARROW}` of its wavenumbers at least.
+const NARROW: usize = 40;
+/// How often the first cell is halved, which begins at zero.
+const MAX_DEPTH: u32 = 1200;
 /// The most steps of Newton's method; each halves the interval at least, and soon doubles the digits.
 const MAX_STEPS: usize = 400;
 
@@ -101,16 +105,24 @@ pub(super) fn cut_off_of_duration(
     let start = (Rational::from_integer(7.into()) / duration).ceil().max(Rational::one());
     let two = Rational::from_integer(2.into());
     let (mut low, mut high) = (Rational::zero(), start);
+    let mut looked_at = 0;
+    let narrowest = Rational::new(1.into(), num_bigint::BigInt::from(1) << NARROW);
     for _ in 0..=DOUBLINGS {
         let mut cells = vec![(low.clone(), high.clone(), 0)];
         while let Some((from, to, depth)) = cells.pop() {
+            looked_at += 1;
+            if looked_at > MAX_CELLS {
+                let through = place(&Ball::from_rational(&from, SEARCH_BITS));
+                return Err(DispersionError::NoCutOff { through });
+            }
             let near = Ball::between(&from, &to, SEARCH_BITS);
+            let is_narrow = depth >= MAX_DEPTH || &to - &from <= &to * &narrowest;
             let cell = match search.cell(&from, &to) {
                 Ok(cell) => cell,
                 Err(fault @ Fault::MissingValue(_)) => {
                     return Err(DispersionError::at(fault, &near));
                 }
-                Err(fault) if depth >= MAX_DEPTH => return Err(DispersionError::at(fault, &near)),
+                Err(fault) if is_narrow => return Err(DispersionError::at(fault, &near)),
                 Err(_) => Cell::Open,
             };
             match cell {
@@ -120,7 +132,7 @@ pub(super) fn cut_off_of_duration(
                     return Err(DispersionError::NoCutOff { through });
                 }
                 Cell::Root => return narrowed(relation, &level, (from, to), bits),
-                Cell::Open if depth >= MAX_DEPTH => {
+                Cell::Open if is_narrow => {
                     return Err(DispersionError::UndecidedCutOff(place(&near)));
                 }
                 Cell::Open => {

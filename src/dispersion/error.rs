@@ -100,7 +100,7 @@ impl DispersionError {
             }
             Self::Formula(_) => "give other values".to_owned(),
             Self::NegativeFrequency(_) => {
-                "stay below this wavenumber: take a longer pulse, or another relation".to_owned()
+                "stay below this wavenumber, with a longer pulse where there is one, or take another relation".to_owned()
             }
             Self::NotReal(_) | Self::DivisionByZero(_) | Self::NotDifferentiable(_) => {
                 "stay where the formula is smooth: take a longer pulse, or another formula"
@@ -113,7 +113,7 @@ impl DispersionError {
             Self::NoPeak => "give a spectrum that is positive".to_owned(),
             Self::AccuracyNotReached { .. } => "ask for fewer digits".to_owned(),
             Self::Ball(_) => "ask for smaller wavenumbers".to_owned(),
-            Self::Grid(_) => "give a positive number, or leave the grid to the program".to_owned(),
+            Self::Grid(_) => "give another time or another number of points, or no --points".to_owned(),
         }
     }
 }
@@ -140,7 +140,10 @@ impl fmt::Display for DispersionError {
                 write!(f, "the formula may have no derivative at k = {k}: a root of zero")
             }
             Self::NoCutOff { through } => {
-                write!(f, "ω(k)·τ = 2π has no root for 0 < k ≤ {through}: there is no cut-off")
+                write!(
+                    f,
+                    "ω(k)·τ = 2π has no root for 0 < k ≤ {through}, and none is looked for beyond"
+                )
             }
             Self::UndecidedCutOff(k) => {
                 write!(f, "whether ω(k)·τ = 2π has a root near k = {k} is not decided")

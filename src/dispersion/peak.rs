@@ -97,8 +97,8 @@ fn power(base: &Formula, exponent: i64) -> Formula {
 }
 
 /// The peak velocity in closed form, with the symbol `b` for the length: for polynomial `ω(k)` and the
-/// square pulse; for the triangular one where `ω(0) = 0`. `None` for others, and where a power of `k`
-/// exceeds 64.
+/// square pulse; for the triangular one where `ω(0) = 0`. `None` for others, where a power of `k`
+/// exceeds 64, and where a parameter is called `b` itself.
 ///
 /// With `θ = kb/2` the integral of a square pulse is `∫ sin θ Σ a_m (2θ/b)^m dθ` but for a factor, hence
 ///
@@ -125,6 +125,11 @@ pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula>
     if !relation.phase_velocity().symbols().contains(&wave_number()) {
         return Some(relation.phase_velocity().clone());
     }
+    let length = Symbol::new("b").expect("a name");
+    if relation.parameters().contains(&length) {
+        return None;
+    }
+    let length = Formula::symbol(&length);
     let coefficients = relation.frequency().polynomial()?;
     let (lowest, highest) = (*coefficients.keys().next()?, *coefficients.keys().next_back()?);
     if highest > 64 {
@@ -144,7 +149,6 @@ pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula>
         }
         _ => None,
     };
-    let length = Formula::symbol(&Symbol::new("b").expect("a name"));
     let scale = Formula::integer(2).divide(&length).expect("a symbol");
     let mut sum = Formula::zero();
     for (m, coefficient) in coefficients {

@@ -189,6 +189,9 @@ impl Numbers {
     /// # Errors
     /// [`EnclosureError::Undecided`] where they cannot be told apart.
     pub fn compare(&self, left: &Fraction, right: &Fraction) -> Result<Ordering, EnclosureError> {
+        if let (Some(left), Some(right)) = (left.as_constant(), right.as_constant()) {
+            return Ok(left.cmp(&right));
+        }
         let difference = left - right;
         if let Some(number) = difference.as_constant() {
             return Ok(number.cmp(&Rational::default()));

@@ -16,8 +16,8 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HertzError {
-    /// The exponent m is not positive, or beyond [`PowerLaw::MOST`](super::PowerLaw::MOST) or its
-    /// inverse.
+    /// The exponent m is above [`PowerLaw::MOST`](super::PowerLaw::MOST), or below the inverse of
+    /// [`PowerLaw::LEAST_INVERSE`](super::PowerLaw::LEAST_INVERSE).
     Exponent(String),
     /// A share of the largest force is not from 0 to below 1.
     Share(String),
@@ -40,7 +40,7 @@ impl fmt::Display for HertzError {
         match self {
             Self::Exponent(value) => write!(
                 f,
-                "the exponent m of X = k α^m is {value}; it must be positive, from 1/100 to 100 \
+                "the exponent m of X = k α^m is {value}; it must be positive, from 1/10 to 100 \
                  (3/2 is Hertz's, 1 a spring)"
             ),
             Self::Share(value) => write!(

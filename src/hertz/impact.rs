@@ -44,6 +44,7 @@ pub struct LongBars {
     law: PowerLaw,
     largest_force: Ball,
     largest_compression: Ball,
+    stiffness: Ball,
     time_unit: Ball,
     precision: u64,
 }
@@ -116,8 +117,9 @@ impl LongBars {
         let share = largest_force.multiply(&force.reciprocal(precision)?, precision);
         let share = share.power(&law.exponent().recip(), precision)?;
         let largest_compression = compression.multiply(&share, precision);
+        let stiffness = compression.power(&-law.exponent(), precision)?.multiply(&force, precision);
         let time_unit = largest_compression.multiply(&velocity.reciprocal(precision)?, precision);
-        Ok(LongBars { law, largest_force, largest_compression, time_unit, precision })
+        Ok(LongBars { law, largest_force, largest_compression, stiffness, time_unit, precision })
     }
 
     /// `X_max` (6.52).
@@ -130,6 +132,31 @@ impl LongBars {
     #[must_use]
     pub fn largest_compression(&self) -> &Ball {
         &self.largest_compression
+    }
+
+    /// `k = F₀/α₀^m` of `X = k α^m` (6.49), in units of force by the m-th power of those of length.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// // 8 = k 4^(3/2)
+    /// assert!(bars.unwrap().stiffness().contains(&Rational::from_integer(1.into())));
+    /// ```
+    #[must_use]
+    pub fn stiffness(&self) -> &Ball {
+        &self.stiffness
+    }
+
+    /// The law of the contact.
+    #[must_use]
+    pub fn law(&self) -> &PowerLaw {
+        &self.law
     }
 
     /// `t/t̄ = α_max/V`.

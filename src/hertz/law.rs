@@ -38,7 +38,7 @@ use wavestep_polynomial::Rational;
 /// The exponent of a contact.
 ///
 /// # Invariants
-/// It is from 1/100 to 100.
+/// It is from 1/10 to 100.
 ///
 /// ```
 /// use wavestep::hertz::PowerLaw;
@@ -122,13 +122,16 @@ fn one() -> Ball {
     Ball::from_integer(&1.into())
 }
 
+/// Units of time after which the largest force is as good as reached.
+const VERY_LATE: i64 = 1 << 20;
+
 /// What a sum leaves out, before it is known: it shall be below this part of the first term.
 fn negligible(precision: u64) -> Magnitude {
     Magnitude::power_of_two(-(precision as i64) - 8)
 }
 
 impl PowerLaw {
-    /// The largest exponent; its inverse is the smallest.
+    /// The largest exponent.
     ///
     /// ```
     /// use wavestep::hertz::PowerLaw;
@@ -139,12 +142,23 @@ impl PowerLaw {
     /// ```
     pub const MOST: i64 = 100;
 
+    /// The inverse of the smallest exponent: below it the second series cancels.
+    ///
+    /// ```
+    /// use wavestep::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let least = Rational::new(1.into(), PowerLaw::LEAST_INVERSE.into());
+    /// assert!(PowerLaw::new(least.clone()).is_ok() && PowerLaw::new(least.pow(2)).is_err());
+    /// ```
+    pub const LEAST_INVERSE: i64 = 10;
+
     /// The law `X = k α^m`.
     ///
     /// # Errors
-    /// [`HertzError::Exponent`] where m is not from 1/100 to 100.
+    /// [`HertzError::Exponent`] where m is not from 1/10 to 100.
     pub fn new(exponent: Rational) -> Result<PowerLaw, HertzError> {
-        match exponent >= ratio(1, Self::MOST) && exponent <= ratio(Self::MOST, 1) {
+        match exponent >= ratio(1, Self::LEAST_INVERSE) && exponent <= ratio(Self::MOST, 1) {
             true => Ok(PowerLaw { exponent }),
             false => Err(HertzError::Exponent(exponent.to_string())),
         }
@@ -183,8 +197,9 @@ impl PowerLaw {
             return Ok(Ball::zero());
         }
         let deficit = Rational::one() - share;
-        let lost = deficit.denom().bits().saturating_sub(deficit.numer().bits());
-        let working = precision + lost + 16;
+        // How far the deficit, or the share, is below 1: closed forms take it from the deficit.
+        let below_one = |x: &Rational| x.denom().bits().saturating_sub(x.numer().bits());
+        let working = precision + below_one(&deficit) + below_one(share) + 16;
         let force = exact(share, working);
         let deficit = exact(&deficit, working);
         if self.exponent.is_one() {
@@ -314,7 +329,16 @@ impl PowerLaw {
         if time.magnitude() == Magnitude::ZERO {
             return Ok(Share { force: Ball::zero(), deficit: one(), compression: Ball::zero() });
         }
+        if exact(&ratio(VERY_LATE, 1), 4).is_below(time) {
+            // 1 − φ ≤ max(1, m) e^{−t̄ min(1, m)} ≤ 100 e^{−t̄/10}: from 1 − β^m ≥ 1 − β where m ≥ 1, else
+            // from t̄ ≤ −ln(1 − φ)/m.
+            let deficit = Ball::zero().widened(&Magnitude::power_of_two(-VERY_LATE / 8));
+            let share = one().subtract(&deficit, working);
+            return Ok(Share { force: share.clone(), compression: share, deficit });
+        }
         if self.exponent.is_one() {
+            let early = time.magnitude().top().map_or(0, |top| (-top).max(0) as u64);
+            let working = working + early;
             let deficit = time.clone().negate().exp(working)?;
             let force = one().subtract(&deficit, working);
             return Ok(Share { compression: force.clone(), force, deficit });

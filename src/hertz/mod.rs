@@ -5,11 +5,13 @@
 //! largest force, rise times and the equivalent spring out. Waves that return from far ends are not
 //! part of it; scenes with a `hertz` element are, by the method of steps.
 
+mod comparison;
 mod error;
 mod impact;
 mod law;
 mod scene;
 
+pub use comparison::distance_from_spring;
 pub use error::HertzError;
 pub use impact::{EquivalentSpring, LongBars};
 pub use law::{PowerLaw, Share, equal_bars_constant};

@@ -273,8 +273,8 @@ pub(crate) fn determined(number: &Number, digits: usize) -> Determined {
 }
 
 impl History {
-    /// Follows a scene until a time in the user's units; without one until nothing can meet again, or for
-    /// a hundred of the longest travel times. Instants have the digits asked for, unless they are exact.
+    /// Follows a scene until a time in the user's units or until nothing can meet again; without a time for
+    /// a hundred of the longest travel times at most. Instants have the digits asked for, unless they are exact.
     ///
     /// # Errors
     /// [`HistoryError::MissingValue`] for a symbol without a value; [`HistoryError::Refused`] for what is
@@ -319,11 +319,16 @@ impl History {
         let (end, parted) = match until {
             Some(until) => {
                 let until = Moment::at(network.scaled_time(until));
-                engine.follow_until(&until)?;
-                let parted = has_parted(network, &engine, &until)?;
-                (until, parted)
+                match follow_to_the_end(network, &mut engine, Some(&until))? {
+                    (end, true) => (end, true),
+                    _ => {
+                        engine.follow_until(&until)?;
+                        let parted = has_parted(network, &engine, &until)?;
+                        (until, parted)
+                    }
+                }
             }
-            None => follow_to_the_end(network, &mut engine)?,
+            None => follow_to_the_end(network, &mut engine, None)?,
         };
         let story = Story { network, engine, digits, end, parted };
         story.told()
@@ -341,13 +346,23 @@ pub(crate) fn longest(engine: &Engine) -> Outcome<Fraction> {
     Ok(if longest.is_zero() { Fraction::one() } else { longest })
 }
 
-/// Follows until nothing can meet again, or for a while.
-fn follow_to_the_end(network: &Network, engine: &mut Engine) -> Outcome<(Moment, bool)> {
+/// Follows until nothing can meet again, for a while, or until an instant is near.
+fn follow_to_the_end(
+    network: &Network,
+    engine: &mut Engine,
+    until: Option<&Moment>,
+) -> Outcome<(Moment, bool)> {
     let travel = longest(engine)?;
     let mut end = Moment::at(Fraction::zero());
     for step in 1..=PATIENCE {
         let count = Rational::from_integer(step.into());
-        end = Moment::at(travel.scale(&count));
+        let next = Moment::at(travel.scale(&count));
+        if let Some(until) = until
+            && engine.clock.compare(&next, until)? != Ordering::Less
+        {
+            break;
+        }
+        end = next;
         engine.follow_until(&end)?;
         if has_parted(network, engine, &end)? {
             return Ok((end, true));

@@ -70,7 +70,7 @@ impl fmt::Display for NetworkError {
             NetworkError::Unobservable(name, reason) => write!(f, "{name} {reason}"),
             NetworkError::NotLinear(contact) => write!(
                 f,
-                "the force in `{contact}` is a power of its compression, not a multiple of it, so \
+                "the local contact `{contact}` only pushes, with a power of its compression, so \
                  this scene has no recurrence and no exact solution"
             ),
         }

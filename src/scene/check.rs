@@ -6,10 +6,9 @@ use wavestep_polynomial::{Rational, Symbol};
 use crate::expression::{Assumptions, Condition, Fraction, Relation};
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
-    Bar, Body, Drive, ElementIndex, End, Hertz, Joint, Kind, Load, MAX_EXPONENT, Measure, PI,
-    Place, Position, Scene, Seen,
+    Bar, Body, Drive, ElementIndex, End, Hertz, Joint, Kind, LEAST_EXPONENT_INVERSE, Load,
+    MAX_EXPONENT, Measure, PI, Place, Position, Scene, Seen,
 };
-use num_traits::Signed as _;
 
 impl Scene {
     /// The assumptions of the scene, and that `pi` is greater than 3.
@@ -169,8 +168,8 @@ impl Check<'_> {
         self.positive(index, Property::Force, &hertz.force);
         self.positive(index, Property::Compression, &hertz.compression);
         let exponent = [Part::Property(index, Property::Exponent)];
-        if !hertz.exponent.is_positive() {
-            self.fault(Mistake::ExponentNotPositive, exponent);
+        if hertz.exponent < Rational::new(1.into(), LEAST_EXPONENT_INVERSE.into()) {
+            self.fault(Mistake::ExponentTooSmall, exponent);
         } else if hertz.exponent > Rational::from_integer(MAX_EXPONENT.into()) {
             self.fault(Mistake::ExponentTooLarge, exponent);
         }

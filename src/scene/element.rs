@@ -209,7 +209,8 @@ pub struct Hertz {
     pub force: Fraction,
     /// `α_0`; positive.
     pub compression: Fraction,
-    /// `m`, positive and at most [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
+    /// `m`, from the inverse of [`LEAST_EXPONENT_INVERSE`](crate::scene::LEAST_EXPONENT_INVERSE) to
+    /// [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
     pub exponent: Rational,
 }
 
@@ -220,6 +221,16 @@ pub struct Hertz {
 /// assert!(0.5_f64.powi(i32::from(wavestep::scene::MAX_EXPONENT)) < 1e-30);
 /// ```
 pub const MAX_EXPONENT: u8 = 100;
+
+/// The inverse of the smallest exponent of a local contact. With smaller ones the contact is as good as
+/// a constant force, and its start as good as a jump.
+///
+/// ```
+/// // At a thousandth of the compression half of the force is there.
+/// let least = 1.0 / f64::from(wavestep::scene::LEAST_EXPONENT_INVERSE);
+/// assert!((1e-3_f64.powf(least) - 0.5).abs() < 2e-3);
+/// ```
+pub const LEAST_EXPONENT_INVERSE: u8 = 10;
 
 /// A spring of stiffness `k` with a parallel damper `d` to the ground: `X_left − X_right = d v + k u`,
 /// `u' = v`.

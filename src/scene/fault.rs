@@ -125,8 +125,8 @@ pub enum Mistake {
     NoStiffness,
     /// A load may end before it begins.
     EndsBeforeBegin,
-    /// The exponent of a local contact is not positive.
-    ExponentNotPositive,
+    /// The exponent of a local contact is below 1/10.
+    ExponentTooSmall,
     /// The exponent of a local contact is larger than
     /// [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
     ExponentTooLarge,
@@ -214,7 +214,7 @@ impl fmt::Display for Mistake {
             Mistake::Negative => "a property may be negative",
             Mistake::NoStiffness => "it has neither stiffness nor damping",
             Mistake::EndsBeforeBegin => "the load does not certainly end after it begins",
-            Mistake::ExponentNotPositive => "the exponent of a local contact is positive",
+            Mistake::ExponentTooSmall => "the exponent of a local contact is at least 1/10",
             Mistake::ExponentTooLarge => "the exponent of a local contact is at most 100",
             Mistake::NothingMoves => "nothing moves in this scene",
             Mistake::EndlessWithoutBar => "only a bar can go on for ever",

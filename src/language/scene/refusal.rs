@@ -130,9 +130,9 @@ impl Lowering<'_> {
                 own(&["ends here", "begins here"]),
                 "let `until` be later than `from`, which is 0 if it is left out".to_owned(),
             ),
-            Mistake::ExponentNotPositive => (
-                own(&["zero or negative"]),
-                "give a positive `exponent`; a ball on a flat body has 3/2".to_owned(),
+            Mistake::ExponentTooSmall => (
+                own(&["smaller"]),
+                "give a larger `exponent`; a ball on a flat body has 3/2".to_owned(),
             ),
             Mistake::ExponentTooLarge => (
                 own(&["larger"]),

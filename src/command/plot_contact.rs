@@ -1,0 +1,80 @@
+//! `plot` for scenes with a local contact: observables against time, by the method of steps.
+
+use super::arguments::Plot;
+use super::eval_contact::noted;
+use super::failure::Failure;
+use super::input;
+use super::plot::{double, names};
+use super::quantity;
+use num_rational::BigRational;
+use num_traits::FromPrimitive as _;
+use wavestep::answer::{Kind, Way};
+use wavestep::hertz::ContactOfScene;
+use wavestep::network::ScaledScene;
+use wavestep::picture::{Course, Sampled, against_time};
+use wavestep::plot::{Caption, Chart};
+use wavestep::scene::Dimension;
+
+/// The tolerance of the method of steps: far finer than a picture shows.
+const STEPS: Kind = Kind::Steps { tolerance: 1e-8 };
+
+/// At how many times one looks.
+const POINTS: usize = 1000;
+
+/// How many units of time of the contact are shown where no end is given.
+const UNITS: f64 = 8.0;
+
+/// Bits of these.
+const BITS: u64 = 64;
+
+/// Draws what is asked for.
+pub fn chart(scaled: &ScaledScene, options: &Plot) -> Result<Box<dyn Chart>, Failure> {
+    let scene = scaled.scene();
+    if options.diagram.is_some() || !options.at_time.is_empty() {
+        let message = "diagrams and fields need waves in closed form, and a local contact has none";
+        return Err(Failure::usage(message, "draw observables against time, or use a spring"));
+    }
+    let from = input::time("--from", &options.from, scene.dimensional)?;
+    let to = match &options.to {
+        Some(to) => input::time("--to", to, scene.dimensional)?,
+        None => &from + usual_length(scaled)?,
+    };
+    let (from, to) = (double(&from), double(&to));
+    if from >= to {
+        let message = format!("the window from {from} to {to} is empty");
+        return Err(Failure::usage(message, "give --from before --to"));
+    }
+    let times: Vec<f64> =
+        (0..=POINTS).map(|i| from + (to - from) * i as f64 / POINTS as f64).collect();
+    let all = scene.observables.iter().map(|observable| observable.name.clone());
+    let course = |name: String| -> Result<Course, Failure> {
+        let place = quantity::of_model(scene, &name)?;
+        let values = Way::of_model(STEPS, scaled, place)?.values(&times)?;
+        let points = times.iter().copied().zip(values).collect();
+        let dimension = match scene.dimensional {
+            true => scene.observables[place].terms[0].measure.dimension(),
+            false => Dimension::NONE,
+        };
+        Ok(Course { name, dimension, values: Sampled { points, jumps: Vec::new() } })
+    };
+    let courses: Vec<Course> =
+        names(options, all)?.into_iter().map(course).collect::<Result<_, _>>()?;
+    let title = options.title.as_deref().unwrap_or(&scene.title);
+    let remark = "Tested, not certified: a local contact has no exact solution.";
+    let caption = Caption { remarks: vec![remark.to_owned()], ..Caption::default() };
+    noted(scaled, STEPS);
+    Ok(Box::new(against_time(title, &courses, scene.dimensional, (from, to), caption)?))
+}
+
+/// Some units of time of the contact, and twice the time until a wave returns to it: two figures.
+fn usual_length(scaled: &ScaledScene) -> Result<BigRational, Failure> {
+    let missing = || Failure::usage("the window has no end", "give --to T");
+    let contact = ContactOfScene::new(scaled, BITS).map_err(|_| missing())?;
+    let seconds = |ball: &wavestep::ball::Ball| ball.to_decimal(15).midpoint().to_rational();
+    let units = double(&seconds(contact.bars.time_unit())) * UNITS;
+    let returned = contact.first_return.as_ref().map_or(0.0, |time| 2.0 * double(&seconds(time)));
+    let length = units.max(returned);
+    let step = 10_f64.powi(length.log10().floor() as i32 - 1);
+    let figures = BigRational::from_f64((length / step).ceil()).ok_or_else(missing)?;
+    Ok(figures * BigRational::from_f64(step).ok_or_else(missing)?)
+}
