@@ -143,8 +143,9 @@ impl Examination {
         }
         let dictionary = section.dictionary_of(equations(entry));
         if !dictionary.is_empty() {
-            let here =
-                format!("The source's names by those of the scene: {}", dictionary.join(", "));
+            let names: Vec<String> =
+                dictionary.iter().map(|line| line.replacen(" = ", " is ", 1)).collect();
+            let here = format!("In the scene the source's {}.", names.join(", its "));
             out.push_str(&wrapped(&here, width, "    "));
         }
         out.push('\n');
@@ -216,7 +217,7 @@ impl Examination {
             let rows = dictionary.iter().filter_map(|line| Equation::read(line).ok());
             let rows: Vec<String> = rows.map(|row| of_equation(&row)).collect();
             out.push_str(&format!(
-                "The source's names by those of the scene:\n\\[ {} \\]\n",
+                "Names of the source on the left, of the scene on the right:\n\\[ {} \\]\n",
                 rows.join(", \\quad ")
             ));
         }

@@ -113,7 +113,7 @@ impl DispersionError {
             Self::NoPeak => "give a spectrum that is positive".to_owned(),
             Self::AccuracyNotReached { .. } => "ask for fewer digits".to_owned(),
             Self::Ball(_) => "ask for smaller wavenumbers".to_owned(),
-            Self::Grid(_) => "give another time or another number of points, or no --points".to_owned(),
+            Self::Grid(_) => "give a positive time, shorter or with fewer points where the grid is too large".to_owned(),
         }
     }
 }

@@ -204,7 +204,7 @@ fn estimates_are_measured_against_what_is_known() {
     assert!((line("1/4") - 2.0 * (1.0 + (-8.0_f64).exp())).abs() < 5e-6);
     let bound = |number: &str| {
         let Verdict::Checked(told) = &examined(number).verdict else { panic!("an estimate") };
-        let percent = told.strip_prefix("within ").and_then(|rest| rest.split(' ').next());
+        let percent = told.strip_prefix("off by up to ").and_then(|rest| rest.split(' ').next());
         percent.expect("a bound").parse::<f64>().expect("a number")
     };
     let (energy, better) = (bound("6.10-energy"), bound("6.86"));

@@ -166,7 +166,7 @@ fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, 
     let bound = Decimal::from_rational(&bound, 6).0;
     let [(first, below), .., (last, _)] = MASSES;
     let told = format!(
-        "within {bound} % of the largest strain at {} masses, 1/mu from {first}/{below} to {last}; worst \
+        "off by up to {bound} % of the largest strain at {} masses, 1/mu from {first}/{below} to {last}; worst \
          at 1/mu = {}",
         MASSES.len(),
         worst.1
