@@ -8,6 +8,8 @@ pub enum LeftEnd {
     Mass,
     /// A force that grows evenly with time, `F = t`.
     Push,
+    /// A force that begins smoothly, `F = t^4`.
+    Smooth,
 }
 
 /// A bar of impedance, length and wave speed 1: velocities at N + 1 nodes, strains in N cells between
@@ -51,6 +53,7 @@ impl Leapfrog {
         let (mass, force) = match self.end {
             LeftEnd::Mass => (1.0, 0.0),
             LeftEnd::Push => (0.0, self.time),
+            LeftEnd::Smooth => (0.0, self.time.powi(4)),
         };
         self.velocity[0] += self.step * (self.strain[0] + force) / (mass + self.cell / 2.0);
         for i in 1..cells {

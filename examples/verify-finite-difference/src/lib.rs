@@ -2,8 +2,8 @@
 //! exact field at the same time, and read the order of convergence off the errors.
 //!
 //! The strain of a cell in a staggered mesh stands for its average, and that is what it is compared
-//! with. Two cases: a bar pushed by a force `F = t`, whose fields are continuous with kinks, and a mass
-//! that strikes it, whose fields jump.
+//! with. Three cases: a bar pushed by a force `F = t^4`, whose fields are smooth, by a force `F = t`,
+//! whose fields are continuous with kinks, and a mass that strikes it, whose fields jump.
 
 mod leapfrog;
 
@@ -13,6 +13,10 @@ use wavestep::field::{FieldEvaluator, Mesh, Quantity};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::plot::{Axis, Caption, Figure, Look, Panel, PlotError, Series};
+
+/// The cases, with how their fields are.
+pub const CASES: [(LeftEnd, &str); 3] =
+    [(LeftEnd::Smooth, "smooth"), (LeftEnd::Push, "continuous"), (LeftEnd::Mass, "with jumps")];
 
 /// The errors of the strain on one mesh.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -39,6 +43,12 @@ pub fn scene(end: LeftEnd) -> &'static str {
         LeftEnd::Push => {
             "scene \"A growing force on a fixed bar\"\n\
              load push { force = t }\n\
+             bar rod { impedance = 1, travel = 1 }\n\
+             line free - push - rod - fixed\n"
+        }
+        LeftEnd::Smooth => {
+            "scene \"A force that begins smoothly on a fixed bar\"\n\
+             load push { force = t^4 }\n\
              bar rod { impedance = 1, travel = 1 }\n\
              line free - push - rod - fixed\n"
         }
@@ -76,17 +86,24 @@ pub fn order(coarse: (usize, f64), fine: (usize, f64)) -> f64 {
     (coarse.1 / fine.1).log2() / (fine.0 as f64 / coarse.0 as f64).log2()
 }
 
-/// The errors over the number of cells, both cases and all norms.
+/// The errors over the number of cells, all cases and all norms; the orders between the coarsest and the
+/// finest mesh stand beside the names.
 ///
 /// # Errors
 /// [`PlotError`] where an error is zero.
 pub fn figure(cells: &[usize]) -> Result<Figure, PlotError> {
     let mut panels = Vec::new();
-    for (end, name) in [(LeftEnd::Push, "continuous"), (LeftEnd::Mass, "with jumps")] {
+    for (end, name) in CASES {
         let found: Vec<Errors> = cells.iter().map(|cells| errors(end, *cells)).collect();
         let series = |name: &str, of: fn(&Errors) -> f64| {
-            let points = found.iter().map(|errors| (errors.cells as f64, of(errors))).collect();
-            Series::new(name, points).look(Look::Both)
+            let points: Vec<(f64, f64)> =
+                found.iter().map(|errors| (errors.cells as f64, of(errors))).collect();
+            let ends = found.first().zip(found.last()).filter(|(a, b)| a.cells < b.cells);
+            let name = match ends.map(|(a, b)| order((a.cells, of(a)), (b.cells, of(b)))) {
+                Some(order) => format!("{name}: order {order:.2}"),
+                None => name.to_owned(),
+            };
+            Series::new(&name, points).look(Look::Both)
         };
         let series = vec![
             series("mean", |errors| errors.mean),

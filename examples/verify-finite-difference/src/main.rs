@@ -1,13 +1,13 @@
 //! Prints errors and orders, and draws them: `cargo run -p verify-finite-difference -- errors.svg`.
 
 use std::error::Error;
-use verify_finite_difference::{Errors, LeftEnd, errors, figure, order};
+use verify_finite_difference::{CASES, Errors, errors, figure, order};
 use wavestep::plot::Chart;
 
 const CELLS: [usize; 6] = [40, 80, 160, 320, 640, 1280];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    for end in [LeftEnd::Push, LeftEnd::Mass] {
+    for (end, _) in CASES {
         println!("{end:?}: cells, errors (mean, root of the mean square, largest), orders");
         let mut before: Option<Errors> = None;
         for cells in CELLS {

@@ -11,6 +11,14 @@ fn orders(end: LeftEnd) -> [f64; 3] {
     [between(|e| e.mean), between(|e| e.square), between(|e| e.largest)]
 }
 
+/// Leapfrog is of order 2 where nothing bends sharply, in every norm.
+#[test]
+fn smooth_fields_show_the_order_of_the_scheme() {
+    for order in orders(LeftEnd::Smooth) {
+        assert!((order - 2.0).abs() < 0.05, "{order}");
+    }
+}
+
 /// A scheme of order 2 smears a front over a width of `h^{2/3}`: kinks cost `h^{2/3}` at their place,
 /// `h^{4/3}` in the mean, `h` in the root of the mean square.
 #[test]
