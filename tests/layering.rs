@@ -66,6 +66,7 @@ const LAYERS: [(&str, &[&str]); 24] = [
             "expression",
             "field",
             "hertz",
+            "history",
             "language",
             "network",
             "picture",

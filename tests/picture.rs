@@ -181,6 +181,36 @@ fn fields_along_the_line_jump_at_fronts() {
     assert!((jumps[0][2].as_f64().unwrap() - 5.0).abs() < 1e-12);
 }
 
+/// Without `--to` pulses come to all places that are observed, and pass.
+#[test]
+fn windows_last_until_pulses_have_passed() {
+    let folder = folder("window");
+    let data = json(&folder, &["hopkinson", "--quantity", "gauge_output"]);
+    let points: Vec<(f64, f64)> = data["panels"][0]["series"][0]["points"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(pair)
+        .collect();
+    let largest = points.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
+    assert!(largest > 0.4, "{largest}");
+    // It falls to a tenth of its size within the window.
+    let peak = points.iter().position(|point| point.1.abs() == largest).unwrap();
+    assert!(points[peak..].iter().any(|point| point.1.abs() < largest / 10.0));
+}
+
+/// Without units velocities, strains and momenta have panels of their own.
+#[test]
+fn kinds_without_units_have_panels_of_their_own() {
+    let folder = folder("kinds");
+    let data = json(&folder, &["mass-on-fixed-bar", "--set", "mu=1", "--to", "3"]);
+    let panels = data["panels"].as_array().unwrap();
+    let names: Vec<&str> =
+        panels.iter().map(|panel| panel["y"]["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["velocity", "strain", "momentum", "energy"]);
+    assert_eq!(panels[1]["series"].as_array().unwrap().len(), 2);
+}
+
 #[test]
 fn numbers_are_written_as_csv() {
     let folder = folder("csv");

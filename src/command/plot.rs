@@ -10,6 +10,7 @@ use super::quantity;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::evaluate::{EvaluateError, Side, Signal};
+use wavestep::expression::Fraction;
 use wavestep::field::Quantity;
 use wavestep::history::History;
 use wavestep::language;
@@ -22,14 +23,16 @@ use wavestep::plot::{Caption, Chart};
 use wavestep::recurrence::Recurrence;
 use wavestep::scene::{Dimension, Measure, Seen};
 
-/// How many periods are shown where no end is given.
+/// How many periods are shown at least where no end is given, and how often a wave may pass the whole line
+/// in that time.
 const PERIODS: i64 = 4;
+const PASSAGES: i64 = 2;
 
 /// At how many times an energy is looked at.
 const ENERGY_STEPS: usize = 240;
 
 /// At how many times one is looked at across the phases of contacts, each time a sum over all bars.
-const PHASE_STEPS: i64 = 96;
+const PHASE_STEPS: i64 = 240;
 
 /// Digits of these.
 const PHASE_DIGITS: usize = 6;
@@ -133,6 +136,7 @@ fn default_length(subject: &Subject) -> Result<BigRational, Failure> {
         Subject::Scene(network) => network,
     };
     let [period] = network.lattice().periods() else { return Err(missing()) };
+    let periods = periods.max(passages(network, period));
     let slowness = &network.model().slowness;
     if let (Some(period), Some(slowness)) = (period.as_constant(), slowness.as_constant()) {
         return Ok(period / slowness * periods);
@@ -142,10 +146,35 @@ fn default_length(subject: &Subject) -> Result<BigRational, Failure> {
     let signal = Signal::of_scene(network, observed, &BigRational::default())?;
     let period = signal.period().ok_or_else(missing)?;
     // Two figures, and not less.
-    let step = 10_f64.powi((period * PERIODS as f64).log10().floor() as i32 - 1);
-    let steps = (period * PERIODS as f64 / step).ceil().to_i64().ok_or_else(missing)?;
+    let length = period * double(&periods);
+    let step = 10_f64.powi(length.log10().floor() as i32 - 1);
+    let steps = (length / step).ceil().to_i64().ok_or_else(missing)?;
     let step = BigRational::from_float(step).ok_or_else(missing)?;
     Ok(step * BigRational::from_integer(steps.into()))
+}
+
+/// In how many periods a wave has passed the whole line twice and come to all places observed; none where
+/// that is not known exactly.
+fn passages(network: &Network, period: &Fraction) -> BigRational {
+    let mut travel = Fraction::zero();
+    for bar in network.model().bars.values() {
+        if let Some(own) = &bar.travel {
+            travel = &travel + own;
+        }
+    }
+    let exact = |time: &Fraction| time.as_constant();
+    let delays = network.observables().iter().flat_map(|observed| match &observed.value {
+        ObservedValue::Linear(observation) => observation.waves.iter(),
+        ObservedValue::Energy(_) => [].iter(),
+    });
+    let latest = delays.filter_map(|wave| exact(&wave.delay)).max().unwrap_or_default();
+    match (exact(&travel), exact(period)) {
+        (Some(travel), Some(period)) => {
+            let passages = BigRational::from_integer(PASSAGES.into());
+            ((travel * passages + latest) / period).ceil()
+        }
+        _ => BigRational::default(),
+    }
 }
 
 /// The quantities asked for, or all observables, with the title of the scene and whether it has units.
@@ -177,7 +206,8 @@ fn of_recurrence(
     let course = |name: String| {
         let observation = quantity::of_recurrence(recurrence, &name)?;
         let signal = Signal::of_recurrence(recurrence, &observation)?;
-        Ok(Course { name, dimension: Dimension::NONE, values: sampled(signal, from, to)? })
+        let values = sampled(signal, from, to)?;
+        Ok(Course { name, dimension: Dimension::NONE, measure: None, values })
     };
     names(options, all)?.into_iter().map(course).collect()
 }
@@ -201,7 +231,8 @@ fn of_scene(
                 sampled_energy(network, &observed, [from, to], ENERGY_STEPS)?
             }
         };
-        Ok(Course { name, dimension: observed.dimension, values })
+        let measure = measure_of(network, &name);
+        Ok(Course { name, dimension: observed.dimension, measure, values })
     };
     names(options, all)?.into_iter().map(course).collect()
 }
@@ -216,16 +247,25 @@ fn across_phases(
     let Observed { name, dimension, .. } = quantity::of_phases(network, name)?;
     let is_sum = |term: &Seen| matches!(term.measure, Measure::Energy | Measure::Momentum);
     let own = network.scene().observables.iter().find(|own| own.name == name);
+    let measure = measure_of(network, &name);
     if !own.is_some_and(|own| own.terms.iter().any(is_sum)) {
         let values = sampled_search(&History::search(network, &name, [from, to])?)?;
-        return Ok(Course { name, dimension, values });
+        return Ok(Course { name, dimension, measure, values });
     }
     let time = |step: i64| from + (to - from) * BigRational::new(step.into(), PHASE_STEPS.into());
     let times: Vec<BigRational> = (0..=PHASE_STEPS).map(time).collect();
     let values = History::values(network, &name, &times, Side::Right, PHASE_DIGITS)?;
     let points = times.iter().zip(&values).map(|(time, value)| (double(time), value.to_double()));
     let values = Sampled { points: points.collect(), jumps: Vec::new() };
-    Ok(Course { name, dimension, values })
+    Ok(Course { name, dimension, measure, values })
+}
+
+/// What an observable measures; none where its terms differ, or where it is a wave.
+fn measure_of(network: &Network, name: &str) -> Option<Measure> {
+    let own = network.scene().observables.iter().find(|own| own.name == name)?;
+    let mut measures = own.terms.iter().map(|term| term.measure);
+    let first = measures.next()?;
+    measures.all(|other| other == first).then_some(first)
 }
 
 /// The names asked for, or all.

@@ -167,9 +167,11 @@ impl FieldEvaluator {
         bar: &FieldBar,
         to: &Rational,
     ) -> Result<(Fraction, f64), FieldError> {
-        let (span, length) = self.span(bar, &self.network().scaled_time(to), None)?;
+        let asked = self.reach.as_ref();
+        let (span, length) = self.span(bar, &self.network().scaled_time(to), asked)?;
         let length = self.double(&length)?;
         let reach = match bar.extent {
+            _ if asked.is_some() => None,
             Extent::Finite => None,
             _ => self.reach_of_endless(to)?.filter(|reach| *reach < length),
         };

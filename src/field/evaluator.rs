@@ -64,6 +64,8 @@ pub struct FieldEvaluator {
     pub(super) waves: Box<dyn EnteringWaves>,
     pub(super) numbers: Numbers,
     last: Rational,
+    /// How far pictures look along endless bars.
+    pub(super) reach: Option<Rational>,
 }
 
 /// The delays of a node, in the scale of the scene, with where it is.
@@ -109,7 +111,37 @@ impl FieldEvaluator {
         let bars = network.field_bars()?;
         let waves = waves(&network, &bars)?;
         let numbers = Numbers::new(&network.model().constants);
-        Ok(FieldEvaluator { network, bars, waves, numbers, last: last.clone() })
+        Ok(FieldEvaluator { network, bars, waves, numbers, last: last.clone(), reach: None })
+    }
+
+    /// The same, with endless bars looked at as far as a length in pictures: in
+    /// [`waves`](Self::waves) and [`profiles`](Self::profiles).
+    ///
+    /// # Errors
+    /// [`FieldError::NegativeReach`] for a length that is not above zero.
+    ///
+    /// ```
+    /// use wavestep::field::FieldEvaluator;
+    /// use wavestep::language::{Source, parse_number, read_scene};
+    /// use wavestep::network::Network;
+    ///
+    /// let text = wavestep::scenes::find("striker-on-long-bar").unwrap().text;
+    /// let values = [("r".to_owned(), parse_number("1")?)].into();
+    /// let scene = read_scene(&Source::new("striker-on-long-bar", text)?, &values).unwrap();
+    /// let evaluator = FieldEvaluator::new(&Network::new(&scene).unwrap(), &parse_number("2")?);
+    /// let evaluator = evaluator.unwrap().looking(&parse_number("4")?).unwrap();
+    /// let profiles = evaluator.profiles(&parse_number("2")?, 10).unwrap();
+    /// // The pulse fills half of the part of the long bar that is looked at.
+    /// let [pulse, rest] = &profiles[1].stretches[..] else { panic!("two stretches") };
+    /// assert_eq!((pulse[0].1[0], pulse.last().unwrap().0), (0.5, 2.0));
+    /// assert_eq!((rest[0].1[0], rest.last().unwrap().0), (0.0, 4.0));
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn looking(self, reach: &Rational) -> Result<FieldEvaluator, FieldError> {
+        match *reach > Rational::default() {
+            true => Ok(FieldEvaluator { reach: Some(reach.clone()), ..self }),
+            false => Err(FieldError::NegativeReach(reach.clone())),
+        }
     }
 
     /// The names of the bars, from left to right.

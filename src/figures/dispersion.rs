@@ -4,7 +4,7 @@ use super::Listed;
 use super::error::FigureError;
 use super::scene::caption;
 use crate::dispersion::{Builtin, Relation, Shape, peak_velocity_at};
-use crate::plot::{Axis, Chart, Figure, Panel, Series};
+use crate::plot::{Axis, Chart, Figure, Look, Panel, Series};
 use std::f64::consts::TAU;
 
 /// Points of a curve.
@@ -12,6 +12,9 @@ const POINTS: u32 = 240;
 
 /// Two waves that lie near each other, on the built-in relation of masses on springs.
 const TWO_WAVES: [f64; 2] = [1.0, 1.15];
+
+/// Which crest of a group is followed, counted from its middle.
+const CREST: f64 = 2.0;
 
 /// A curve of a function from 0 to `last`.
 fn curve(name: &str, last: f64, function: impl Fn(f64) -> f64) -> Series {
@@ -99,39 +102,36 @@ pub(super) fn crests(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let [k, step] = [1.0, 0.12];
     let omega = |k: f64| Ok::<f64, FigureError>(relation.frequency_at(k)?.value);
     let (w1, w2) = (omega(k - step / 2.0)?, omega(k + step / 2.0)?);
-    let (carrier, wave_number) = ((w1 + w2) / 2.0, k);
-    let last = TAU / step * 1.6;
+    let (carrier, group_velocity) = ((w1 + w2) / 2.0, (w2 - w1) / step);
+    let last = TAU / step * 1.2;
     let mut panels = Vec::new();
-    for eighths in 0..4_u32 {
-        let time = f64::from(eighths) * TAU / carrier / 2.0;
+    for periods in [0.0, 1.25, 2.5, 3.75] {
+        let time = periods * TAU / carrier;
         let half = move |x: f64| ((w2 - w1) * time - step * x) / 2.0;
-        let wave = move |x: f64| 2.0 * half(x).cos() * (carrier * time - wave_number * x).cos();
+        let wave = move |x: f64| 2.0 * half(x).cos() * (carrier * time - k * x).cos();
         let points = (0..=900).map(|i| f64::from(i) / 900.0 * last);
+        // The second crest of the first group, ahead of its middle, where both waves are in step; it is
+        // followed for as long as the envelope keeps its sign there.
+        let crest = carrier / k * time + CREST * TAU / k;
+        let middle = group_velocity * time;
+        let envelope = |sign: f64| move |x: f64| sign * 2.0 * half(x).cos().abs();
         let series = vec![
-            Series::new(
-                if eighths == 0 { "both waves" } else { "" },
-                points.map(|x| (x, wave(x))).collect(),
-            )
-            .styled(0),
-            curve(if eighths == 0 { "envelope" } else { "" }, last, move |x| {
-                2.0 * half(x).cos().abs()
-            })
-            .styled(1),
+            Series::new("both waves", points.map(|x| (x, wave(x))).collect()).styled(0),
+            curve("envelope", last, envelope(1.0)).styled(1),
+            curve("", last, envelope(-1.0)).styled(1),
+            Series::new("one crest", vec![(crest, wave(crest))]).look(Look::Points).styled(3),
+            Series::new("middle of its group", vec![(middle, 2.0)]).look(Look::Points).styled(2),
         ];
-        // One crest, as far as it has run.
-        let crest = carrier / wave_number * time + TAU / wave_number * 5.0;
-        let group = (w2 - w1) / step * time;
-        panels.push(
-            Panel::new(Axis::linear(&format!("u/U, {} periods", f64::from(eighths) / 2.0)), series)
-                .note((crest, 2.0), "crest")
-                .note((group, -1.6), "c_g t"),
-        );
+        panels.push(Panel::new(Axis::linear(&format!("u/U, {periods} periods")), series));
     }
-    let remarks =
-        ["Euler's beam, ω = k², k = 0.94 and 1.06: the group runs twice as fast as its crests, \
-                    which therefore run back through it."];
+    let remarks = [
+        "Euler's beam, ω = k², k = 0.94 and 1.06; a period is that of the mean frequency. The group \
+                    runs twice as fast as its crests: the crest that is marked is ahead of the middle at \
+                    first, and behind it in the end.",
+    ];
     let caption = caption(listed.number, &remarks);
-    Ok(Box::new(Figure::new(listed.title, Axis::linear("place x"), panels, caption)?))
+    let place = Axis::linear("place x, where 2π is a mean wavelength");
+    Ok(Box::new(Figure::new(listed.title, place, panels, caption)?.window(0.0, last)?))
 }
 
 /// `c_p`, `c_g`, and `c_pp` of a square and a triangular pulse.

@@ -4,6 +4,7 @@ use crate::dispersion::DispersionError;
 use crate::evaluate::EvaluateError;
 use crate::field::FieldError;
 use crate::hertz::HertzError;
+use crate::history::HistoryError;
 use crate::picture::PictureError;
 use crate::plot::PlotError;
 use std::fmt;
@@ -26,6 +27,8 @@ pub enum FigureError {
     Dispersion(Box<DispersionError>),
     /// A value could not be computed.
     Evaluate(Box<EvaluateError>),
+    /// A scene could not be followed through the phases of its contacts.
+    History(Box<HistoryError>),
     /// A scene could not be drawn.
     Picture(Box<PictureError>),
     /// A chart could not be drawn.
@@ -47,6 +50,7 @@ impl fmt::Display for FigureError {
             Self::Hertz(error) => error.fmt(f),
             Self::Dispersion(error) => error.fmt(f),
             Self::Evaluate(error) => error.fmt(f),
+            Self::History(error) => error.fmt(f),
             Self::Picture(error) => error.fmt(f),
             Self::Plot(error) => error.fmt(f),
         }
@@ -68,6 +72,7 @@ macro_rules! from {
 from!(HertzError, Hertz);
 from!(DispersionError, Dispersion);
 from!(EvaluateError, Evaluate);
+from!(HistoryError, History);
 from!(PictureError, Picture);
 from!(PlotError, Plot);
 

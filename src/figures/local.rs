@@ -26,8 +26,11 @@ pub(super) fn rise(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let hertz = Series::new("Hertz, m = 3/2", curve(PowerLaw::hertz())?);
     let spring = Series::new("linear spring", curve(PowerLaw::new(ratio(1, 1))?)?);
     let panel = Panel::new(Axis::linear("X/X_max"), vec![hertz, spring]).level(1.0, "limit");
-    let time = Axis::linear("time t h^(1/m) V^(1−1/m)");
-    let remarks = ["Two long bars; 6.51 and 6.55, values certified."];
+    let time = Axis::linear("dimensionless time t h^(2/3) V^(1/3)");
+    let remarks = [
+        "Two long bars; 6.51 and 6.55, values certified. h = k (1/Z1 + 1/Z2), the force is k times the \
+         compression to the power 3/2; the spring is the equivalent one of 6.56, h1 = h^(2/3) V^(1/3).",
+    ];
     let caption = caption(listed.number, &remarks);
     Ok(Box::new(Figure::new(listed.title, time, vec![panel], caption)?.window(0.0, 5.0)?))
 }

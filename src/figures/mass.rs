@@ -3,60 +3,77 @@
 use super::Listed;
 use super::error::FigureError;
 use super::largest_strain::LargestStrain;
-use super::scene::{caption, course, network, ratio, recurrence};
+use super::scene::{caption, followed, network, ratio};
 use crate::ball::Ball;
-use crate::field::{FieldEvaluator, Quantity};
+use crate::field::Quantity;
+use crate::history::field_evaluator;
 use crate::picture::lagrange;
 use crate::plot::{Axis, Chart, Figure, Look, Panel, Series};
 
 /// The mass of the bar over the striking mass in 6.20 and 6.21.
 const MU: (i64, i64) = (1, 2);
 
+/// The last time in 6.20 and 6.21, in L/c.
+const LAST: i64 = 6;
+
 /// How many periods 6.22 shows, and up to which ratio of masses.
 const PERIODS: usize = 6;
 const LARGEST_RATIO: i64 = 40;
 
+/// When the mass leaves the bar, in L/c.
+fn release() -> f64 {
+    let strains = LargestStrain::new(PERIODS).expect("few periods");
+    strains.release(&ratio(MU.0, MU.1)).expect("within the periods")
+}
+
 /// 6.20.
 pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
-    let network = network("mass-on-fixed-bar", &[("mu", ratio(MU.0, MU.1))]);
-    let window = [&ratio(0, 1), &ratio(3, 1)];
-    let remarks =
-        ["The mass of the bar is half the striking mass. Times in M/Z, strains in V/c. The mass \
-                    is kept on the bar."];
-    let evaluator = FieldEvaluator::new(&network, window[1])?;
+    let network = network("saint-venant", &[("mu", ratio(MU.0, MU.1))]);
+    let window = [&ratio(0, 1), &ratio(LAST, 1)];
+    let remarks = [
+        "The mass of the bar is half the striking mass; x from the struck end. Compression is positive; \
+                    hatched: tension. The mass leaves where the strain at x = 0 has come to zero.",
+    ];
+    let evaluator = field_evaluator(&network, window[1])?;
     let caption = caption(listed.number, &remarks);
-    let diagram = lagrange(&evaluator, Quantity::Strain, window, caption)?;
-    Ok(Box::new(diagram.titled(listed.title)))
+    // With V = 1 and Z = 1 the compressive force is −ε c/V.
+    let diagram = lagrange(&evaluator, Quantity::Force, window, caption)?;
+    let diagram = diagram.level(release(), "the mass leaves")?.titled(listed.title);
+    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "−ε c/V"])))
 }
 
 /// 6.21.
 pub(super) fn courses(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
-    let mu = ratio(MU.0, MU.1);
-    let scene = recurrence("rigid-mass", &[("mu", mu.clone())]);
-    let last = &mu * ratio(6, 1);
-    // Times in L/c, not in L/(μc).
-    let scale = f64::from(i32::try_from(MU.1).unwrap_or(1)) / MU.0 as f64;
+    let network = network("saint-venant", &[("mu", ratio(MU.0, MU.1))]);
+    let last = ratio(LAST, 1);
     let series = |name: &str, label: &str, sign: f64| -> Result<Series, FigureError> {
-        let values = course(&scene, name, &last)?;
-        let points = values.points.iter().map(|(t, y)| (t * scale, sign * y)).collect();
-        let jumps = values.jumps.iter().map(|(t, a, b)| (t * scale, sign * a, sign * b)).collect();
+        let values = followed(&network, name, &last)?;
+        // Adding zero turns a negative zero into zero.
+        let signed = |y: f64| sign * y + 0.0;
+        let points = values.points.iter().map(|(t, y)| (*t, signed(*y))).collect();
+        let jumps = values.jumps.iter().map(|(t, a, b)| (*t, signed(*a), signed(*b))).collect();
         Ok(Series::new(label, points).jumping(jumps))
     };
-    let velocity = series("velocity", "velocity of the mass v0/V", 1.0)?;
-    let struck = series("strain_impact", "strain at the struck end, −ε0 c/V", -1.0)?;
-    let fixed = series("strain_fixed", "strain at the fixed end, −εL c/V", -1.0)?;
+    let velocity = series("velocity", "mass", 1.0)?;
+    let struck = series("strain_impact", "struck end, ε0", -1.0)?;
+    let fixed = series("strain_fixed", "fixed end, εL", -1.0)?;
     let panels = vec![
-        Panel::new(Axis::linear("velocity v0/V"), vec![Series { name: String::new(), ..velocity }])
-            .level(0.0, ""),
-        Panel::new(Axis::linear("strain −ε c/V"), vec![struck, fixed]).level(0.0, ""),
+        Panel::new(Axis::linear("velocity v0/V"), vec![velocity]),
+        Panel::new(Axis::linear("strain −ε c/V"), vec![struck, fixed]),
     ];
-    let remarks =
-        ["The mass of the bar is half the striking mass. Where the strain at the struck end \
-                    becomes tensile the mass would leave the bar."];
+    let remarks = [
+        "The mass of the bar is half the striking mass. Where the strain at the struck end has come to zero the \
+                    mass leaves; from then on it moves evenly, and the bar is free there.",
+    ];
     let caption = caption(listed.number, &remarks);
     let figure = Figure::new(listed.title, Axis::linear("time ct/L"), panels, caption)?;
-    Ok(Box::new(figure.window(0.0, 6.0)?))
+    let leaves = release();
+    let figure = figure.mark(leaves, &format!("the mass leaves, {leaves:.3}"))?;
+    Ok(Box::new(figure.window(0.0, LAST as f64)?))
 }
+
+/// A style without dashes.
+const SOLID_BLACK: usize = 24;
 
 /// 6.22.
 pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
@@ -71,11 +88,13 @@ pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureE
         });
         series.push(Series::new(&format!("n = {period}"), points.collect()));
     }
-    let estimate = (1..=LARGEST_RATIO / 2)
-        .map(|i| ratio(2 * i, 1))
-        .map(|ratio| (ratio_as_double(&ratio), double(&LargestStrain::estimate(&ratio, 60))));
-    series.push(Series::new("estimate 6.86", estimate.collect()).look(Look::Points));
-    let panel = Panel::new(Axis::linear("largest strain −εL c/V"), series);
+    // It bends most at the beginning.
+    let dense = (0..=20).map(|i| ratio(i, 40)).chain(ratios());
+    let estimate =
+        dense.map(|ratio| (ratio_as_double(&ratio), double(&LargestStrain::estimate(&ratio, 60))));
+    let estimate = Series::new("estimate 6.86", estimate.collect()).look(Look::Thin);
+    series.push(estimate.styled(SOLID_BLACK));
+    let panel = Panel::new(Axis::linear("largest strain −εL c/V"), series).named_at_ends();
     let remarks =
         ["2 f_n(0): the front of the n-th period, doubled at the fixed end, as long as the \
                     contact pushes. Marked: where the next period has the largest strain."];

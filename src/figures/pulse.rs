@@ -2,20 +2,29 @@
 
 use super::Listed;
 use super::error::FigureError;
-use super::scene::{caption, course, network, ratio, recurrence};
-use crate::field::{FieldEvaluator, Quantity};
+use super::scene::{caption, course, followed, network, ratio, recurrence};
+use crate::field::Quantity;
+use crate::history::field_evaluator;
 use crate::picture::lagrange;
 use crate::plot::{Axis, Chart, Figure, Panel, Series};
 
 /// 6.17.
 pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
-    let network = network("cushioned-impact", &[("mu", ratio(1, 1))]);
+    // With μ = 2 the unit of t k (1/Z1 + 1/Z2) is L/c.
+    let network = network("cushion-with-release", &[("mu", ratio(2, 1))]);
     let window = [&ratio(0, 1), &ratio(6, 1)];
-    let remarks = ["The contact is kept closed."];
-    let evaluator = FieldEvaluator::new(&network, window[1])?;
+    let remarks = [
+        "Two bars of impedance Z; the striker has the length L, x is from its free end. μ = 4Lk/(EA) = 2, so \
+         that t k (1/Z1 + 1/Z2) = ct/L. X_max = ZV/2.",
+        "The spring lies at x = L; once it is unloaded the bars part. Hatched: tension.",
+    ];
+    let evaluator = field_evaluator(&network, window[1])?.looking(&ratio(3, 1))?;
     let caption = caption(listed.number, &remarks);
     let diagram = lagrange(&evaluator, Quantity::Force, window, caption)?;
-    Ok(Box::new(diagram.titled(listed.title)))
+    let force = followed(&network, "force", window[1])?;
+    let opens = until_zero(&force.points).last().map_or(0.0, |point| point.0);
+    let diagram = diagram.level(opens, "the bars part")?.titled(listed.title);
+    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "X/(ZV)"])))
 }
 
 /// The part of a curve before it falls through zero, which ends there.

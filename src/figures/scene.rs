@@ -1,9 +1,11 @@
 //! Built-in scenes and recurrences with numbers put in.
 
+use super::FigureError;
 use crate::evaluate::{EvaluateError, Signal};
+use crate::history::History;
 use crate::language::{self, Source};
 use crate::network::Network;
-use crate::picture::{Sampled, sampled};
+use crate::picture::{Sampled, sampled, sampled_search};
 use crate::plot::Caption;
 use crate::recurrence::Recurrence;
 use std::collections::BTreeMap;
@@ -47,6 +49,16 @@ pub(super) fn course(
     last: &Rational,
 ) -> Result<Sampled, EvaluateError> {
     sampled(signal(recurrence, name)?, &Rational::default(), last)
+}
+
+/// An observable of a scene whose contacts open, on a window from 0.
+pub(super) fn followed(
+    network: &Network,
+    name: &str,
+    last: &Rational,
+) -> Result<Sampled, FigureError> {
+    let search = History::search(network, name, [&Rational::default(), last])?;
+    Ok(sampled_search(&search)?)
 }
 
 /// A caption with the command that draws the figure again, and remarks.

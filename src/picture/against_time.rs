@@ -3,7 +3,7 @@
 use super::{PictureError, Prefixed, Sampled};
 use crate::language::unit_of;
 use crate::plot::{Caption, Figure, Panel, Series};
-use crate::scene::Dimension;
+use crate::scene::{Dimension, Measure};
 
 /// A quantity with its values on a window of time.
 ///
@@ -12,7 +12,7 @@ use crate::scene::Dimension;
 /// use wavestep::scene::Dimension;
 ///
 /// let values = Sampled { points: vec![(0.0, 1.0), (1.0, 2.0)], jumps: vec![] };
-/// let course = Course { name: "force".into(), dimension: Dimension::FORCE, values };
+/// let course = Course { name: "F".into(), dimension: Dimension::FORCE, measure: None, values };
 /// assert_eq!(course.values.points.len(), 2);
 /// ```
 #[derive(Clone, PartialEq, Debug)]
@@ -21,11 +21,14 @@ pub struct Course {
     pub name: String,
     /// Its dimension; none for plain numbers.
     pub dimension: Dimension,
+    /// What is measured, where that is known and the same in all its terms.
+    pub measure: Option<Measure>,
     /// Its values in SI units.
     pub values: Sampled,
 }
 
-/// A figure of quantities against time, those of one dimension in one panel.
+/// A figure of quantities against time, those of one dimension in one panel; without units, those of one
+/// kind.
 ///
 /// # Errors
 /// [`PictureError::Plot`] where there is nothing finite to draw.
@@ -38,6 +41,7 @@ pub struct Course {
 /// let course = |name: &str, dimension, largest| Course {
 ///     name: name.into(),
 ///     dimension,
+///     measure: None,
 ///     values: Sampled { points: vec![(0.0, 0.0), (2e-3, largest)], jumps: vec![] },
 /// };
 /// let courses =
@@ -57,21 +61,30 @@ pub fn against_time(
         true => Prefixed::of("s", to.abs().max(from.abs())),
         false => Prefixed { unit: String::new(), factor: 1.0 },
     };
-    let mut dimensions: Vec<Dimension> = Vec::new();
+    // Units tell kinds apart; without them it is told what is measured.
+    let kind_of = |course: &Course| match dimensional {
+        true => (course.dimension, None),
+        false => (Dimension::NONE, course.measure),
+    };
+    let mut kinds: Vec<(Dimension, Option<Measure>)> = Vec::new();
     for course in courses {
-        if !dimensions.contains(&course.dimension) {
-            dimensions.push(course.dimension);
+        if !kinds.contains(&kind_of(course)) {
+            kinds.push(kind_of(course));
         }
     }
-    let panel = |dimension: &Dimension| {
+    let panel = |kind: &(Dimension, Option<Measure>)| {
         let shown: Vec<&Course> =
-            courses.iter().filter(|course| course.dimension == *dimension).collect();
+            courses.iter().filter(|course| kind_of(course) == *kind).collect();
+        let (dimension, measure) = kind;
         let points = shown.iter().flat_map(|course| &course.values.points);
         let largest = points.map(|point| point.1.abs()).fold(0.0, f64::max);
         let unit = Prefixed::of(&unit_of(*dimension), largest);
         let name = match &shown[..] {
             [only] => only.name.as_str(),
-            _ => name_of(*dimension, dimensional),
+            _ => match measure {
+                Some(measure) => measure.word(),
+                None => name_of(*dimension, dimensional),
+            },
         };
         let series = shown.iter().map(|course| {
             let name = if shown.len() > 1 { course.name.as_str() } else { "" };
@@ -84,7 +97,7 @@ pub fn against_time(
         });
         Panel::new(unit.axis(name), series.collect())
     };
-    let panels = dimensions.iter().map(panel).collect();
+    let panels = kinds.iter().map(panel).collect();
     let figure = Figure::new(title, seconds.axis("time"), panels, caption)?;
     Ok(figure.window(from * seconds.factor, to * seconds.factor)?)
 }

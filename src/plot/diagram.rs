@@ -3,10 +3,10 @@
 
 use super::axis::Mapping;
 use super::drawing::{Anchor, SMALL, coordinate, polyline};
-use super::layout::{LEFT, RIGHT, Sheet, label_size};
+use super::layout::{LEFT, Sheet, label_size};
 use super::marks::{draw_levels, placement_in};
 use super::number::rounded;
-use super::palette::tint;
+use super::palette::diverging;
 use super::text::{csv_field, csv_number};
 use super::{Axis, Caption, Chart, PlotError};
 use serde_json::{Value, json};
@@ -14,12 +14,22 @@ use std::collections::BTreeMap;
 
 /// Classes of diagrams.
 const RULES: &str = "\
-.plot .front{fill:none;stroke:#000;stroke-width:1.5}\
-.plot .kink{fill:none;stroke:#000;stroke-width:.6}\
+.plot .front,.plot .kink{fill:none;stroke:#000}\
 .plot .joint{fill:none;stroke:#555;stroke-width:.8;stroke-dasharray:2 2}\
 .plot .bar{fill:#d9d9d9;stroke:#222;stroke-width:1}\
 .plot .lump{fill:#222;stroke:none}\
 .plot .wall{fill:none;stroke:#222;stroke-width:1.4}";
+
+/// The right edge of the plotting area, beside the scale of colours.
+const RIGHT: f64 = 770.0;
+
+/// The widths of fronts and of lines along which slopes jump; and the share of the area that they cover at
+/// most: where there are many they are thinner.
+const WIDTHS: [f64; 2] = [1.5, 0.6];
+const COVERED: f64 = 0.08;
+
+/// In how many steps the colours change from zero to the darkest.
+const STEPS: f64 = 64.0;
 
 /// A range of places and one of times: `[(left, right), (first, last)]`.
 ///
@@ -184,8 +194,9 @@ pub enum Shape {
 
 /// A diagram of place and time.
 ///
-/// The end of the scale that lies farther from zero is the darkest. Lightness changes in one direction
-/// along the scale and tells values apart alone, so that a diagram can be printed in grey.
+/// Zero is white, values above it are red and values below it blue, the darker the farther from zero, in
+/// every diagram. Where both signs occur what is below zero is hatched, so that a diagram can be printed in
+/// grey.
 ///
 /// # Invariants
 /// There is a cell; the window and the scale of colours are not empty.
@@ -213,6 +224,7 @@ pub enum Shape {
 ///     assert!(svg.contains(text), "{text}");
 /// }
 /// assert_eq!(diagram.csv().lines().count(), 3);
+/// assert!(diagram.measured(["x/L", "ct/L", "v/V"]).svg().contains(">ct/L</text>"));
 /// # Ok::<(), wavestep::plot::PlotError>(())
 /// ```
 #[derive(Clone, PartialEq, Debug)]
@@ -306,6 +318,12 @@ impl Diagram {
         }
     }
 
+    /// The same with other names of places, of times and of the quantity, without units beside them.
+    #[must_use]
+    pub fn measured(self, names: [&str; 3]) -> Diagram {
+        Diagram { axes: names.map(Axis::linear), ..self }
+    }
+
     /// The same with another title; it may be empty.
     #[must_use]
     pub fn titled(self, title: &str) -> Diagram {
@@ -317,13 +335,18 @@ impl Diagram {
         self.colours
     }
 
-    /// The colour of a value: the darkest where the scale ends farther from zero.
-    fn colour(&self, value: f64) -> String {
-        const STEPS: f64 = 64.0;
+    /// How far a value is from zero, or from the end of the scale nearest to it: from −1 to 1, where the
+    /// farther end of the scale is, in steps.
+    fn share(&self, value: f64) -> f64 {
         let (low, high) = self.colours;
-        let share = (value - low) / (high - low);
-        let share = if low.abs() > high.abs() { share } else { 1.0 - share };
-        tint((share * STEPS).round() / STEPS)
+        let zero = 0.0f64.clamp(low, high);
+        let share = (value - zero) / (high - zero).max(zero - low);
+        (share * STEPS).round() / STEPS
+    }
+
+    /// Whether values of both signs are told apart.
+    fn has_both_signs(&self) -> bool {
+        self.colours.0 < 0.0 && self.colours.1 > 0.0
     }
 
     fn description(&self) -> String {
@@ -337,20 +360,25 @@ impl Diagram {
         )
     }
 
-    fn colour_bar(&self, sheet: &mut Sheet) {
-        const STEPS: u32 = 64;
+    fn colour_bar(&self, sheet: &mut Sheet, hatch: &str) {
+        const PARTS: u32 = 128;
         let (left, right) = (RIGHT + 26.0, RIGHT + 46.0);
         let (low, high) = self.colours;
         let (top, bottom) = (sheet.top + 26.0, sheet.bottom() - 60.0);
         let places = Mapping::spanning(self.axes[2].scale, low, high).onto(bottom, top);
         sheet.drawing.text("", Anchor::Start, (left, sheet.top + 8.0), &self.axes[2].label());
-        for step in 0..STEPS {
-            let at = |step: f64| low + (high - low) * step / f64::from(STEPS);
+        for step in 0..PARTS {
+            let at = |step: f64| low + (high - low) * step / f64::from(PARTS);
             let (from, to) = (at(f64::from(step)), at(f64::from(step + 1)));
             let (from, to) = (places.position(from), places.position(to));
             let corners = [(left, from), (right, from), (right, to), (left, to)];
-            let colour = self.colour(at(f64::from(step) + 0.5));
-            sheet.drawing.fill(&colour, &format!("{}z", polyline(&corners)));
+            let share = self.share(at(f64::from(step) + 0.5));
+            sheet.drawing.fill(&diverging(share), &format!("{}z", polyline(&corners)));
+        }
+        if self.has_both_signs() {
+            let (zero, end) = (places.position(0.0), bottom);
+            let corners = [(left, zero), (right, zero), (right, end), (left, end)];
+            sheet.drawing.fill_with(hatch, &format!("{}z", polyline(&corners)));
         }
         sheet.drawing.rectangle("frame", (left, top), (right, bottom));
         for tick in places.ticks(26.0) {
@@ -425,6 +453,61 @@ impl Diagram {
     }
 }
 
+/// How wide the two kinds of lines are drawn, so that together they cover no more than a share of the
+/// area.
+fn widths(lines: &[Line], on: impl Fn((f64, f64)) -> (f64, f64), area: f64) -> [f64; 2] {
+    let covered = |line: &Line| {
+        let (from, to) = (on(line.from), on(line.to));
+        (to.0 - from.0).hypot(to.1 - from.1) * WIDTHS[usize::from(!line.jumps)]
+    };
+    let covered: f64 = lines.iter().map(covered).sum();
+    let thinner = (COVERED * area / covered.max(1.0)).min(1.0);
+    WIDTHS.map(|width| width * thinner)
+}
+
+/// Adds an outline in tenths of pixels, each corner relative to the one before: there are many cells, and
+/// these are the shortest texts.
+fn append(path: &mut String, corners: impl Iterator<Item = (f64, f64)>) {
+    let tenths = |value: f64| (10.0 * value).round();
+    let mut before: Option<(f64, f64)> = None;
+    for (x, y) in corners {
+        let corner = (tenths(x), tenths(y));
+        let (letter, from) = before.map_or(('M', (0.0, 0.0)), |before| ('l', before));
+        if before != Some(corner) {
+            let across = coordinate((corner.0 - from.0) / 10.0);
+            let up = coordinate((corner.1 - from.1) / 10.0);
+            path.push(letter);
+            path.push_str(&across);
+            // A minus sign parts numbers as a blank does.
+            if !up.starts_with('-') {
+                path.push(' ');
+            }
+            path.push_str(&up);
+        }
+        before = Some(corner);
+    }
+    path.push('z');
+}
+
+/// Pairs of a light and a dark line, seen on any colour.
+fn hatching(name: &str) -> String {
+    let line = |colour: &str, shift: i32| {
+        format!(
+            "<path fill=\"none\" stroke=\"{colour}\" stroke-opacity=\".35\" stroke-width=\".8\" \
+             d=\"M{} 8L{} -1M{} 8L{} -1\"/>",
+            shift - 1,
+            shift + 8,
+            shift - 8,
+            shift + 1
+        )
+    };
+    format!(
+        "<pattern id=\"{name}\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\">{}{}</pattern>",
+        line("#000", 0),
+        line("#fff", 1)
+    )
+}
+
 impl Chart for Diagram {
     fn title(&self) -> &str {
         &self.title
@@ -435,30 +518,42 @@ impl Chart for Diagram {
     }
 
     fn svg_named(&self, name: &str) -> String {
-        let mut sheet = Sheet::open(name, &self.title, 0.0);
+        let mut sheet = Sheet::open(name, &self.title, 0.0).reaching(RIGHT);
         sheet.drawing.style(RULES);
+        let hatch = format!("{}-below", sheet.name);
+        if self.has_both_signs() {
+            sheet.drawing.pattern(&hatching(&hatch));
+        }
         let [across, up] = self.window;
         let x = Mapping::spanning(self.axes[0].scale, across.0, across.1).onto(LEFT, RIGHT);
         let y = Mapping::spanning(self.axes[1].scale, up.0, up.1).onto(sheet.bottom(), sheet.top);
         let on = |(place, time): (f64, f64)| (x.position(place), y.position(time));
-        let mut outlines: BTreeMap<String, String> = BTreeMap::new();
+        let mut outlines: BTreeMap<i64, String> = BTreeMap::new();
         for cell in &self.cells {
-            let outline = outlines.entry(self.colour(cell.value)).or_default();
-            for (i, corner) in cell.outline.iter().enumerate() {
-                let (x, y) = on(*corner);
-                let letter = if i == 0 { 'M' } else { 'L' };
-                *outline += &format!("{letter}{} {}", coordinate(x), coordinate(y));
-            }
-            outline.push('z');
+            let step = (self.share(cell.value) * STEPS) as i64;
+            let outline = outlines.entry(step).or_default();
+            append(outline, cell.outline.iter().map(|corner| on(*corner)));
         }
-        for (colour, outline) in &outlines {
-            sheet.drawing.fill(colour, outline);
+        for (step, outline) in &outlines {
+            sheet.drawing.fill(&diverging(*step as f64 / STEPS), outline);
+        }
+        if self.has_both_signs() {
+            // What is zero but for the steps of colours is not hatched.
+            let below: String = outlines.range(..-1).map(|(_, outline)| outline.as_str()).collect();
+            sheet.drawing.fill_with(&hatch, &below);
         }
         for joint in &self.joints {
             let x = x.position(*joint);
             let (top, bottom) = (sheet.top, sheet.bottom());
             sheet.drawing.line("joint", (x, top), (x, bottom));
         }
+        let area = (RIGHT - LEFT) * (sheet.bottom() - sheet.top);
+        let [front, kink] = widths(&self.lines, on, area);
+        sheet.drawing.style(&format!(
+            ".plot .front{{stroke-width:{}}}.plot .kink{{stroke-width:{}}}",
+            coordinate(front),
+            coordinate(kink)
+        ));
         for line in &self.lines {
             let class = if line.jumps { "front" } else { "kink" };
             sheet.drawing.line(class, on(line.from), on(line.to));
@@ -469,7 +564,7 @@ impl Chart for Diagram {
         }
         let unlabelled = draw_levels(&self.levels, &mut sheet, &y, &mut placement);
         sheet.axes((&self.axes[0], &x), (&self.axes[1], &y));
-        self.colour_bar(&mut sheet);
+        self.colour_bar(&mut sheet, &hatch);
         self.sketch(&mut sheet, &x);
         let mut remarks = Vec::new();
         if unlabelled > 0 {
@@ -509,5 +604,63 @@ impl Chart for Diagram {
             csv += &format!("{},{}\n", csv_number(Some(cell.value)), corners.join(" "));
         }
         csv
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn diagram(values: &[f64]) -> Diagram {
+        let window = [(0.0, 1.0), (0.0, values.len() as f64)];
+        let cell = |(i, value): (usize, &f64)| {
+            let (low, high) = (i as f64, i as f64 + 1.0);
+            let corners = [(0.0, low), (1.0, low), (1.0, high), (0.0, high)];
+            Cell::clipped(&corners, *value, window).expect("a cell in the window")
+        };
+        let cells = values.iter().enumerate().map(cell).collect();
+        let axes = ["place", "time", "velocity"].map(Axis::linear);
+        Diagram::new("", axes, window, cells, Caption::default()).expect("finite values")
+    }
+
+    #[test]
+    fn a_colour_means_one_sign_in_every_diagram() {
+        // The scale is white at zero, and the farther end is the darkest, whatever else there is.
+        for (values, value, share) in [
+            (&[2.0, -1.0][..], 2.0, 1.0),
+            (&[2.0, -1.0], -1.0, -0.5),
+            (&[2.0, 1.0], 1.0, 0.5),
+            (&[-2.0, -1.0], -2.0, -1.0),
+            (&[-2.0, 0.0], 0.0, 0.0),
+        ] {
+            assert_eq!(diagram(values).share(value), share, "{values:?}");
+        }
+        let beyond = diagram(&[1.0]).coloured(2.0, 6.0).expect("ends that ascend");
+        assert_eq!((beyond.share(2.0), beyond.share(4.0)), (0.0, 0.5));
+    }
+
+    #[test]
+    fn what_is_below_zero_is_hatched_where_both_signs_occur() {
+        let hatched = |values: &[f64]| diagram(values).svg().matches("url(#").count();
+        // The cells and the scale.
+        assert_eq!(hatched(&[2.0, -1.0]), 2);
+        assert_eq!((hatched(&[2.0, 1.0]), hatched(&[-2.0, -1.0])), (0, 0));
+    }
+
+    #[test]
+    fn outlines_are_relative() {
+        let mut path = String::new();
+        append(&mut path, [(1.0, 2.04), (3.5, 1.0), (3.52, 1.0), (0.0, 4.0)].into_iter());
+        assert_eq!(path, "M1 2l2.5-1l-3.5 3z");
+    }
+
+    #[test]
+    fn many_lines_are_thin_and_few_are_wide() {
+        let line = Line { from: (0.0, 0.0), to: (100.0, 0.0), jumps: true };
+        let area = 1e4;
+        assert_eq!(widths(&[line], |point| point, area), WIDTHS);
+        let many = vec![line; 100];
+        let [front, kink] = widths(&many, |point| point, area);
+        assert!((front * 100.0 * 100.0 - COVERED * area).abs() < 1e-9 && kink < front);
     }
 }

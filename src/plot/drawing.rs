@@ -31,7 +31,9 @@ pub(super) enum Anchor {
 pub(super) struct Drawing {
     body: String,
     /// Rules of this picture besides those of all.
-    rules: &'static str,
+    rules: String,
+    /// Patterns of this picture besides those of all.
+    patterns: String,
 }
 
 /// A coordinate rounded to hundredths, without needless zeros.
@@ -53,8 +55,13 @@ pub(super) fn polyline(points: &[(f64, f64)]) -> String {
 
 impl Drawing {
     /// Adds rules for classes that this kind of picture alone has.
-    pub fn style(&mut self, rules: &'static str) {
-        self.rules = rules;
+    pub fn style(&mut self, rules: &str) {
+        self.rules.push_str(rules);
+    }
+
+    /// Adds a pattern that this picture alone has.
+    pub fn pattern(&mut self, pattern: &str) {
+        self.patterns.push_str(pattern);
     }
 
     pub fn line(&mut self, class: &str, from: (f64, f64), to: (f64, f64)) {
@@ -68,6 +75,11 @@ impl Drawing {
     /// An outline filled with one colour, which is the same in light and dark.
     pub fn fill(&mut self, colour: &str, path: &str) {
         let _ = writeln!(self.body, "<path class=\"cell\" fill=\"{colour}\" d=\"{path}\"/>");
+    }
+
+    /// An outline filled with a pattern.
+    pub fn fill_with(&mut self, pattern: &str, path: &str) {
+        let _ = writeln!(self.body, "<path fill=\"url(#{pattern})\" d=\"{path}\"/>");
     }
 
     /// The rectangle between two corners.
@@ -131,6 +143,14 @@ impl Drawing {
         }
     }
 
+    /// The same, thin.
+    pub fn thin_stroke(&mut self, line: usize, points: &[(f64, f64)]) {
+        if points.len() > 1 {
+            let (colour, dash) = (line % COLOURS.len(), line % DASHES.len());
+            self.path(&format!("thin c{colour} d{dash}"), &polyline(points));
+        }
+    }
+
     /// What `other` draws, moved.
     pub fn moved(&mut self, (x, y): (f64, f64), other: &Drawing) {
         let (x, y) = (coordinate(x), coordinate(y));
@@ -141,7 +161,7 @@ impl Drawing {
     pub fn finish(self, name: &str, height: f64, title: &str, description: &str) -> String {
         let height = coordinate(height.ceil());
         let (title, description) = (escape(title), escape(description));
-        let mut style = STYLE.to_owned() + self.rules;
+        let mut style = STYLE.to_owned() + &self.rules;
         for (i, colour) in COLOURS.iter().enumerate() {
             let _ = write!(style, ".plot .c{i}{{color:{colour}}}");
         }
@@ -162,9 +182,9 @@ impl Drawing {
              <path class=\"hatch\" d=\"M-1 1L1 -1M0 7L7 0M6 8L8 6\"/></pattern>\
              <pattern id=\"{name}-infinite\" width=\"6\" height=\"6\" \
              patternUnits=\"userSpaceOnUse\">\
-             <path class=\"cross\" d=\"M0 0L6 6M6 0L0 6\"/></pattern></defs>\n\
+             <path class=\"cross\" d=\"M0 0L6 6M6 0L0 6\"/></pattern>{}</defs>\n\
              <rect class=\"paper\" width=\"{WIDTH}\" height=\"{height}\"/>\n{}</svg>\n",
-            self.body
+            self.patterns, self.body
         )
     }
 }

@@ -2,7 +2,8 @@
 
 use super::axis::Mapping;
 use super::drawing::{Anchor, Drawing, SMALL};
-use super::layout::{LEFT, Legend, RIGHT, Sheet, counted, fitted, label_size};
+use super::ends::{draw_ends, room_beside};
+use super::layout::{LEFT, Legend, Sheet, counted, fitted, label_size};
 use super::marks::{draw_levels, draw_marks, placement_in, room_above};
 use super::palette::COLOURS;
 use super::text::{csv_field, csv_number, json_number};
@@ -12,7 +13,8 @@ use serde_json::{Value, json};
 /// Classes of figures.
 const RULES: &str = "\
 .plot .jump{fill:none;stroke:currentColor;stroke-width:.9;stroke-dasharray:1.5 2.5}\
-.plot .zero{fill:none;stroke:#8a8a8a;stroke-width:.8}";
+.plot .zero{fill:none;stroke:#8a8a8a;stroke-width:.8}\
+.plot .thin{fill:none;stroke:currentColor;stroke-width:.9;stroke-linejoin:round}";
 
 /// How a series is drawn.
 ///
@@ -30,6 +32,8 @@ pub enum Look {
     Points,
     /// Both.
     Both,
+    /// A thin line through the points, for what others are compared with.
+    Thin,
 }
 
 /// Points `(x, y)` in their order, with the places where the quantity jumps.
@@ -89,6 +93,7 @@ impl Series {
 ///
 /// let series = Series::new("force", vec![(0.0, 1.0), (1.0, 2.0)]);
 /// let panel = Panel::new(Axis::linear("force").unit("kN"), vec![series])
+///     .reaching(0.0, 4.0)
 ///     .level(1.5, "yield")
 ///     .note((1.0, 2.0), "the wave returns");
 /// assert_eq!((panel.series().len(), panel.axis().label().as_str()), (1, "force (kN)"));
@@ -99,12 +104,40 @@ pub struct Panel {
     series: Vec<Series>,
     levels: Vec<(f64, String)>,
     notes: Vec<((f64, f64), String)>,
+    /// From where to where the axis reaches at least.
+    range: Option<(f64, f64)>,
+    /// Whether names stand where lines end, and not in a legend.
+    named_at_ends: bool,
 }
 
 impl Panel {
     /// These series.
     pub fn new(y: Axis, series: Vec<Series>) -> Panel {
-        Panel { y, series, levels: Vec::new(), notes: Vec::new() }
+        let (levels, notes) = (Vec::new(), Vec::new());
+        Panel { y, series, levels, notes, range: None, named_at_ends: false }
+    }
+
+    /// The same with an axis that reaches from one value to another at least, so that panels can be
+    /// compared.
+    #[must_use]
+    pub fn reaching(self, low: f64, high: f64) -> Panel {
+        Panel { range: Some((low, high)), ..self }
+    }
+
+    /// The same with the names of its series where they end, and not in a legend.
+    ///
+    /// ```
+    /// use wavestep::plot::{Axis, Caption, Chart, Figure, Panel, Series};
+    ///
+    /// let series = |name: &str, end: f64| Series::new(name, vec![(0.0, 0.0), (1.0, end)]);
+    /// let panel = Panel::new(Axis::linear("y"), vec![series("low", 1.0), series("high", 2.0)]);
+    /// let figure = |panel| Figure::new("", Axis::linear("x"), vec![panel], Caption::default());
+    /// let named = figure(panel.clone().named_at_ends()).unwrap().svg();
+    /// assert!(named.contains(">high</text>") && named != figure(panel).unwrap().svg());
+    /// ```
+    #[must_use]
+    pub fn named_at_ends(self) -> Panel {
+        Panel { named_at_ends: true, ..self }
     }
 
     /// The same with a labelled horizontal line.
@@ -140,7 +173,20 @@ impl Panel {
     fn heights(&self) -> impl Iterator<Item = f64> + '_ {
         let points = self.series.iter().flat_map(|series| &series.points);
         let points = points.filter(finite).map(|point| point.1);
-        points.chain(self.levels.iter().map(|level| level.0))
+        let range = self.range.into_iter().flat_map(|(low, high)| [low, high]);
+        points.chain(self.levels.iter().map(|level| level.0)).chain(range)
+    }
+
+    /// What stands beside the plotting area.
+    fn legend(&self) -> Legend {
+        let mut legend = Legend::default();
+        for (i, series) in self.series.iter().enumerate() {
+            if !series.name.is_empty() && !self.named_at_ends {
+                let style = series.style.unwrap_or(i);
+                legend.entry(series.name.clone(), |sample| sample_of(sample, series.look, style));
+            }
+        }
+        legend
     }
 }
 
@@ -166,6 +212,8 @@ impl Panel {
 ///     .mark(1.0, "first arrival")?;
 /// assert_eq!(figure.panels().len(), 2);
 /// assert_eq!(figure.clone().titled("").title(), "");
+/// assert_eq!(figure.extent(), (0.0, 2.0));
+/// assert!(figure.clone().across(Axis::linear("ct/L")).svg().contains(">ct/L</text>"));
 /// let svg = figure.svg();
 /// for text in ["velocity (m/s)", "time (µs)", "specimen", "limit", "first arrival"] {
 ///     assert!(svg.contains(text), "{text}");
@@ -204,6 +252,9 @@ impl Figure {
             }
             for (level, _) in &panel.levels {
                 placed(&panel.y, *level)?;
+            }
+            for end in panel.range.iter().flat_map(|(low, high)| [low, high]) {
+                placed(&panel.y, *end)?;
             }
             for ((across, up), _) in &panel.notes {
                 placed(&x, *across)?;
@@ -246,10 +297,26 @@ impl Figure {
         Ok(self)
     }
 
+    /// The same with another name and unit of what is measured across; the scale stays.
+    #[must_use]
+    pub fn across(self, axis: Axis) -> Figure {
+        Figure { x: Axis { scale: self.x.scale, ..axis }, ..self }
+    }
+
     /// The same with another title; it may be empty.
     #[must_use]
     pub fn titled(self, title: &str) -> Figure {
         Figure { title: title.to_owned(), ..self }
+    }
+
+    /// From where to where it reaches across: its window, or its points.
+    pub fn extent(&self) -> (f64, f64) {
+        let points = self.panels.iter().flat_map(|panel| &panel.series);
+        let points = points.flat_map(|series| &series.points).filter(finite);
+        let all = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, _)| {
+            (low.min(*x), high.max(*x))
+        });
+        self.window.unwrap_or(all)
     }
 
     /// The panels, from above.
@@ -257,19 +324,29 @@ impl Figure {
         &self.panels
     }
 
-    fn across(&self) -> Mapping {
+    /// The right edge of the panels: as far as legends and names leave room.
+    fn right(&self) -> f64 {
+        let edge = |panel: &Panel| match panel.named_at_ends {
+            true => room_beside(panel.series.iter().map(|series| series.name.as_str())),
+            false => panel.legend().right(),
+        };
+        self.panels.iter().map(edge).fold(f64::INFINITY, f64::min)
+    }
+
+    fn mapping(&self) -> Mapping {
+        let right = self.right();
         match self.window {
             Some((from, to)) => {
                 let scale = self.x.scale;
                 let on = |value| super::axis::on(scale, value);
-                Mapping::spanning(scale, on(from), on(to)).onto(LEFT, RIGHT)
+                Mapping::spanning(scale, on(from), on(to)).onto(LEFT, right)
             }
             None => {
                 let points = self.panels.iter().flat_map(|panel| &panel.series);
                 let points = points.flat_map(|series| &series.points);
                 let places = points.filter(finite).map(|point| point.0);
                 let marks = self.marks.iter().map(|mark| mark.0);
-                fitted(self.x.scale, places.chain(marks), (LEFT, RIGHT), false)
+                fitted(self.x.scale, places.chain(marks), (LEFT, right), false)
             }
         }
     }
@@ -279,7 +356,8 @@ impl Figure {
             1 => 420.0,
             2 => 230.0,
             3 => 180.0,
-            _ => 150.0,
+            4 => 150.0,
+            _ => 116.0,
         }
     }
 
@@ -313,10 +391,10 @@ fn draw_panel(figure: &Figure, panel: &Panel, sheet: &mut Sheet, x: &Mapping) ->
     let on = |point: &(f64, f64)| (x.position(point.0), y.position(point.1));
     sheet.grid(x, &y);
     if panel.y.scale == super::Scale::Linear && y.contains(0.0) {
-        sheet.drawing.line("zero", (LEFT, y.position(0.0)), (RIGHT, y.position(0.0)));
+        sheet.drawing.line("zero", (LEFT, y.position(0.0)), (sheet.right, y.position(0.0)));
     }
     let mut placement = placement_in(sheet, &figure.marks, x);
-    let mut legend = Legend::default();
+    let mut ends = Vec::new();
     for (i, series) in panel.series.iter().enumerate() {
         let style = series.style.unwrap_or(i);
         let parts = series.points.split(|point| !finite(&point)).filter(|part| !part.is_empty());
@@ -326,21 +404,27 @@ fn draw_panel(figure: &Figure, panel: &Panel, sheet: &mut Sheet, x: &Mapping) ->
             sheet.drawing.line(&class, on(&(*at, *from)), on(&(*at, *to)));
         }
         for part in &parts {
+            match series.look {
+                Look::Points => {}
+                Look::Thin => sheet.drawing.thin_stroke(style, part),
+                Look::Line | Look::Both => sheet.drawing.stroke(style, part),
+            }
             if series.look != Look::Points {
-                sheet.drawing.stroke(style, part);
                 placement.avoid(part);
             }
-            if series.look != Look::Line {
+            if matches!(series.look, Look::Points | Look::Both) {
                 for point in part {
                     sheet.drawing.marker(style, *point, "");
                 }
             }
         }
-        if !series.name.is_empty() {
-            legend.entry(series.name.clone(), |sample| sample_of(sample, series.look, style));
+        let end = parts.last().and_then(|part| part.last());
+        if let Some(end) = end.filter(|_| panel.named_at_ends && !series.name.is_empty()) {
+            ends.push((*end, series.name.as_str()));
         }
     }
     let mut unlabelled = draw_levels(&panel.levels, sheet, &y, &mut placement);
+    unlabelled += draw_ends(&ends, sheet, &mut placement);
     for (at, text) in &panel.notes {
         let (wide, high) = label_size(text);
         let at = on(at);
@@ -365,16 +449,18 @@ fn draw_panel(figure: &Figure, panel: &Panel, sheet: &mut Sheet, x: &Mapping) ->
     // What the panel above says need not be said again.
     if above.is_none_or(|above| names(above) != names(panel)) {
         let top = sheet.top;
-        sheet.legend(&legend, top);
+        sheet.legend(&panel.legend(), top);
     }
     unlabelled
 }
 
 fn sample_of(sample: &mut Drawing, look: Look, style: usize) {
-    if look != Look::Points {
-        sample.stroke(style, &[(0.0, 0.0), (30.0, 0.0)]);
+    match look {
+        Look::Points => {}
+        Look::Thin => sample.thin_stroke(style, &[(0.0, 0.0), (30.0, 0.0)]),
+        Look::Line | Look::Both => sample.stroke(style, &[(0.0, 0.0), (30.0, 0.0)]),
     }
-    if look != Look::Line {
+    if matches!(look, Look::Points | Look::Both) {
         sample.marker(style, (15.0, 0.0), "");
     }
 }
@@ -389,9 +475,10 @@ impl Chart for Figure {
     }
 
     fn svg_named(&self, name: &str) -> String {
-        let x = self.across();
+        let x = self.mapping();
         let above = room_above(&self.marks, &x);
-        let mut sheet = Sheet::open(name, &self.title, above).resized(self.height());
+        let sheet = Sheet::open(name, &self.title, above);
+        let mut sheet = sheet.resized(self.height()).reaching(self.right());
         sheet.drawing.style(RULES);
         let mut unlabelled = 0;
         for (i, panel) in self.panels.iter().enumerate() {

@@ -9,7 +9,7 @@ use super::{Caption, Scale};
 /// The left edge of the plotting area.
 pub(super) const LEFT: f64 = 88.0;
 
-/// The right edge of the plotting area.
+/// The right edge of the plotting area beside a legend.
 pub(super) const RIGHT: f64 = 650.0;
 
 /// The height of the plotting area.
@@ -18,8 +18,12 @@ pub(super) const HEIGHT: f64 = 420.0;
 /// The room beside a logarithmic axis in which values of exactly zero stand.
 pub(super) const GUTTER: f64 = 34.0;
 
-/// Where the legend begins.
-const LEGEND: f64 = RIGHT + 22.0;
+/// The right edge of the plotting area where nothing stands beside it: half of a tick's label may.
+const FAR_RIGHT: f64 = WIDTH - 24.0;
+
+/// How far the legend is from the plotting area, and its texts from where it begins.
+const BESIDE: f64 = 22.0;
+const INDENT: f64 = 38.0;
 
 const MARGIN: f64 = 14.0;
 
@@ -41,6 +45,15 @@ impl Legend {
     pub fn append(&mut self, other: Legend) {
         self.entries.extend(other.entries);
     }
+
+    /// The right edge of a plotting area that leaves room for these entries.
+    pub fn right(&self) -> f64 {
+        let widths = self.entries.iter().map(|(_, text)| width(text, MEDIUM));
+        match widths.reduce(f64::max) {
+            None => FAR_RIGHT,
+            Some(widest) => (WIDTH - MARGIN - BESIDE - INDENT - widest).max(RIGHT),
+        }
+    }
 }
 
 /// A sheet while it is drawn on.
@@ -48,6 +61,8 @@ pub(super) struct Sheet {
     pub drawing: Drawing,
     /// The upper edge of the plotting area.
     pub top: f64,
+    /// The right edge of the plotting area.
+    pub right: f64,
     /// The prefix of identifiers.
     pub name: String,
     /// The height of the plotting area.
@@ -69,7 +84,7 @@ impl Sheet {
         }
         let top = y + 14.0 + above;
         let name = name.chars().map(plain).collect();
-        Sheet { drawing, top, name, height: HEIGHT, lowest: top + HEIGHT }
+        Sheet { drawing, top, right: RIGHT, name, height: HEIGHT, lowest: top + HEIGHT }
     }
 
     /// The same with a plotting area of another height.
@@ -77,6 +92,11 @@ impl Sheet {
         self.lowest += height - self.height;
         self.height = height;
         self
+    }
+
+    /// The same with another right edge of the plotting area.
+    pub fn reaching(self, right: f64) -> Sheet {
+        Sheet { right, ..self }
     }
 
     /// Goes on below all that is drawn, after a gap, with another plotting area of the same height.
@@ -99,12 +119,12 @@ impl Sheet {
 
     /// Lines behind the data at the labelled ticks.
     pub fn grid(&mut self, x: &Mapping, y: &Mapping) {
-        for tick in ticks_across(x).iter().filter(|tick| tick.label.is_some()) {
+        for tick in ticks_across(x, self.right - LEFT).iter().filter(|tick| tick.label.is_some()) {
             let (top, bottom) = (self.top, self.bottom());
             self.drawing.line("grid", (tick.position, top), (tick.position, bottom));
         }
         for tick in y.ticks(SPACING.1).iter().filter(|tick| tick.label.is_some()) {
-            self.drawing.line("grid", (LEFT, tick.position), (RIGHT, tick.position));
+            self.drawing.line("grid", (LEFT, tick.position), (self.right, tick.position));
         }
     }
 
@@ -112,9 +132,9 @@ impl Sheet {
     pub fn axes(&mut self, x: (&Axis, &Mapping), y: (&Axis, &Mapping)) {
         self.frame(x.1, y.1, true);
         let bottom = self.bottom();
-        let centre = f64::midpoint(LEFT, RIGHT);
+        let centre = f64::midpoint(LEFT, self.right);
         let mut base = bottom + 24.0;
-        for line in wrap(&x.0.label(), RIGHT - LEFT, MEDIUM) {
+        for line in wrap(&x.0.label(), self.right - LEFT, MEDIUM) {
             base += 1.35 * MEDIUM;
             self.drawing.text("", Anchor::Middle, (centre, base), &line);
         }
@@ -130,8 +150,8 @@ impl Sheet {
 
     fn frame(&mut self, x: &Mapping, y: &Mapping, labelled: bool) {
         let bottom = self.bottom();
-        self.drawing.rectangle("frame", (LEFT, self.top), (RIGHT, bottom));
-        for tick in ticks_across(x) {
+        self.drawing.rectangle("frame", (LEFT, self.top), (self.right, bottom));
+        for tick in ticks_across(x, self.right - LEFT) {
             let length = if tick.major { 6.0 } else { 3.0 };
             self.drawing.line("tick", (tick.position, bottom), (tick.position, bottom + length));
             if let Some(label) = tick.label.filter(|_| labelled) {
@@ -170,7 +190,7 @@ impl Sheet {
             }
             false => {
                 let y = bottom - GUTTER / 2.0;
-                let parting = ((LEFT, bottom - GUTTER), (RIGHT, bottom - GUTTER));
+                let parting = ((LEFT, bottom - GUTTER), (self.right, bottom - GUTTER));
                 self.drawing.line("rule-across", parting.0, parting.1);
                 ((LEFT, y), (LEFT - 6.0, y), (LEFT - 9.0, y + 4.0), "0", Anchor::End)
             }
@@ -181,12 +201,12 @@ impl Sheet {
 
     /// The legend, from the height `from` downwards.
     pub fn legend(&mut self, legend: &Legend, from: f64) {
-        let mut y = from + 8.0;
+        let (left, mut y) = (self.right + BESIDE, from + 8.0);
         for (sample, text) in &legend.entries {
-            self.drawing.moved((LEGEND, y), sample);
-            let lines = wrap(text, WIDTH - MARGIN - LEGEND - 38.0, MEDIUM);
+            self.drawing.moved((left, y), sample);
+            let lines = wrap(text, WIDTH - MARGIN - left - INDENT + 0.5, MEDIUM);
             for line in &lines {
-                self.drawing.text("", Anchor::Start, (LEGEND + 38.0, y + 4.0), line);
+                self.drawing.text("", Anchor::Start, (left + INDENT, y + 4.0), line);
                 y += 1.3 * MEDIUM;
             }
             y += 6.0;
@@ -235,14 +255,14 @@ impl Sheet {
 const SPACING: (f64, f64) = (58.0, 26.0);
 
 /// The ticks of an axis across, as close as their labels allow.
-fn ticks_across(mapping: &Mapping) -> Vec<Tick> {
+fn ticks_across(mapping: &Mapping, wide: f64) -> Vec<Tick> {
     let mut spacing = SPACING.0;
     loop {
         let ticks = mapping.ticks(spacing);
         let widths = ticks.iter().flat_map(|tick| &tick.label).map(|label| width(label, MEDIUM));
         let widest = widths.fold(0.0, f64::max);
         // Half of the area is room enough for any label.
-        if widest + 8.0 <= spacing || spacing > (RIGHT - LEFT) / 2.0 {
+        if widest + 8.0 <= spacing || spacing > wide / 2.0 {
             return ticks;
         }
         spacing *= 1.5;

@@ -2,7 +2,7 @@
 
 use super::axis::Mapping;
 use super::drawing::{Anchor, SMALL, WIDTH};
-use super::layout::{LEFT, RIGHT, Sheet, label_size};
+use super::layout::{LEFT, Sheet, label_size};
 use super::placement::Placement;
 
 /// The left edges of the labels of vertical lines, and the rows in which they stand, counted
@@ -60,10 +60,10 @@ pub(super) fn draw_levels(
     let mut unlabelled = 0;
     for (level, name) in levels {
         let y = y.position(*level);
-        sheet.drawing.line("rule", (LEFT, y), (RIGHT, y));
+        sheet.drawing.line("rule", (LEFT, y), (sheet.right, y));
         let (wide, high) = label_size(name);
-        let room = RIGHT - LEFT - 16.0 - wide;
-        let along = (0..=12).map(|step| RIGHT - 8.0 - wide - room * f64::from(step) / 12.0);
+        let room = sheet.right - LEFT - 16.0 - wide;
+        let along = (0..=12).map(|step| sheet.right - 8.0 - wide - room * f64::from(step) / 12.0);
         let tries: Vec<(f64, f64)> =
             along.flat_map(|x| [(x, y - 3.0 - high), (x, y + 3.0)]).collect();
         match placement.first_free(&tries, wide, high) {
@@ -79,7 +79,8 @@ pub(super) fn draw_levels(
 
 /// What labels inside of the plotting area avoid, and where they stay.
 pub(super) fn placement_in(sheet: &Sheet, marks: &[(f64, String)], x: &Mapping) -> Placement {
-    let mut placement = Placement::within([(LEFT + 2.0, sheet.top), (RIGHT - 2.0, sheet.bottom())]);
+    let mut placement =
+        Placement::within([(LEFT + 2.0, sheet.top), (sheet.right - 2.0, sheet.bottom())]);
     for (at, _) in marks {
         let x = x.position(*at);
         placement.avoid(&[(x, sheet.top), (x, sheet.bottom())]);

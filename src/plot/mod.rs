@@ -18,6 +18,7 @@ mod contour;
 mod curves;
 mod diagram;
 mod drawing;
+mod ends;
 mod error;
 mod figure;
 mod frontier;

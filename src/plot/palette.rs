@@ -7,10 +7,11 @@ pub(super) const COLOURS: [&str; 7] =
     ["#0072B2", "#D55E00", "#009E73", "#000000", "#CC79A7", "#E69F00", "#56B4E9"];
 
 /// Patterns of dashes, the first unbroken.
-pub(super) const DASHES: [&str; 5] = ["none", "7 3", "2 3", "9 3 2 3", "14 4"];
+pub(super) const DASHES: [&str; 6] = ["none", "7 3", "2 3", "9 3 2 3", "16 4", "9 3 2 3 2 3"];
 
-/// Outlines of markers about the origin, of about equal area.
-pub(super) const MARKERS: [&str; 8] = [
+/// Outlines of markers about the origin, of about equal area. Their number and that of the dashes have no
+/// common divisor, and so the first 42 lines differ in the pair of both.
+pub(super) const MARKERS: [&str; 7] = [
     "M-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0z",
     "M-4 -4H4V4H-4z",
     "M0 -5.5L5 3.5H-5z",
@@ -18,7 +19,6 @@ pub(super) const MARKERS: [&str; 8] = [
     "M0 5.5L5 -3.5H-5z",
     "M-1.5 -5H1.5V-1.5H5V1.5H1.5V5H-1.5V1.5H-5V-1.5H-1.5z",
     "M-5 -3L-3 -5L0 -2L3 -5L5 -3L2 0L5 3L3 5L0 2L-3 5L-5 3L-2 0z",
-    "M0 -5.3L5 -1.6L3.1 4.3H-3.1L-5 -1.6z",
 ];
 
 /// Samples of the scale "viridis" at equal distances: lightness rises evenly, and hardly differs
@@ -36,18 +36,21 @@ const VIRIDIS: [[u8; 3]; 10] = [
     [0xFD, 0xE7, 0x25],
 ];
 
-/// Samples of the scale "YlGnBu" of ColorBrewer at equal distances, from dark to light: for large
-/// areas on white paper.
-const TINTS: [[u8; 3]; 9] = [
-    [0x08, 0x1D, 0x58],
-    [0x25, 0x34, 0x94],
-    [0x22, 0x5E, 0xA8],
-    [0x1D, 0x91, 0xC0],
-    [0x41, 0xB6, 0xC4],
-    [0x7F, 0xCD, 0xBB],
-    [0xC7, 0xE9, 0xB4],
-    [0xED, 0xF8, 0xB1],
-    [0xFF, 0xFF, 0xD9],
+/// The halves of the scale "RdBu" of ColorBrewer at equal distances, from white: above zero red, below
+/// zero blue. The darkest samples are left out, on which black lines would hardly be seen.
+const ABOVE_ZERO: [[u8; 3]; 5] = [
+    [0xFF, 0xFF, 0xFF],
+    [0xFD, 0xDB, 0xC7],
+    [0xF4, 0xA5, 0x82],
+    [0xD6, 0x60, 0x4D],
+    [0xB2, 0x18, 0x2B],
+];
+const BELOW_ZERO: [[u8; 3]; 5] = [
+    [0xFF, 0xFF, 0xFF],
+    [0xD1, 0xE5, 0xF0],
+    [0x92, 0xC5, 0xDE],
+    [0x43, 0x93, 0xC3],
+    [0x21, 0x66, 0xAC],
 ];
 
 /// The colour at `share` of the scale, from dark at 0 to light at 1; values outside take the ends.
@@ -55,9 +58,9 @@ pub(super) fn shade(share: f64) -> String {
     between(&VIRIDIS, share)
 }
 
-/// The same of the scale for large areas.
-pub(super) fn tint(share: f64) -> String {
-    between(&TINTS, share)
+/// The colour of a value with a sign, from −1 to 1: white at zero, and the darker the farther from it.
+pub(super) fn diverging(share: f64) -> String {
+    between(if share < 0.0 { &BELOW_ZERO } else { &ABOVE_ZERO }, share.abs())
 }
 
 fn between(samples: &[[u8; 3]], share: f64) -> String {
@@ -87,7 +90,8 @@ mod tests {
 
     #[test]
     fn the_scales_are_ordered_by_lightness() {
-        for scale in [shade, tint] {
+        let halves = [|share: f64| diverging(1.0 - share), |share: f64| diverging(share - 1.0)];
+        for scale in [shade, halves[0], halves[1]] {
             let shades: Vec<f64> =
                 (0..=200).map(|i| luminance(&scale(f64::from(i) / 200.0))).collect();
             assert!(shades.windows(2).all(|pair| pair[0] < pair[1] + 2e-3), "lightness falls");
@@ -100,10 +104,27 @@ mod tests {
     }
 
     #[test]
+    fn signs_differ_in_hue_and_are_white_at_zero() {
+        assert_eq!(diverging(0.0), "#FFFFFF");
+        let red = |colour: &str| i32::from_str_radix(&colour[1..3], 16).expect("two digits");
+        let blue = |colour: &str| i32::from_str_radix(&colour[5..7], 16).expect("two digits");
+        for step in 1..=20 {
+            let (above, below) =
+                (diverging(f64::from(step) / 20.0), diverging(f64::from(-step) / 20.0));
+            assert!(red(&above) > blue(&above) && red(&below) < blue(&below), "{above} {below}");
+        }
+    }
+
+    #[test]
     fn lines_differ_in_more_than_colour() {
         let style = |i: usize| (i % MARKERS.len(), i % DASHES.len());
         let styles: std::collections::BTreeSet<_> = (0..40).map(style).collect();
         assert_eq!(styles.len(), 40);
+        // A curve without markers has its dashes and its colour alone.
+        let strokes: std::collections::BTreeSet<_> =
+            (0..40).map(|i| (i % COLOURS.len(), i % DASHES.len())).collect();
+        assert_eq!(strokes.len(), 40);
+        assert_eq!((0..6).map(|i| DASHES[i]).collect::<std::collections::BTreeSet<_>>().len(), 6);
         let mut colours = COLOURS.to_vec();
         colours.sort_unstable();
         colours.dedup();
