@@ -55,6 +55,33 @@ fn charts_of_a_scene() {
     for part in ["Norm", "mu=1", "strain_impact", "wavestep chart", "seed"] {
         assert!(caption.to_lowercase().contains(&part.to_lowercase()), "{part} in {caption}");
     }
+    // Preparation is shown, and settings of different methods have different labels.
+    let methods = work["methods"].as_array().unwrap();
+    let points = || methods.iter().flat_map(|method| method["points"].as_array().unwrap());
+    let with = |point: &Value| point["seconds_with_preparation"].as_f64().unwrap();
+    assert!(points().all(|point| with(point) >= point["seconds"].as_f64().unwrap()));
+    assert!(caption.contains("once all is prepared") && caption.contains("over 60 points"));
+    let settings: Vec<&str> = points().filter_map(|point| point["setting"].as_str()).collect();
+    let labels: Vec<&&str> = settings.iter().filter(|setting| !setting.is_empty()).collect();
+    let different: std::collections::BTreeSet<_> = labels.iter().collect();
+    assert_eq!(different.len(), labels.len(), "{labels:?}");
+    // Captions say what the curves are.
+    let norm = |name: &str| json(&folder, name)["caption"]["norm"].as_str().unwrap().to_owned();
+    assert!(norm("finite-differences.json").contains("its mean over the times, and the largest"));
+    assert!(norm("modes-near-a-jump.json").contains("each time alone"));
+    // Every distance from a zero is looked at, and derivation is measured with symbols and without.
+    let zeros = json(&folder, "error-near-zeros.json");
+    let curves = zeros["curves"].as_array().unwrap();
+    assert!(curves.iter().all(|curve| curve["points"].as_array().unwrap().len() == 12));
+    let preparation = json(&folder, "preparation-by-order.json");
+    let derived = |what: &str| {
+        let name = format!("derivation of 0 to n, {what}");
+        preparation["curves"].as_array().unwrap().iter().any(|curve| curve["name"] == name)
+    };
+    assert!(derived("symbols kept") && derived("numbers set"));
+    // Maps reach from tiny to huge values.
+    let map = json(&folder, "map-marched-unproven.json");
+    assert_eq!(map["y"]["places"].to_string(), "[0.0001,1.0,10000.0]");
     let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
     let told = String::from_utf8(output.stdout).unwrap();
     let mut pictures = 0;
@@ -62,7 +89,7 @@ fn charts_of_a_scene() {
         assert!(Path::new(file).exists(), "{file}");
         pictures += usize::from(file.ends_with(".svg"));
     }
-    assert!(pictures >= 12, "{told}");
+    assert!(pictures >= 16, "{told}");
     assert_eq!(page.matches("<svg").count(), pictures);
 }
 

@@ -50,7 +50,7 @@ const LAYERS: [(&str, &[&str]); 24] = [
             "solution",
         ],
     ),
-    ("study", &["answer", "evaluate", "language", "plot"]),
+    ("study", &["answer", "evaluate", "language", "plot", "recurrence", "solution"]),
     (
         "picture",
         &["ball", "evaluate", "expression", "field", "language", "network", "plot", "scene"],

@@ -4,8 +4,9 @@
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use wavestep::plot::{
-    Axis, Caption, Cell, Chart, Curve, Curves, Diagram, Figure, Level, Map, Method, Panel, Part,
-    PlotError, Point, Region, Row, Section, Series, Shape, Table, WorkPrecision, frontier, page,
+    Axis, Caption, Cell, Chart, Curve, Curves, Diagram, Figure, Level, Listing, Map, Method, Panel,
+    Part, PlotError, Point, Region, Row, Section, Series, Shape, Table, WorkPrecision, frontier,
+    page,
 };
 
 /// The plotting area from side to side, and the room for zeros in it.
@@ -36,7 +37,7 @@ fn caption() -> Caption {
 }
 
 fn point(setting: &str, error: f64, bound: Option<f64>, seconds: f64) -> Point {
-    Point { setting: setting.into(), error, bound, seconds }
+    Point { setting: setting.into(), error, bound, seconds, prepared: None }
 }
 
 fn methods() -> Vec<Method> {
@@ -110,7 +111,8 @@ fn table() -> Table {
 
 fn whole_page() -> String {
     let (work, map, curves) = (work_precision(), map(), curves());
-    let section = |heading, explanation, chart| Section { heading, explanation, chart };
+    let section =
+        |heading, explanation, chart| Section { heading, explanation, chart, listing: None };
     let sections = [
         section("Methods", "Left is more accurate, down is faster.", &work as &dyn Chart),
         section("Map", "Digits are lost from left to right.", &map),
@@ -677,7 +679,9 @@ fn texts_are_escaped_everywhere() {
     let region = Region { x: (None, None), y: (None, None), name: bad() };
     let curves = curves.level(1.0, BAD).unwrap().mark(1.0, BAD).unwrap().region(region).unwrap();
     let charts: [&dyn Chart; 3] = [&work, &map, &curves];
-    let section = |chart| Section { heading: BAD, explanation: BAD, chart };
+    let listing = Listing { caption: bad(), heads: vec![bad()], rows: vec![vec![bad()]] };
+    let section =
+        |chart| Section { heading: BAD, explanation: BAD, chart, listing: Some(&listing) };
     let row = Row {
         method: bad(),
         setting: bad(),
@@ -711,7 +715,7 @@ fn json_survives_being_written_and_read() {
     }
     let work = work_precision().json();
     let point = &work["methods"][1]["points"][1];
-    let expected = r#"{"setting":"fine","error":1e-12,"bound":1e-10,"seconds":1e-6}"#;
+    let expected = r#"{"setting":"fine","error":1e-12,"bound":1e-10,"seconds":1e-6,"seconds_with_preparation":null}"#;
     assert_eq!(*point, serde_json::from_str::<serde_json::Value>(expected).unwrap());
     assert_eq!(work["reference_radius"], 1e-15);
     assert_eq!(map().json()["rows"].to_string(), r#"[[1e-12,1e-9,null],[1e-6,1.0,"inf"]]"#);
@@ -724,7 +728,7 @@ fn json_survives_being_written_and_read() {
 fn csv_has_every_number_exactly() {
     let csv = work_precision().csv();
     let mut lines = csv.lines();
-    assert_eq!(lines.next(), Some("method,setting,error,bound,seconds"));
+    assert_eq!(lines.next(), Some("method,setting,error,bound,seconds,seconds with preparation"));
     let points: Vec<(Method, Point)> = methods()
         .into_iter()
         .flat_map(|method| method.points.clone().into_iter().map(move |p| (method.clone(), p)))
@@ -735,13 +739,14 @@ fn csv_has_every_number_exactly() {
         assert_eq!(fields[2].parse(), Ok(point.error));
         assert_eq!(fields[3].parse().ok(), point.bound);
         assert_eq!(fields[4].parse(), Ok(point.seconds));
+        assert_eq!(fields[5].parse().ok(), point.prepared);
     }
     assert_eq!(map().csv().lines().nth(3), Some("3e1,1e-1,"));
     assert_eq!(map().csv().lines().nth(6), Some("3e1,1e1,inf"));
     assert_eq!(curves().csv().lines().next(), Some("curve,time (s),error"));
     let quoted = Method { name: "a, \"b\"".into(), points: vec![point("", 0.1 + 0.2, None, 1.0)] };
     let csv = WorkPrecision::new("", vec![quoted], Caption::default()).unwrap().csv();
-    assert_eq!(csv.lines().nth(1), Some("\"a, \"\"b\"\"\",,3.0000000000000004e-1,,1e0"));
+    assert_eq!(csv.lines().nth(1), Some("\"a, \"\"b\"\"\",,3.0000000000000004e-1,,1e0,"));
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use crate::answer::problem::Problem;
 use crate::evaluate::{
-    Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Side, Stable,
-    StablePrecision,
+    Certified, Compiled, EvaluateError, Expanded, Marched, Method, MethodError, Plain, Side,
+    Stable, StablePrecision,
 };
 use crate::model::{
     Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
@@ -261,6 +261,12 @@ impl std::error::Error for WayError {}
 impl From<MethodError> for WayError {
     fn from(error: MethodError) -> WayError {
         WayError::Method(error)
+    }
+}
+
+impl From<EvaluateError> for WayError {
+    fn from(error: EvaluateError) -> WayError {
+        WayError::Method(error.into())
     }
 }
 

@@ -6,11 +6,14 @@ use super::failure::Failure;
 use super::input::{self, Subject};
 use super::problem::{is_dimensional, with_problem};
 use super::progress;
+use super::quantity;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::answer::{Kind, Problem};
-use wavestep::evaluate::{EvaluateError, StablePrecision};
+use wavestep::evaluate::EvaluateError;
+use wavestep::network::ObservedValue;
 use wavestep::plot::{Axis, Caption, Curves, PlotError, Table};
+use wavestep::recurrence::{Observation, Recurrence};
 use wavestep::study::{self, Reference, Sampling, Settings};
 
 /// The most times of a reference.
@@ -26,9 +29,14 @@ const FEW_ORDERS: [usize; 4] = [1, 5, 10, 20];
 /// Orders at which exponentials underflow.
 const HIGH_ORDERS: [usize; 6] = [10, 30, 100, 200, 400, 800];
 
-/// Values of the parameter of maps: twelve from 1/100 to 10, a factor of about two apart.
-const PARAMETERS: [&str; 12] =
-    ["1/100", "1/50", "1/25", "1/12", "1/6", "1/4", "1/2", "1", "2", "4", "7", "10"];
+/// Values of the parameter of maps, from 1/10000 to 10000; those about 1 are closest.
+const PARAMETERS: [&str; 13] = [
+    "1/10000", "1/1000", "1/100", "1/10", "1/4", "1/2", "1", "2", "4", "10", "100", "1000", "10000",
+];
+/// Above this, balls take thousands of bits at high orders: maps end at the last of these orders there.
+const HUGE: f64 = 100.0;
+const LAST_OF_HUGE: usize = 20;
+const FEW_PARAMETERS: [&str; 3] = ["1/10000", "1", "10000"];
 
 /// Draws all charts.
 pub fn run(options: &Options) -> Result<String, Failure> {
@@ -61,11 +69,12 @@ pub fn run(options: &Options) -> Result<String, Failure> {
             false => Axis::linear("time").unit(unit),
         };
         let tick = |text: &str| spinner.set_message(text.to_owned());
-        on_problem(problem, options, &command, (unit, axis), &tick)
+        let symbolic = symbolic(options, &quantity);
+        on_problem(problem, symbolic.as_ref(), options, &command, (unit, axis), &tick)
     })?;
     if let Some(symbol) = single_symbol(options) {
-        spinner.set_message("maps".to_owned());
-        figures.extend(maps(options, &quantity, &symbol, &command)?);
+        let tick = |text: &str| spinner.set_message(text.to_owned());
+        figures.extend(maps(options, &quantity, &symbol, &command, &tick)?);
     }
     drop(spinner);
     let title = format!("{}: accuracy and speed of {quantity}", options.scene.scene);
@@ -122,6 +131,25 @@ fn single_symbol(options: &Options) -> Option<String> {
     }
 }
 
+/// The recurrence with its symbols, and what is charted of it, where values were given to symbols.
+fn symbolic(options: &Options, quantity: &str) -> Option<(Recurrence, Observation)> {
+    if options.scene.set.is_empty() {
+        return None;
+    }
+    let scene = Scene { scene: options.scene.scene.clone(), set: Vec::new() };
+    match input::subject(&scene).ok()?.with_closed_contacts("chart").ok()? {
+        Subject::Recurrence(recurrence) => {
+            let observation = quantity::of_recurrence(&recurrence, quantity).ok()?;
+            Some((*recurrence, observation))
+        }
+        Subject::Scene(network) => {
+            let observed = quantity::of_scene(&network, quantity).ok()?;
+            let ObservedValue::Linear(observation) = observed.value else { return None };
+            Some((network.recurrence().ok()?, observation))
+        }
+    }
+}
+
 /// The command that draws the charts again.
 fn command(options: &Options, quantity: &str) -> String {
     let set: String = options.scene.set.iter().map(|set| format!(" --set {set}")).collect();
@@ -151,9 +179,10 @@ fn caption(options: &Options, command: &str, sampling: String) -> Caption {
     }
 }
 
-/// The charts of one problem.
+/// The charts of one problem, and of what it is with its symbols.
 fn on_problem(
     problem: &Problem<'_>,
+    symbolic: Option<&(Recurrence, Observation)>,
     options: &Options,
     command: &str,
     (unit, axis): (&str, impl Fn() -> Axis),
@@ -181,8 +210,8 @@ fn on_problem(
     let mut figures = vec![Figure::new(
         "work-precision",
         "Each line is a method, each marker one of its settings. Further left is more accurate, further \
-         down is faster. A segment leads from the measured error to the proven bound, where there is one; \
-         preparation is not counted here and stands in the table.",
+         down is faster. A segment leads from the measured error to the proven bound, where there is one. \
+         Markers do not count preparation; a ring above a marker does, spread over the points.",
         work,
     )];
     let mut add = |name, text, chart: Result<Curves, PlotError>| match chart {
@@ -210,11 +239,14 @@ fn on_problem(
     add(
         "error-near-zeros",
         "Relative to the value itself: methods with an absolute error lose a digit for each power of ten \
-         that the value is smaller than the largest.",
+         that a time is nearer to a zero.",
         study::near_zeros(
-            &reference,
             problem,
-            other("the largest |computed − exact| / |exact| in each power of ten", &sampling.law()),
+            if options.quick { 5 } else { 40 },
+            other(
+                "the largest |computed − exact| / |exact| at each distance",
+                "on both sides of certified roots from all over the window",
+            ),
         ),
     );
     if problem.scene.is_some() {
@@ -226,14 +258,25 @@ fn on_problem(
             study::over_courant(
                 problem,
                 (&reference, if options.quick { 50 } else { 800 }),
-                caption(),
+                other(
+                    "|computed − exact| in parts of the largest value: its mean over the times, and the \
+                     largest, as each curve says",
+                    &sampling.law(),
+                ),
             ),
         );
         add(
             "modes-near-a-jump",
             "After an arrival in the middle of the window. The nearer to a jump, of the quantity or of \
              its slope, the more modes it takes; at a jump of the quantity they give its mean.",
-            study::near_jump(problem, unit, other(NORM, "60 times after one arrival")),
+            study::near_jump(
+                problem,
+                unit,
+                other(
+                    "|computed − exact| at each time alone, in parts of the largest value",
+                    "60 times after one arrival, their distances in geometric order",
+                ),
+            ),
         );
     }
     if let Some(period) = problem.signal.period() {
@@ -244,19 +287,33 @@ fn on_problem(
             "error-at-high-orders",
             "At n = 400 the exponential of an echo is below all doubles long before the echo is: methods \
              that carry its exponent apart do not notice.",
-            study::over_order(problem, period, high, other(NORM, "8 times on each period")),
+            study::over_order(problem, period, high, other(NORM, &study::order_law())),
         );
+        let sampling = "64 times on period n; derived are all periods to n";
+        let costs = study::cost_over_order(
+            problem,
+            symbolic.map(|(recurrence, observation)| (recurrence, observation)),
+            period,
+            orders,
+            settings,
+            other("seconds, the least of several runs", sampling),
+        );
+        let (values, preparation) = match costs {
+            Ok([values, preparation]) => (Ok(values), Ok(preparation)),
+            Err(reason) => (Err(reason.clone()), Err(reason)),
+        };
         add(
             "cost-by-order",
             "Sums of echoes cost the square of the order in the end; polynomials cost the same at any \
              order, once they are made.",
-            study::cost_over_order(
-                problem,
-                period,
-                orders,
-                settings,
-                other("seconds, the least of several runs", "64 times on each period"),
-            ),
+            values,
+        );
+        add(
+            "preparation-by-order",
+            "Derivation gives the closed forms of all periods to n, as `derive` does; a curve ends with \
+             the first one that takes more than 0.3 s. The others prepare values on period n alone, from \
+             nothing.",
+            preparation,
         );
     }
     tick("near equal poles");
@@ -272,52 +329,75 @@ fn on_problem(
     Ok((figures, table))
 }
 
-/// Maps over the order and the one symbol.
+/// The methods that have maps.
+const MAPPED: [Kind; 6] = study::DOUBLES;
+
+/// Maps over the order and the one symbol, and where the formula as printed loses its digits.
 fn maps(
     options: &Options,
     quantity: &str,
     symbol: &str,
     command: &str,
+    tick: &dyn Fn(&str),
 ) -> Result<Vec<Figure>, Failure> {
-    let kinds = [
-        Kind::Expanded,
-        Kind::Plain,
-        Kind::Stable(StablePrecision::Double),
-        Kind::Stable(StablePrecision::DoubleDouble),
-        Kind::Compiled,
-    ];
     let orders = if options.quick { &FEW_ORDERS[..] } else { &ORDERS };
-    let mut rows: Vec<Vec<(f64, Vec<Option<f64>>)>> = vec![Vec::new(); kinds.len()];
-    let parameters = if options.quick { &PARAMETERS[5..8] } else { &PARAMETERS };
+    let mut rows: Vec<Vec<(f64, Vec<Option<f64>>)>> = vec![Vec::new(); MAPPED.len()];
+    let mut refusals: Vec<Vec<String>> = vec![Vec::new(); MAPPED.len()];
+    let mut lost = Vec::new();
+    let parameters = if options.quick { &FEW_PARAMETERS[..] } else { &PARAMETERS };
     for parameter in parameters {
         let scene = Scene {
             scene: options.scene.scene.clone(),
             set: vec![format!("{symbol}={parameter}")],
         };
         // Not every value of a symbol need be possible.
+        tick(&format!("maps, {symbol} = {parameter}"));
         let Ok(subject) = input::subject(&scene) else { continue };
         let Ok(end) = default_end(&subject) else { continue };
         let value = input::number("a parameter", parameter)?.to_f64().unwrap_or(f64::NAN);
         let end = end * BigRational::from_integer(10.into());
         let found = with_problem(subject, quantity, (BigRational::default(), end), |problem, _| {
             let Some(period) = problem.signal.period() else { return Ok(None) };
-            Ok(Some(study::errors_by_order(problem, period, orders, &kinds)))
+            let is_seen = |order: &&usize| value <= HUGE || **order <= LAST_OF_HUGE;
+            let seen: Vec<usize> = orders.iter().take_while(is_seen).copied().collect();
+            let found = study::errors_by_order(problem, period, &seen, &MAPPED);
+            let known = (&seen[..], &found[0].errors[..]);
+            Ok(Some((study::first_losses(problem, MAPPED[0], (value, period), known), found)))
         });
-        if let Ok(Some(found)) = found {
-            rows.iter_mut().zip(found).for_each(|(rows, row)| rows.push((value, row)));
+        let Ok(Some((loss, found))) = found else { continue };
+        // Of an order that was not looked at nothing is known.
+        if found[0].errors.len() == orders.len() || loss.all.is_some() {
+            lost.push(loss);
+        }
+        for (i, mut row) in found.into_iter().enumerate() {
+            if row.errors.len() < orders.len() {
+                row.errors.resize(orders.len(), None);
+                let remark = format!("not measured beyond n = {LAST_OF_HUGE}, for its cost");
+                refusals[i].push(format!("{symbol} = {parameter}: {remark}."));
+            }
+            rows[i].push((value, row.errors));
+            refusals[i].extend(row.refusal.map(|why| format!("{symbol} = {parameter}: {why}.")));
         }
     }
-    let sampling = "8 times a period, one in each of equal parts, uniform there".to_owned();
+    let caption =
+        |remarks: Vec<String>| Caption { remarks, ..caption(options, command, study::order_law()) };
     let mut figures = Vec::new();
-    for (kind, rows) in kinds.into_iter().zip(&rows) {
+    for ((kind, rows), refusals) in MAPPED.into_iter().zip(&rows).zip(refusals) {
         let refused = rows.iter().all(|(_, row)| row.iter().all(Option::is_none));
-        let caption = caption(options, command, sampling.clone());
-        if let (false, Ok(map)) = (refused, study::order_map(kind, symbol, orders, rows, caption)) {
+        let map = study::order_map(kind, symbol, orders, rows, caption(refusals));
+        if let (false, Ok(map)) = (refused, map) {
             let name = format!("map-{}", kind.name());
             let text = "Colours are powers of ten of the error. The lines are where half of the digits \
                         are lost, and where nothing of use is left.";
             figures.push(Figure::new(&name, text, map));
         }
+    }
+    let last = orders.last().copied().unwrap_or(0);
+    let between = "Near each of the two levels every order is looked at.".to_owned();
+    let losses = study::losses(MAPPED[0], symbol, last, &lost, caption(vec![between]));
+    if let Ok((chart, listing)) = losses {
+        let text = "The formula as printed, order by order where its digits go.";
+        figures.push(Figure::new("orders-of-loss", text, chart).listed(listing));
     }
     Ok(figures)
 }

@@ -4,19 +4,25 @@ use super::failure::Failure;
 use super::output::write_whole;
 use std::fs;
 use std::path::Path;
-use wavestep::plot::{Chart, Section, Table, page};
+use wavestep::plot::{Chart, Listing, Section, Table, page};
 
 /// A chart with its file name and what is to be seen.
 pub struct Figure {
     name: String,
     text: &'static str,
     chart: Box<dyn Chart>,
+    listing: Option<Listing>,
 }
 
 impl Figure {
     /// A figure.
     pub fn new(name: &str, text: &'static str, chart: impl Chart + 'static) -> Figure {
-        Figure { name: name.to_owned(), text, chart: Box::new(chart) }
+        Figure { name: name.to_owned(), text, chart: Box::new(chart), listing: None }
+    }
+
+    /// The same with a small table.
+    pub fn listed(self, listing: Listing) -> Figure {
+        Figure { listing: Some(listing), ..self }
     }
 }
 
@@ -54,7 +60,9 @@ pub fn write(
             write_whole(&file, text.as_bytes())?;
             told += &format!("{}\n", file.display());
         }
-        sections.push(Section { heading: chart.title(), explanation: figure.text, chart });
+        let (heading, explanation) = (chart.title(), figure.text);
+        let listing = figure.listing.as_ref();
+        sections.push(Section { heading, explanation, chart, listing });
     }
     let file = folder.join("index.html");
     write_whole(&file, page(title, &sections, table).as_bytes())?;

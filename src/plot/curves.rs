@@ -46,7 +46,8 @@ pub struct Region {
 
 /// Several curves over one axis, with marked places, levels and a shaded region if wanted.
 ///
-/// On a logarithmic upward axis, values of exactly zero stand at the lower edge, with an arrow.
+/// On a logarithmic upward axis, values of exactly zero stand at the lower edge, with an arrow. Under a
+/// ceiling, what lies above it stands at the upper edge, with an arrow, infinite values as well.
 /// Curves of at most forty points have a marker at each, longer ones a few.
 ///
 /// # Invariants
@@ -70,6 +71,8 @@ pub struct Region {
 /// assert_eq!(chart.curves()[1].name, "exact");
 /// assert!(chart.svg().contains("useful no longer"));
 /// assert_eq!(chart.json()["levels"][0]["y"], 1e-2);
+/// // One point is far above all others.
+/// assert!(chart.ceiling(1.0)?.svg().contains("off the scale"));
 /// # Ok::<(), wavestep::plot::PlotError>(())
 /// ```
 #[derive(Clone, PartialEq, Debug)]
@@ -81,6 +84,7 @@ pub struct Curves {
     region: Option<Region>,
     marks: Vec<(f64, String)>,
     levels: Vec<(f64, String)>,
+    ceiling: Option<f64>,
     caption: Caption,
 }
 
@@ -105,8 +109,17 @@ impl Curves {
         if !curves.iter().flat_map(|curve| &curve.points).any(finite) {
             return Err(PlotError::Empty { title: title.to_owned() });
         }
-        let (title, region) = (title.to_owned(), None);
-        Ok(Curves { title, x, y, curves, region, marks: Vec::new(), levels: Vec::new(), caption })
+        Ok(Curves {
+            title: title.to_owned(),
+            x,
+            y,
+            curves,
+            region: None,
+            marks: Vec::new(),
+            levels: Vec::new(),
+            ceiling: None,
+            caption,
+        })
     }
 
     /// The same with a shaded region.
@@ -146,6 +159,17 @@ impl Curves {
         Ok(self)
     }
 
+    /// The same with an upward axis that ends at `y` where values lie above it, so that one curve that
+    /// leaves the picture does not press the others together. Where none lies above, nothing changes.
+    ///
+    /// # Errors
+    /// A value without a place on the axis.
+    pub fn ceiling(mut self, y: f64) -> Result<Curves, PlotError> {
+        checked(&self.y, y)?;
+        self.ceiling = Some(y);
+        Ok(self)
+    }
+
     /// The curves.
     pub fn curves(&self) -> &[Curve] {
         &self.curves
@@ -155,8 +179,18 @@ impl Curves {
         self.curves.iter().flat_map(|curve| &curve.points)
     }
 
+    /// Whether a point stands at the upper edge, above the ceiling.
+    fn is_above(&self, point: &(f64, f64)) -> bool {
+        point.0.is_finite() && self.ceiling.is_some_and(|ceiling| point.1 > ceiling)
+    }
+
+    /// Whether a point has a place in the picture.
+    fn is_drawn(&self, point: &(f64, f64)) -> bool {
+        finite(point) || self.is_above(point)
+    }
+
     fn left_out(&self) -> usize {
-        self.points().filter(|point| !finite(point)).count()
+        self.points().filter(|point| !self.is_drawn(point)).count()
     }
 
     fn description(&self) -> String {
@@ -197,21 +231,27 @@ struct Places {
     y: Mapping,
     /// Whether zeros stand below the upward axis, and where.
     zero: Option<f64>,
+    /// Whether points stand above the upward axis, and where.
+    above: Option<f64>,
 }
 
 impl Places {
     fn new(chart: &Curves, sheet: &Sheet) -> Places {
-        let points: Vec<&(f64, f64)> = chart.points().filter(|point| finite(point)).collect();
+        let points: Vec<&(f64, f64)> = chart.points().filter(|p| chart.is_drawn(p)).collect();
         let logarithmic = chart.y.scale == Scale::Logarithmic;
         let zero = logarithmic && points.iter().any(|point| point.1 == 0.0);
         let marks = chart.marks.iter().map(|mark| mark.0);
         let across = points.iter().map(|point| point.0).chain(marks);
         let levels = chart.levels.iter().map(|level| level.0);
-        let up = points.iter().map(|point| point.1).chain(levels);
+        let above = chart.ceiling.filter(|_| points.iter().any(|point| chart.is_above(point)));
+        let within = points.iter().filter(|point| !chart.is_above(point)).map(|point| point.1);
+        let up = within.chain(levels).chain(above);
+        let top = if above.is_some() { sheet.top + GUTTER } else { sheet.top };
         Places {
             x: fitted(chart.x.scale, across, (LEFT, RIGHT), false),
-            y: fitted(chart.y.scale, up, (sheet.bottom(), sheet.top), zero),
+            y: fitted(chart.y.scale, up, (sheet.bottom(), top), zero),
             zero: zero.then_some(sheet.bottom() - GUTTER / 2.0),
+            above: above.map(|_| sheet.top + GUTTER / 2.0),
         }
     }
 
@@ -219,15 +259,17 @@ impl Places {
         self.zero.is_some() && point.1 == 0.0
     }
 
-    fn of(&self, point: &(f64, f64)) -> (f64, f64) {
-        let up = self.zero.filter(|_| point.1 == 0.0);
+    fn of(&self, chart: &Curves, point: &(f64, f64)) -> (f64, f64) {
+        let zero = self.zero.filter(|_| point.1 == 0.0);
+        let up = self.above.filter(|_| chart.is_above(point)).or(zero);
         (self.x.position(point.0), up.unwrap_or_else(|| self.y.position(point.1)))
     }
 
     /// The parts of a curve between its gaps.
-    fn parts(&self, curve: &Curve) -> Vec<Vec<(f64, f64)>> {
-        let parts = curve.points.split(|point| !finite(point)).filter(|part| !part.is_empty());
-        parts.map(|part| part.iter().map(|point| self.of(point)).collect()).collect()
+    fn parts(&self, chart: &Curves, curve: &Curve) -> Vec<Vec<(f64, f64)>> {
+        let parts = curve.points.split(|point| !chart.is_drawn(point));
+        let parts = parts.filter(|part| !part.is_empty());
+        parts.map(|part| part.iter().map(|point| self.of(chart, point)).collect()).collect()
     }
 }
 
@@ -235,7 +277,7 @@ impl Places {
 fn draw_levels(chart: &Curves, sheet: &mut Sheet, places: &Places) -> usize {
     let mut placement = placement_in(sheet, &chart.marks, &places.x);
     for curve in &chart.curves {
-        places.parts(curve).iter().for_each(|part| placement.avoid(part));
+        places.parts(chart, curve).iter().for_each(|part| placement.avoid(part));
     }
     marks::draw_levels(&chart.levels, sheet, &places.y, &mut placement)
 }
@@ -252,9 +294,13 @@ fn draw_region(region: &Region, sheet: &mut Sheet, places: &Places) {
     sheet.drawing.rectangle("region", (left, high), (right, low));
 }
 
-fn arrow_down(drawing: &mut Drawing, line: usize, at: (f64, f64)) {
+/// An arrow away from a marker, `down` or up.
+fn arrow(drawing: &mut Drawing, line: usize, at: (f64, f64), down: bool) {
     let mut arrow = Drawing::default();
-    let path = "M0 6V14M-3.5 10.5L0 14L3.5 10.5";
+    let path = match down {
+        true => "M0 6V14M-3.5 10.5L0 14L3.5 10.5",
+        false => "M0 -6V-14M-3.5 -10.5L0 -14L3.5 -10.5",
+    };
     arrow.path(&format!("arrow c{}", line % COLOURS.len()), path);
     drawing.moved(at, &arrow);
 }
@@ -290,15 +336,16 @@ impl Chart for Curves {
         draw_marks(&self.marks, &mut sheet, &places.x);
         let unlabelled = draw_levels(self, &mut sheet, &places);
         for (i, curve) in self.curves.iter().enumerate() {
-            places.parts(curve).iter().for_each(|part| sheet.drawing.stroke(i, part));
+            places.parts(self, curve).iter().for_each(|part| sheet.drawing.stroke(i, part));
         }
         for (i, curve) in self.curves.iter().enumerate() {
             let points: Vec<&(f64, f64)> =
-                curve.points.iter().filter(|point| finite(point)).collect();
+                curve.points.iter().filter(|point| self.is_drawn(point)).collect();
             for point in marked(i, points.len()).map(|at| points[at]) {
-                let (x, y) = places.of(point);
-                if places.is_zero(point) {
-                    arrow_down(&mut sheet.drawing, i, (x, y));
+                let (x, y) = places.of(self, point);
+                let above = self.is_above(point);
+                if above || places.is_zero(point) {
+                    arrow(&mut sheet.drawing, i, (x, y), !above);
                 }
                 let about = format!("{}: {} at {}", curve.name, rounded(point.1), rounded(point.0));
                 sheet.drawing.marker(i, (x, y), &about);
@@ -317,8 +364,19 @@ impl Chart for Curves {
         if places.zero.is_some() {
             sheet.zero(false);
             legend.entry("exactly zero", |sample| {
-                arrow_down(sample, 3, (15.0, -6.0));
+                arrow(sample, 3, (15.0, -6.0), true);
                 sample.marker(3, (15.0, -6.0), "");
+            });
+        }
+        if let Some(ceiling) = self.ceiling.filter(|_| places.above.is_some()) {
+            let (parting, count) = (sheet.top + GUTTER, self.points().filter(|p| self.is_above(p)));
+            sheet.drawing.line("rule-across", (LEFT, parting), (RIGHT, parting));
+            let count = count.count();
+            let points = if count == 1 { "point" } else { "points" };
+            let text = format!("off the scale: above {} ({count} {points})", rounded(ceiling));
+            legend.entry(text, |sample| {
+                arrow(sample, 3, (15.0, 6.0), false);
+                sample.marker(3, (15.0, 6.0), "");
             });
         }
         let top = sheet.top;
@@ -343,7 +401,7 @@ impl Chart for Curves {
                 "name": region.name,
             })
         });
-        json!({
+        let mut value = json!({
             "kind": "curves",
             "title": self.title,
             "caption": self.caption.json(),
@@ -354,7 +412,11 @@ impl Chart for Curves {
             "marks": named("x", &self.marks),
             "levels": named("y", &self.levels),
             "left_out": self.left_out(),
-        })
+        });
+        if let Some(ceiling) = self.ceiling {
+            value["ceiling"] = number(ceiling);
+        }
+        value
     }
 
     fn csv(&self) -> String {

@@ -42,6 +42,6 @@ pub use error::PlotError;
 pub use figure::{Figure, Look, Panel, Series};
 pub use frontier::frontier;
 pub use map::{Level, Map};
-pub use page::{Row, Section, Table, page};
+pub use page::{Listing, Row, Section, Table, page};
 pub use png::png;
 pub use work_precision::{Method, Point, WorkPrecision};

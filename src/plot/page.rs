@@ -1,8 +1,62 @@
 //! One page with pictures and their numbers, complete in one file: no script, no other resource.
 
 use super::Chart;
-use super::text::escape;
+use super::text::{csv_field, escape};
 use std::fmt::Write;
+
+/// A small table under a chart: what can be read from the chart, in numbers.
+///
+/// ```
+/// use wavestep::plot::Listing;
+///
+/// let listing = Listing {
+///     caption: "Orders at which digits are lost".into(),
+///     heads: vec!["mu".into(), "8 digits".into()],
+///     rows: vec![vec!["1".into(), "30".into()]],
+/// };
+/// assert!(listing.rows.iter().all(|row| row.len() == listing.heads.len()));
+/// assert_eq!(listing.csv(), "mu,8 digits\n1,30\n");
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Listing {
+    /// What it lists.
+    pub caption: String,
+    /// The heads of its columns.
+    pub heads: Vec<String>,
+    /// Its rows, each with one text a column.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Listing {
+    /// The table as comma-separated values, with the heads first.
+    pub fn csv(&self) -> String {
+        let line = |texts: &Vec<String>| {
+            let fields: Vec<String> = texts.iter().map(|text| csv_field(text)).collect();
+            fields.join(",") + "\n"
+        };
+        line(&self.heads) + &self.rows.iter().map(line).collect::<String>()
+    }
+
+    fn markup(&self) -> String {
+        let cells = |tag: &str, texts: &[String]| -> String {
+            let cell = |text: &String| {
+                format!(
+                    "<{tag} class=\"number\">{}</{}>",
+                    escape(text),
+                    tag.split(' ').next().unwrap_or(tag)
+                )
+            };
+            texts.iter().map(cell).collect()
+        };
+        let row = |row: &Vec<String>| format!("<tr>{}</tr>\n", cells("td", row));
+        format!(
+            "<table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
+            escape(&self.caption),
+            cells("th scope=\"col\"", &self.heads),
+            self.rows.iter().map(row).collect::<String>()
+        )
+    }
+}
 
 /// A chart on a page, with what the reader should see in it.
 ///
@@ -12,7 +66,7 @@ use std::fmt::Write;
 /// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0)] };
 /// let (order, cost) = (Axis::linear("order"), Axis::linear("cost"));
 /// let chart = Curves::new("Cost", order, cost, vec![curve], Caption::default())?;
-/// let section = Section { heading: "Cost", explanation: "It grows.", chart: &chart };
+/// let section = Section { heading: "Cost", explanation: "It grows.", chart: &chart, listing: None };
 /// assert_eq!(section.chart.title(), "Cost");
 /// # Ok::<(), wavestep::plot::PlotError>(())
 /// ```
@@ -24,6 +78,8 @@ pub struct Section<'a> {
     pub explanation: &'a str,
     /// The chart.
     pub chart: &'a dyn Chart,
+    /// A small table under it, if there is one.
+    pub listing: Option<&'a Listing>,
 }
 
 /// A row of the table of a page.
@@ -157,7 +213,8 @@ fn ratio_text(ratio: f64) -> String {
 /// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0), (2.0, 4.0)] };
 /// let (order, cost) = (Axis::linear("order"), Axis::linear("cost"));
 /// let chart = Curves::new("Cost", order, cost, vec![curve], Caption::default())?;
-/// let section = Section { heading: "Cost < price", explanation: "It grows.", chart: &chart };
+/// let (heading, explanation) = ("Cost < price", "It grows.");
+/// let section = Section { heading, explanation, chart: &chart, listing: None };
 /// let page = page("Speed", &[section, section], &Table::default());
 /// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<h2>Cost &lt; price</h2>"));
 /// assert!(!page.contains("<script") && page.contains("id=\"chart-2-title\""));
@@ -183,7 +240,9 @@ pub fn page(title: &str, sections: &[Section<'_>], table: &Table) -> String {
         for line in section.chart.csv().lines() {
             let _ = writeln!(page, "{}", escape(line));
         }
-        page.push_str("</pre>\n</details>\n</section>\n");
+        page.push_str("</pre>\n</details>\n");
+        section.listing.iter().for_each(|listing| page.push_str(&listing.markup()));
+        page.push_str("</section>\n");
     }
     if !table.rows.is_empty() {
         page.push_str(&table_markup(table));

@@ -31,22 +31,21 @@ impl Placement {
 
     /// The left upper corner for a label of this size beside a point, and takes its place; `None`
     /// where all is full. Cost: O(places · (labels + segments)), with 24 places tried.
-    pub fn beside(&mut self, (x, y): (f64, f64), wide: f64, high: f64) -> Option<(f64, f64)> {
-        let mut places = Vec::new();
-        for gap in [7.0, 10.0, 15.0] {
-            let slant = 0.6 * gap;
-            places.extend([
-                (x + gap, y - high / 2.0),
-                (x - gap - wide, y - high / 2.0),
-                (x - wide / 2.0, y - gap - high),
-                (x - wide / 2.0, y + gap),
-                (x + slant, y - slant - high),
-                (x - slant - wide, y - slant - high),
-                (x + slant, y + slant),
-                (x - slant - wide, y + slant),
-            ]);
-        }
-        self.first_free(&places, wide, high)
+    pub fn beside(&mut self, at: (f64, f64), wide: f64, high: f64) -> Option<(f64, f64)> {
+        self.first_free(&around(at, wide, high, &[7.0, 10.0, 15.0]), wide, high)
+    }
+
+    /// The same where no line is crossed, a little further away if need be; `None` where a label would
+    /// lie on a line everywhere.
+    pub fn clear_beside(&mut self, at: (f64, f64), wide: f64, high: f64) -> Option<(f64, f64)> {
+        let places = around(at, wide, high, &[7.0, 10.0, 15.0, 20.0]);
+        let clear = |place: &&(f64, f64)| {
+            let label = corners(**place, wide, high);
+            self.is_free(label) && self.crossings(label) == 0
+        };
+        let place = *places.iter().find(clear)?;
+        self.taken.push(corners(place, wide, high));
+        Some(place)
     }
 
     /// The first of the places that is free and crosses the fewest lines, and takes it.
@@ -56,20 +55,45 @@ impl Placement {
         wide: f64,
         high: f64,
     ) -> Option<(f64, f64)> {
-        let corners = |&(left, top): &(f64, f64)| [(left, top), (left + wide, top + high)];
-        let free = |place: &&(f64, f64)| {
-            let label = corners(place);
-            inside(label, self.area) && !self.taken.iter().any(|taken| overlap(*taken, label))
-        };
-        let crossings = |place: &&(f64, f64)| {
-            let label = corners(place);
-            self.segments.iter().filter(|segment| crosses(**segment, label)).count()
-        };
+        let free = |place: &&(f64, f64)| self.is_free(corners(**place, wide, high));
+        let crossings = |place: &&(f64, f64)| self.crossings(corners(**place, wide, high));
         // The first of equals is taken: `min_by_key` keeps it.
         let place = *places.iter().filter(free).min_by_key(crossings)?;
-        self.taken.push(corners(&place));
+        self.taken.push(corners(place, wide, high));
         Some(place)
     }
+
+    fn is_free(&self, label: Corners) -> bool {
+        inside(label, self.area) && !self.taken.iter().any(|taken| overlap(*taken, label))
+    }
+
+    /// How many segments of lines a label would lie on.
+    fn crossings(&self, label: Corners) -> usize {
+        self.segments.iter().filter(|segment| crosses(**segment, label)).count()
+    }
+}
+
+fn corners((left, top): (f64, f64), wide: f64, high: f64) -> Corners {
+    [(left, top), (left + wide, top + high)]
+}
+
+/// Left upper corners of labels about a point, the nearest first: eight for each gap.
+fn around((x, y): (f64, f64), wide: f64, high: f64, gaps: &[f64]) -> Vec<(f64, f64)> {
+    let mut places = Vec::new();
+    for gap in gaps {
+        let slant = 0.6 * gap;
+        places.extend([
+            (x + gap, y - high / 2.0),
+            (x - gap - wide, y - high / 2.0),
+            (x - wide / 2.0, y - gap - high),
+            (x - wide / 2.0, y + gap),
+            (x + slant, y - slant - high),
+            (x - slant - wide, y - slant - high),
+            (x + slant, y + slant),
+            (x - slant - wide, y + slant),
+        ]);
+    }
+    places
 }
 
 fn inside(label: Corners, area: Corners) -> bool {
@@ -139,5 +163,10 @@ mod tests {
         placement.avoid(&[(50.0, 50.0), (200.0, 50.0)]);
         let (x, _) = placement.beside((50.0, 50.0), 20.0, 10.0).expect("room");
         assert!(x < 50.0);
+        // Between close lines a label is left out rather than laid on them.
+        let lines = (0..20).map(|i| 5.0 * f64::from(i));
+        lines.for_each(|y| placement.avoid(&[(0.0, y), (200.0, y)]));
+        assert_eq!(placement.clear_beside((120.0, 50.0), 20.0, 10.0), None);
+        assert!(placement.beside((120.0, 50.0), 20.0, 10.0).is_some());
     }
 }

@@ -14,8 +14,14 @@ use serde_json::{Value, json};
 /// ```
 /// use wavestep::plot::Point;
 ///
-/// let point = Point { setting: "N = 10".into(), error: 3e-9, bound: Some(1e-8), seconds: 2e-7 };
-/// assert!(point.bound.unwrap() >= point.error);
+/// let point = Point {
+///     setting: "N = 10".into(),
+///     error: 3e-9,
+///     bound: Some(1e-8),
+///     seconds: 2e-7,
+///     prepared: Some(5e-6),
+/// };
+/// assert!(point.bound.unwrap() >= point.error && point.prepared.unwrap() >= point.seconds);
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Point {
@@ -25,8 +31,10 @@ pub struct Point {
     pub error: f64,
     /// A proven bound of the same error, if there is one.
     pub bound: Option<f64>,
-    /// Seconds for one point.
+    /// Seconds for one point, once all is prepared.
     pub seconds: f64,
+    /// Seconds for one point where the preparation is spread over the points, if that is to be shown.
+    pub prepared: Option<f64>,
 }
 
 /// A method with what was measured at its settings, in their order.
@@ -48,8 +56,9 @@ pub struct Method {
 /// A work–precision diagram: the error across, seconds a point up, both logarithmic.
 ///
 /// Each method is a line with markers at its settings. A thin segment that ends in a small bar
-/// leads from the error measured to its proven bound. The grey steps are the [`frontier`]. Errors
-/// of exactly zero stand at the left edge, with an arrow.
+/// leads from the error measured to its proven bound. A faint dotted line leads upwards to a ring at the
+/// time with preparation. The grey steps are the [`frontier`] of times without it. Errors of exactly
+/// zero stand at the left edge, with an arrow.
 ///
 /// # Invariants
 /// At least one point has a finite error and time. Errors and bounds are not negative, times are
@@ -59,7 +68,7 @@ pub struct Method {
 /// use wavestep::plot::{Caption, Chart, Method, Point, WorkPrecision};
 ///
 /// let point = |setting: &str, error, seconds| Point {
-///     setting: setting.into(), error, bound: None, seconds,
+///     setting: setting.into(), error, bound: None, seconds, prepared: None,
 /// };
 /// let methods = vec![
 ///     Method { name: "modes".into(), points: vec![point("N = 10", 1e-2, 1e-6)] },
@@ -97,8 +106,10 @@ impl WorkPrecision {
             if let Some(value) = point.bound.filter(|bound| *bound < 0.0) {
                 return Err(PlotError::Negative { what: what("bound"), value });
             }
-            if point.seconds <= 0.0 {
-                return Err(PlotError::NotPositive { what: what("time"), value: point.seconds });
+            if let Some(value) =
+                [Some(point.seconds), point.prepared].into_iter().flatten().find(|s| *s <= 0.0)
+            {
+                return Err(PlotError::NotPositive { what: what("time"), value });
             }
         }
         if !pairs(&methods).any(|(_, point)| finite(point)) {
@@ -180,6 +191,11 @@ fn bound(point: &Point) -> Option<f64> {
     point.bound.filter(|bound| bound.is_finite())
 }
 
+/// The time with preparation that can be drawn, where it differs from the time of a point to the eye.
+fn prepared(point: &Point) -> Option<f64> {
+    point.prepared.filter(|prepared| prepared.is_finite() && *prepared > 1.1 * point.seconds)
+}
+
 /// The method, with its setting in brackets if it has one.
 fn named(method: &Method, point: &Point) -> String {
     match point.setting.is_empty() {
@@ -192,7 +208,14 @@ fn named(method: &Method, point: &Point) -> String {
 fn about(method: &Method, point: &Point) -> String {
     let bound = point.bound.map(|bound| format!(", proven below {}", rounded(bound)));
     let (name, bound) = (named(method, point), bound.unwrap_or_default());
-    format!("{name}: error {}{bound}, {} s a point", rounded(point.error), rounded(point.seconds))
+    let prepared = point.prepared.filter(|prepared| *prepared > point.seconds);
+    let prepared = prepared.map(|prepared| format!(", {} with preparation", rounded(prepared)));
+    format!(
+        "{name}: error {}{bound}, {} s a point{}",
+        rounded(point.error),
+        rounded(point.seconds),
+        prepared.unwrap_or_default()
+    )
 }
 
 /// The places of the data in pixels.
@@ -213,7 +236,7 @@ impl Places {
         // A reference far finer than every error would leave the picture mostly empty.
         let near = chart.radius.filter(|radius| *radius >= least / 1e3);
         let x = fitted(Scale::Logarithmic, errors().chain(near), (LEFT, RIGHT), zero);
-        let seconds = points.iter().map(|point| point.seconds);
+        let seconds = points.iter().flat_map(|p| [Some(p.seconds), prepared(p)]).flatten();
         let y = fitted(Scale::Logarithmic, seconds, (sheet.bottom(), sheet.top), false);
         Places { x, y, zero }
     }
@@ -250,6 +273,33 @@ fn arrow_left(drawing: &mut Drawing, line: usize, (x, y): (f64, f64)) {
 /// The line of a method's points that are finite, in pixels.
 fn trace(places: &Places, method: &Method) -> Vec<(f64, f64)> {
     method.points.iter().filter(|point| finite(point)).map(|point| places.of(point)).collect()
+}
+
+/// Half the width of a ring.
+const RING: f64 = 3.5;
+
+/// How preparations look: fainter than what is measured without them.
+const PREPARED_STYLE: &str = "\
+.plot .prepared{fill:none;stroke:currentColor;stroke-width:1;stroke-dasharray:1.5 2.5;opacity:.55}\
+.plot .ring{fill:none;stroke:currentColor;stroke-width:1.2;opacity:.7}";
+
+fn ring(drawing: &mut Drawing, line: usize, at: (f64, f64)) {
+    let mut ring = Drawing::default();
+    let class = format!("ring c{}", line % super::palette::COLOURS.len());
+    ring.path(&class, "M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0 -7 0z");
+    drawing.moved(at, &ring);
+}
+
+/// The way from the time of a point to its time with preparation.
+fn draw_prepared(drawing: &mut Drawing, line: usize, point: &Point, places: &Places) {
+    let Some(prepared) = prepared(point) else { return };
+    let (x, y) = places.of(point);
+    let top = places.y.position(prepared);
+    let class = format!("prepared c{}", line % super::palette::COLOURS.len());
+    if y - top > RING {
+        drawing.line(&class, (x, y), (x, top + RING));
+    }
+    ring(drawing, line, (x, top));
 }
 
 fn draw_region(sheet: &mut Sheet, places: &Places, radius: Option<f64>, legend: &mut Legend) {
@@ -290,6 +340,11 @@ fn draw_labels(chart: &WorkPrecision, sheet: &mut Sheet, places: &Places) -> usi
             if let Some(bound) = bound(point) {
                 placement.avoid(&[(x, y), (places.across(bound), y)]);
             }
+            if let Some(prepared) = prepared(point) {
+                let top = places.y.position(prepared);
+                placement.avoid(&[(x, y), (x, top)]);
+                placement.take([(x - RING, top - RING), (x + RING, top + RING)]);
+            }
             let end = i == 0 || i + 1 == drawn.len();
             if end { &mut ends } else { &mut between }.push(*point);
         }
@@ -298,7 +353,7 @@ fn draw_labels(chart: &WorkPrecision, sheet: &mut Sheet, places: &Places) -> usi
     let labelled = ends.into_iter().chain(between).filter(|point| !point.setting.is_empty());
     for point in labelled {
         let (wide, high) = label_size(&point.setting);
-        match placement.beside(places.of(point), wide, high) {
+        match placement.clear_beside(places.of(point), wide, high) {
             Some((x, y)) => {
                 let base = (x + 1.0, y + 0.85 * SMALL + 1.0);
                 sheet.drawing.text("label", Anchor::Start, base, &point.setting);
@@ -337,6 +392,10 @@ impl Chart for WorkPrecision {
             sheet.drawing.stroke(i, &trace(&places, method));
         }
         for (i, method) in self.methods.iter().enumerate() {
+            let finite = method.points.iter().filter(|point| finite(point));
+            finite.for_each(|point| draw_prepared(&mut sheet.drawing, i, point, &places));
+        }
+        for (i, method) in self.methods.iter().enumerate() {
             let class = format!("bound c{}", i % super::palette::COLOURS.len());
             for point in method.points.iter().filter(|point| finite(point)) {
                 let (x, y) = places.of(point);
@@ -352,6 +411,14 @@ impl Chart for WorkPrecision {
             }
         }
         let unlabelled = draw_labels(self, &mut sheet, &places);
+        if pairs(&self.methods).any(|(_, point)| finite(point) && prepared(point).is_some()) {
+            sheet.drawing.style(PREPARED_STYLE);
+            legend.entry("up to the time with preparation, spread over the points", |sample| {
+                sample.line("prepared c3", (15.0, 8.0), (15.0, -4.0));
+                ring(sample, 3, (15.0, -8.0));
+                sample.marker(3, (15.0, 8.0), "");
+            });
+        }
         let across = Axis::logarithmic("greatest error, relative to the largest value");
         sheet.axes((&across, &places.x), (&Axis::logarithmic("seconds a point"), &places.y));
         if pairs(&self.methods).any(|(_, point)| finite(point) && bound(point).is_some()) {
@@ -383,6 +450,7 @@ impl Chart for WorkPrecision {
                 "error": json_number(Some(point.error)),
                 "bound": json_number(point.bound),
                 "seconds": json_number(Some(point.seconds)),
+                "seconds_with_preparation": json_number(point.prepared),
             })
         };
         let method = |method: &Method| {
@@ -406,7 +474,7 @@ impl Chart for WorkPrecision {
     }
 
     fn csv(&self) -> String {
-        let mut csv = String::from("method,setting,error,bound,seconds\n");
+        let mut csv = String::from("method,setting,error,bound,seconds,seconds with preparation\n");
         for (method, point) in pairs(&self.methods) {
             let fields = [
                 csv_field(&method.name),
@@ -414,6 +482,7 @@ impl Chart for WorkPrecision {
                 csv_number(Some(point.error)),
                 csv_number(point.bound),
                 csv_number(Some(point.seconds)),
+                csv_number(point.prepared),
             ];
             csv.push_str(&fields.join(","));
             csv.push('\n');

@@ -1,10 +1,10 @@
-//! Errors along one axis: time, order, distance from jumps and zeros, Courant's number; and costs.
+//! Errors along one axis: time, order, distance from a jump, Courant's number.
 
 use crate::answer::{Kind, Problem};
 use crate::evaluate::StablePrecision;
 use crate::plot::{Axis, Caption, Curve, Curves, PlotError};
-use crate::study::harness::{Settings, errors, measure};
-use crate::study::reference::{Reference, Sampling};
+use crate::study::harness::errors;
+use crate::study::reference::Reference;
 use wavestep_polynomial::Rational;
 
 /// The methods in doubles whose errors are followed.
@@ -35,28 +35,29 @@ pub const DOUBLES: [Kind; 6] = [
 pub const USELESS: f64 = 1e-3;
 
 /// An error at which half of the digits are lost.
-const HALF: f64 = 1e-8;
+///
+/// ```
+/// use wavestep::study::{HALF, USELESS};
+///
+/// assert!(HALF < USELESS && HALF > f64::EPSILON);
+/// ```
+pub const HALF: f64 = 1e-8;
+
+/// Errors above this, in parts of the largest value, stand at the upper edge of a chart.
+const CEILING: f64 = 100.0;
 
 /// A curve, with what a way refused as a remark.
-fn curve(
+pub(super) fn curve(
     kind: Kind,
     points: Result<Vec<(f64, f64)>, String>,
     caption: &mut Caption,
 ) -> Option<Curve> {
     match points {
-        Ok(points) => Some(Curve { name: name(kind), points }),
+        Ok(points) => Some(Curve { name: kind.to_string(), points }),
         Err(reason) => {
             caption.remarks.push(format!("{kind} is left out: {reason}."));
             None
         }
-    }
-}
-
-/// A way by its name; that a march has no bound here is of no matter for its error.
-fn name(kind: Kind) -> String {
-    match kind {
-        Kind::Marched { .. } => "marched".to_owned(),
-        kind => kind.to_string(),
     }
 }
 
@@ -68,7 +69,7 @@ fn levelled(
     caption: Caption,
 ) -> Result<Curves, PlotError> {
     let chart = Curves::new(title, x, Axis::logarithmic("error"), curves, caption)?;
-    chart.level(HALF, "8 digits lost")?.level(USELESS, "useful no longer")
+    chart.level(HALF, "8 digits lost")?.level(USELESS, "useful no longer")?.ceiling(CEILING)
 }
 
 /// The largest error in each of equal parts of the window.
@@ -119,61 +120,6 @@ pub fn over_time(
         curves.extend(curve(kind, points, &mut caption));
     }
     levelled("Error over time", axis, curves, caption)
-}
-
-/// The error relative to the value itself, by the size of the value: what is left near zeros.
-///
-/// # Errors
-/// [`PlotError`], where no method has values.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep::plot::Caption;
-/// use wavestep::study::{Reference, Sampling, near_zeros};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 20.0);
-/// let reference = Reference::new(&problem, &times).unwrap();
-/// let chart = near_zeros(&reference, &problem, Caption::default()).unwrap();
-/// // Sizes are parts of the largest value, so that none is above 1, but for the width of a decade.
-/// let mut sizes = chart.curves().iter().flat_map(|curve| &curve.points);
-/// assert!(sizes.all(|(size, error)| *size < 4.0 && *error >= 0.0));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub fn near_zeros(
-    reference: &Reference,
-    problem: &Problem<'_>,
-    mut caption: Caption,
-) -> Result<Curves, PlotError> {
-    let mut curves = Vec::new();
-    for kind in DOUBLES {
-        let points = errors(problem, kind, reference).map_err(|error| error.to_string());
-        let points = points.map(|errors| {
-            let sizes = reference.sizes();
-            let decade = |exponent: i32| {
-                let (low, high) = (10f64.powi(exponent), 10f64.powi(exponent + 1));
-                let within =
-                    sizes.iter().zip(&errors).filter(|(size, _)| (low..high).contains(*size));
-                let worst = within.map(|(size, error)| error / size).fold(None, larger);
-                worst.map(|worst| (low * 10f64.sqrt(), worst))
-            };
-            (-8..1).filter_map(decade).collect()
-        });
-        curves.extend(curve(kind, points, &mut caption));
-    }
-    let axis = Axis::logarithmic("size of the value, in parts of the largest");
-    let title = "Error relative to the value, near zeros";
-    Curves::new(title, axis, Axis::logarithmic("relative error"), curves, caption)
-}
-
-fn larger(worst: Option<f64>, error: f64) -> Option<f64> {
-    Some(worst.map_or(error, |worst: f64| worst.max(error)))
 }
 
 /// The error just after arrivals, by their number.
@@ -256,15 +202,16 @@ pub fn over_order(
     problem: &Problem<'_>,
     period: f64,
     orders: &[usize],
-    caption: Caption,
+    mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     let kinds = &DOUBLES[..5];
     let rows = super::errors_by_order(problem, period, orders, kinds);
     let mut curves = Vec::new();
     for (kind, row) in kinds.iter().zip(rows) {
-        let points = orders.iter().zip(row);
+        caption.remarks.extend(row.refusal.map(|refusal| format!("{kind}: {refusal}.")));
+        let points = orders.iter().zip(row.errors);
         let points = points.filter_map(|(order, error)| Some((*order as f64, error?))).collect();
-        curves.push(Curve { name: name(*kind), points });
+        curves.push(Curve { name: kind.to_string(), points });
     }
     curves.retain(|curve: &Curve| !curve.points.is_empty());
     levelled("Error at high orders", Axis::logarithmic("order n"), curves, caption)
@@ -383,74 +330,4 @@ pub fn over_courant(
     let axis = Axis::linear("Courant's number");
     let title = "Finite differences by Courant's number";
     Curves::new(title, axis, Axis::logarithmic("error"), curves, caption)
-}
-
-/// What a value and its preparation cost, by the number of periods before it.
-///
-/// # Errors
-/// [`PlotError`], where nothing was measured.
-///
-/// ```
-/// use std::time::Duration;
-/// use wavestep::answer::Problem;
-/// use wavestep::plot::Caption;
-/// use wavestep::study::{Settings, cost_over_order};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let settings = Settings { runs: 1, time: Duration::ZERO };
-/// let chart = cost_over_order(&problem, 2.0, &[1, 4], settings, Caption::default()).unwrap();
-/// let curve = |name: &str| chart.curves().iter().find(|curve| curve.name == name);
-/// assert!(curve("compiled, preparation of one period").is_some());
-/// let certified = curve("certified, a value").unwrap();
-/// assert!(certified.points.iter().all(|(_, seconds)| *seconds > 0.0));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub fn cost_over_order(
-    problem: &Problem<'_>,
-    period: f64,
-    orders: &[usize],
-    settings: Settings,
-    mut caption: Caption,
-) -> Result<Curves, PlotError> {
-    let kinds = DOUBLES.into_iter().chain([Kind::Certified]);
-    let mut curves = Vec::new();
-    for kind in kinds {
-        let (mut values, mut preparations) = (Vec::new(), Vec::new());
-        for &order in orders {
-            let ends = [order as f64 * period, (order as f64 + 1.0) * period];
-            let [from, to] = ends.map(|end| Rational::from_float(end).unwrap_or_default());
-            let part = Problem { from, to, ..*problem };
-            let times = Sampling { points: 64, seed: 1 }.times(ends[0], ends[1]);
-            let measured = Reference::new(&part, &times)
-                .map_err(|error| error.to_string())
-                .and_then(|reference| {
-                    let measured = measure(&part, (kind, None), &reference, settings);
-                    measured.map_err(|error| error.to_string())
-                });
-            match measured {
-                Ok(measured) => {
-                    values.push((order as f64, measured.seconds));
-                    preparations.push((order as f64, measured.preparation.max(1e-9)));
-                }
-                Err(reason) => {
-                    caption.remarks.push(format!("{kind} is left out: {reason}."));
-                    break;
-                }
-            }
-        }
-        if matches!(kind, Kind::Compiled) {
-            let name = format!("{}, preparation of one period", name(kind));
-            curves.push(Curve { name, points: preparations });
-        }
-        curves.push(Curve { name: format!("{}, a value", name(kind)), points: values });
-    }
-    curves.retain(|curve| !curve.points.is_empty());
-    let (order, seconds) = (Axis::logarithmic("order n"), Axis::logarithmic("time").unit("s"));
-    Curves::new("Cost of values by order", order, seconds, curves, caption)
 }

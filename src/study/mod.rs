@@ -4,18 +4,23 @@
 //! differences from it, relative to the largest value; times are the least of several runs.
 
 mod confluence;
+mod cost;
 mod curves;
 mod harness;
+mod loss;
 mod map;
 mod reference;
 mod work;
+mod zeros;
 
 pub use confluence::near_confluence;
+pub use cost::{cost_over_order, derivation_cost};
 pub use curves::{
-    DOUBLES, USELESS, at_arrivals, cost_over_order, near_jump, near_zeros, over_courant,
-    over_order, over_time,
+    DOUBLES, HALF, USELESS, at_arrivals, near_jump, over_courant, over_order, over_time,
 };
 pub use harness::{Measured, Settings, errors, measure, worst};
-pub use map::{errors_by_order, order_map};
+pub use loss::{Loss, first_losses, losses};
+pub use map::{OrderRow, errors_by_order, order_law, order_map};
 pub use reference::{Reference, Sampling};
 pub use work::{LADDER, Outcome, Step, ladder, work_precision};
+pub use zeros::{near_zeros, simple_roots};

@@ -2,6 +2,7 @@
 
 use crate::answer::Problem;
 use crate::evaluate::{EvaluateError, Side};
+use num_traits::ToPrimitive as _;
 use wavestep_polynomial::Rational;
 
 /// The bits of balls tried first, and the most.
@@ -46,6 +47,11 @@ impl Sampling {
     pub fn law(&self) -> String {
         format!("{} times, one in each of equal parts of the window, uniform there", self.points)
     }
+}
+
+/// The double nearest to a rational number.
+pub(crate) fn nearest(number: &Rational) -> f64 {
+    number.to_f64().unwrap_or(f64::NAN)
 }
 
 /// The generator SplitMix64 (Steele, Lea and Flood 2014): 64 bits from a counter.
@@ -151,6 +157,11 @@ impl Reference {
     /// Where there are not as many values as times.
     pub fn errors(&self, computed: &[f64]) -> Vec<f64> {
         assert_eq!(computed.len(), self.values.len(), "one value a time");
+        self.first_errors(computed)
+    }
+
+    /// The same for the first times alone.
+    pub(crate) fn first_errors(&self, computed: &[f64]) -> Vec<f64> {
         let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
         let error = |(value, (high, low)): (&f64, &(f64, f64))| match value.is_finite() {
             true => ((value - high) - low).abs() / scale,

@@ -87,17 +87,19 @@ impl Outcome {
     fn line(&self) -> String {
         match self.step.0 {
             Kind::Leapfrog { courant, .. } => format!("leapfrog, CFL {courant}"),
-            Kind::Marched { proven: true } => "marched".to_owned(),
             kind => kind.name().to_owned(),
         }
     }
 
-    /// The setting, in few letters.
+    /// The setting, in few letters; no two steps of different lines have the same.
     fn setting(&self) -> String {
         match self.step {
             (Kind::Modes { count }, _) => format!("N = {count}"),
+            (Kind::Leapfrog { cells, courant }, _) if courant < 1.0 => {
+                format!("{cells} cells, CFL {courant}")
+            }
             (Kind::Leapfrog { cells, .. }, _) => format!("{cells} cells"),
-            (Kind::Steps { tolerance }, _) => format!("tol {tolerance:e}"),
+            (Kind::Steps { tolerance }, _) => format!("rtol {tolerance:e}"),
             (_, Some(tolerance)) => format!("tol {tolerance:e}"),
             _ => String::new(),
         }
@@ -159,6 +161,9 @@ pub fn ladder(
 
 /// The diagram and the table of outcomes. Ways that refused are named in the caption, with the reason.
 ///
+/// The diagram shows seconds a point, and above them the same with the preparation spread over the points
+/// of the reference.
+///
 /// # Errors
 /// [`PlotError`], where nothing was measured.
 ///
@@ -184,6 +189,8 @@ pub fn ladder(
 /// let (chart, table) =
 ///     work_precision("Values", &outcomes, &reference, Caption::default()).unwrap();
 /// assert_eq!(chart.methods()[0].name, "compiled");
+/// // Nothing was prepared.
+/// assert_eq!(chart.methods()[0].points[0].prepared, Some(1e-9));
 /// // A thousand times as fast as certified values.
 /// assert!((table.rows[0].speed_up.unwrap() - 1000.0).abs() < 1e-9);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -201,6 +208,10 @@ pub fn work_precision(
         .filter(|measured| matches!(measured.kind, Kind::Certified))
         .map(|measured| measured.seconds)
         .next();
+    caption.remarks.push(format!(
+        "Markers: seconds a point once all is prepared. Rings: with the preparation, spread over {} points.",
+        reference.times().len()
+    ));
     for outcome in outcomes {
         let (line, setting) = (outcome.line(), outcome.setting());
         let measured = match &outcome.result {
@@ -214,7 +225,8 @@ pub fn work_precision(
             }
         };
         let Measured { error, bound, seconds, preparation, .. } = *measured;
-        let point = Point { setting: setting.clone(), error, bound, seconds };
+        let prepared = Some(seconds + preparation / reference.times().len().max(1) as f64);
+        let point = Point { setting: setting.clone(), error, bound, seconds, prepared };
         match methods.iter_mut().find(|method| method.name == line) {
             Some(method) => method.points.push(point),
             None => methods.push(Method { name: line.clone(), points: vec![point] }),

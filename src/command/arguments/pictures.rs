@@ -8,8 +8,9 @@ use clap::{Args, ValueEnum, ValueHint};
 #[command(after_help = "Examples:\n  \
     wavestep chart rigid-mass --set mu=1 -o charts\n  \
     wavestep chart hopkinson --quantity gauge_output --to 2ms -o charts\n\n\
-Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table. With one symbol\n\
-set, there are maps over the order and that symbol as well. Times are those of this machine.")]
+Each chart is written as SVG, JSON and CSV; index.html shows all of them with a table.\n\
+With one symbol set, there are maps over the order and that symbol as well.\n\
+Seconds are those of this machine.")]
 pub struct Chart {
     #[command(flatten)]
     pub scene: Scene,

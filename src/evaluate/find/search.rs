@@ -7,6 +7,7 @@ use crate::ball::Ball;
 use crate::evaluate::evaluator::{EvaluateError, Side};
 use crate::evaluate::find::observed::ObservedSignal;
 use crate::evaluate::find::piecewise::{At, Piecewise};
+use crate::evaluate::signal::Signal;
 use crate::network::{Network, Observed};
 use crate::recurrence::Observation;
 use crate::solution::Solution;
@@ -115,6 +116,38 @@ impl<'a> Search<'a> {
     ) -> Result<Search<'a>, EvaluateError> {
         check(window)?;
         let function = ObservedSignal::of_scene(network, observed, window)?;
+        Search::over(Box::new(function), window)
+    }
+
+    /// A signal on a window, both its ends included. There are no exact values to compare with: a root
+    /// that is an arrival, or one of even order, stays undecided.
+    ///
+    /// # Errors
+    /// As [`Search::of_recurrence`].
+    ///
+    /// ```
+    /// use wavestep::evaluate::{Root, Search, Signal};
+    /// use wavestep::language::{Source, parse_number, read_recurrence};
+    ///
+    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
+    /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+    /// let f = recurrence.observation("f").unwrap();
+    /// let signal = Signal::of_recurrence(&recurrence, &f).unwrap();
+    /// let window = [parse_number("0")?, parse_number("3")?];
+    /// let search = Search::of_signal(&signal, [&window[0], &window[1]]).unwrap();
+    /// let roots = search.roots(&parse_number("0")?, 9, 1 << 12).unwrap();
+    /// let [Root::Simple { time, rises: false }] = &roots.all[..] else { panic!("one root") };
+    /// // It is 5/2 + e^{−2}/2.
+    /// assert_eq!(time.to_text(9), "2.56766764");
+    /// # Ok::<(), wavestep::language::Diagnostic>(())
+    /// ```
+    pub fn of_signal(
+        signal: &Signal,
+        window: [&Rational; 2],
+    ) -> Result<Search<'static>, EvaluateError> {
+        check(window)?;
+        let function = ObservedSignal::of_signal(signal.clone(), window)?;
         Search::over(Box::new(function), window)
     }
 

@@ -107,6 +107,8 @@ const MAX_PRECISIONS: usize = 3;
 /// assert!(error.to_string().contains("energy"), "{error}");
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
+///
+/// A clone begins with nothing computed.
 pub struct Signal {
     recurrence: Recurrence,
     observation: Observation,
@@ -122,6 +124,7 @@ pub struct Signal {
 }
 
 /// Echoes on a lattice of several periods.
+#[derive(Clone)]
 struct Scattered {
     unfolded: Unfolded,
     /// By number, with their delays.
@@ -134,6 +137,20 @@ struct Scattered {
 enum Solved {
     Periods(Box<Periods>),
     Echoes(Rc<Echoes>),
+}
+
+impl Clone for Signal {
+    fn clone(&self) -> Signal {
+        Signal {
+            recurrence: self.recurrence.clone(),
+            observation: self.observation.clone(),
+            unit: self.unit.clone(),
+            slowness: self.slowness.clone(),
+            numbers: Rc::new(Numbers::new(self.recurrence.constants())),
+            lattice: self.lattice.clone(),
+            solved: RefCell::default(),
+        }
+    }
 }
 
 impl Signal {
