@@ -51,11 +51,12 @@ pub fn chart(scaled: &ScaledScene, options: &Plot) -> Result<Box<dyn Chart>, Fai
         let place = quantity::of_model(scene, &name)?;
         let values = Way::of_model(STEPS, scaled, place)?.values(&times)?;
         let points = times.iter().copied().zip(values).collect();
+        let measure = scene.observables[place].terms.first().map(|term| term.measure);
         let dimension = match scene.dimensional {
             true => scene.observables[place].terms[0].measure.dimension(),
             false => Dimension::NONE,
         };
-        Ok(Course { name, dimension, values: Sampled { points, jumps: Vec::new() } })
+        Ok(Course { name, dimension, measure, values: Sampled { points, jumps: Vec::new() } })
     };
     let courses: Vec<Course> =
         names(options, all)?.into_iter().map(course).collect::<Result<_, _>>()?;
