@@ -476,3 +476,16 @@ fn from_alone_gives_four_periods() {
         formulas.lines().filter(|line| line.starts_with('f')).map(|line| &line[..4]).collect();
     assert_eq!(heads, ["f[4]", "f[5]", "f[6]", "f[7]"]);
 }
+
+#[test]
+fn negative_numbers_are_values_of_options() {
+    for (arguments, reason) in [
+        (["eval", "rigid-mass", "--quantity", "f", "--at", "1", "--tol", "-1"], "-1"),
+        (["eval", "rigid-mass", "--quantity", "f", "--local", "0", "--piece", "-1"], "--piece"),
+    ] {
+        let output = run_in(Path::new("."), &arguments);
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && output.stdout.is_empty(), "{arguments:?}");
+        assert!(errors.contains(reason) && !errors.contains("unexpected argument"), "{errors}");
+    }
+}

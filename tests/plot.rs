@@ -511,7 +511,7 @@ fn cells_of_a_map_lie_between_their_edges() {
         fill("url(#chart-refused)"),
         format!("M{} {bottom}H650V{middle}H{}z", edge(2.0), edge(2.0))
     );
-    assert!(svg.contains("refused: no value is") && svg.contains("(1 cell)"));
+    assert!(svg.contains("no value: refused, or") && svg.contains("(1 cell)"));
     // Levels: 1e-8 between the rows, in the two columns known; 1e-2 between the upper two columns
     // and under the second. Each stands on its casing; samples in the legend are shorter.
     let lines = |class| -> Vec<Vec<(f64, f64)>> {

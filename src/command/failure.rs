@@ -119,7 +119,7 @@ impl From<NetworkError> for Failure {
     fn from(error: NetworkError) -> Failure {
         let remedy = match &error {
             NetworkError::Incommensurate => {
-                "ask for echoes in order of their arrival, with --form echo, or for values"
+                "ask `derive` for echoes in order of their arrival, with --form echo, or `eval` for values"
             }
             NetworkError::Unobservable(..) => "observe it at another place",
             NetworkError::Rates { .. } => {

@@ -43,7 +43,7 @@ mod rows;
 mod validity;
 
 use arguments::{Arguments, Scenes, Subcommand};
-use clap::Parser as _;
+use clap::{CommandFactory as _, FromArgMatches as _};
 use failure::Failure;
 use std::io::{self, IsTerminal as _, Write as _};
 use std::process::ExitCode;
@@ -52,7 +52,7 @@ use wavestep::scenes::{SCENES, Scene};
 
 /// Runs the command that the arguments name.
 pub fn run() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let arguments = match parsed() {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help and version are no failures; clap prints them to standard output.
@@ -94,6 +94,18 @@ pub fn run() -> ExitCode {
             ExitCode::from(failure.code())
         }
     }
+}
+
+/// The arguments. A negative number is the value of the option before it, which says what is wrong with it.
+fn parsed() -> Result<Arguments, clap::Error> {
+    let mut command = Arguments::command().mut_subcommands(|subcommand| {
+        subcommand.mut_args(|argument| match argument.get_action().takes_values() {
+            true => argument.allow_negative_numbers(true),
+            false => argument,
+        })
+    });
+    let mut matches = command.try_get_matches_from_mut(std::env::args_os())?;
+    Arguments::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
 }
 
 /// The exit code after writing: a reader that has gone away ends the command quietly.

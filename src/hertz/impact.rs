@@ -154,6 +154,16 @@ impl LongBars {
     }
 
     /// The law of the contact.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let one = || Ball::from_rational(&Rational::from_integer(1.into()), 60);
+    /// let bars = LongBars::new(PowerLaw::hertz(), (one(), one()), [one(), one()], one(), 60);
+    /// assert_eq!(bars.unwrap().law(), &PowerLaw::hertz());
+    /// ```
     #[must_use]
     pub fn law(&self) -> &PowerLaw {
         &self.law

@@ -95,8 +95,9 @@ impl fmt::Display for ModelError {
             }
             ModelError::Solver { model, reason } => write!(
                 f,
-                "in the model \"{model}\" the solver of differential equations gave up: {reason}; \
-                 try another tolerance"
+                "in the model \"{model}\" the solver of differential equations gave up: {}; \
+                 try another tolerance",
+                reason.trim_end_matches('.')
             ),
         }
     }

@@ -333,7 +333,7 @@ impl Chart for Map {
         }
         let unknown = self.count(|cell| cell.is_some_and(|error| !error.is_finite()));
         let texts = [
-            ("refused", self.count(|cell| cell.is_none()), "refused: no value is given"),
+            ("refused", self.count(|cell| cell.is_none()), "no value: refused, or not measured"),
             ("infinite", unknown, "not finite: overflow, or not a number"),
         ];
         for (kind, count, text) in texts.into_iter().filter(|(_, count, _)| *count > 0) {
