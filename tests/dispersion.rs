@@ -355,6 +355,15 @@ fn finite_sums_tend_to_the_integral() {
     }
 }
 
+/// The length of the pulse is called b in closed forms, so that no parameter may be.
+#[test]
+fn no_closed_form_confuses_a_parameter_with_the_length() {
+    for (formula, has_one) in [("k - b*k^3", false), ("k - a*k^3", true)] {
+        let exact = exact_peak_velocity(&read(formula), Shape::Square);
+        assert_eq!(exact.is_some(), has_one, "{formula}");
+    }
+}
+
 /// The root of `ω(k) τ = 2π` in closed form: `k = √(2π/τ)` for the beam, `2 arcsin(π/τ)` for the chain.
 #[test]
 fn cut_offs_of_durations() {
