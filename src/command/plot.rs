@@ -106,10 +106,19 @@ fn fields(options: &Plot) -> Result<Vec<Quantity>, Failure> {
 /// The window of time; where no end is given, some periods.
 fn window(subject: &Subject, options: &Plot) -> Result<(BigRational, BigRational), Failure> {
     let dimensional = matches!(subject, Subject::Scene(network) if network.scene().dimensional);
+    window_of(options, dimensional, || default_length(subject))
+}
+
+/// The window of time, of a usual length where no end is given.
+pub fn window_of(
+    options: &Plot,
+    dimensional: bool,
+    usual_length: impl FnOnce() -> Result<BigRational, Failure>,
+) -> Result<(BigRational, BigRational), Failure> {
     let from = input::time("--from", &options.from, dimensional)?;
     let to = match &options.to {
         Some(to) => input::time("--to", to, dimensional)?,
-        None => &from + default_length(subject)?,
+        None => &from + usual_length()?,
     };
     match from < to {
         true => Ok((from, to)),
@@ -120,9 +129,21 @@ fn window(subject: &Subject, options: &Plot) -> Result<(BigRational, BigRational
     }
 }
 
+/// What is told where no end is given, and no usual length is known.
+pub fn no_end() -> Failure {
+    Failure::usage("the window has no end", "give --to T")
+}
+
+/// A length with two figures, and not less.
+pub fn two_figures(length: f64) -> Result<BigRational, Failure> {
+    let step = 10_f64.powi(length.log10().floor() as i32 - 1);
+    let steps = (length / step).ceil().to_i64().ok_or_else(no_end)?;
+    let step = BigRational::from_float(step).ok_or_else(no_end)?;
+    Ok(step * BigRational::from_integer(steps.into()))
+}
+
 /// Some periods: exactly where a period is rational, else a round number near them.
 fn default_length(subject: &Subject) -> Result<BigRational, Failure> {
-    let missing = || Failure::usage("the window has no end", "give --to T");
     let periods = BigRational::from_integer(PERIODS.into());
     let network = match subject {
         Subject::Recurrence(recurrence) => {
@@ -130,27 +151,22 @@ fn default_length(subject: &Subject) -> Result<BigRational, Failure> {
             return match (period, recurrence.symbols().next()) {
                 (Some(period), _) => Ok(period * periods),
                 (None, Some(symbol)) => Err(EvaluateError::MissingValue(symbol.clone()).into()),
-                (None, None) => Err(missing()),
+                (None, None) => Err(no_end()),
             };
         }
         Subject::Scene(network) => network,
     };
-    let [period] = network.lattice().periods() else { return Err(missing()) };
+    let [period] = network.lattice().periods() else { return Err(no_end()) };
     let periods = periods.max(passages(network, period));
     let slowness = &network.model().slowness;
     if let (Some(period), Some(slowness)) = (period.as_constant(), slowness.as_constant()) {
         return Ok(period / slowness * periods);
     }
     let linear = |observed: &&Observed| matches!(observed.value, ObservedValue::Linear(_));
-    let observed = network.observables().iter().find(linear).ok_or_else(missing)?;
+    let observed = network.observables().iter().find(linear).ok_or_else(no_end)?;
     let signal = Signal::of_scene(network, observed, &BigRational::default())?;
-    let period = signal.period().ok_or_else(missing)?;
-    // Two figures, and not less.
-    let length = period * double(&periods);
-    let step = 10_f64.powi(length.log10().floor() as i32 - 1);
-    let steps = (length / step).ceil().to_i64().ok_or_else(missing)?;
-    let step = BigRational::from_float(step).ok_or_else(missing)?;
-    Ok(step * BigRational::from_integer(steps.into()))
+    let period = signal.period().ok_or_else(no_end)?;
+    two_figures(period * double(&periods))
 }
 
 /// In how many periods a wave has passed the whole line twice and come to all places observed; none where

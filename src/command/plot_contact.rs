@@ -3,11 +3,9 @@
 use super::arguments::Plot;
 use super::eval_contact::noted;
 use super::failure::Failure;
-use super::input;
-use super::plot::{double, names};
+use super::plot::{double, names, no_end, two_figures, window_of};
 use super::quantity;
 use num_rational::BigRational;
-use num_traits::FromPrimitive as _;
 use wavestep::answer::{Kind, Way};
 use wavestep::hertz::ContactOfScene;
 use wavestep::network::ScaledScene;
@@ -34,16 +32,8 @@ pub fn chart(scaled: &ScaledScene, options: &Plot) -> Result<Box<dyn Chart>, Fai
         let message = "diagrams and fields need waves in closed form, and a local contact has none";
         return Err(Failure::usage(message, "draw observables against time, or use a spring"));
     }
-    let from = input::time("--from", &options.from, scene.dimensional)?;
-    let to = match &options.to {
-        Some(to) => input::time("--to", to, scene.dimensional)?,
-        None => &from + usual_length(scaled)?,
-    };
+    let (from, to) = window_of(options, scene.dimensional, || usual_length(scaled))?;
     let (from, to) = (double(&from), double(&to));
-    if from >= to {
-        let message = format!("the window from {from} to {to} is empty");
-        return Err(Failure::usage(message, "give --from before --to"));
-    }
     let times: Vec<f64> =
         (0..=POINTS).map(|i| from + (to - from) * i as f64 / POINTS as f64).collect();
     let all = scene.observables.iter().map(|observable| observable.name.clone());
@@ -69,13 +59,9 @@ pub fn chart(scaled: &ScaledScene, options: &Plot) -> Result<Box<dyn Chart>, Fai
 
 /// Some units of time of the contact, and twice the time until a wave returns to it: two figures.
 fn usual_length(scaled: &ScaledScene) -> Result<BigRational, Failure> {
-    let missing = || Failure::usage("the window has no end", "give --to T");
-    let contact = ContactOfScene::new(scaled, BITS).map_err(|_| missing())?;
+    let contact = ContactOfScene::new(scaled, BITS).map_err(|_| no_end())?;
     let seconds = |ball: &wavestep::ball::Ball| ball.to_decimal(15).midpoint().to_rational();
     let units = double(&seconds(contact.bars.time_unit())) * UNITS;
     let returned = contact.first_return.as_ref().map_or(0.0, |time| 2.0 * double(&seconds(time)));
-    let length = units.max(returned);
-    let step = 10_f64.powi(length.log10().floor() as i32 - 1);
-    let figures = BigRational::from_f64((length / step).ceil()).ok_or_else(missing)?;
-    Ok(figures * BigRational::from_f64(step).ok_or_else(missing)?)
+    two_figures(units.max(returned))
 }
