@@ -2,8 +2,9 @@
 //! their own error.
 //!
 //! A [`Ball`] is a midpoint and a radius; every operation returns a ball that contains each result
-//! its operands allow. A [`ComplexBall`] is a pair of balls. A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a
-//! ball as a person reads it, and a [`Certified`] value is a decimal with the ball that proves it.
+//! its operands allow. A [`ComplexBall`] is a pair of balls, a `Number` an exact rational or a ball.
+//! A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a ball as a person reads it,
+//! and a [`Certified`] value is a decimal with the ball that proves it.
 //!
 //! Values of waves come as [`Certified`] from [`evaluate`](crate::evaluate); balls may be
 //! calculated with further.
@@ -21,6 +22,7 @@ mod error;
 mod exponential;
 mod logarithm;
 mod magnitude;
+mod number;
 mod root;
 #[cfg(test)]
 mod samples;
@@ -37,3 +39,4 @@ pub use enclosure::DecimalEnclosure;
 pub use error::BallError;
 pub(crate) use exponential::exp_of_rational;
 pub(crate) use magnitude::Magnitude;
+pub(crate) use number::Number;

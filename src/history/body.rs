@@ -4,13 +4,13 @@
 //! energy `Z ∫ (w⁺² + w⁻²) dt` and the momentum `Z ∫ (w⁺ + w⁻) dt` over the last `τ`. An endless bar holds
 //! what was sent into it since the start.
 
+use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
 use crate::expression::Fraction;
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::number::Number;
 use crate::history::track::Limit;
 use crate::network::Network;
 use crate::scene::{ElementIndex, End, Kind};

@@ -4,12 +4,12 @@
 //! A contact pushes and never pulls, and a gap is never negative. Whatever enclosures do not decide is
 //! refused by name.
 
+use crate::ball::Number;
 use crate::history::crossing::{Beginning, Course, beginning, follow};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::junction::{Junction, Motion};
 use crate::history::moment::Moment;
-use crate::history::number::Number;
 use crate::history::series::Series;
 use std::cmp::Ordering;
 

@@ -5,7 +5,7 @@
 //! difference of two of their values, and the whole cell one value that is kept.
 
 use crate::ball::Magnitude;
-use crate::history::number::Number;
+use crate::ball::Number;
 use crate::history::series::{Series, Truncation};
 use std::cell::OnceCell;
 

@@ -5,6 +5,7 @@
 //! would become negative closes; the cell ends there, and the next one begins with other equations.
 //! Every node has a time of its own and is at most a travel time ahead of its neighbours.
 
+use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
 use crate::expression::Fraction;
 use crate::history::contacts::{Contact, Happening};
@@ -12,7 +13,6 @@ use crate::history::error::HistoryError;
 use crate::history::junction::{Junction, Motion};
 use crate::history::moment::{Clock, Moment};
 use crate::history::node::{ContactPlace, Node, nodes};
-use crate::history::number::Number;
 use crate::history::series::{LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
 use crate::network::{Layout, Network, Side};

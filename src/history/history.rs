@@ -1,5 +1,6 @@
 //! The history of a scene whose contacts open and close: its events, and what became of each contact.
 
+use crate::ball::Number;
 use crate::ball::{Ball, CertifyError, certify};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::evaluate::{Determined, Value};
@@ -9,7 +10,6 @@ use crate::history::closed_form;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::number::Number;
 use crate::history::track::Limit;
 use crate::network::Network;
 use crate::scene::Kind;

@@ -6,9 +6,9 @@
 //! `u` holds the arriving waves and the loads.
 
 use crate::ball::Magnitude;
+use crate::ball::Number;
 use crate::history::error::HistoryError;
 use crate::history::node::{Link, Node};
-use crate::history::number::Number;
 use crate::history::series::{Series, Truncation};
 
 /// What is not followed in a node, as a reason.

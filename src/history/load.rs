@@ -3,10 +3,10 @@
 //! A course is a sum of polynomials times exponentials of the time since the start, with complex rates
 //! where it oscillates.
 
+use crate::ball::Number;
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
 use crate::expression::{Expression, Fraction};
-use crate::history::number::Number;
 use crate::history::series::{Series, Truncation};
 use wavestep_polynomial::{Rational, Symbol};
 

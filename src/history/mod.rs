@@ -24,7 +24,6 @@ mod junction;
 mod load;
 mod moment;
 mod node;
-mod number;
 mod observe;
 mod part;
 mod phased;

@@ -5,10 +5,10 @@
 //! events by enclosures.
 
 use crate::ball::Ball;
+use crate::ball::Number;
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::Fraction;
 use crate::history::error::HistoryError;
-use crate::history::number::Number;
 use num_traits::Zero;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;

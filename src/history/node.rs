@@ -3,12 +3,12 @@
 //! The elements between two bars, or between a bar and an end, are parted into *runs* by springs and by
 //! contacts. Masses, supports and loads belong to a run.
 
+use crate::ball::Number;
 use crate::enclosure::EnclosureError;
 use crate::expression::Fraction;
 use crate::history::error::HistoryError;
 use crate::history::load::Course;
 use crate::history::moment::Clock;
-use crate::history::number::Number;
 use crate::network::{Layout, ModelLump, Network, Side};
 use crate::scene::{Drive, ElementIndex, Joint};
 

@@ -4,13 +4,13 @@
 //! In a bar, at the time `s` from its left end, the wave that left the left end at `t − s` meets the one
 //! that left the right end at `t − (τ − s)`. Energies and momenta of bodies are sums over bars instead.
 
+use crate::ball::Number;
 use crate::evaluate::{Determined, Side, Value};
 use crate::expression::{Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{History, MAX_BITS, determined, unit};
 use crate::history::moment::Moment;
-use crate::history::number::Number;
 use crate::history::part::{Part, Signal, Source};
 use crate::history::track::Limit;
 use crate::network::{Network, Side as End, bar_roots};

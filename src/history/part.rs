@@ -1,11 +1,11 @@
 //! The parts that an observable is the sum of: waves with their delays, motions of nodes, compressions.
 
+use crate::ball::Number;
 use crate::expression::Fraction;
 use crate::history::energy::Integrand;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::number::Number;
 use crate::history::series::Series;
 use crate::history::track::Limit;
 

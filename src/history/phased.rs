@@ -1,5 +1,6 @@
 //! An observable across all phases of a scene's contacts, as what roots and extrema are looked for in.
 
+use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
 use crate::enclosure::EnclosureError;
 use crate::evaluate::{At, EvaluateError, Piecewise, Search, Side, Taylor};
@@ -7,7 +8,6 @@ use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{History, MAX_BITS, unit};
 use crate::history::moment::Moment;
-use crate::history::number::Number;
 use crate::history::part::Part;
 use crate::history::series::{Series, Truncation};
 use crate::network::Network;

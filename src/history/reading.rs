@@ -1,11 +1,11 @@
 //! What is read off nodes and contacts, once they have been followed to an instant.
 
+use crate::ball::Number;
 use crate::expression::Fraction;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::history::node::{ContactPlace, Link, Node};
-use crate::history::number::Number;
 use crate::history::series::Series;
 use crate::history::track::Limit;
 use crate::network::Side;

@@ -6,7 +6,7 @@
 //! keep.
 
 use crate::ball::Magnitude;
-use crate::history::number::Number;
+use crate::ball::Number;
 
 /// How series are cut off.
 ///

@@ -1,11 +1,11 @@
 //! A signal over time, cell by cell.
 
+use crate::ball::Number;
 use crate::enclosure::EnclosureError;
 use crate::expression::Fraction;
 use crate::history::energy::{Integrand, Wave};
 use crate::history::error::HistoryError;
 use crate::history::moment::{Clock, Moment};
-use crate::history::number::Number;
 use crate::history::series::{Series, Truncation};
 use std::cmp::Ordering;
 

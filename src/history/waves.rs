@@ -5,6 +5,7 @@
 //! closing. Here the state at the start is taken off, integrals are added, and precision is doubled where
 //! an enclosure does not do.
 
+use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
 use crate::evaluate::{EvaluateError, Side};
 use crate::expression::Fraction;
@@ -14,7 +15,6 @@ use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::MAX_BITS;
 use crate::history::moment::{Clock, Moment};
-use crate::history::number::Number;
 use crate::history::series::{Series, Truncation};
 use crate::history::track::Track;
 use crate::network::Network;

@@ -1,9 +1,11 @@
-//! Real numbers as the history knows them: rational and exact, or enclosed.
+//! Real numbers that are rational and exact, or enclosed.
 //!
-//! Bars without masses and springs have rational velocities and forces, of which it can be decided that
-//! they are zero. What is not rational, or has too long a fraction, is a ball.
+//! Whether a rational number is zero can be decided. Numbers that are not rational, and fractions that
+//! grow too long, are balls.
 
-use crate::ball::{Ball, BallError, Magnitude};
+use super::ball::Ball;
+use super::error::BallError;
+use super::magnitude::Magnitude;
 use num_traits::{Signed, Zero};
 use std::borrow::Cow;
 use std::cmp::Ordering;
