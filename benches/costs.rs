@@ -6,7 +6,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use wavestep::evaluate::{Certified, Compiled, Marched, Method, Side, Signal, Stable};
+use wavestep::evaluate::{Certified, Compiled, Limit, Marched, Method, Signal, Stable};
 use wavestep::evaluate::{StablePrecision, Taps};
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep_polynomial::Rational;
@@ -63,13 +63,13 @@ fn print(name: &str, what: &str, seconds: f64) {
 fn main() {
     let (from, to) = (Rational::default(), Rational::from_integer((2 * ORDER).into()));
     let late = &to - &parse_number("1/3").unwrap();
-    let value = |method: &dyn Method| seconds(|| method.value(&late, Side::Right).unwrap());
+    let value = |method: &dyn Method| seconds(|| method.value(&late, Limit::Right).unwrap());
     let text = wavestep::scenes::find("rigid-mass").unwrap().text;
     with_signal(text, Some("1"), |signal| {
         assert!(Taps::of(signal).is_ok(), "the march in integers is measured");
         let certified = |times: &[Rational]| {
             let method = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();
-            method.exact_values(times, Side::Right).unwrap()
+            method.exact_values(times, Limit::Right).unwrap()
         };
         let many: Vec<Rational> =
             (1..1000).map(|i| &late * &Rational::new(i.into(), 1000.into())).collect();
@@ -100,7 +100,7 @@ fn main() {
         let n = 11.0;
         let certified = seconds(|| {
             let method = Certified::new(signal, &from, &end, &|_, _| Ok(None)).unwrap();
-            method.value(&(&end - &parse_number("1/3").unwrap()), Side::Right).unwrap()
+            method.value(&(&end - &parse_number("1/3").unwrap()), Limit::Right).unwrap()
         });
         print("BALL", "an operation in balls", certified / (3.0 * n * n / 2.0));
         let made = seconds(|| Compiled::new(signal, &from, &end, None).unwrap());

@@ -11,7 +11,8 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
 use wavestep::ball::Decimal;
 use wavestep::evaluate::{
-    EvaluateError, Evaluator, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM, Side, Value,
+    EvaluateError, Evaluator, Limit, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
+    Value,
 };
 use wavestep::expression::{ExponentialSum, Expression};
 use wavestep::language::{Source, parse_number, read_recurrence};
@@ -68,7 +69,7 @@ fn value(
     solution: &Solution,
     quantity: &str,
     at: &BigRational,
-    side: Side,
+    side: Limit,
     digits: usize,
 ) -> Value {
     let observation = solution.recurrence().observation(quantity).expect(quantity);
@@ -166,12 +167,12 @@ impl<'a> Pieces<'a> {
     }
 
     /// A wave at a time, or its derivative, as an exact sum.
-    fn at(&self, wave: &str, slope: bool, time: &BigRational, side: Side) -> ExponentialSum {
+    fn at(&self, wave: &str, slope: bool, time: &BigRational, side: Limit) -> ExponentialSum {
         let wave = self.recurrence.wave(wave).unwrap();
         let periods = time / &self.period;
         let n = match side {
-            Side::Right => periods.floor().to_integer(),
-            Side::Left => periods.ceil().to_integer() - 1,
+            Limit::Right => periods.floor().to_integer(),
+            Limit::Left => periods.ceil().to_integer() - 1,
         };
         let Some(n) = n.to_usize() else { return ExponentialSum::new() };
         let local = time - &self.period * whole(n);
@@ -244,14 +245,14 @@ fn rational_values_are_exact() {
     for (quantity, expected) in
         [("f", 1), ("g", 0), ("velocity", 1), ("strain_impact", -1), ("strain_fixed", 0)]
     {
-        let found = value(&rigid, quantity, &zero, Side::Right, 15);
+        let found = value(&rigid, quantity, &zero, Limit::Right, 15);
         assert_eq!(found, Value::Exact(BigRational::from_integer(expected.into())), "{quantity}");
-        let before = value(&rigid, quantity, &zero, Side::Left, 15);
+        let before = value(&rigid, quantity, &zero, Limit::Left, 15);
         assert_eq!(before, Value::Exact(BigRational::zero()), "{quantity}");
     }
     let pulse = Solution::new(recurrence("pulse-shape", &[("mu", &mu)]));
-    assert_eq!(value(&pulse, "force", &zero, Side::Right, 15), Value::Exact(BigRational::zero()));
-    assert!(matches!(value(&pulse, "force", &mu, Side::Right, 15), Value::Certified(_)));
+    assert_eq!(value(&pulse, "force", &zero, Limit::Right, 15), Value::Exact(BigRational::zero()));
+    assert!(matches!(value(&pulse, "force", &mu, Limit::Right, 15), Value::Certified(_)));
 }
 
 #[test]
@@ -263,11 +264,11 @@ fn echoes_that_vanish_leave_a_rational_value() {
                 observe both = f[n] - exp(-t)\n";
     let solution = Solution::new(recurrence(text, &[]));
     let at = ratio("5/2");
-    assert_eq!(value(&solution, "rest", &at, Side::Right, 15), Value::Exact(ratio("1/3")));
-    assert_eq!(value(&solution, "both", &at, Side::Right, 15), Value::Exact(BigRational::zero()));
+    assert_eq!(value(&solution, "rest", &at, Limit::Right, 15), Value::Exact(ratio("1/3")));
+    assert_eq!(value(&solution, "both", &at, Limit::Right, 15), Value::Exact(BigRational::zero()));
     // A little beside the zero, the value is small and certified all the same.
     let beside = ratio("5/2 + 1e-60");
-    let Value::Certified(certified) = value(&solution, "both", &beside, Side::Right, 15) else {
+    let Value::Certified(certified) = value(&solution, "both", &beside, Limit::Right, 15) else {
         panic!("no rational number");
     };
     // e^{−1/2} L_1'(1)·2e−60, L_1' = −1.
@@ -287,10 +288,10 @@ fn every_value_of_two_bars_is_rational() {
             for (quantity, expected) in
                 [("f", &f), ("g", &g), ("F", &velocity), ("interface_velocity", &velocity)]
             {
-                let found = value(&solution, quantity, &at, Side::Right, 15);
+                let found = value(&solution, quantity, &at, Limit::Right, 15);
                 assert_eq!(found, Value::Exact(expected.clone()), "{quantity}({at}), r = {r}");
             }
-            let end = value(&solution, "g", &whole(2 * n + 2), Side::Left, 15);
+            let end = value(&solution, "g", &whole(2 * n + 2), Limit::Left, 15);
             assert_eq!(end, Value::Exact(g.clone()));
             f = g;
         }
@@ -341,11 +342,11 @@ proptest! {
         let local = &pieces.period * BigRational::new(place.into(), 1000.into());
         let at = &pieces.period * whole(n) + local;
         for wave in waves {
-            let expected = pieces.at(wave, false, &at, Side::Right);
-            let found = value(&solution, wave, &at, Side::Right, digits);
+            let expected = pieces.at(wave, false, &at, Limit::Right);
+            let found = value(&solution, wave, &at, Limit::Right, digits);
             assert_is(&found, &expected, digits);
             // Twice the digits begin with these.
-            let longer = decimal(&value(&solution, wave, &at, Side::Right, 2 * digits), 2 * digits);
+            let longer = decimal(&value(&solution, wave, &at, Limit::Right, 2 * digits), 2 * digits);
             let shortened = Decimal::from_rational(&longer.to_rational(), digits).0;
             prop_assert_eq!(shortened, decimal(&found, digits));
         }
@@ -364,8 +365,8 @@ fn late_pieces_of_the_rigid_mass() {
     pieces.waves[f].resize(81, eightieth);
     for (n, local) in [(30, "0.4999"), (80, "0"), (80, "1/7")] {
         let at = &pieces.period * whole(n) + ratio(local);
-        let expected = pieces.at("f", false, &at, Side::Right);
-        assert_is(&value(&solution, "f", &at, Side::Right, 50), &expected, 50);
+        let expected = pieces.at("f", false, &at, Limit::Right);
+        assert_is(&value(&solution, "f", &at, Limit::Right, 50), &expected, 50);
     }
 }
 
@@ -444,7 +445,7 @@ fn six_hundred_periods_out() {
     let period = ratio("1/50");
     assert_eq!(&period * whole(n), at);
     let solution = Solution::new(recurrence("rigid-mass", &[("mu", &mu)]));
-    let Value::Certified(certified) = value(&solution, "f", &at, Side::Right, 30) else {
+    let Value::Certified(certified) = value(&solution, "f", &at, Limit::Right, 30) else {
         panic!("no rational number");
     };
     let exact = laguerre_sum(&at, &period, n, 400);
@@ -464,7 +465,7 @@ fn six_hundred_periods_out() {
 
 /// The difference of right and left limit, good to some 38 digits.
 fn jump(solution: &Solution, quantity: &str, at: &BigRational) -> BigRational {
-    let [right, left] = [Side::Right, Side::Left]
+    let [right, left] = [Limit::Right, Limit::Left]
         .map(|side| decimal(&value(solution, quantity, at, side, 40), 40).to_rational());
     right - left
 }
@@ -478,7 +479,7 @@ fn limits_at_arrivals_differ_by_the_jump() {
     for k in 0..=12 {
         let at = &mu * whole(2 * k);
         for wave in ["f", "g"] {
-            for side in [Side::Left, Side::Right] {
+            for side in [Limit::Left, Limit::Right] {
                 let expected = pieces.at(wave, false, &at, side);
                 assert_is(&value(&solution, wave, &at, side, 30), &expected, 30);
             }
@@ -500,7 +501,7 @@ fn limits_at_arrivals_differ_by_the_jump() {
     // Between arrivals both limits are one value.
     for at in ["1/10", "0.7", "3.99", "5.2000000001"] {
         let [left, right] =
-            [Side::Left, Side::Right].map(|side| value(&solution, "f", &ratio(at), side, 30));
+            [Limit::Left, Limit::Right].map(|side| value(&solution, "f", &ratio(at), side, 30));
         assert_eq!(left, right, "{at}");
     }
 }
@@ -512,11 +513,11 @@ fn the_fixed_end_is_at_rest_until_the_front_is_there() {
     let mu = ratio("7/3");
     let solution = Solution::new(recurrence("rigid-mass", &[("mu", &mu)]));
     for (at, side, expected) in [
-        ("0", Side::Right, "0"),
-        ("1", Side::Right, "0"),
-        ("7/3 - 1e-900", Side::Right, "0"),
-        ("7/3", Side::Left, "0"),
-        ("7/3", Side::Right, "-2"),
+        ("0", Limit::Right, "0"),
+        ("1", Limit::Right, "0"),
+        ("7/3 - 1e-900", Limit::Right, "0"),
+        ("7/3", Limit::Left, "0"),
+        ("7/3", Limit::Right, "-2"),
     ] {
         let found = value(&solution, "strain_fixed", &ratio(at), side, 15);
         assert_eq!(found, Value::Exact(ratio(expected)), "{at} {side:?}");
@@ -524,8 +525,8 @@ fn the_fixed_end_is_at_rest_until_the_front_is_there() {
     let own = recurrence("rigid-mass", &[("mu", &mu)]);
     let pieces = Pieces::new(&own, 3);
     for at in ["7/3 + 1e-9", "3", "7", "10", "15"] {
-        let wave = pieces.at("f", false, &(ratio(at) - &mu), Side::Right);
-        let found = value(&solution, "strain_fixed", &ratio(at), Side::Right, 30);
+        let wave = pieces.at("f", false, &(ratio(at) - &mu), Limit::Right);
+        let found = value(&solution, "strain_fixed", &ratio(at), Limit::Right, 30);
         assert_is(&found, &combined(&[("-2", "0", wave)]), 30);
     }
 }
@@ -539,8 +540,8 @@ fn forcing_slopes_and_exponential_coefficients() {
     let one = || ExponentialSum::from([(BigRational::zero(), whole(1))]);
     for at in ["0", "1/8", "3/2", "7/4", "3", "31/10", "8.25", "10"] {
         let time = ratio(at);
-        for side in [Side::Left, Side::Right] {
-            if at == "0" && side == Side::Left {
+        for side in [Limit::Left, Limit::Right] {
+            if at == "0" && side == Limit::Left {
                 continue;
             }
             let wave = |name: &str, slope: bool, delay: &str| {
@@ -589,7 +590,7 @@ fn slopes_by_rows() {
         let pieces = Pieces::new(&own, 6);
         let solution = Solution::new(recurrence(text, &values));
         for at in ["1/7", "3/2", "5", "6.9"] {
-            for side in [Side::Left, Side::Right] {
+            for side in [Limit::Left, Limit::Right] {
                 let slope = pieces.at(wave, true, &ratio(at), side);
                 let before = pieces.at(wave, false, &(ratio(at) - &pieces.period), side);
                 let expected = combined(&[("1", "0", slope), ("-2", "0", before)]);
@@ -610,8 +611,8 @@ fn growth_and_decay_keep_their_digits() {
         let pieces = Pieces::new(&own, 9);
         let solution = Solution::new(recurrence(&text, &[]));
         for at in ["0.5", "4", "29/3"] {
-            let expected = pieces.at("f", false, &ratio(at), Side::Right);
-            assert_is(&value(&solution, "f", &ratio(at), Side::Right, 30), &expected, 30);
+            let expected = pieces.at("f", false, &ratio(at), Limit::Right);
+            assert_is(&value(&solution, "f", &ratio(at), Limit::Right, 30), &expected, 30);
         }
     }
 }
@@ -627,15 +628,15 @@ fn accuracy_that_is_not_reached_is_told_with_an_enclosure() {
     let evaluator = Evaluator::new(&solution).unwrap();
     let observation = solution.recurrence().observation("f").unwrap();
     let at = ratio("33/10");
-    let exact = enclose(&pieces.at("f", false, &at, Side::Right), 600);
+    let exact = enclose(&pieces.at("f", false, &at, Limit::Right), 600);
     for limit in [0, 2, 8, 16, 30, 60] {
-        let error = evaluator.value(&observation, &at, Side::Right, 30, limit).unwrap_err();
+        let error = evaluator.value(&observation, &at, Limit::Right, 30, limit).unwrap_err();
         let EvaluateError::AccuracyNotReached { best, bits } = &error else { panic!("{error}") };
         assert_eq!(*bits, limit);
         assert!(best.contains(&exact.low) && best.contains(&exact.high));
         assert!(error.to_string().contains("radius"));
     }
-    let found = evaluator.value(&observation, &at, Side::Right, 30, 200).unwrap();
+    let found = evaluator.value(&observation, &at, Limit::Right, 30, 200).unwrap();
     assert_eq!(decimal(&found, 30), exact.rounded(30));
 }
 
@@ -646,7 +647,7 @@ fn late_times_are_refused() {
         let name = solution.recurrence().statement().waves[0].clone();
         let observation = solution.recurrence().observation(&name).unwrap();
         let periods = (&at / evaluator.period()).floor().to_integer();
-        let error = evaluator.value(&observation, &at, Side::Right, 15, BITS).unwrap_err();
+        let error = evaluator.value(&observation, &at, Limit::Right, 15, BITS).unwrap_err();
         assert_eq!(error, EvaluateError::TooManyPeriods { periods, limit });
         assert!(error.to_string().len() < 200);
     };
@@ -659,7 +660,7 @@ fn late_times_are_refused() {
     let first_refused = whole(2 * (MAX_ORDER_OF_SEQUENCE + 1));
     refused(&bars, first_refused.clone(), MAX_ORDER_OF_SEQUENCE);
     // The limit from the left belongs to the period before, which is the last one.
-    assert!(matches!(value(&bars, "f", &first_refused, Side::Left, 15), Value::Exact(_)));
+    assert!(matches!(value(&bars, "f", &first_refused, Limit::Left, 15), Value::Exact(_)));
     let formless = recurrence(
         "recurrence \"No form\"\nperiod 1, local s, time t\nwave f\nequation f[n]' + f[n] = f[n-2]\n\
          continuous f[n] starts at 1\n",

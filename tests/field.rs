@@ -2,7 +2,7 @@
 //! averages against nodes, the two sides of fronts, and what is refused.
 
 use proptest::prelude::*;
-use wavestep::evaluate::{EvaluateError, SceneEvaluator, Side};
+use wavestep::evaluate::{EvaluateError, Limit, SceneEvaluator};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Fields, MAX_CELLS, Mesh, Quantity};
 use wavestep::language::{Source, parse_number, read_scene};
@@ -35,7 +35,7 @@ fn observed(
     network: &Network,
     (bar, share): (usize, &Rational),
     quantity: Quantity,
-    (time, side): (&Rational, Side),
+    (time, side): (&Rational, Limit),
 ) -> f64 {
     let measure = match quantity {
         Quantity::Velocity => Measure::Velocity,
@@ -95,7 +95,7 @@ fn nodes_agree_with_observables() {
                     let share = Rational::new(j.into(), 7.into());
                     let place = (element, &share);
                     let expected =
-                        observed(&network, place, quantity, (&number(time), Side::Right));
+                        observed(&network, place, quantity, (&number(time), Limit::Right));
                     agrees(bar.of(quantity)[j], expected, scale.max(1e-12));
                     compared += 1;
                 }
@@ -117,7 +117,7 @@ proptest! {
         let share = Rational::new(j.into(), 1000.into());
         let east = (bar_of(&network, "east"), &share);
         for quantity in Quantity::ALL {
-            let expected = observed(&network, east, quantity, (&time, Side::Right));
+            let expected = observed(&network, east, quantity, (&time, Limit::Right));
             agrees(found.bars[0].of(quantity)[j], expected, 1.0);
         }
     }
@@ -197,7 +197,7 @@ fn fronts_have_two_sides() {
     let network = built_in("mass-on-fixed-bar", &[("mu", "1")]);
     // The front has come to 1/2 for the first time.
     let right = fields(&network, "1/2", &Mesh::new(4).unwrap());
-    let left = fields(&network, "1/2", &Mesh::new(4).unwrap().on_the(Side::Left));
+    let left = fields(&network, "1/2", &Mesh::new(4).unwrap().with_limit(Limit::Left));
     let of = |fields: &Fields, j: usize| fields.bars[0].of(Quantity::Velocity)[j].value;
     assert_eq!((of(&left, 2), of(&right, 2)), (1.0, 0.0));
     for j in [0, 1, 3, 4] {
@@ -261,7 +261,7 @@ fn late_times_keep_their_digits() {
     for (j, value) in found.bars[0].of(Quantity::Strain).iter().enumerate() {
         let share = Rational::new(j.into(), 3.into());
         let expected =
-            observed(&network, (element, &share), Quantity::Strain, (&time, Side::Right));
+            observed(&network, (element, &share), Quantity::Strain, (&time, Limit::Right));
         agrees(*value, expected, 1.0);
     }
 }

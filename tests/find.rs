@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use wavestep::evaluate::{
-    Determined, EvaluateError, Evaluator, Extremum, Goal, Place, Root, Search, Side, Value,
+    Determined, EvaluateError, Evaluator, Extremum, Goal, Limit, Place, Root, Search, Value,
 };
 use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
 use wavestep::network::Network;
@@ -83,7 +83,7 @@ fn value(
     at: &BigRational,
 ) -> BigRational {
     let observation = solution.recurrence().observation(quantity).unwrap();
-    match evaluator.value(&observation, at, Side::Right, 30, BITS).unwrap() {
+    match evaluator.value(&observation, at, Limit::Right, 30, BITS).unwrap() {
         Value::Exact(value) => value,
         Value::Certified(certified) => certified.decimal.to_rational(),
     }
@@ -105,7 +105,7 @@ fn the_mass_leaves_when_the_formula_says() {
         };
         let evaluator = Evaluator::new(&solution).unwrap();
         let f = solution.recurrence().observation("f").unwrap();
-        let e = evaluator.value(&f, &number("2"), Side::Left, digits + 10, BITS).unwrap();
+        let e = evaluator.value(&f, &number("2"), Limit::Left, digits + 10, BITS).unwrap();
         let exact = number("3") + e.decimal(digits + 10).0.to_rational() / number("2");
         let (told, _) = time.decimal(digits);
         let (wanted, _) = wavestep::ball::Decimal::from_rational(&exact, digits);
@@ -355,11 +355,11 @@ fn no_sample_exceeds_an_extremum() {
             }
             assert_eq!(found.places.len(), 1, "{found:?}");
             let (kind, at, side) = match &found.places[0] {
-                Place::Critical(time) => ("critical", time, Side::Right),
-                Place::End(time) => ("end", time, Side::Right),
-                Place::Arrival { time, after: true, .. } => ("after", time, Side::Right),
-                Place::Arrival { time, .. } => ("before", time, Side::Left),
-                Place::Plateau { from, .. } => ("plateau", from, Side::Right),
+                Place::Critical(time) => ("critical", time, Limit::Right),
+                Place::End(time) => ("end", time, Limit::Right),
+                Place::Arrival { time, after: true, .. } => ("after", time, Limit::Right),
+                Place::Arrival { time, .. } => ("before", time, Limit::Left),
+                Place::Plateau { from, .. } => ("plateau", from, Limit::Right),
                 other => panic!("{other:?}"),
             };
             *kinds.entry(kind).or_insert(0) += 1;
@@ -538,7 +538,7 @@ fn equal_extrema_meet_where_the_formula_says() {
         let rigid = solution("rigid-mass", &[("mu", &mu.to_string())]);
         let evaluator = Evaluator::new(&rigid).unwrap();
         let f = rigid.recurrence().observation("f").unwrap();
-        let e = evaluator.value(&f, &(mu * number("2")), Side::Left, 30, BITS).unwrap();
+        let e = evaluator.value(&f, &(mu * number("2")), Limit::Left, 30, BITS).unwrap();
         e.decimal(30).0.to_rational() > mu * number("4")
     };
     assert!(above(&low) && !above(&high));

@@ -4,7 +4,7 @@
 
 use num_traits::ToPrimitive as _;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{SceneEvaluator, Side, Value};
+use wavestep::evaluate::{Limit, SceneEvaluator, Value};
 use wavestep::language::{Source, read_scene};
 use wavestep::model::{
     Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
@@ -152,7 +152,7 @@ fn exact_of(scene: &Scene, name: &str, times: &[Rational]) -> Vec<f64> {
     let evaluator = SceneEvaluator::new(&network, &last).unwrap();
     let value = |time: &Rational| {
         let scaled = network.scaled_time(time);
-        match evaluator.value(observed, &scaled, Side::Right, 17, 1 << 14).unwrap() {
+        match evaluator.value(observed, &scaled, Limit::Right, 17, 1 << 14).unwrap() {
             Value::Exact(exact) => exact.to_f64().unwrap(),
             Value::Certified(certified) => f64_of(&certified.ball),
         }

@@ -6,7 +6,7 @@ use serde_json::Value as Json;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
-use wavestep::evaluate::{Determined, Side, Value};
+use wavestep::evaluate::{Determined, Limit, Value};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Mesh, Profile, Quantity};
 use wavestep::history::{EventKind, History, HistoryError, field_evaluator};
@@ -98,7 +98,7 @@ fn observed(
     let terms = places.into_iter().map(seen).collect();
     scene.observables = vec![Observable { name: "q".into(), terms }];
     let network = Network::new(&scene).unwrap();
-    let values = History::values(&network, "q", times, Side::Right, 18).unwrap();
+    let values = History::values(&network, "q", times, Limit::Right, 18).unwrap();
     values.iter().map(double).collect()
 }
 
@@ -276,7 +276,7 @@ fn closed_contacts_have_the_same_fields() {
             differs
         };
         let nodes = Mesh::new(6).unwrap();
-        for mesh in [nodes.clone(), nodes.clone().averages(), nodes.on_the(Side::Left)] {
+        for mesh in [nodes.clone(), nodes.clone().averages(), nodes.with_limit(Limit::Left)] {
             for i in 0..=12 {
                 let time = &last * Rational::new(i.into(), 12.into());
                 let told = double_of(&time);

@@ -2,7 +2,7 @@
 //! as what they show, and come out of derivations with second-order poles.
 
 use proptest::prelude::*;
-use wavestep::evaluate::{EvaluateError, Evaluator, Side, Value};
+use wavestep::evaluate::{EvaluateError, Evaluator, Limit, Value};
 use wavestep::export::{Formula, Head, LATEX_WIDTH, expression_json, expression_text, latex};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, parse_number, read_expression, read_listing, read_recurrence};
@@ -213,7 +213,7 @@ fn values_agree_with_the_pieces() {
             let exact = piece.substitute(&s(), &Fraction::constant(&local)).unwrap();
             let ball = wavestep::enclosure::enclose_expression(&exact, &|_, _| None, 300).unwrap();
             let time = parse_number(at).unwrap();
-            let value = evaluator.value(&twice, &time, Side::Right, 40, 2000).unwrap();
+            let value = evaluator.value(&twice, &time, Limit::Right, 40, 2000).unwrap();
             let Value::Certified(value) = value else { panic!("not rational") };
             let half = value.ball.multiply_rational(&Rational::new(1.into(), 2.into()), 300);
             let difference = half.subtract(ball.real(), 300);
@@ -221,7 +221,7 @@ fn values_agree_with_the_pieces() {
             assert!(ball.imaginary().contains(&Rational::default()));
         }
         // At the start f is 1, exactly.
-        let start = evaluator.value(&twice, &Rational::default(), Side::Right, 10, 200);
+        let start = evaluator.value(&twice, &Rational::default(), Limit::Right, 10, 200);
         assert_eq!(start, Ok(Value::Exact(parse_number("2").unwrap())));
     }
 }
@@ -231,7 +231,7 @@ fn a_wave_with_one_pole_of_a_pair_is_not_real() {
     let solution = scene("2*sqrt(-1)", "-2*sqrt(-1)", "0");
     let inner = solution.recurrence().observation("inner").unwrap();
     let at = parse_number("1/3").unwrap();
-    let value = Evaluator::new(&solution).unwrap().value(&inner, &at, Side::Right, 10, 200);
+    let value = Evaluator::new(&solution).unwrap().value(&inner, &at, Limit::Right, 10, 200);
     assert_eq!(value, Err(EvaluateError::NotReal));
 }
 
@@ -241,6 +241,6 @@ fn digits_of_a_cosine() {
     let solution = scene("2*sqrt(-1)", "-2*sqrt(-1)", "0");
     let f = solution.recurrence().observation("f").unwrap();
     let evaluator = Evaluator::new(&solution).unwrap();
-    let value = evaluator.value(&f, &parse_number("1/3").unwrap(), Side::Right, 20, 400).unwrap();
+    let value = evaluator.value(&f, &parse_number("1/3").unwrap(), Limit::Right, 20, 400).unwrap();
     assert_eq!(value.to_text(20), "0.78588726077694800072");
 }

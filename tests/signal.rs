@@ -6,7 +6,7 @@
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{SceneEvaluator, Side, Signal, Value};
+use wavestep::evaluate::{Limit, SceneEvaluator, Signal, Value};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::scenes::SCENES;
@@ -42,9 +42,9 @@ fn signals_enclose_the_values_of_scenes() {
             for i in 0..12 {
                 let at = &last * Rational::new((7 * i + 1).into(), 80.into());
                 let scaled = network.scaled_time(&at);
-                let stretch = &stretches[signal.stretch_at(&stretches, &at, Side::Right).unwrap()];
+                let stretch = &stretches[signal.stretch_at(&stretches, &at, Limit::Right).unwrap()];
                 let value = signal.enclose(stretch, 0, &scaled, 200).unwrap();
-                let told = evaluator.value(observed, &scaled, Side::Right, 30, 1 << 12).unwrap();
+                let told = evaluator.value(observed, &scaled, Limit::Right, 30, 1 << 12).unwrap();
                 let told = match told {
                     Value::Exact(exact) => Ball::from_rational(&exact, 300),
                     Value::Certified(certified) => certified.ball,

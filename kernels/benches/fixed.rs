@@ -8,7 +8,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
 use wavestep_kernels::fixed::{
-    DelayEquation, March, MarchOptions, Position, Reduction, Side, Tap, certified,
+    DelayEquation, Limit, March, MarchOptions, Position, Reduction, Tap, certified,
 };
 
 const PERIODS: u32 = 200;
@@ -46,7 +46,7 @@ fn values(criterion: &mut Criterion) {
     let reduction = Reduction::new(&integer(2), &BigRational::zero()).expect("2 is positive");
     let times = times();
     let mut group = criterion.benchmark_group("a thousand points");
-    let reduce = |time: &f64| reduction.of_double(*time, Side::Right).ok().flatten();
+    let reduce = |time: &f64| reduction.of_double(*time, Limit::Right).ok().flatten();
     group.bench_function("reduction", |bencher| {
         bencher.iter(|| black_box(&times).iter().filter_map(reduce).count());
     });
@@ -71,7 +71,7 @@ fn from_nothing(criterion: &mut Criterion) {
         ("strain_fixed", vec![tap(-2, 1)]),
     ] {
         group.bench_function(name, |bencher| {
-            bencher.iter(|| certified(&equation, black_box(&taps), &times, Side::Right));
+            bencher.iter(|| certified(&equation, black_box(&taps), &times, Limit::Right));
         });
     }
     group.finish();

@@ -1,6 +1,6 @@
 //! What is asked for: an observable on a window of time.
 
-use crate::evaluate::{EvaluateError, Marched, Method as _, Recogniser, Side, Signal, Taps};
+use crate::evaluate::{EvaluateError, Limit, Marched, Method as _, Recogniser, Signal, Taps};
 use crate::network::Network;
 use wavestep_polynomial::Rational;
 
@@ -62,7 +62,7 @@ impl Problem<'_> {
         let part = (&self.to - &self.from) / Rational::from_integer(SAMPLES.into());
         let at = |i: i64| &self.from + &part * Rational::from_integer(i.into());
         let times: Vec<Rational> = (0..=SAMPLES).map(at).collect();
-        let values = marched.exact_values(&times, Side::Right).ok()?;
+        let values = marched.exact_values(&times, Limit::Right).ok()?;
         Some(values.iter().map(|value| value.abs()).fold(0.0, f64::max))
     }
 

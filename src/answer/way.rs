@@ -2,7 +2,7 @@
 
 use crate::answer::problem::Problem;
 use crate::evaluate::{
-    Certified, Compiled, EvaluateError, Expanded, Marched, Method, MethodError, Plain, Side,
+    Certified, Compiled, EvaluateError, Expanded, Limit, Marched, Method, MethodError, Plain,
     Stable, StablePrecision,
 };
 use crate::model::{
@@ -288,7 +288,7 @@ enum Ways<'a> {
 ///
 /// ```
 /// use wavestep::answer::{Kind, Problem, Way};
-/// use wavestep::evaluate::{Side, Signal};
+/// use wavestep::evaluate::{Limit, Signal};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -303,9 +303,9 @@ enum Ways<'a> {
 /// assert!(way.law().contains("proven"));
 /// // The echo at 2 is a jump by 1, seen in limits from both sides.
 /// let two = parse_number("2")?;
-/// let [left, right] = [Side::Left, Side::Right].map(|side| way.value(&two, side).unwrap());
+/// let [left, right] = [Limit::Left, Limit::Right].map(|side| way.value(&two, side).unwrap());
 /// assert!((right - left - 1.0).abs() < 1e-15);
-/// assert_eq!(way.exact_values(&[two], Side::Left).unwrap(), [left]);
+/// assert_eq!(way.exact_values(&[two], Limit::Left).unwrap(), [left]);
 /// assert!(Way::new(Kind::Rigid, &problem, None).is_err());
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
@@ -413,10 +413,10 @@ impl<'a> Way<'a> {
     ///
     /// # Errors
     /// [`WayError`], for times outside the window and left limits of models.
-    pub fn value(&self, at: &Rational, side: Side) -> Result<f64, WayError> {
+    pub fn value(&self, at: &Rational, side: Limit) -> Result<f64, WayError> {
         match &self.inner {
             Ways::Method(method) => Ok(method.value(at, side)?),
-            Ways::Model(..) if side == Side::Left => Err(WayError::LeftLimit(self.kind.name())),
+            Ways::Model(..) if side == Limit::Left => Err(WayError::LeftLimit(self.kind.name())),
             Ways::Model(model, place) => {
                 let at = at.to_f64().unwrap_or(f64::NAN);
                 Ok(model.values(*place, &[at])?[0])
@@ -443,9 +443,9 @@ impl<'a> Way<'a> {
     ///
     /// # Errors
     /// As [`Way::value`].
-    pub fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, WayError> {
+    pub fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, WayError> {
         match &self.inner {
-            Ways::Model(model, place) if side == Side::Right => {
+            Ways::Model(model, place) if side == Limit::Right => {
                 let at: Vec<f64> = at.iter().map(|at| at.to_f64().unwrap_or(f64::NAN)).collect();
                 Ok(model.values(*place, &at)?)
             }

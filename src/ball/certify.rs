@@ -13,7 +13,7 @@ const SPARE_BITS: u64 = 32;
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::evaluate::{Evaluator, Limit, Value};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -23,7 +23,7 @@ const SPARE_BITS: u64 = 32;
 /// let f = solution.recurrence().observation("f").unwrap();
 /// let (evaluator, third) = (Evaluator::new(&solution).unwrap(), parse_number("1/3")?);
 /// // Before the first return f is exp(-t), which is no rational number.
-/// let Ok(Value::Certified(certified)) = evaluator.value(&f, &third, Side::Right, 6, 200) else {
+/// let Ok(Value::Certified(certified)) = evaluator.value(&f, &third, Limit::Right, 6, 200) else {
 ///     panic!("exp(-1/3) is irrational");
 /// };
 /// assert_eq!(certified.decimal.to_string(), "0.716531");

@@ -1,13 +1,12 @@
 //! `eval` for scenes with a local contact: there is no recurrence, and a model computes the values.
 
-use super::arguments::{Eval, SideOption};
+use super::arguments::Eval;
 use super::eval_doubles::{method, written};
 use super::failure::Failure;
 use super::problem::Titles;
 use super::quantity;
 use super::rows::times;
 use wavestep::answer::{Kind, Way, WayError};
-use wavestep::evaluate::Side;
 use wavestep::language;
 use wavestep::model::{ModelError, equivalent_stiffness};
 use wavestep::network::{NetworkError, ScaledScene};
@@ -96,11 +95,7 @@ pub fn run(scaled: &ScaledScene, options: &Eval) -> Result<String, Failure> {
         }
         other => other.into(),
     })?;
-    let side = match options.side {
-        SideOption::Left => Side::Left,
-        SideOption::Right => Side::Right,
-    };
-    let values = way.exact_values(&times, side)?;
+    let values = way.exact_values(&times, options.side)?;
     noted(scaled, kind);
     if options.explain {
         eprintln!("{kind}: {}", way.law());

@@ -1,6 +1,6 @@
 //! `eval` in doubles: by a tolerance, or by the name of a method.
 
-use super::arguments::{Eval, EvalFormat, SideOption};
+use super::arguments::{Eval, EvalFormat};
 use super::failure::Failure;
 use super::input::Subject;
 use super::problem::{Titles, is_dimensional, with_problem};
@@ -9,7 +9,7 @@ use num_rational::BigRational;
 use serde_json::json;
 use std::fmt::Write as _;
 use wavestep::answer::{Candidate, Kind, Problem, Promise, Tolerance, Way, Weighed, consider};
-use wavestep::evaluate::Side;
+use wavestep::evaluate::Limit;
 use wavestep::export::SCHEMA_VERSION;
 
 /// The most times at which a method without a proven bound is compared with certified values.
@@ -25,21 +25,17 @@ pub fn run(subject: Subject, options: &Eval) -> Result<String, Failure> {
         |times: &[BigRational]| Some((times.iter().min()?.clone(), times.iter().max()?.clone()));
     let (first, last) = window(&times).expect("times without any are refused");
     with_problem(subject, &options.quantity, (first, last), |problem, titles| {
-        let side = match options.side {
-            SideOption::Left => Side::Left,
-            SideOption::Right => Side::Right,
-        };
         let way = match kind {
             Some(kind) => forced(kind, problem, tolerance, options.explain)?,
             None => picked(problem, times.len(), tolerance.expect("one of both"), options.explain)?,
         };
-        let values = way.exact_values(&times, side)?;
+        let values = way.exact_values(&times, options.side)?;
         if let Some(i) = values.iter().position(|value| !value.is_finite()) {
             let message = format!("{} gives no number at {}", way.kind(), in_decimals(&times[i]));
             return Err(Failure::Computation(message, "use --method certified".to_owned()));
         }
         if let Some(kind) = kind.filter(|_| way.bound().is_none()) {
-            compare(kind, problem, tolerance, (&times, side, &values))?;
+            compare(kind, problem, tolerance, (&times, options.side, &values))?;
         }
         Ok(written(&way, titles, (&times, &values), options))
     })
@@ -147,7 +143,7 @@ fn compare(
     kind: Kind,
     problem: &Problem<'_>,
     tolerance: Option<Tolerance>,
-    (times, side, values): (&[BigRational], Side, &[f64]),
+    (times, side, values): (&[BigRational], Limit, &[f64]),
 ) -> Result<(), Failure> {
     let Some(tolerance) = tolerance else { return Ok(()) };
     let certified = Way::new(Kind::Certified, problem, None)?;
@@ -209,7 +205,7 @@ pub fn written(
     let rows = times.iter().zip(values);
     match options.format {
         EvalFormat::Text => {
-            let limit = if options.side == SideOption::Left { "-" } else { "" };
+            let limit = if options.side == Limit::Left { "-" } else { "" };
             let spaced =
                 |unit: &str| if unit.is_empty() { String::new() } else { format!(" {unit}") };
             let (unit, time_unit) = (spaced(&titles.unit), spaced(&titles.time_unit));
@@ -235,7 +231,7 @@ pub fn written(
                 "title": titles.title,
                 "quantity": name,
                 "set": options.scene.set,
-                "side": if options.side == SideOption::Left { "left" } else { "right" },
+                "side": if options.side == Limit::Left { "left" } else { "right" },
                 "method": way.kind().to_string(),
                 "law": way.law(),
                 "bound": way.bound().map(|bound| bound + half_a_unit(values)),

@@ -1,11 +1,11 @@
 //! `eval` of recurrences.
 
-use super::arguments::{Eval, SideOption};
+use super::arguments::Eval;
 use super::failure::Failure;
 use super::progress;
 use super::quantity;
 use super::rows::{Row, time_on_period, times, written};
-use wavestep::evaluate::{Evaluator, Side};
+use wavestep::evaluate::Evaluator;
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
 
@@ -14,10 +14,6 @@ pub fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, F
     let observation = quantity::of_recurrence(&recurrence, &options.quantity)?;
     let solution = Solution::new(recurrence);
     let evaluator = Evaluator::new(&solution)?;
-    let side = match options.side {
-        SideOption::Left => Side::Left,
-        SideOption::Right => Side::Right,
-    };
     let times = match (options.piece, &options.local) {
         (Some(n), Some(local)) => {
             let Some(offset) = solution.offset(&observation) else {
@@ -25,14 +21,15 @@ pub fn of_recurrence(recurrence: Recurrence, options: &Eval) -> Result<String, F
                 return Err(Failure::usage(message, "its waves arrive apart: give --at T"));
             };
             let offset = offset.as_constant().expect("every symbol has a value");
-            vec![offset + time_on_period(n, local, evaluator.period(), side)?]
+            vec![offset + time_on_period(n, local, evaluator.period(), options.side)?]
         }
         _ => times(options, false)?,
     };
     let progress = progress::counted(times.len());
     let mut rows = Vec::with_capacity(times.len());
     for time in times {
-        let value = evaluator.value(&observation, &time, side, options.digits, options.max_bits)?;
+        let value =
+            evaluator.value(&observation, &time, options.side, options.digits, options.max_bits)?;
         rows.push(Row { time, value });
         progress.inc(1);
     }

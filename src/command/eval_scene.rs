@@ -1,12 +1,12 @@
 //! `eval` for scenes: in their units, with constants, on lattices, and energies.
 
-use super::arguments::{Eval, SideOption};
+use super::arguments::Eval;
 use super::failure::Failure;
 use super::progress;
 use super::quantity;
 use super::rows::{Row, time_on_period, times, written};
 use num_rational::BigRational;
-use wavestep::evaluate::{Determined, Evaluator, SceneEvaluator, Side};
+use wavestep::evaluate::{Determined, Evaluator, Limit, SceneEvaluator};
 use wavestep::expression::Fraction;
 use wavestep::history::History;
 use wavestep::language;
@@ -16,10 +16,7 @@ use wavestep::solution::Solution;
 /// Evaluates an observable or a wave of a scene.
 pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
     let observed = quantity::of_scene(network, &options.quantity)?;
-    let side = match options.side {
-        SideOption::Left => Side::Left,
-        SideOption::Right => Side::Right,
-    };
+    let side = options.side;
     if network.scene().contacts_open {
         return across_phases(network, side, options);
     }
@@ -61,7 +58,7 @@ fn told(network: &Network, observed: &Observed, rows: &[Row], options: &Eval) ->
 }
 
 /// Values of a scene whose contacts open and close.
-fn across_phases(network: &Network, side: Side, options: &Eval) -> Result<String, Failure> {
+fn across_phases(network: &Network, side: Limit, options: &Eval) -> Result<String, Failure> {
     let observed = quantity::of_phases(network, &options.quantity)?;
     let name = &observed.name;
     if options.piece.is_some() || options.stats {
@@ -106,7 +103,7 @@ fn told_by_closed_form(
     solution: &Solution,
     observed: &Observed,
     times: Vec<BigRational>,
-    side: Side,
+    side: Limit,
     options: &Eval,
 ) -> Result<String, Failure> {
     let ObservedValue::Linear(observation) = &observed.value else {
@@ -130,7 +127,7 @@ fn time_on_piece(
     observed: &Observed,
     n: usize,
     local: &str,
-    side: Side,
+    side: Limit,
 ) -> Result<BigRational, Failure> {
     let refuse = || {
         let message = format!("{} has no periods of its own", observed.name);

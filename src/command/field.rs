@@ -1,13 +1,13 @@
 //! `field`: velocity, strain, displacement and force along the bars at a time.
 
-use super::arguments::{Field, FieldFormat, FieldSide};
+use super::arguments::{Field, FieldFormat};
 use super::failure::Failure;
 use super::input::{self, Subject};
 use super::output::written;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
-use wavestep::evaluate::Side;
+use wavestep::evaluate::Limit;
 use wavestep::export::SCHEMA_VERSION;
 use wavestep::field::{BarFields, Bounded, FieldEvaluator, Fields, Mesh, Quantity, Sampling};
 use wavestep::history::field_evaluator;
@@ -20,12 +20,9 @@ pub fn run(options: &Field) -> Result<String, Failure> {
     let network = scene(input::subject(&options.scene)?)?;
     let dimensional = network.scene().dimensional;
     let time = input::time("--time", &options.time, dimensional)?;
-    let mut mesh = Mesh::new(options.mesh)?;
+    let mut mesh = Mesh::new(options.mesh)?.with_limit(options.side);
     if options.averages {
         mesh = mesh.averages();
-    }
-    if options.side == FieldSide::Left {
-        mesh = mesh.on_the(Side::Left);
     }
     for bar in &options.bar {
         mesh = mesh.only(&language::normalise_name(bar));
@@ -117,7 +114,7 @@ fn json_document(fields: &Fields, network: &Network, options: &Field) -> String 
         "set": options.scene.set,
         "time": fields.time.to_string(),
         "sampling": if fields.sampling == Sampling::Nodes { "nodes" } else { "averages" },
-        "side": if fields.side == Side::Left { "left" } else { "right" },
+        "side": if fields.side == Limit::Left { "left" } else { "right" },
         "bars": fields.bars.iter().map(bar).collect::<Vec<Json>>(),
     });
     if fields.dimensional {

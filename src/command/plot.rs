@@ -9,7 +9,7 @@ use super::plot_contact;
 use super::quantity;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
-use wavestep::evaluate::{EvaluateError, Side, Signal};
+use wavestep::evaluate::{EvaluateError, Limit, Signal};
 use wavestep::expression::Fraction;
 use wavestep::field::Quantity;
 use wavestep::history::History;
@@ -270,7 +270,7 @@ fn across_phases(
     }
     let time = |step: i64| from + (to - from) * BigRational::new(step.into(), PHASE_STEPS.into());
     let times: Vec<BigRational> = (0..=PHASE_STEPS).map(time).collect();
-    let values = History::values(network, &name, &times, Side::Right, PHASE_DIGITS)?;
+    let values = History::values(network, &name, &times, Limit::Right, PHASE_DIGITS)?;
     let points = times.iter().zip(&values).map(|(time, value)| (double(time), value.to_double()));
     let values = Sampled { points: points.collect(), jumps: Vec::new() };
     Ok(Course { name, dimension, measure, values })

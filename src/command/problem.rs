@@ -6,7 +6,7 @@ use super::quantity;
 use num_rational::BigRational;
 use std::cell::OnceCell;
 use wavestep::answer::Problem;
-use wavestep::evaluate::{EvaluateError, Evaluator, SceneEvaluator, Side, Signal};
+use wavestep::evaluate::{EvaluateError, Evaluator, Limit, SceneEvaluator, Signal};
 use wavestep::language;
 use wavestep::network::Network;
 use wavestep::solution::Solution;
@@ -40,7 +40,7 @@ pub fn with_problem<T>(
             let evaluator = Evaluator::new(&solution)?;
             let signal = Signal::of_recurrence(solution.recurrence(), &observation)?;
             let recognise =
-                |at: &BigRational, side: Side| match evaluator.rational(&observation, at, side) {
+                |at: &BigRational, side: Limit| match evaluator.rational(&observation, at, side) {
                     // Too far for exact arithmetic: nothing is recognised.
                     Err(EvaluateError::TooManyPeriods { .. }) => Ok(None),
                     told => told,
@@ -65,7 +65,7 @@ fn of_scene<T>(
     let signal = Signal::of_scene(network, &observed, &to)?;
     let last = network.scaled_time(&to);
     let evaluator = OnceCell::new();
-    let recognise = |at: &BigRational, side: Side| {
+    let recognise = |at: &BigRational, side: Limit| {
         let known = evaluator.get_or_init(|| SceneEvaluator::new(network, &last).ok());
         match known {
             Some(evaluator) => evaluator.rational(&observed, &network.scaled_time(at), side),

@@ -1,6 +1,6 @@
 //! Values at times: which times are asked for, and how the values are written.
 
-use super::arguments::{Eval, EvalFormat, SideOption};
+use super::arguments::{Eval, EvalFormat};
 use super::failure::Failure;
 use super::input;
 use num_integer::Integer as _;
@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::Signed as _;
 use serde_json::{Value as Json, json};
 use wavestep::ball::{Decimal, Exactness};
-use wavestep::evaluate::{Side, Value};
+use wavestep::evaluate::{Limit, Value};
 use wavestep::export::SCHEMA_VERSION;
 use wavestep_polynomial::fraction;
 
@@ -34,11 +34,11 @@ pub fn time_on_period(
     n: usize,
     local: &str,
     period: &BigRational,
-    side: Side,
+    side: Limit,
 ) -> Result<BigRational, Failure> {
     let local = input::number("--local", local)?;
     let inside =
-        !local.is_negative() && (local < *period || (local == *period && side == Side::Left));
+        !local.is_negative() && (local < *period || (local == *period && side == Limit::Left));
     if !inside {
         let message = format!("the local time {local} lies outside the period");
         let remedy = format!("give 0 <= S < {period}, or S = {period} with --side left");
@@ -101,7 +101,7 @@ pub fn in_decimals(time: &BigRational) -> String {
 
 /// Lines of text, with the units of time and value.
 fn text(rows: &[Row], options: &Eval, [second, unit]: [&str; 2]) -> String {
-    let limit = if options.side == SideOption::Left { "-" } else { "" };
+    let limit = if options.side == Limit::Left { "-" } else { "" };
     let line = |row: &Row| {
         let value = row.value.to_text(options.digits);
         let time = match second.is_empty() {
@@ -135,7 +135,7 @@ fn json_document(title: &str, rows: &[Row], options: &Eval, unit: &str) -> Strin
         "quantity": options.quantity,
         "set": options.scene.set,
         "digits": options.digits,
-        "side": if options.side == SideOption::Left { "left" } else { "right" },
+        "side": if options.side == Limit::Left { "left" } else { "right" },
         "values": values,
     });
     if !unit.is_empty() {

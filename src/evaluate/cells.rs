@@ -7,7 +7,7 @@
 //! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
 
 use crate::ball::{Ball, Binary, Magnitude};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::fitted_cells;
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{MAX_PIECES, Signal, Stretch};
@@ -140,7 +140,7 @@ impl<'a> Window<'a> {
     }
 
     /// The stretch of a time.
-    pub(crate) fn stretch_at(&self, at: &Rational, side: Side) -> Result<usize, EvaluateError> {
+    pub(crate) fn stretch_at(&self, at: &Rational, side: Limit) -> Result<usize, EvaluateError> {
         if *at < self.from || *at > self.to {
             return Err(EvaluateError::AfterLast);
         }
@@ -182,7 +182,7 @@ impl<'a> Window<'a> {
         let times: Vec<f64> = stretches
             .flat_map(|(first, last)| [first, first + (last - first) / 2.0, last])
             .collect();
-        let (values, _) = marched.certified(&times, Side::Right)?;
+        let (values, _) = marched.certified(&times, Limit::Right)?;
         Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
     }
 

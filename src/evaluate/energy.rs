@@ -8,7 +8,7 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::scene::{Arrived, SceneEvaluator};
 use crate::evaluate::transforms::in_divided_powers;
 use crate::expression::{Expression, Field as _, Fraction, Transform};
@@ -51,7 +51,7 @@ impl SceneEvaluator<'_> {
         numbers: &Numbers,
         terms: &[EnergyTerm],
         at: &Fraction,
-        side: Side,
+        side: Limit,
     ) -> Result<Vec<Part>, EvaluateError> {
         let mut parts = Vec::new();
         for term in terms {
@@ -78,7 +78,7 @@ impl SceneEvaluator<'_> {
                 // At the start itself nothing has entered.
                 continue;
             }
-            let arrived = self.arrived(numbers, &term.of, at, Side::Left)?;
+            let arrived = self.arrived(numbers, &term.of, at, Limit::Left)?;
             let arrived = self.audible(numbers, arrived)?;
             // The moments at which something arrives after the start, in order.
             let mut moments = vec![start];
@@ -92,7 +92,7 @@ impl SceneEvaluator<'_> {
             moments.push(at.clone());
             for pair in moments.windows(2) {
                 let (from, to) = (&pair[0], &pair[1]);
-                let by_then = self.arrived(numbers, &term.of, from, Side::Right)?;
+                let by_then = self.arrived(numbers, &term.of, from, Limit::Right)?;
                 let by_then = self.audible(numbers, by_then)?;
                 let forced = term.of.forcing.clone();
                 if !(by_then.is_empty() && forced.is_zero()) {

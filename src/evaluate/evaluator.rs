@@ -13,13 +13,14 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::rc::Rc;
+pub use wavestep_kernels::fixed::Limit;
 use wavestep_polynomial::{Integer, Rational, Symbol, Univariate};
 
 /// The most significant digits that are certified.
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, MAX_DIGITS, Side, Value};
+/// use wavestep::evaluate::{Evaluator, MAX_DIGITS, Limit, Value};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -28,7 +29,7 @@ use wavestep_polynomial::{Integer, Rational, Symbol, Univariate};
 /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
 /// let f = solution.recurrence().observation("f").unwrap();
 /// let (evaluator, third) = (Evaluator::new(&solution).unwrap(), parse_number("1/3")?);
-/// let value = evaluator.value(&f, &third, Side::Right, MAX_DIGITS, 1 << 16).unwrap();
+/// let value = evaluator.value(&f, &third, Limit::Right, MAX_DIGITS, 1 << 16).unwrap();
 /// let Value::Certified(certified) = value else { panic!("exp(-1/3) is irrational") };
 /// assert!(certified.decimal.to_string().starts_with("0.716531310573789250425"));
 /// assert_eq!(certified.decimal.to_string().len(), "0.".len() + MAX_DIGITS);
@@ -40,7 +41,7 @@ pub const MAX_DIGITS: usize = 10_000;
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{EvaluateError, Evaluator, MAX_ORDER, Side};
+/// use wavestep::evaluate::{EvaluateError, Evaluator, MAX_ORDER, Limit};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -49,7 +50,7 @@ pub const MAX_DIGITS: usize = 10_000;
 /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
 /// let f = solution.recurrence().observation("f").unwrap();
 /// let late = parse_number(&format!("{MAX_ORDER} + 1"))?;
-/// let refused = Evaluator::new(&solution).unwrap().value(&f, &late, Side::Right, 6, 200);
+/// let refused = Evaluator::new(&solution).unwrap().value(&f, &late, Limit::Right, 6, 200);
 /// let periods = late.to_integer();
 /// assert_eq!(refused, Err(EvaluateError::TooManyPeriods { periods, limit: MAX_ORDER }));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -60,7 +61,7 @@ pub const MAX_ORDER: usize = 2_000;
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, MAX_ORDER_OF_SEQUENCE, Side, Value};
+/// use wavestep::evaluate::{Evaluator, MAX_ORDER_OF_SEQUENCE, Limit, Value};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -69,7 +70,7 @@ pub const MAX_ORDER: usize = 2_000;
 /// let source = Source::new("constant-force", text)?;
 /// let solution = Solution::new(read_recurrence(&source, &BTreeMap::new())?);
 /// let f = solution.recurrence().observation("f").unwrap();
-/// let value = |at| Evaluator::new(&solution).unwrap().value(&f, &at, Side::Right, 6, 200);
+/// let value = |at| Evaluator::new(&solution).unwrap().value(&f, &at, Limit::Right, 6, 200);
 /// let last = parse_number(&format!("2*{MAX_ORDER_OF_SEQUENCE}"))?;
 /// let n_plus_1 = parse_number(&format!("{MAX_ORDER_OF_SEQUENCE} + 1"))?;
 /// assert_eq!(value(last.clone()), Ok(Value::Exact(n_plus_1)));
@@ -82,7 +83,7 @@ pub const MAX_ORDER_OF_SEQUENCE: usize = 50_000;
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{EvaluateError, Evaluator, MAX_ORDER_WITHOUT_FORM, Side};
+/// use wavestep::evaluate::{EvaluateError, Evaluator, MAX_ORDER_WITHOUT_FORM, Limit};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -96,47 +97,18 @@ pub const MAX_ORDER_OF_SEQUENCE: usize = 50_000;
 /// let solution = Solution::new(read_recurrence(&source, &BTreeMap::new())?);
 /// let f = solution.recurrence().observation("f").unwrap();
 /// let late = parse_number(&format!("{MAX_ORDER_WITHOUT_FORM} + 1"))?;
-/// let refused = Evaluator::new(&solution).unwrap().value(&f, &late, Side::Right, 6, 200);
+/// let refused = Evaluator::new(&solution).unwrap().value(&f, &late, Limit::Right, 6, 200);
 /// let (periods, limit) = (late.to_integer(), MAX_ORDER_WITHOUT_FORM);
 /// assert_eq!(refused, Err(EvaluateError::TooManyPeriods { periods, limit }));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub const MAX_ORDER_WITHOUT_FORM: usize = 400;
 
-/// Which limit is meant at an arrival.
-///
-/// ```
-/// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, Side, Value};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// // A constant force: f rises by 1 at every arrival, at t = 2 from 1 to 2.
-/// let text = wavestep::scenes::find("constant-force").unwrap().text;
-/// let source = Source::new("constant-force", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &BTreeMap::new())?);
-/// let f = solution.recurrence().observation("f").unwrap();
-/// let value = |side| {
-///     Evaluator::new(&solution).unwrap().value(&f, &parse_number("2").unwrap(), side, 6, 200)
-/// };
-/// assert_eq!(value(Side::Left), Ok(Value::Exact(parse_number("1")?)));
-/// assert_eq!(value(Side::Right), Ok(Value::Exact(parse_number("2")?)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Side {
-    /// The limit from earlier times.
-    Left,
-    /// The limit from later times, which is the value on the half-open period.
-    #[default]
-    Right,
-}
-
 /// Why there is no value.
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{EvaluateError, Evaluator, Side};
+/// use wavestep::evaluate::{EvaluateError, Evaluator, Limit};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -146,7 +118,7 @@ pub enum Side {
 /// let f = solution.recurrence().observation("f").unwrap();
 /// // Thirty digits do not fit 60 bits; the best enclosure is told.
 /// let (evaluator, at) = (Evaluator::new(&solution).unwrap(), parse_number("33/10")?);
-/// let error = evaluator.value(&f, &at, Side::Right, 30, 60).unwrap_err();
+/// let error = evaluator.value(&f, &at, Limit::Right, 30, 60).unwrap_err();
 /// let EvaluateError::AccuracyNotReached { best, bits: 60 } = error else { panic!("{error}") };
 /// assert!(best.to_string().starts_with("0.30538526440879"));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -316,7 +288,7 @@ type Row = Vec<(Rational, Rc<Univariate>)>;
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::evaluate::{Evaluator, Limit, Value};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -326,11 +298,11 @@ type Row = Vec<(Rational, Rc<Univariate>)>;
 /// let f = solution.recurrence().observation("f").unwrap();
 /// let evaluator = Evaluator::new(&solution).unwrap();
 /// assert_eq!(evaluator.period(), &parse_number("1/2")?);
-/// let value = evaluator.value(&f, &parse_number("33/10")?, Side::Right, 30, 1000).unwrap();
+/// let value = evaluator.value(&f, &parse_number("33/10")?, Limit::Right, 30, 1000).unwrap();
 /// let Value::Certified(certified) = value else { panic!("f is irrational there") };
 /// assert_eq!(certified.decimal.to_string(), "0.305385264408791064086396952466");
 /// // f starts at 1, a rational number.
-/// let rational = |at| evaluator.rational(&f, &parse_number(at).unwrap(), Side::Right).unwrap();
+/// let rational = |at| evaluator.rational(&f, &parse_number(at).unwrap(), Limit::Right).unwrap();
 /// assert_eq!((rational("0"), rational("33/10")), (Some(parse_number("1")?), None));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
@@ -388,7 +360,7 @@ impl<'a> Evaluator<'a> {
         &self,
         observation: &Observation,
         at: &Rational,
-        side: Side,
+        side: Limit,
         digits: usize,
         limit_bits: u64,
     ) -> Result<Value, EvaluateError> {
@@ -411,7 +383,7 @@ impl<'a> Evaluator<'a> {
         &self,
         observation: &Observation,
         at: &Rational,
-        side: Side,
+        side: Limit,
     ) -> Result<Option<Rational>, EvaluateError> {
         let parts = self.parts(observation, at, side)?;
         match parts.algebraic.is_zero() {
@@ -424,7 +396,7 @@ impl<'a> Evaluator<'a> {
         &self,
         observation: &Observation,
         at: &Rational,
-        side: Side,
+        side: Limit,
     ) -> Result<Parts, EvaluateError> {
         let mut parts = Parts::default();
         for seen in &observation.waves {
@@ -447,7 +419,7 @@ impl<'a> Evaluator<'a> {
                 Err(_) => parts.algebraic += &(&wave()?.into_expression() * &seen.coefficient),
             }
         }
-        let before_start = at.is_negative() || (at.is_zero() && side == Side::Left);
+        let before_start = at.is_negative() || (at.is_zero() && side == Limit::Left);
         if !observation.forcing.is_zero() && !before_start {
             let time = &self.solution.recurrence().statement().time;
             parts.add(&observation.forcing, Some((time, at)))?;
@@ -461,7 +433,7 @@ impl<'a> Evaluator<'a> {
         wave: WaveIndex,
         slope: bool,
         time: &Rational,
-        side: Side,
+        side: Limit,
         parts: &mut Parts,
     ) -> Result<(), EvaluateError> {
         let Some(last) = self.last_arrival(wave, time, side)? else { return Ok(()) };
@@ -495,12 +467,12 @@ impl<'a> Evaluator<'a> {
         &self,
         wave: WaveIndex,
         time: &Rational,
-        side: Side,
+        side: Limit,
     ) -> Result<Option<usize>, EvaluateError> {
         let periods = time / &self.period;
         let last = match side {
-            Side::Right => periods.floor().to_integer(),
-            Side::Left => periods.ceil().to_integer() - 1,
+            Limit::Right => periods.floor().to_integer(),
+            Limit::Left => periods.ceil().to_integer() - 1,
         };
         if last.is_negative() {
             return Ok(None);

@@ -7,7 +7,7 @@
 use crate::ball::{Ball, Binary, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::{at_or_after, rational};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::{Extra, Taps};
 use crate::evaluate::taylor::Taylor;
@@ -109,7 +109,7 @@ impl MarchedPieces {
     pub(crate) fn certified(
         &self,
         times: &[impl ExactTime],
-        side: Side,
+        side: Limit,
     ) -> Option<(Vec<f64>, Vec<usize>)> {
         if !self.extras.is_empty() || self.taps.iter().any(|tap| tap.since != tap.delay) {
             return None;
@@ -119,10 +119,6 @@ impl MarchedPieces {
             delay: &tap.delay / &self.slowness,
         };
         let taps: Vec<fixed::Tap> = self.taps.iter().map(tap).collect();
-        let side = match side {
-            Side::Left => fixed::Side::Left,
-            Side::Right => fixed::Side::Right,
-        };
         let found = fixed::certified(&self.equation, &taps, times, side).ok()?;
         Some((found.values, found.undecided))
     }

@@ -26,8 +26,8 @@ mod waves;
 pub use arrivals::{Arrival, ArrivalError, arrivals};
 pub(crate) use cells::scale;
 pub use evaluator::{
-    EvaluateError, Evaluator, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
-    Side,
+    EvaluateError, Evaluator, Limit, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE,
+    MAX_ORDER_WITHOUT_FORM,
 };
 pub(crate) use find::{At, ObservedSignal, Piecewise};
 pub use find::{Determined, Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};

@@ -6,7 +6,7 @@
 
 use crate::ball::{Ball, BallError, Binary, ComplexBall, Magnitude};
 use crate::enclosure::{Numbers, real_part};
-use crate::evaluate::evaluator::{EvaluateError, Side, certified};
+use crate::evaluate::evaluator::{EvaluateError, Limit, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
 use crate::evaluate::transforms::value_at;
 use crate::evaluate::value::Value;
@@ -62,7 +62,7 @@ pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 /// Evaluates observables of a scene, up to a last time.
 ///
 /// ```
-/// use wavestep::evaluate::{SceneEvaluator, Side};
+/// use wavestep::evaluate::{SceneEvaluator, Limit};
 /// use wavestep::language::{Source, parse_number, read_scene};
 /// use wavestep::network::Network;
 ///
@@ -81,13 +81,13 @@ pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 /// let evaluator = SceneEvaluator::new(&network, &at).unwrap();
 /// let value = |i: usize| {
 ///     let observed = &network.observables()[i];
-///     evaluator.value(observed, &at, Side::Right, 9, 1 << 12).unwrap().to_text(9)
+///     evaluator.value(observed, &at, Limit::Right, 9, 1 << 12).unwrap().to_text(9)
 /// };
 /// // In N, and in J: half of 0.74 kg times (10 m/s)², whatever the time.
 /// assert_eq!((value(0).as_str(), value(1).as_str()), ("29714.1576", "36.9922535"));
 /// // Nothing is felt before the strike; an energy is not linear in the waves.
 /// let start = network.scaled_time(&parse_number("0")?);
-/// let rational = |i: usize| evaluator.rational(&network.observables()[i], &start, Side::Left);
+/// let rational = |i: usize| evaluator.rational(&network.observables()[i], &start, Limit::Left);
 /// assert_eq!((rational(0), rational(1)), (Ok(Some(parse_number("0")?)), Ok(None)));
 /// // Two echoes of each wave can be there: the first, and one from the far end of the striker.
 /// assert!(evaluator.expanded() <= evaluator.needed());
@@ -221,7 +221,7 @@ impl<'a> SceneEvaluator<'a> {
         &self,
         observed: &Observed,
         at: &Fraction,
-        side: Side,
+        side: Limit,
         digits: usize,
         limit_bits: u64,
     ) -> Result<Value, EvaluateError> {
@@ -272,7 +272,7 @@ impl<'a> SceneEvaluator<'a> {
         &self,
         observed: &Observed,
         at: &Fraction,
-        side: Side,
+        side: Limit,
     ) -> Result<Option<Rational>, EvaluateError> {
         let ObservedValue::Linear(observation) = &observed.value else { return Ok(None) };
         let numbers = self.numbers();
@@ -345,7 +345,7 @@ impl<'a> SceneEvaluator<'a> {
         numbers: &Numbers,
         observation: &Observation,
         at: &Fraction,
-        side: Side,
+        side: Limit,
     ) -> Result<Vec<Arrived>, EvaluateError> {
         let mut arrived = Vec::new();
         for seen in &observation.waves {
@@ -353,7 +353,8 @@ impl<'a> SceneEvaluator<'a> {
             for (number, delay) in &self.arrivals {
                 let since = &time - delay;
                 let order = numbers.compare(&since, &Fraction::zero())?;
-                if order == Ordering::Greater || (order == Ordering::Equal && side == Side::Right) {
+                if order == Ordering::Greater || (order == Ordering::Equal && side == Limit::Right)
+                {
                     let (wave, coefficient) = (seen.wave, seen.coefficient.clone());
                     arrived.push(Arrived { wave, number: *number, coefficient, since });
                 }
@@ -368,10 +369,11 @@ impl<'a> SceneEvaluator<'a> {
         numbers: &Numbers,
         observation: &Observation,
         at: &Fraction,
-        side: Side,
+        side: Limit,
     ) -> Result<Expression, EvaluateError> {
         let order = numbers.compare(at, &Fraction::zero())?;
-        let begun = order == Ordering::Greater || (order == Ordering::Equal && side == Side::Right);
+        let begun =
+            order == Ordering::Greater || (order == Ordering::Equal && side == Limit::Right);
         match begun && !observation.forcing.is_zero() {
             true => Ok(observation.forcing.substitute(&self.network.scene().time, at)?),
             false => Ok(Expression::zero()),
@@ -401,7 +403,7 @@ impl<'a> SceneEvaluator<'a> {
         }
         self.wanted.borrow_mut().push(observation.clone());
         for Arrived { wave, number, .. } in
-            self.arrived(numbers, observation, &self.last, Side::Right)?
+            self.arrived(numbers, observation, &self.last, Limit::Right)?
         {
             let mut demand = self.demand.borrow_mut();
             if !demand.wants(wave, number) {

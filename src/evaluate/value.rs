@@ -13,7 +13,7 @@ const NEGLIGIBLE_BITS: i64 = 1024;
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, Side, Value};
+/// use wavestep::evaluate::{Evaluator, Limit, Value};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -23,7 +23,7 @@ const NEGLIGIBLE_BITS: i64 = 1024;
 /// let strain = solution.recurrence().observation("strain_fixed").unwrap();
 /// let evaluator = Evaluator::new(&solution).unwrap();
 /// let value = |at| {
-///     evaluator.value(&strain, &parse_number(at).unwrap(), Side::Right, 6, 200).unwrap()
+///     evaluator.value(&strain, &parse_number(at).unwrap(), Limit::Right, 6, 200).unwrap()
 /// };
 /// // The fixed end is at rest until the front is there, at t = mu; it then feels it twice.
 /// assert_eq!(value("1/8"), Value::Exact(parse_number("0")?));

@@ -5,7 +5,7 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::scene::whole_periods;
 use crate::evaluate::signal::{MAX_PIECES, Signal};
 use crate::evaluate::transforms::value_at;
@@ -73,7 +73,7 @@ impl Waves {
         wave: WaveIndex,
         derivative: usize,
         at: &Fraction,
-        side: Side,
+        side: Limit,
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
         let seen = self.places.iter().position(|known| *known == wave).expect("a wave asked for");
@@ -122,13 +122,13 @@ impl Waves {
     ) -> Result<Vec<Fraction>, EvaluateError> {
         match &self.echoes {
             None => {
-                let Some(last) = self.period_at(to, Side::Right)? else { return Ok(Vec::new()) };
-                let before = self.period_at(from, Side::Left)?;
+                let Some(last) = self.period_at(to, Limit::Right)? else { return Ok(Vec::new()) };
+                let before = self.period_at(from, Limit::Left)?;
                 Ok((before.map_or(0, |n| n + 1)..=last).map(|n| self.start(n)).collect())
             }
             Some((delays, _)) => {
-                let first = self.arrived(delays, from, Side::Left)?;
-                let last = self.arrived(delays, to, Side::Right)?;
+                let first = self.arrived(delays, from, Limit::Left)?;
+                let last = self.arrived(delays, to, Limit::Right)?;
                 let mut breaks = delays[first.min(last)..last].to_vec();
                 breaks.dedup();
                 Ok(breaks)
@@ -141,11 +141,11 @@ impl Waves {
     }
 
     /// The period that a time lies in; before the start, none.
-    fn period_at(&self, at: &Fraction, side: Side) -> Result<Option<usize>, EvaluateError> {
+    fn period_at(&self, at: &Fraction, side: Limit) -> Result<Option<usize>, EvaluateError> {
         let most = whole_periods(self.numbers(), at, &self.period, MAX_PIECES)?;
         for number in (0..=most).rev() {
             let order = self.numbers().compare(&self.start(number), at)?;
-            if order == Ordering::Less || (order == Ordering::Equal && side == Side::Right) {
+            if order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right) {
                 return Ok(Some(number));
             }
         }
@@ -157,13 +157,13 @@ impl Waves {
         &self,
         delays: &[Fraction],
         at: &Fraction,
-        side: Side,
+        side: Limit,
     ) -> Result<usize, EvaluateError> {
         let (mut low, mut high) = (0, delays.len());
         while low < high {
             let middle = low.midpoint(high);
             let order = self.numbers().compare(&delays[middle], at)?;
-            match order == Ordering::Less || (order == Ordering::Equal && side == Side::Right) {
+            match order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right) {
                 true => low = middle + 1,
                 false => high = middle,
             }

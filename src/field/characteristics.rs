@@ -7,7 +7,7 @@
 use super::entering::{Entering, Heading, Instant, Order};
 use super::{FieldError, FieldEvaluator};
 use crate::ball::Magnitude;
-use crate::evaluate::{EvaluateError, Side};
+use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar};
 use wavestep_polynomial::Rational;
@@ -249,7 +249,7 @@ impl FieldEvaluator {
             let length = &pair[1] - &pair[0];
             let at = |share: &Rational| &pair[0] + &length.scale(share);
             let [low, middle, high] = [(0, 1), (1, 2), (1, 1)].map(|(a, b): (i32, i32)| {
-                let side = if a == b { Side::Left } else { Side::Right };
+                let side = if a == b { Limit::Left } else { Limit::Right };
                 value(&at(&Rational::new(a.into(), b.into())), Order::Value, side)
             });
             let (low, middle, high) = (low?, middle?, high?);
@@ -264,7 +264,7 @@ impl FieldEvaluator {
                 let place = |i: usize| start + (end - start) * i as f64 / parts as f64;
                 let value = match flat {
                     true => middle,
-                    false => value(&at(&share(2 * part + 1)), Order::Value, Side::Right)?,
+                    false => value(&at(&share(2 * part + 1)), Order::Value, Limit::Right)?,
                 };
                 let joined = found.last_mut().filter(|last| last.value == value && flat);
                 match joined {
@@ -280,7 +280,7 @@ impl FieldEvaluator {
         for at in &ends[..ends.len() - 1] {
             let jump = |order| -> Result<f64, FieldError> {
                 let (after, before) =
-                    (value(at, order, Side::Right)?, value(at, order, Side::Left)?);
+                    (value(at, order, Limit::Right)?, value(at, order, Limit::Left)?);
                 Ok((after - before).abs())
             };
             if jump(Order::Value)? > VISIBLE * scale {

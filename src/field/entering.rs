@@ -6,7 +6,7 @@
 
 use super::FieldError;
 use crate::ball::Ball;
-use crate::evaluate::{Side, Waves};
+use crate::evaluate::{Limit, Waves};
 use crate::expression::Fraction;
 use crate::network::{FieldBar, Network, Way};
 use std::ops::RangeInclusive;
@@ -45,7 +45,7 @@ pub(crate) enum Order {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Instant<'a> {
     pub at: &'a Fraction,
-    pub side: Side,
+    pub side: Limit,
     /// Whether an instant beside a break means the break: pictures look from both sides at breaks of
     /// which only an enclosure is known. Then the function on that side of the break is continued to
     /// the instant.

@@ -17,7 +17,7 @@ use super::fields::{BarFields, Bounded, Fields};
 use super::{FieldError, Mesh, Sampling};
 use crate::ball::{Ball, Magnitude};
 use crate::enclosure::Numbers;
-use crate::evaluate::{EvaluateError, Side};
+use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar, Network};
 use crate::scene::Kind;
@@ -191,7 +191,7 @@ impl FieldEvaluator {
             time: time.clone(),
             dimensional: self.network.scene().dimensional,
             sampling: mesh.sampling(),
-            side: mesh.side(),
+            side: mesh.limit(),
             bars: self
                 .bars
                 .iter()
@@ -225,7 +225,7 @@ impl FieldEvaluator {
                     Extent::ToTheRight => [from, Fraction::zero()],
                     Extent::ToTheLeft => [Fraction::zero(), from],
                 };
-                let inside = mesh.side() == Side::Right && j < mesh.cells();
+                let inside = mesh.limit() == Limit::Right && j < mesh.cells();
                 Node { delays, from_larger: inside || j == 0, is_drawn: false }
             })
             .collect();
@@ -289,7 +289,7 @@ impl FieldEvaluator {
         &self,
         wave: Entering,
         order: Order,
-        (at, node, side): (&Fraction, &Node, Side),
+        (at, node, side): (&Fraction, &Node, Limit),
         bits: u64,
     ) -> Result<Ball, FieldError> {
         let at = at - &node.delays[wave.heading as usize];
@@ -310,7 +310,7 @@ impl FieldEvaluator {
             let wave = |heading: Heading, order| {
                 // A delay that grows with x looks back in time as x grows.
                 let grows = heading == Heading::Right || self.bars[bar].extent == Extent::ToTheLeft;
-                let side = if grows == node.from_larger { Side::Left } else { Side::Right };
+                let side = if grows == node.from_larger { Limit::Left } else { Limit::Right };
                 self.wave(Entering { bar, heading }, order, (at, node, side), bits)
             };
             let both = |order| -> Result<[Ball; 2], FieldError> {
@@ -343,7 +343,7 @@ impl FieldEvaluator {
             for (place, order) in [Order::Integral, Order::DoubleIntegral].into_iter().enumerate() {
                 // Integrals are continuous: either side does.
                 let at = |node| {
-                    self.wave(Entering { bar, heading }, order, (at, node, Side::Right), bits)
+                    self.wave(Entering { bar, heading }, order, (at, node, Limit::Right), bits)
                 };
                 let integrals: Vec<Ball> = nodes.iter().map(at).collect::<Result<_, _>>()?;
                 let mean =

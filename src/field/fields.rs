@@ -1,7 +1,7 @@
 //! Fields as numbers.
 
 use super::Sampling;
-use crate::evaluate::Side;
+use crate::evaluate::Limit;
 use crate::scene::Dimension;
 use wavestep_polynomial::Rational;
 
@@ -135,7 +135,7 @@ pub struct Fields {
     /// What is given.
     pub sampling: Sampling,
     /// From which side limits are.
-    pub side: Side,
+    pub side: Limit,
     /// The bars asked for, from left to right.
     pub bars: Vec<BarFields>,
 }

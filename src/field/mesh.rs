@@ -1,7 +1,7 @@
 //! Where fields are asked for.
 
 use super::FieldError;
-use crate::evaluate::Side;
+use crate::evaluate::Limit;
 use wavestep_polynomial::Rational;
 
 /// The most cells of one bar.
@@ -36,11 +36,11 @@ pub enum Sampling {
 /// - a reach is above zero.
 ///
 /// ```
-/// use wavestep::evaluate::Side;
+/// use wavestep::evaluate::Limit;
 /// use wavestep::field::{Mesh, Sampling};
 ///
-/// let mesh = Mesh::new(100)?.only("rod").on_the(Side::Left);
-/// assert_eq!((mesh.cells(), mesh.side(), mesh.sampling()), (100, Side::Left, Sampling::Nodes));
+/// let mesh = Mesh::new(100)?.only("rod").with_limit(Limit::Left);
+/// assert_eq!((mesh.cells(), mesh.limit(), mesh.sampling()), (100, Limit::Left, Sampling::Nodes));
 /// let two = wavestep::language::parse_number("2").unwrap();
 /// assert_eq!(mesh.reaching(&two)?.cells(), 100);
 /// # Ok::<(), wavestep::field::FieldError>(())
@@ -49,7 +49,7 @@ pub enum Sampling {
 pub struct Mesh {
     cells: usize,
     sampling: Sampling,
-    side: Side,
+    limit: Limit,
     bars: Vec<String>,
     reach: Option<Rational>,
 }
@@ -64,7 +64,7 @@ impl Mesh {
             1..=MAX_CELLS => Ok(Mesh {
                 cells,
                 sampling: Sampling::Nodes,
-                side: Side::Right,
+                limit: Limit::Right,
                 bars: Vec::new(),
                 reach: None,
             }),
@@ -78,11 +78,11 @@ impl Mesh {
         Mesh { sampling: Sampling::Averages, ..self }
     }
 
-    /// The same with limits from this side where a field jumps at a node: from larger `x` with
-    /// [`Side::Right`]. At the ends of a bar the limit is from within, whatever the side.
+    /// The same with this limit where a field jumps at a node: from larger `x` with
+    /// [`Limit::Right`]. At the ends of a bar the limit is always from within.
     #[must_use]
-    pub fn on_the(self, side: Side) -> Mesh {
-        Mesh { side, ..self }
+    pub fn with_limit(self, limit: Limit) -> Mesh {
+        Mesh { limit, ..self }
     }
 
     /// The same for this bar, besides others that were named.
@@ -115,9 +115,9 @@ impl Mesh {
         self.sampling
     }
 
-    /// From which side limits are.
-    pub fn side(&self) -> Side {
-        self.side
+    /// Which limit is taken at jumps.
+    pub fn limit(&self) -> Limit {
+        self.limit
     }
 
     pub(super) fn bars(&self) -> &[String] {

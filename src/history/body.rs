@@ -6,12 +6,12 @@
 
 use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
+use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::track::Limit;
 use crate::network::Network;
 use crate::scene::{ElementIndex, End, Kind};
 use std::cmp::Ordering;
@@ -68,7 +68,7 @@ impl Engine {
         }
         let node = self.layout.node_of(element).expect("an element of a node");
         let own = &self.nodes[node];
-        let (start, cell) = self.cell(node, moment, Limit::After)?;
+        let (start, cell) = self.cell(node, moment, Limit::Right)?;
         let time = self.clock.since(start, moment)?;
         let half = Number::Exact(Rational::new(1.into(), 2.into()));
         if let Some(mass) = own.masses.iter().find(|mass| mass.element == element) {

@@ -3,14 +3,13 @@
 use crate::ball::Number;
 use crate::ball::{Ball, CertifyError, certify};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::{Determined, Value};
+use crate::evaluate::{Determined, Limit, Value};
 use crate::expression::{Expression, Fraction, Root};
 use crate::history::body::parts;
 use crate::history::closed_form;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::track::Limit;
 use crate::network::Network;
 use crate::scene::Kind;
 use std::cmp::Ordering;
@@ -495,8 +494,8 @@ impl Story<'_> {
 
     fn event(&self, row: &Row, closed: &[bool], units: &Units) -> Outcome<Event> {
         let (engine, bits) = (&self.engine, self.engine.cut.bits);
-        let (before, old) = engine.beside(row.contact, &row.moment, Limit::Before)?;
-        let (mut after, new) = engine.beside(row.contact, &row.moment, Limit::After)?;
+        let (before, old) = engine.beside(row.contact, &row.moment, Limit::Left)?;
+        let (mut after, new) = engine.beside(row.contact, &row.moment, Limit::Right)?;
         if !closed[row.contact] {
             after = Number::zero();
         }

@@ -5,14 +5,13 @@
 //! that left the right end at `t − (τ − s)`. Energies and momenta of bodies are sums over bars instead.
 
 use crate::ball::Number;
-use crate::evaluate::{Determined, Side, Value};
+use crate::evaluate::{Determined, Limit, Value};
 use crate::expression::{Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{History, MAX_BITS, determined, unit};
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Signal, Source};
-use crate::history::track::Limit;
 use crate::network::{Network, Side as End, bar_roots};
 use crate::scene::{Body, ElementIndex, Kind, Measure, Observable, Place, Position, Seen};
 use wavestep_polynomial::Rational;
@@ -21,14 +20,14 @@ type Outcome<T> = Result<T, HistoryError>;
 
 impl History {
     /// Values of an observable at times in the user's units, in metres, kilograms and seconds or as plain
-    /// numbers, with the digits asked for; contacts open and close on the way. At a jump the side tells
-    /// which limit is meant.
+    /// numbers, with the digits asked for; contacts open and close on the way. At a jump `limit`
+    /// tells which one is meant.
     ///
     /// # Errors
     /// As [`History::of`]; [`HistoryError::Refused`] for places that are no exact share of a travel time.
     ///
     /// ```
-    /// use wavestep::evaluate::Side;
+    /// use wavestep::evaluate::Limit;
     /// use wavestep::history::History;
     /// use wavestep::language::{Source, parse_number, read_scene};
     /// use wavestep::network::Network;
@@ -42,7 +41,7 @@ impl History {
     /// "#;
     /// let network = Network::new(&read_scene(&Source::new("text", text)?, &Default::default()).unwrap());
     /// let times = ["0", "1", "3"].map(|time| parse_number(time).unwrap());
-    /// let values = History::values(&network.unwrap(), "v", &times, Side::Right, 9).unwrap();
+    /// let values = History::values(&network.unwrap(), "v", &times, Limit::Right, 9).unwrap();
     /// let told: Vec<String> = values.iter().map(|value| value.to_text(9)).collect();
     /// assert_eq!(told, ["1", "0", "-1"]);
     /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -51,11 +50,10 @@ impl History {
         network: &Network,
         observable: &str,
         times: &[Rational],
-        side: Side,
+        limit: Limit,
         digits: usize,
     ) -> Result<Vec<Determined>, HistoryError> {
         let seen = History::observable(network, observable)?;
-        let limit = if side == Side::Left { Limit::Before } else { Limit::After };
         let mut bits = 128 + 4 * digits as u64;
         loop {
             let last = 2 * bits > MAX_BITS.max(16 * digits as u64);

@@ -1,13 +1,13 @@
 //! The parts that an observable is the sum of: waves with their delays, motions of nodes, compressions.
 
 use crate::ball::Number;
+use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::energy::Integrand;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::history::series::Series;
-use crate::history::track::Limit;
 
 type Outcome<T> = Result<T, HistoryError>;
 
@@ -103,12 +103,12 @@ impl Engine {
     pub fn series_of(&self, part: &Part, now: &Moment) -> Outcome<Series> {
         let (start, series) = match (part.source, &part.delay) {
             (Source::Node { node, signal }, _) => {
-                let (start, cell) = self.cell(node, now, Limit::After)?;
+                let (start, cell) = self.cell(node, now, Limit::Right)?;
                 (start.clone(), cell.series(signal))
             }
             (Source::Wave { bar, direction }, Some(delay)) => {
                 let track = &self.waves[bar][direction];
-                let cell = track.cell(&self.clock, &now.before(delay), Limit::After)?;
+                let cell = track.cell(&self.clock, &now.before(delay), Limit::Right)?;
                 let (start, wave) = &track.cells[cell];
                 (start.after(delay), wave.series())
             }
@@ -120,7 +120,7 @@ impl Engine {
         let series = series.shift(&self.clock.since(&start, now)?, &self.cut);
         let series = series.combine(&part.factor, &Series::zero(), &zero, bits);
         Ok(match part.integrated {
-            true => series.integral(self.value_of(part, now, Limit::After)?, &self.cut),
+            true => series.integral(self.value_of(part, now, Limit::Right)?, &self.cut),
             false => series,
         })
     }

@@ -3,7 +3,7 @@
 use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
 use crate::enclosure::EnclosureError;
-use crate::evaluate::{At, EvaluateError, Piecewise, Search, Side, Taylor};
+use crate::evaluate::{At, EvaluateError, Limit, Piecewise, Search, Taylor};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::{History, MAX_BITS, unit};
@@ -168,8 +168,8 @@ impl<'a> PhasedSignal<'a> {
     ) -> Result<Number, EvaluateError> {
         let [from, to] = &followed.pieces[stretch].ends;
         let number = match at {
-            At::End(Side::Right) => return Ok(Number::zero()),
-            At::End(Side::Left) => followed.engine.clock.since(from, to)?,
+            At::End(Limit::Right) => return Ok(Number::zero()),
+            At::End(Limit::Left) => followed.engine.clock.since(from, to)?,
             At::Time(time) => {
                 followed.engine.clock.since(from, &Moment::at(self.network.scaled_time(time)))?
             }
@@ -280,22 +280,22 @@ impl Piecewise for PhasedSignal<'_> {
         self.known.borrow().pieces[stretch].series.is_zero()
     }
 
-    fn exact_time(&self, stretch: usize, end: Side) -> Option<Rational> {
+    fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
         let known = self.known.borrow();
         let pieces = &known.pieces;
         match end {
-            Side::Right if stretch == 0 => return Some(self.window[0].clone()),
-            Side::Left if stretch + 1 == pieces.len() => return Some(self.window[1].clone()),
+            Limit::Right if stretch == 0 => return Some(self.window[0].clone()),
+            Limit::Left if stretch + 1 == pieces.len() => return Some(self.window[1].clone()),
             _ => {}
         }
-        let place = usize::from(end == Side::Left);
+        let place = usize::from(end == Limit::Left);
         let time = known.engine.clock.time(&pieces[stretch].ends[place]).ok()?;
         Some(time.exact()? * known.unit[0].exact()?)
     }
 
-    fn time(&self, stretch: usize, end: Side, bits: u64) -> Result<Ball, EvaluateError> {
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
         let followed = self.followed(bits)?;
-        let place = usize::from(end == Side::Left);
+        let place = usize::from(end == Limit::Left);
         let time = followed.engine.clock.time(&followed.pieces[stretch].ends[place])?;
         Ok(time.multiply(&followed.unit[0], followed.engine.cut.bits).ball(bits))
     }
@@ -353,7 +353,7 @@ impl Piecewise for PhasedSignal<'_> {
         let followed = self.followed(0)?;
         let end = &followed.pieces[stretch].ends[1];
         let zero = |part| followed.engine.vanishes_before(part, end);
-        if matches!(at, At::End(Side::Left)) && followed.parts.iter().all(zero) {
+        if matches!(at, At::End(Limit::Left)) && followed.parts.iter().all(zero) {
             return Ok(Some(Rational::zero()));
         }
         let at = self.since(&followed, stretch, at)?;
@@ -361,14 +361,14 @@ impl Piecewise for PhasedSignal<'_> {
         Ok(value.exact().cloned())
     }
 
-    fn slope_vanishes(&self, stretch: usize, end: Side) -> Result<bool, EvaluateError> {
+    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
         let followed = self.followed(0)?;
         let last = &followed.pieces[stretch].ends[1];
         let flat = |part| {
             let slope = followed.engine.slope_of(part);
             slope.is_some_and(|slope| followed.engine.vanishes_before(&slope, last))
         };
-        if end == Side::Left && followed.parts.iter().all(flat) {
+        if end == Limit::Left && followed.parts.iter().all(flat) {
             return Ok(true);
         }
         let at = self.since(&followed, stretch, At::End(end))?;

@@ -1,13 +1,13 @@
 //! What is read off nodes and contacts, once they have been followed to an instant.
 
 use crate::ball::Number;
+use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::history::node::{ContactPlace, Link, Node};
 use crate::history::series::Series;
-use crate::history::track::Limit;
 use crate::network::Side;
 use std::cmp::Ordering;
 
@@ -27,7 +27,7 @@ impl Engine {
         let ContactPlace { node, run, .. } = self.contacts[contact];
         let own = &self.nodes[node];
         let start = Moment::at(Fraction::zero());
-        if limit == Limit::Before && self.clock.compare(moment, &start)? == Ordering::Equal {
+        if limit == Limit::Left && self.clock.compare(moment, &start)? == Ordering::Equal {
             let (_, cell) = &self.cells[node][0];
             let value = |run: usize| {
                 let known = self.velocity_before(own, run);
@@ -50,7 +50,7 @@ impl Engine {
     /// As [`Track::cell`].
     pub fn gap(&self, contact: usize, moment: &Moment) -> Outcome<Number> {
         let node = self.contacts[contact].node;
-        let (start, cell) = self.cell(node, moment, Limit::After)?;
+        let (start, cell) = self.cell(node, moment, Limit::Right)?;
         let place = self.nodes[node].contacts().position(|(own, _)| own == contact);
         let gap = &cell.gaps[place.expect("a contact of the node")];
         Ok(gap.value(&self.clock.since(start, moment)?, &self.cut))
@@ -98,7 +98,7 @@ impl Engine {
             let end = cells.get(middle + 1).map_or(self.now(node), |(start, _)| start);
             let behind = match self.clock.compare(end, moment)? {
                 Ordering::Less => false,
-                Ordering::Equal => limit == Limit::Before,
+                Ordering::Equal => limit == Limit::Left,
                 Ordering::Greater => true,
             };
             if behind { high = middle } else { low = middle + 1 }

@@ -2,6 +2,7 @@
 
 use crate::ball::Number;
 use crate::enclosure::EnclosureError;
+use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::energy::{Integrand, Wave};
 use crate::history::error::HistoryError;
@@ -16,13 +17,6 @@ use std::cmp::Ordering;
 pub(crate) struct Track {
     pub cells: Vec<(Moment, Wave)>,
     pub end: Moment,
-}
-
-/// Which limit is meant where a signal jumps.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Limit {
-    Before,
-    After,
 }
 
 impl Track {
@@ -69,7 +63,7 @@ impl Track {
             let middle = low.midpoint(high);
             let is_behind = match clock.compare(self.end_of(middle), moment)? {
                 Ordering::Less => false,
-                Ordering::Equal => limit == Limit::Before,
+                Ordering::Equal => limit == Limit::Left,
                 Ordering::Greater => true,
             };
             if is_behind { high = middle } else { low = middle + 1 }
@@ -112,8 +106,8 @@ impl Track {
         if clock.compare(from, to)? != Ordering::Less {
             return Ok(sum);
         }
-        let first = self.cell(clock, from, Limit::After)?;
-        let last = self.cell(clock, to, Limit::Before)?;
+        let first = self.cell(clock, from, Limit::Right)?;
+        let last = self.cell(clock, to, Limit::Left)?;
         let until = |number: usize, moment: &Moment| -> Result<Number, HistoryError> {
             let (start, wave) = &self.cells[number];
             Ok(wave.until(integrand, &clock.since(start, moment)?, cut))

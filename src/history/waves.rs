@@ -7,7 +7,7 @@
 
 use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::{EvaluateError, Side};
+use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::Fraction;
 use crate::field::{Entering, EnteringWaves, FieldError, FieldEvaluator, Heading, Instant, Order};
 use crate::history::energy::Wave;
@@ -205,7 +205,7 @@ impl Phases {
         // Before the start nothing is added.
         let begun = self.clock.numbers.compare(instant.at, &Fraction::zero())?;
         let at_start = match order {
-            Order::Slope | Order::Value => instant.side == Side::Left,
+            Order::Slope | Order::Value => instant.side == Limit::Left,
             Order::Integral | Order::DoubleIntegral => true,
         };
         if begun == Ordering::Less || (begun == Ordering::Equal && at_start) {
@@ -316,7 +316,7 @@ impl Course {
                 false => clock.compare(end, moment)?,
             };
             Ok(order == Ordering::Greater
-                || (order == Ordering::Equal && instant.side == Side::Left))
+                || (order == Ordering::Equal && instant.side == Limit::Left))
         };
         let (mut low, mut high) = (0, self.pieces.len());
         // The first piece that ends behind the instant.
@@ -363,17 +363,17 @@ mod tests {
         };
         let drawn = |order, side| ask(&waves, order, side, true).unwrap();
         for order in [Order::Value, Order::Integral, Order::DoubleIntegral] {
-            let (left, right) = (drawn(order, Side::Left), drawn(order, Side::Right));
+            let (left, right) = (drawn(order, Limit::Left), drawn(order, Limit::Right));
             assert!((left - right).abs() < 1e-15 && left.abs() > 0.1, "{order:?} {left} {right}");
         }
-        let slopes = [Side::Left, Side::Right].map(|side| drawn(Order::Slope, side));
+        let slopes = [Limit::Left, Limit::Right].map(|side| drawn(Order::Slope, side));
         assert!((slopes[0] - slopes[1]).abs() > 0.1, "{slopes:?}");
         assert_eq!(waves.known.borrow().len(), 1);
-        let exact = [Side::Left, Side::Right].map(|side| ask(&waves, Order::Slope, side, false));
+        let exact = [Limit::Left, Limit::Right].map(|side| ask(&waves, Order::Slope, side, false));
         assert_eq!(exact[0], exact[1]);
         assert!(exact[0].is_ok() && waves.known.borrow().len() == 2);
         let few = PhaseWaves::new(&saint_venant(), &number("4"), FIRST_BITS).unwrap();
-        let refused = ask(&few, Order::Value, Side::Right, false).unwrap_err();
+        let refused = ask(&few, Order::Value, Limit::Right, false).unwrap_err();
         assert!(matches!(refused, FieldError::Undecided { bits: FIRST_BITS, .. }), "{refused}");
         assert!(refused.to_string().contains("about t = 3.0676676416183063459"), "{refused}");
     }
@@ -384,7 +384,7 @@ mod tests {
         let waves = PhaseWaves::new(&saint_venant(), &number("4"), MAX_BITS).unwrap();
         let value = |order, thousandths: i64| {
             let at = Fraction::constant(&Rational::new(thousandths.into(), 1000.into()));
-            let instant = Instant { at: &at, side: Side::Right, is_drawn: false };
+            let instant = Instant { at: &at, side: Limit::Right, is_drawn: false };
             waves.enclose(ROD, order, instant, 64).unwrap().to_double().0
         };
         for from in [0_i64, 950, 1300, 2100, 3040, 3800] {

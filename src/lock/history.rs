@@ -4,7 +4,7 @@
 //! exact, or rounded correctly, so they are the same on every machine.
 
 use crate::ball::{Ball, certify};
-use crate::evaluate::{Determined, MAX_DIGITS, Side, Value};
+use crate::evaluate::{Determined, Limit, MAX_DIGITS, Value};
 use crate::history::{ContactSummary, Ending, Event, EventKind, History, HistoryError};
 use crate::lock::difference::{Difference, compared};
 use crate::lock::scene::stated;
@@ -236,7 +236,7 @@ fn told(network: &Network, request: &HistoryRequest, digits: usize) -> Outcome<H
     let mut values = BTreeMap::new();
     for observable in network.scene().observables.iter().filter(|_| !request.times.is_empty()) {
         let name = &observable.name;
-        let told = History::values(network, name, &request.times, Side::Right, digits)?;
+        let told = History::values(network, name, &request.times, Limit::Right, digits)?;
         for (time, value) in request.times.iter().zip(&told) {
             let value = teller.number(value, || format!("{name}({time})"))?;
             values.insert((name.clone(), time.clone()), value);

@@ -12,7 +12,7 @@ mod history;
 mod history_file;
 mod scene;
 
-use crate::evaluate::{EvaluateError, Evaluator, MAX_DIGITS, Side};
+use crate::evaluate::{EvaluateError, Evaluator, Limit, MAX_DIGITS};
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::language::{Diagnostic, Source};
@@ -213,7 +213,7 @@ impl Lock {
                 for time in &request.times {
                     let digits = request.digits;
                     let value =
-                        evaluator.value(&quantity, time, Side::Right, digits, LIMIT_BITS)?;
+                        evaluator.value(&quantity, time, Limit::Right, digits, LIMIT_BITS)?;
                     values
                         .insert((name.clone(), time.clone()), value.decimal(digits).0.to_string());
                 }

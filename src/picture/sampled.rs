@@ -2,7 +2,7 @@
 
 use crate::ball::Ball;
 use crate::evaluate::{
-    At, Determined, EvaluateError, ObservedSignal, Piecewise, SceneEvaluator, Search, Side, Signal,
+    At, Determined, EvaluateError, Limit, ObservedSignal, Piecewise, SceneEvaluator, Search, Signal,
 };
 use crate::network::{Network, Observed};
 use wavestep_polynomial::Rational;
@@ -168,7 +168,7 @@ pub fn sampled_energy(
     for step in 0..=steps {
         let at = from + (to - from) * Rational::new(step.into(), steps.max(1).into());
         let scaled = network.scaled_time(&at);
-        let value = evaluator.value(observed, &scaled, Side::Right, DIGITS, MAX_BITS)?;
+        let value = evaluator.value(observed, &scaled, Limit::Right, DIGITS, MAX_BITS)?;
         found.points.push((double(&at), Determined::Digits(value).to_double()));
     }
     Ok(found)
@@ -191,7 +191,7 @@ impl Ends {
                 None => Rational::from(function.time(stretch, end, FIRST_BITS)?.midpoint()),
             })
         };
-        Ok(Ends { from: near(Side::Right)?, to: near(Side::Left)? })
+        Ok(Ends { from: near(Limit::Right)?, to: near(Limit::Left)? })
     }
 }
 
@@ -210,8 +210,8 @@ impl Sampler<'_> {
         let Ends { from, to } = &self.ends[stretch];
         let time = from + (to - from) * Rational::from_float(share).expect("a finite share");
         let at = match share {
-            0.0 => At::End(Side::Right),
-            1.0 => At::End(Side::Left),
+            0.0 => At::End(Limit::Right),
+            1.0 => At::End(Limit::Left),
             _ => At::Time(&time),
         };
         let mut bits = FIRST_BITS;

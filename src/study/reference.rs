@@ -1,7 +1,7 @@
 //! Times drawn by a seed, and values there that are far finer than doubles.
 
 use crate::answer::Problem;
-use crate::evaluate::{EvaluateError, Side};
+use crate::evaluate::{EvaluateError, Limit};
 use num_traits::ToPrimitive as _;
 use wavestep_polynomial::Rational;
 
@@ -110,7 +110,7 @@ impl Reference {
         let mut bits = FIRST_BITS;
         for time in times {
             let at = Rational::from_float(*time).ok_or(EvaluateError::AfterLast)?;
-            let stretch = &stretches[signal.stretch_at(&stretches, &at, Side::Right)?];
+            let stretch = &stretches[signal.stretch_at(&stretches, &at, Limit::Right)?];
             let scaled = signal.slowness().scale(&at);
             let (high, low, distance) = loop {
                 let ball = signal.enclose(stretch, 0, &scaled, bits)?;

@@ -2,7 +2,7 @@
 
 use crate::{Values, ball, is_zero, network_of, rational};
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Determined, Side, Value};
+use wavestep::evaluate::{Determined, Limit, Value};
 use wavestep::history::History;
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
@@ -20,7 +20,7 @@ const FREE: &str = "scene \"Free\"\nbar striker { impedance = 1, travel = 3/7, v
     observe energy = energy(line)\nobserve momentum = momentum(line)\n";
 
 fn told(network: &Network, name: &str, times: &[Rational]) -> Vec<Ball> {
-    let values = History::values(network, name, times, Side::Right, 12).unwrap();
+    let values = History::values(network, name, times, Limit::Right, 12).unwrap();
     values.iter().map(ball).collect()
 }
 
@@ -97,7 +97,7 @@ fn rational_energies_stay_exact() {
     let network = network_of(text, &[]);
     let times = times(25);
     let exact = |name| {
-        let values = History::values(&network, name, &times, Side::Right, 12).unwrap();
+        let values = History::values(&network, name, &times, Limit::Right, 12).unwrap();
         let exact = values.into_iter().map(|value| match value {
             Determined::Digits(Value::Exact(value)) => value,
             other => panic!("{name}: {other:?}"),

@@ -1,7 +1,7 @@
 //! What is found and drawn across the phases of contacts agrees with values, events and closed forms.
 
 use crate::{SHIPPED, ball, is_zero, network_of, rational, shipped};
-use wavestep::evaluate::{Determined, Goal, Place, Root, Side};
+use wavestep::evaluate::{Determined, Goal, Limit, Place, Root};
 use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::network::Network;
 use wavestep::picture::sampled_search;
@@ -49,7 +49,7 @@ fn roots_and_extrema_are_those_of_the_events() {
     let stop = search("velocity").roots(&rational(0, 1), 15, BITS).unwrap();
     let [Root::Simple { time, rises: false }] = &stop.all[..] else { panic!("{stop:?}") };
     let at = near(time);
-    let there = History::values(&network, "velocity", &[at], Side::Right, 12).unwrap();
+    let there = History::values(&network, "velocity", &[at], Limit::Right, 12).unwrap();
     assert!(double(&there[0]).abs() < 1e-12);
 }
 
@@ -66,7 +66,7 @@ fn no_value_is_larger_than_the_largest() {
         let search = History::search(&network, &observable, [&from, &to]).unwrap();
         let largest = search.extremum(Goal::Largest, 9, BITS).unwrap();
         let times: Vec<Rational> = (0..=40).map(|i| &to * rational(i, 40)).collect();
-        let values = History::values(&network, &observable, &times, Side::Right, 9).unwrap();
+        let values = History::values(&network, &observable, &times, Limit::Right, 9).unwrap();
         let top = ball(&largest.value);
         for value in &values {
             let less = top.subtract(&ball(value), 200);
@@ -75,9 +75,9 @@ fn no_value_is_larger_than_the_largest() {
         }
         let place = largest.places.first().expect("a place");
         let (time, side) = match place {
-            Place::End(time) | Place::Critical(time) => (time, Side::Right),
-            Place::Arrival { time, before: true, .. } => (time, Side::Left),
-            Place::Arrival { time, .. } | Place::Plateau { from: time, .. } => (time, Side::Right),
+            Place::End(time) | Place::Critical(time) => (time, Limit::Right),
+            Place::Arrival { time, before: true, .. } => (time, Limit::Left),
+            Place::Arrival { time, .. } | Place::Plateau { from: time, .. } => (time, Limit::Right),
             Place::Undecided { .. } => panic!("{name} {observable}: {place:?}"),
         };
         // Instants that are no rational numbers are missed by a little; on a smooth run that is nothing.
@@ -106,7 +106,7 @@ fn lines_go_through_values() {
         let points = line.points.iter().filter(|(time, _)| time.is_finite());
         for (time, value) in points.step_by(7) {
             let at = Rational::from_float(*time).unwrap();
-            let known = [Side::Left, Side::Right].map(|side| {
+            let known = [Limit::Left, Limit::Right].map(|side| {
                 let values =
                     History::values(&network, observable, std::slice::from_ref(&at), side, 9);
                 double(&values.unwrap()[0])
@@ -186,12 +186,12 @@ fn the_wall_takes_up_the_missing_momentum() {
     }
     let times: Vec<Rational> =
         points.iter().map(|(time, _)| Rational::from_float(*time).unwrap()).collect();
-    let strains = History::values(&network, "strain_fixed", &times, Side::Right, 12).unwrap();
+    let strains = History::values(&network, "strain_fixed", &times, Limit::Right, 12).unwrap();
     // Impedance and wave speed are one: the force is the strain with its sign changed.
     let impulse: f64 =
         points.iter().zip(&strains).map(|((_, weight), strain)| -weight * double(strain)).sum();
     let ends = [Rational::default(), Rational::from_float(until).unwrap()];
-    let held = History::values(&network, "momentum", &ends, Side::Right, 12).unwrap();
+    let held = History::values(&network, "momentum", &ends, Limit::Right, 12).unwrap();
     let lost = double(&held[0]) - double(&held[1]);
     assert!((impulse - lost).abs() < 1e-9, "{impulse} {lost}");
 }

@@ -1,7 +1,7 @@
 //! Springs and dampers beside contacts that open.
 
 use crate::{ball, is_zero, network_of, rational};
-use wavestep::evaluate::{Determined, Side, Value};
+use wavestep::evaluate::{Determined, Limit, Value};
 use wavestep::history::{EventKind, History};
 use wavestep_polynomial::Rational;
 
@@ -17,7 +17,7 @@ const DAMPED: &str = "scene \"A damper\"\nmass m { mass = 1, velocity = 1 }\n\
 fn a_damper_is_compressed_and_stays_so() {
     let open = network_of(&format!("{DAMPED}contacts open"), &[]);
     let values = |name, times: &[Rational]| {
-        let values = History::values(&open, name, times, Side::Right, 12).unwrap();
+        let values = History::values(&open, name, times, Limit::Right, 12).unwrap();
         values.iter().map(ball).collect::<Vec<_>>()
     };
     let one = rational(1, 1);
@@ -34,7 +34,7 @@ fn a_damper_is_compressed_and_stays_so() {
     let [um, ub] = ["um", "ub"].map(|name| values(name, &times[..1]).remove(0));
     // The end of the bar is the other end of the damper.
     assert!(is_zero(&um.subtract(&ub, 200).subtract(&compressed[0], 200)));
-    let force = History::values(&open, "F", &times[1..], Side::Right, 12).unwrap();
+    let force = History::values(&open, "F", &times[1..], Limit::Right, 12).unwrap();
     assert_eq!(force, vec![Determined::Digits(Value::Exact(rational(0, 1))); 2]);
 }
 
@@ -47,7 +47,7 @@ fn a_damped_spring_is_without_force_after_an_opening() {
     let opening = history.events.iter().find(|event| event.kind == EventKind::Opening).unwrap();
     let after = Rational::from_float(ball(&opening.time).rounded().unwrap()).unwrap();
     let times = [&after + rational(1, 100), &after + rational(1, 10)];
-    let force = History::values(&open, "F", &times, Side::Right, 12).unwrap();
+    let force = History::values(&open, "F", &times, Limit::Right, 12).unwrap();
     assert_eq!(force, vec![Determined::Digits(Value::Exact(rational(0, 1))); 2]);
 }
 
@@ -59,7 +59,7 @@ fn a_difference_that_is_zero_is_told_as_that() {
         observe apart = displacement(b.left) - displacement(m)\ncontacts open";
     let network = network_of(text, &[]);
     let times = [rational(1, 2), rational(1, 1)];
-    for value in History::values(&network, "apart", &times, Side::Right, 9).unwrap() {
+    for value in History::values(&network, "apart", &times, Limit::Right, 9).unwrap() {
         assert!(value.to_text(9).starts_with("0 ± "), "{value:?}");
         assert!(ball(&value).contains(&rational(0, 1)));
     }

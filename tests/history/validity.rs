@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use std::path::Path;
 use std::process::Command;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Determined, SceneEvaluator, Side, Value};
+use wavestep::evaluate::{Determined, Limit, SceneEvaluator, Value};
 use wavestep::history::{EventKind, History, HistoryError, Validity};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
@@ -20,7 +20,7 @@ fn until(network: &Network) -> (Determined, [String; 2]) {
 }
 
 /// The sign of an observable of closed contacts.
-fn sign(network: &Network, name: &str, time: &Rational, side: Side) -> Ordering {
+fn sign(network: &Network, name: &str, time: &Rational, side: Limit) -> Ordering {
     let observed = network.observables().iter().find(|own| own.name == name).unwrap();
     let at = network.scaled_time(time);
     let evaluator = SceneEvaluator::new(network, &at).unwrap();
@@ -43,9 +43,9 @@ fn the_closed_form_pulls_from_then_on() {
         let (time, near) = (time.decimal.to_rational(), rational(1, 1_000_000));
         for step in 1..=20 {
             let before = &time * rational(step, 20) - &near;
-            assert_eq!(sign(&network, "force", &before, Side::Right), Ordering::Greater, "{mu}");
+            assert_eq!(sign(&network, "force", &before, Limit::Right), Ordering::Greater, "{mu}");
         }
-        assert_eq!(sign(&network, "force", &(time + near), Side::Right), Ordering::Less, "{mu}");
+        assert_eq!(sign(&network, "force", &(time + near), Limit::Right), Ordering::Less, "{mu}");
     }
 }
 
@@ -75,7 +75,7 @@ fn what_has_no_force_does_not_pull() {
         (Determined::Digits(Value::Exact(rational(4, 1))), ["a".into(), "b".into()])
     );
     let forces = [(1, 1), (3, 1), (9, 2)]
-        .map(|(above, below)| sign(&network, "force", &rational(above, below), Side::Right));
+        .map(|(above, below)| sign(&network, "force", &rational(above, below), Limit::Right));
     assert_eq!(forces, [Ordering::Greater, Ordering::Equal, Ordering::Less]);
     let history = History::of(&network, None, 12).unwrap();
     let opening = history.events.iter().find(|event| event.kind == EventKind::Opening);

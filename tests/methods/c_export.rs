@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use wavestep::evaluate::Side;
+use wavestep::evaluate::Limit;
 use wavestep::export::{CHeading, to_c};
 
 /// Options under which compilers shall find nothing.
@@ -105,7 +105,7 @@ fn check(name: &str, quantity: &str, subject: &Subject<'_>, tolerance: Option<f6
             values.push(value);
             // What is optimised and what is not seldom differ.
             if before.as_ref().is_none_or(|before| before[i] != value) {
-                let enclosed = ends(&subject.exact(&exact(time), Side::Right));
+                let enclosed = ends(&subject.exact(&exact(time), Limit::Right));
                 let place = || format!("{time:?} in {}", subject.name);
                 tally.within(value, enclosed, &exact(bound), place);
             }

@@ -7,7 +7,7 @@ use crate::{LATE_BITS, Values, exact, mass_ratio, random, times};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Certified, Method as _, Side, Value};
+use wavestep::evaluate::{Certified, Limit, Method as _, Value};
 
 /// Bits of the enclosures that decide: no double-double, and no precision of Ziv's loop.
 const REFERENCE_BITS: u64 = 300;
@@ -46,15 +46,15 @@ impl Tallies {
         for (i, (time, value)) in at.iter().zip(values).enumerate() {
             let place = || format!("{time:?} in {}", subject.name);
             let rational = exact(*time);
-            let mut ball = subject.enclose(&rational, Side::Right, REFERENCE_BITS);
+            let mut ball = subject.enclose(&rational, Limit::Right, REFERENCE_BITS);
             if ball.rounded().is_none() {
                 // Zero, or half-way between two doubles; or next to one of these.
-                match (subject.recognise)(&rational, Side::Right).expect("an answer") {
+                match (subject.recognise)(&rational, Limit::Right).expect("an answer") {
                     Some(number) => {
                         self.rounded.nearest(*value, &number, place);
                         continue;
                     }
-                    None => ball = subject.enclose(&rational, Side::Right, LATE_BITS),
+                    None => ball = subject.enclose(&rational, Limit::Right, LATE_BITS),
                 }
             }
             self.rounded.rounded(*value, &[REFERENCE_BITS], |_| ball.clone(), place);
@@ -70,7 +70,7 @@ impl Tallies {
     /// Against a decimal that is off by half a unit in its 40th digit at most.
     fn form(&mut self, subject: &Subject<'_>, at: &BigRational, value: f64) {
         let place = || format!("{at} in {}", subject.name);
-        match subject.by_form(at, Side::Right, 40) {
+        match subject.by_form(at, Limit::Right, 40) {
             Value::Exact(number) => self.by_form.nearest(value, &number, place),
             // Next to the smallest doubles forty digits may not decide.
             Value::Certified(_) if value.abs() < f64::MIN_POSITIVE => {}
@@ -245,7 +245,7 @@ fn ties_go_to_the_even_double() {
             // From the left an arrival has not come yet.
             let at = |side| certified.value(&exact(3.0), side).unwrap();
             let differ = matches!(quantity, "third" | "below");
-            assert_eq!(at(Side::Left) < at(Side::Right), differ, "{quantity}");
+            assert_eq!(at(Limit::Left) < at(Limit::Right), differ, "{quantity}");
         });
     }
     tally.report(5 * (MANY + 200));
@@ -284,8 +284,8 @@ fn values_are_no_neighbours() {
         let certified =
             Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise).unwrap();
         for time in times::anywhere(subject, &mut random(18), 100) {
-            let value = certified.value(&exact(time), Side::Right).unwrap();
-            let (low, high) = ends(&subject.exact(&exact(time), Side::Right));
+            let value = certified.value(&exact(time), Limit::Right).unwrap();
+            let (low, high) = ends(&subject.exact(&exact(time), Limit::Right));
             assert!(is_nearest(value, &low) && is_nearest(value, &high));
             assert!(!is_nearest(value.next_up(), &low) && !is_nearest(value.next_down(), &high));
         }
@@ -317,7 +317,7 @@ fn exact_times_are_correctly_rounded() {
             let certified =
                 Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise)
                     .unwrap();
-            for side in [Side::Left, Side::Right] {
+            for side in [Limit::Left, Limit::Right] {
                 let together = certified.exact_values(&at, side).unwrap();
                 for (time, value) in at.iter().zip(together) {
                     let (low, high) = ends(&subject.exact(time, side));

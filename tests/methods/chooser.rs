@@ -7,7 +7,7 @@ use proptest::prelude::RngExt as _;
 use wavestep::answer::{
     Cost, Kind, Problem, Promise, Size, Tolerance, Way, WayError, Weighed, consider,
 };
-use wavestep::evaluate::{Side, StablePrecision};
+use wavestep::evaluate::{Limit, StablePrecision};
 
 /// Problems of all kinds: on a grid with one pole, with several, in units, and on a lattice.
 const PROBLEMS: [(&str, Values<'static>, &str, &str); 5] = [
@@ -99,14 +99,14 @@ fn tolerances_are_kept() {
                 at.extend(times::anywhere(subject, &mut random, 20));
                 let values = way.values(&at).unwrap();
                 for (time, value) in at.iter().zip(values) {
-                    let enclosed = ends(&subject.exact(&exact(*time), Side::Right));
+                    let enclosed = ends(&subject.exact(&exact(*time), Limit::Right));
                     let place = || format!("{time:?} by {kind} in {}", subject.name);
                     tally.within(value, enclosed, &exact(tolerance), place);
                 }
                 let exact_times: Vec<_> = at.iter().map(|time| exact(*time)).collect();
-                let values = way.exact_values(&exact_times, Side::Left).unwrap();
+                let values = way.exact_values(&exact_times, Limit::Left).unwrap();
                 for (time, value) in exact_times.iter().zip(values) {
-                    let enclosed = ends(&subject.exact(time, Side::Left));
+                    let enclosed = ends(&subject.exact(time, Limit::Left));
                     let place = || format!("{time} on the left by {kind} in {}", subject.name);
                     tally.within(value, enclosed, &exact(tolerance), place);
                 }
@@ -163,9 +163,9 @@ fn models_have_their_limits() {
     with("mass-on-fixed-bar", &[("mu", "1")], "velocity", ("0", "4"), |subject| {
         let way = Way::new(Kind::Modes { count: 10 }, &subject.problem(), None).unwrap();
         assert_eq!(way.bound(), None);
-        let left = way.value(&exact(2.0), Side::Left);
+        let left = way.value(&exact(2.0), Limit::Left);
         assert_eq!(left, Err(WayError::LeftLimit("modes")));
-        assert!(way.value(&exact(2.0), Side::Right).is_ok());
+        assert!(way.value(&exact(2.0), Limit::Right).is_ok());
         for precision in [StablePrecision::Double, StablePrecision::DoubleDouble] {
             let way = Way::new(Kind::Stable(precision), &subject.problem(), None).unwrap();
             assert!(way.bound().is_none() && way.law().contains("measured"));

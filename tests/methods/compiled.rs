@@ -5,7 +5,7 @@ use crate::response::Response;
 use crate::subject::{Subject, with};
 use crate::tally::Tally;
 use crate::{exact, random, times, unit_in_the_last_place};
-use wavestep::evaluate::{Compiled, Method as _, Side};
+use wavestep::evaluate::{Compiled, Limit, Method as _};
 use wavestep::language::parse_number;
 
 /// Values of polynomials, at the ends of all pieces and without pattern, against the march in
@@ -87,7 +87,7 @@ fn arrivals_have_two_values() {
             let compiled = subject.compiled(None).unwrap();
             let mut tally = Tally::new("compiled at arrivals, of its bound and half a unit");
             for arrival in times::arrivals(subject) {
-                for side in [Side::Left, Side::Right] {
+                for side in [Limit::Left, Limit::Right] {
                     let value = compiled.value(&arrival, side).unwrap();
                     let half = unit_in_the_last_place(value) / 2.0;
                     let bound = exact(compiled.bound().unwrap()) + exact(half);
@@ -111,7 +111,7 @@ fn a_window_between_two_doubles_has_values() {
             let compiled = subject.compiled(None).unwrap();
             let response = Response::new(&crate::ratio(1, 3), 3);
             let at = if from == "2/3" { crate::ratio(2, 3) } else { crate::ratio(1, 3) };
-            for side in [Side::Left, Side::Right] {
+            for side in [Limit::Left, Limit::Right] {
                 let value = compiled.value(&at, side).unwrap();
                 let half = unit_in_the_last_place(value) / 2.0;
                 let bound = exact(compiled.bound().unwrap()) + exact(half);

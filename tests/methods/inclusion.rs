@@ -8,7 +8,7 @@ use crate::{
 };
 use num_rational::BigRational;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Certified, Method, Side, Stable, StablePrecision};
+use wavestep::evaluate::{Certified, Limit, Method, Stable, StablePrecision};
 
 /// Comparisons by method.
 struct Tallies {
@@ -50,11 +50,11 @@ fn compare(method: &dyn Method, bound: f64, subject: &Subject<'_>, at: &[f64], t
     let mut values = vec![0.0; at.len()];
     method.values(at, &mut values).unwrap_or_else(|error| panic!("{name}: {error}"));
     for (time, value) in at.iter().zip(values) {
-        let enclosed = ends(&subject.exact(&exact(*time), Side::Right));
+        let enclosed = ends(&subject.exact(&exact(*time), Limit::Right));
         tally.within(value, enclosed, &exact(bound), || format!("{time:?} in {name}"));
     }
     for time in times::arrivals(subject) {
-        for side in [Side::Left, Side::Right] {
+        for side in [Limit::Left, Limit::Right] {
             let value = method.value(&time, side).unwrap_or_else(|error| panic!("{name}: {error}"));
             let half = exact(unit_in_the_last_place(value)) / BigRational::from_integer(2.into());
             let enclosed = ends(&subject.exact(&time, side));
@@ -88,10 +88,10 @@ fn all_methods(subject: &Subject<'_>, random: &mut TestRng, tallies: &mut Tallie
         }
     };
     for (time, value) in at.iter().zip(&values) {
-        rounded(&mut tallies.certified, *value, &exact(*time), Side::Right);
+        rounded(&mut tallies.certified, *value, &exact(*time), Limit::Right);
     }
     for time in times::arrivals(subject) {
-        for side in [Side::Left, Side::Right] {
+        for side in [Limit::Left, Limit::Right] {
             let value = certified.value(&time, side).expect(name);
             rounded(&mut tallies.certified, value, &time, side);
         }
@@ -223,12 +223,12 @@ fn windows_end_where_they_end() {
                 assert!(refused.is_err(), "{name} has a value at {outside}");
             }
             for outside in [crate::ratio(33, 10), crate::ratio(66, 10), crate::ratio(-1, 1)] {
-                assert!(method.value(&outside, Side::Right).is_err(), "{name}: {outside}");
+                assert!(method.value(&outside, Limit::Right).is_err(), "{name}: {outside}");
             }
             let mut values = [0.0; 2];
             method.values(&[first, last], &mut values).unwrap();
             for (time, value) in [first, last].into_iter().zip(values) {
-                let error = value - near(&ends(&subject.exact(&exact(time), Side::Right)).0);
+                let error = value - near(&ends(&subject.exact(&exact(time), Limit::Right)).0);
                 assert!(error.abs() < 1e-14, "{name} at {time}: {error:e}");
             }
         }

@@ -6,7 +6,7 @@ use crate::subject::{Subject, with};
 use crate::tally::{Tally, ends};
 use crate::{Values, exact, random, times, unit_in_the_last_place};
 use num_rational::BigRational;
-use wavestep::evaluate::{Method as _, MethodError, Side, Taps};
+use wavestep::evaluate::{Limit, Method as _, MethodError, Taps};
 
 /// A rigid mass whose bar ends in a dashpot: all but a part of each wave is lost; and what is seen
 /// beside large functions of time.
@@ -36,11 +36,11 @@ fn compare(subject: &Subject<'_>, tally: &mut Tally) -> f64 {
     marched.values(&at, &mut values).unwrap();
     let allowed = |value: f64| exact(bound) + exact(unit_in_the_last_place(value)) / exact(2.0);
     for (time, value) in at.iter().zip(values) {
-        let enclosed = ends(&subject.exact(&exact(*time), Side::Right));
+        let enclosed = ends(&subject.exact(&exact(*time), Limit::Right));
         tally.within(value, enclosed, &allowed(value), || format!("{time:?} in {name}"));
     }
     let arrivals = times::arrivals(subject);
-    for side in [Side::Left, Side::Right] {
+    for side in [Limit::Left, Limit::Right] {
         let values = marched.exact_values(&arrivals, side).unwrap();
         for (time, value) in arrivals.iter().zip(values) {
             let enclosed = ends(&subject.exact(time, side));

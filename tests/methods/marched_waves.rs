@@ -6,7 +6,7 @@ use crate::tally::{Tally, ends};
 use crate::{Values, exact, random, times};
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{EvaluateError, Marched, Method as _, MethodError, NoTaps, Side, Taps};
+use wavestep::evaluate::{EvaluateError, Limit, Marched, Method as _, MethodError, NoTaps, Taps};
 
 /// The largest error, relative to the largest value.
 const ALLOWED: f64 = 1e-13;
@@ -59,10 +59,10 @@ fn compare(subject: &Subject<'_>, random: &mut TestRng, bits: u64, tally: &mut T
     let at = times::anywhere(subject, random, 40);
     let mut values = vec![f64::NAN; at.len()];
     marched.values(&at, &mut values).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let mut pairs: Vec<_> = at.iter().map(|time| (exact(*time), Side::Right)).collect();
+    let mut pairs: Vec<_> = at.iter().map(|time| (exact(*time), Limit::Right)).collect();
     let mut arrivals = times::arrivals(subject);
     arrivals.truncate(25);
-    for side in [Side::Left, Side::Right] {
+    for side in [Limit::Left, Limit::Right] {
         values.extend(marched.exact_values(&arrivals, side).unwrap());
         pairs.extend(arrivals.iter().map(|time| (time.clone(), side)));
     }
@@ -182,7 +182,7 @@ fn errors_stay_small_through_many_periods() {
             marched.values(&at, &mut values).unwrap();
             let scale = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             for (time, value) in at.iter().zip(values).take(60) {
-                let enclosed = ends(&subject.enclose(&exact(*time), Side::Right, 4096));
+                let enclosed = ends(&subject.enclose(&exact(*time), Limit::Right, 4096));
                 let place = || format!("{time:?} in {}", subject.name);
                 tally.within(value, enclosed, &exact(ALLOWED * scale), place);
             }
@@ -211,7 +211,7 @@ equation u[n]' + sqrt(-1)*u[n] = 0
 continuous u[n] starts at 1
 "#;
     with(text, &[], "u", ("0", "9"), |subject| {
-        let refused = subject.marched(false).unwrap().value(&exact(1.0), Side::Right);
+        let refused = subject.marched(false).unwrap().value(&exact(1.0), Limit::Right);
         assert_eq!(refused, Err(MethodError::Evaluate(EvaluateError::NotReal)));
     });
 }
@@ -231,7 +231,7 @@ continuous v[n] starts at 0
     let mut tally = Tally::new("marched, turning, of 1e-13 of the largest value");
     with(text, &[], "u", ("0", "9"), |subject| {
         compare(subject, &mut random(55), crate::BITS, &mut tally);
-        let cosine = subject.marched(false).unwrap().value(&exact(1.0), Side::Right).unwrap();
+        let cosine = subject.marched(false).unwrap().value(&exact(1.0), Limit::Right).unwrap();
         assert!((cosine - 2f64.cos()).abs() < 1e-15, "{cosine}");
     });
 }

@@ -8,7 +8,7 @@ use astro_float::{BigFloat, Consts, RoundingMode, Sign as FloatSign};
 use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::{One as _, Signed as _, Zero as _};
-use wavestep::evaluate::{Side, Value};
+use wavestep::evaluate::{Limit, Value};
 use wavestep::language::parse_number;
 
 /// Scenes with observables and ends of windows.
@@ -36,8 +36,8 @@ fn precision_and_twice_the_precision_agree() {
             at.extend(times::anywhere(subject, &mut random(51), 60));
             for time in at.into_iter().map(exact) {
                 for bits in [64, 128, 256] {
-                    let coarse = ends(&subject.enclose(&time, Side::Right, bits));
-                    let fine = ends(&subject.enclose(&time, Side::Right, 2 * bits));
+                    let coarse = ends(&subject.enclose(&time, Limit::Right, bits));
+                    let fine = ends(&subject.enclose(&time, Limit::Right, 2 * bits));
                     let overlap = coarse.0 <= fine.1 && fine.0 <= coarse.1;
                     assert!(overlap, "{bits} bits at {time} in {}", subject.name);
                     let (wide, narrow) = (&coarse.1 - &coarse.0, &fine.1 - &fine.0);
@@ -114,7 +114,7 @@ fn enclosures_agree_with_rational_arithmetic() {
                 let (low, high) = echo_sum(&mu, &quarter);
                 assert!(&high - &low < exact(2f64.powi(-180)));
                 for bits in [128, 200] {
-                    let (least, most) = ends(&subject.enclose(&quarter, Side::Right, bits));
+                    let (least, most) = ends(&subject.enclose(&quarter, Limit::Right, bits));
                     assert!(least <= high && low <= most, "{quarter} with {bits} bits, mu = {mu}");
                     compared += 1;
                 }
@@ -139,10 +139,10 @@ fn rational_values_lie_in_their_enclosures() {
     ] {
         with(scene, values, quantity, ("0", last), |subject| {
             for time in times::anywhere(subject, &mut random(52), 60).into_iter().map(exact) {
-                if let Value::Exact(number) = subject.by_form(&time, Side::Right, 30) {
-                    let ball = subject.enclose(&time, Side::Right, 128);
+                if let Value::Exact(number) = subject.by_form(&time, Limit::Right, 30) {
+                    let ball = subject.enclose(&time, Limit::Right, 128);
                     assert!(ball.contains(&number), "{time} in {}", subject.name);
-                    let told = (subject.recognise)(&time, Side::Right).unwrap();
+                    let told = (subject.recognise)(&time, Limit::Right).unwrap();
                     assert_eq!(told, Some(number), "{time} in {}", subject.name);
                     compared += 1;
                 }
@@ -215,7 +215,7 @@ fn enclosures_agree_with_another_library() {
                     k += 1;
                 }
                 let other = rational(&sum);
-                let (low, high) = ends(&subject.enclose(&time, Side::Right, 320));
+                let (low, high) = ends(&subject.enclose(&time, Limit::Right, 320));
                 assert!(&high - &low < tolerance, "{time} for mu = {mu}");
                 let inside = low <= &other + &tolerance && &other - &tolerance <= high;
                 assert!(inside, "{time} for mu = {mu}");

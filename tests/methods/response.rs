@@ -3,7 +3,7 @@
 
 use crate::exact;
 use num_rational::BigRational;
-use wavestep::evaluate::Side;
+use wavestep::evaluate::Limit;
 use wavestep_kernels::fixed::{
     self, DelayEquation, FRACTION_BITS, March, MarchOptions, Position, Reduction,
 };
@@ -27,15 +27,15 @@ impl Response {
 
     /// What encloses the value at a double.
     pub fn at(&self, time: f64) -> (BigRational, BigRational) {
-        let position = self.reduction.of_double(time, fixed::Side::Right);
+        let position = self.reduction.of_double(time, fixed::Limit::Right);
         self.ends(position.expect("a position").expect("a time after the start"))
     }
 
     /// What encloses the value at an exact time.
-    pub fn at_exactly(&self, time: &BigRational, side: Side) -> (BigRational, BigRational) {
+    pub fn at_exactly(&self, time: &BigRational, side: Limit) -> (BigRational, BigRational) {
         let side = match side {
-            Side::Left => fixed::Side::Left,
-            Side::Right => fixed::Side::Right,
+            Limit::Left => fixed::Limit::Left,
+            Limit::Right => fixed::Limit::Right,
         };
         match self.reduction.of_rational(time, side).expect("a position") {
             Some(position) => self.ends(position),

@@ -7,7 +7,7 @@ use crate::tally::{Tally, ends};
 use crate::{exact, mass_ratio, random, unit_in_the_last_place};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
-use wavestep::evaluate::{Method as _, MethodError, NoTaps, Side, Stable, StablePrecision};
+use wavestep::evaluate::{Limit, Method as _, MethodError, NoTaps, Stable, StablePrecision};
 use wavestep::language::parse_number;
 
 /// Doubles on every period up to a last one: just after its start, just before its end, and four
@@ -61,9 +61,9 @@ fn the_laws_of_stable_sums_hold() {
             let in_pairs = stable(StablePrecision::DoubleDouble);
             for time in at.iter().skip(i).step_by(11) {
                 let enclosed = response.at(*time);
-                let value = in_pairs.value(&exact(*time), Side::Right).unwrap();
+                let value = in_pairs.value(&exact(*time), Limit::Right).unwrap();
                 pairs.within(value, enclosed.clone(), &exact(2.0 * unit), place(*time));
-                let value = in_doubles.value(&exact(*time), Side::Right).unwrap();
+                let value = in_doubles.value(&exact(*time), Limit::Right).unwrap();
                 doubles.within(value, enclosed, &exact(64.0 * unit), place(*time));
             }
         });
@@ -82,11 +82,11 @@ fn waves_that_cancel_keep_the_law_of_pairs() {
         let unit = unit_in_the_last_place(0.998);
         for i in 0..=150 {
             let time = from + (to - from) * BigRational::new(i.into(), 150.into());
-            let value = stable.value(&time, Side::Right).unwrap();
+            let value = stable.value(&time, Limit::Right).unwrap();
             let place = || format!("{time}");
             pairs.within(
                 value,
-                ends(&subject.enclose(&time, Side::Right, 1 << 12)),
+                ends(&subject.enclose(&time, Limit::Right, 1 << 12)),
                 &exact(2.0 * unit),
                 place,
             );
@@ -111,17 +111,17 @@ fn exponentials_that_underflow_do_no_harm() {
         for (i, offset) in [0.001, 0.1, 0.4, 0.9, 1.3, 1.9, 2.2, 3.7].into_iter().enumerate() {
             let time = 4000.0 + offset;
             let place = || format!("{time}");
-            let value = stable.value(&exact(time), Side::Right).unwrap();
+            let value = stable.value(&exact(time), Limit::Right).unwrap();
             largest = largest.max(value.abs());
             tally.within(value, response.at(time), &exact(640.0 * unit), place);
             if i % 4 == 0 {
-                let value = exactly.value(&exact(time), Side::Right).unwrap();
+                let value = exactly.value(&exact(time), Limit::Right).unwrap();
                 pairs.within(value, response.at(time), &exact(20.0 * unit), place);
             }
         }
         assert!(largest > 0.01, "nothing is seen");
         let arrival = exact(4002.0);
-        let [before, after] = [Side::Left, Side::Right].map(|side| {
+        let [before, after] = [Limit::Left, Limit::Right].map(|side| {
             let value = stable.value(&arrival, side).unwrap();
             let enclosed = response.at_exactly(&arrival, side);
             tally.within(value, enclosed, &exact(640.0 * unit), || format!("4002 {side:?}"));
@@ -146,7 +146,7 @@ fn echoes_begin_at_one() {
             for n in [1, 10, 50, 100] {
                 let at = &period * BigRational::from_integer(n.into());
                 let [left, right] =
-                    [Side::Left, Side::Right].map(|side| stable.value(&at, side).unwrap());
+                    [Limit::Left, Limit::Right].map(|side| stable.value(&at, side).unwrap());
                 assert!((right - left - 1.0).abs() < 1e-13, "{mu} {n}: {left} {right}");
             }
         });

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use wavestep::answer::Problem;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{
-    Compiled, Evaluator, Marched, MethodError, Recogniser, SceneEvaluator, Side, Signal, Stretch,
+    Compiled, Evaluator, Limit, Marched, MethodError, Recogniser, SceneEvaluator, Signal, Stretch,
     Value,
 };
 use wavestep::language::{Kind, Source, kind, parse_number, read_recurrence, read_scene};
@@ -25,12 +25,12 @@ pub struct Subject<'a> {
     pub to: BigRational,
     pub stretches: Vec<Stretch>,
     scene: Option<(&'a Network, usize)>,
-    by_form: &'a dyn Fn(&BigRational, Side, usize) -> Value,
+    by_form: &'a dyn Fn(&BigRational, Limit, usize) -> Value,
 }
 
 impl<'a> Subject<'a> {
     /// An enclosure from the pieces in balls.
-    pub fn enclose(&self, at: &BigRational, side: Side, bits: u64) -> Ball {
+    pub fn enclose(&self, at: &BigRational, side: Limit, bits: u64) -> Ball {
         let stretch = self.signal.stretch_at(&self.stretches, at, side).expect("an order");
         let scaled = self.signal.slowness().scale(at);
         let value = self.signal.enclose(&self.stretches[stretch], 0, &scaled, bits);
@@ -38,12 +38,12 @@ impl<'a> Subject<'a> {
     }
 
     /// An enclosure as fine as comparisons need.
-    pub fn exact(&self, at: &BigRational, side: Side) -> Ball {
+    pub fn exact(&self, at: &BigRational, side: Limit) -> Ball {
         self.enclose(at, side, BITS)
     }
 
     /// The value from the symbolic echoes, to so many digits.
-    pub fn by_form(&self, at: &BigRational, side: Side, digits: usize) -> Value {
+    pub fn by_form(&self, at: &BigRational, side: Limit, digits: usize) -> Value {
         (self.by_form)(at, side, digits)
     }
 

@@ -6,7 +6,7 @@ use crate::{exact, near};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::Side;
+use wavestep::evaluate::Limit;
 
 /// The smallest double of the window, and the largest.
 pub fn ends(subject: &Subject<'_>) -> (f64, f64) {
@@ -31,7 +31,7 @@ pub fn anywhere(subject: &Subject<'_>, random: &mut TestRng, count: usize) -> Ve
 pub fn first_doubles(subject: &Subject<'_>) -> Vec<f64> {
     let (first, last) = ends(subject);
     let stretch =
-        |time: f64| subject.signal.stretch_at(&subject.stretches, &exact(time), Side::Right);
+        |time: f64| subject.signal.stretch_at(&subject.stretches, &exact(time), Limit::Right);
     let arrived = |time: f64, arrival: usize| stretch(time).expect("an order") >= arrival;
     let mut found = Vec::new();
     for arrival in 1..subject.stretches.len() {

@@ -9,7 +9,7 @@ mod steps;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use std::collections::BTreeMap;
-use wavestep::evaluate::{SceneEvaluator, Side};
+use wavestep::evaluate::{Limit, SceneEvaluator};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::model::Model;
 use wavestep::network::{Network, ObservedValue};
@@ -46,7 +46,7 @@ fn exact(network: &Network, observable: usize, times: &[BigRational]) -> Vec<f64
     let observed = &network.observables()[observable];
     let value = |time: &BigRational| {
         let at = network.scaled_time(time);
-        let value = evaluator.value(observed, &at, Side::Right, 17, 1 << 13).expect("a value");
+        let value = evaluator.value(observed, &at, Limit::Right, 17, 1 << 13).expect("a value");
         value.decimal(17).0.to_string().parse().expect("a number")
     };
     times.iter().map(value).collect()

@@ -2,7 +2,7 @@
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use wavestep::evaluate::{SceneEvaluator, Side};
+use wavestep::evaluate::{Limit, SceneEvaluator};
 use wavestep::scene::Scene;
 
 use crate::march::March;
@@ -21,7 +21,7 @@ pub fn assert_as_marched(scene: &Scene, last: &BigRational, count: i64) {
         for k in 0..count {
             let at = last * rational((2 * k + 1) * 9973, 2 * count * 10007);
             let scaled = network.scaled_time(&at);
-            let value = evaluator.value(observed, &scaled, Side::Right, 15, 1 << 13);
+            let value = evaluator.value(observed, &scaled, Limit::Right, 15, 1 << 13);
             let value = value.unwrap_or_else(|error| {
                 panic!("{}: {} at {at}: {error}", scene.title, observed.name)
             });

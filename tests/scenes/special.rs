@@ -2,7 +2,7 @@
 //! in two, and everything mirrored.
 
 use num_rational::BigRational;
-use wavestep::evaluate::{SceneEvaluator, Side};
+use wavestep::evaluate::{Limit, SceneEvaluator};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::network::{Network, NetworkError};
 use wavestep::scene::{Kind, Measure, Place, Position, Scene};
@@ -421,7 +421,7 @@ fn assert_same_numbers(one: &Network, other: &Network, last: &BigRational) {
             let at = last * rational(k * 997, 4 * 1009);
             let value = |evaluator: &SceneEvaluator<'_>, network: &Network, observed| {
                 let at = network.scaled_time(&at);
-                let value = evaluator.value(observed, &at, Side::Right, 20, 1 << 13);
+                let value = evaluator.value(observed, &at, Limit::Right, 20, 1 << 13);
                 value.unwrap_or_else(|error| panic!("{error}")).decimal(20).0.to_string()
             };
             let first = value(&evaluators[0], one, own);
@@ -450,7 +450,7 @@ fn energy_that_nothing_takes_stays() {
         let energy = network.observables().iter().find(|seen| seen.name == "energy").expect("one");
         let value = |at: BigRational| {
             let at = network.scaled_time(&at);
-            let value = evaluator.value(energy, &at, Side::Right, 30, 1 << 13);
+            let value = evaluator.value(energy, &at, Limit::Right, 30, 1 << 13);
             value.unwrap_or_else(|error| panic!("{error}")).decimal(30).0.to_string()
         };
         let start = value(rational(0, 1));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use wavestep::evaluate::{SceneEvaluator, Side};
+use wavestep::evaluate::{Limit, SceneEvaluator};
 
 use crate::{built_in, network_of, rational, scene_of, usual};
 
@@ -33,7 +33,7 @@ fn work_done_is_as_recorded() {
         let evaluator = SceneEvaluator::new(&network, &at).expect("values");
         let observed = network.observables().iter().find(|seen| seen.name == observable);
         let observed = observed.expect("an observable");
-        let value = evaluator.value(observed, &at, Side::Right, 12, 1 << 12);
+        let value = evaluator.value(observed, &at, Limit::Right, 12, 1 << 12);
         let digits = value.expect("a value").decimal(12).0;
         let (expanded, needed) = (evaluator.expanded(), evaluator.needed());
         let line = format!("{name} {observable}({p}/{q})");
@@ -71,7 +71,7 @@ fn a_long_chain_is_followed() {
     let evaluator = SceneEvaluator::new(&network, &network.scaled_time(&last)).expect("values");
     for observed in network.observables() {
         let at = network.scaled_time(&(&last - rational(1, 7)));
-        let value = evaluator.value(observed, &at, Side::Right, 15, 1 << 14).expect("a value");
+        let value = evaluator.value(observed, &at, Limit::Right, 15, 1 << 14).expect("a value");
         let (expanded, needed) = (evaluator.expanded(), evaluator.needed());
         eprintln!(
             "{} = {}: {expanded} of {needed} echoes, {:.1?}",

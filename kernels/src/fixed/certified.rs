@@ -7,7 +7,7 @@ use super::equation::DelayEquation;
 use super::error::FixedError;
 use super::march::FRACTION_BITS;
 use super::multiplier::Multiplier;
-use super::position::{ExactTime, Position, Reduction, Side};
+use super::position::{ExactTime, Limit, Position, Reduction};
 use super::scheme::Scheme;
 use super::value::{round_to_double, scaled};
 use super::walk::Walk;
@@ -19,7 +19,7 @@ const MOST_TAPS: usize = 8;
 ///
 /// ```
 /// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, Side, Tap, certified};
+/// use wavestep_kernels::fixed::{DelayEquation, Limit, Tap, certified};
 /// let one = BigRational::from(num_bigint::BigInt::from(1));
 /// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
 /// // Twice the solution, delayed by half a period, with the opposite sign.
@@ -27,7 +27,7 @@ const MOST_TAPS: usize = 8;
 ///     weight: -(&one + &one),
 ///     delay: BigRational::new(1.into(), 2.into()),
 /// };
-/// let results = certified(&equation, &[tap], &[0.25, 0.5, 1.0], Side::Right).unwrap();
+/// let results = certified(&equation, &[tap], &[0.25, 0.5, 1.0], Limit::Right).unwrap();
 /// assert_eq!(results.values[..2], [0.0, -2.0]);
 /// assert!((results.values[2] + 2.0 * (-0.5f64).exp()).abs() < 1e-15);
 /// ```
@@ -43,12 +43,12 @@ pub struct Tap {
 ///
 /// ```
 /// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, Side, Tap, certified};
+/// use wavestep_kernels::fixed::{DelayEquation, Limit, Tap, certified};
 /// let one = BigRational::from(num_bigint::BigInt::from(1));
 /// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
 /// let now = Tap { weight: one.clone(), delay: BigRational::default() };
 /// let before = Tap { weight: -&one, delay: one };
-/// let difference = certified(&equation, &[now, before], &[0.5, 1.0], Side::Left).unwrap();
+/// let difference = certified(&equation, &[now, before], &[0.5, 1.0], Limit::Left).unwrap();
 /// assert!(difference.undecided.is_empty());
 /// assert_eq!(difference.values, [0.6065306597126334, 0.36787944117144233]);
 /// ```
@@ -86,12 +86,12 @@ struct Prepared {
 ///
 /// ```
 /// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, Side, Tap, certified};
+/// use wavestep_kernels::fixed::{DelayEquation, Limit, Tap, certified};
 /// // The strain at the fixed end, -2 Y(T - mu), for mu = 1: the source has -2 e^(-1) at T = 2.
 /// let [one, two] = [1, 2].map(|value| BigRational::from(num_bigint::BigInt::from(value)));
 /// let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
 /// let strain = Tap { weight: -two, delay: one };
-/// let strains = certified(&equation, &[strain], &[0.5, 1.0, 2.0], Side::Right).unwrap();
+/// let strains = certified(&equation, &[strain], &[0.5, 1.0, 2.0], Limit::Right).unwrap();
 /// assert_eq!(strains.values, [0.0, -2.0, -0.7357588823428847]);
 /// assert!(strains.undecided.is_empty());
 /// ```
@@ -99,7 +99,7 @@ pub fn certified<T: ExactTime>(
     equation: &DelayEquation,
     taps: &[Tap],
     times: &[T],
-    side: Side,
+    side: Limit,
 ) -> Result<CertifiedDoubles, FixedError> {
     if taps.len() > MOST_TAPS {
         return Err(FixedError::TooManyTaps(taps.len()));
@@ -228,7 +228,7 @@ mod tests {
         };
         let times: Vec<f64> = (0..200).map(|i| f64::from(i * 77 % 200) * 2.01 - 3.0).collect();
         let taps = [tap(1, 0), tap(-3, 5)];
-        let found = certified(&equation, &taps, &times, Side::Right).unwrap();
+        let found = certified(&equation, &taps, &times, Limit::Right).unwrap();
         let march = March::new(&equation, 201, &MarchOptions::default()).unwrap();
         assert_eq!(march.pieces_per_period(), 32);
         let seen = [(1_i128, 0), (-3, 5)];
@@ -236,7 +236,7 @@ mod tests {
             let (mut sum, mut radius) = (0, 0);
             for (weight, delay) in seen {
                 let reduction = Reduction::new(&two, &rational(delay, 2)).unwrap();
-                let Some(position) = reduction.of_double(*time, Side::Right).unwrap() else {
+                let Some(position) = reduction.of_double(*time, Limit::Right).unwrap() else {
                     continue;
                 };
                 let part = march.value(&position).unwrap();

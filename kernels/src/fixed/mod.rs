@@ -67,13 +67,13 @@
 //!
 //! ```
 //! use num_rational::BigRational;
-//! use wavestep_kernels::fixed::{DelayEquation, March, MarchOptions, Reduction, Side};
+//! use wavestep_kernels::fixed::{DelayEquation, March, MarchOptions, Reduction, Limit};
 //! let [one, two] = [1, 2].map(|value| BigRational::from(num_bigint::BigInt::from(value)));
 //! let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
 //! let march = March::new(&equation, 200, &MarchOptions::default()).unwrap();
 //! assert!(march.bound() < 6e-28);
 //! let reduction = Reduction::new(equation.period(), &BigRational::default()).unwrap();
-//! let position = reduction.of_double(2.5, Side::Right).unwrap().unwrap();
+//! let position = reduction.of_double(2.5, Limit::Right).unwrap().unwrap();
 //! // In the second period, Y = e^(-T) + e^(-x) (1 - 2 x), x = T - 2: here the second term is 0.
 //! assert_eq!(march.value(&position).unwrap().to_double(), Some(0.0820849986238988));
 //! ```
@@ -101,7 +101,7 @@ pub use equation::DelayEquation;
 pub use error::FixedError;
 pub use march::{FRACTION_BITS, March};
 pub use part::Part;
-pub use position::{ExactTime, Position, Reduction, Side};
+pub use position::{ExactTime, Limit, Position, Reduction};
 pub use scheme::MarchOptions;
 pub use spans::{Interpolant, Spans};
 pub use value::{FixedValue, round_to_double};

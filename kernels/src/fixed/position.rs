@@ -12,23 +12,23 @@ pub(super) const POSITION_BITS: u32 = 120;
 /// The place at the end of a period.
 const END: u128 = 1 << POSITION_BITS;
 
-/// Which limit is meant at a jump.
+/// Which one-sided limit of a function is meant at a jump.
 ///
 /// ```
 /// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{Reduction, Side};
+/// use wavestep_kernels::fixed::{Reduction, Limit};
 /// let one = BigRational::from(num_bigint::BigInt::from(1));
 /// let reduction = Reduction::new(&one, &BigRational::default()).unwrap();
-/// let right = reduction.of_double(3.0, Side::Right).unwrap().unwrap();
-/// let left = reduction.of_double(3.0, Side::Left).unwrap().unwrap();
+/// let right = reduction.of_double(3.0, Limit::Right).unwrap().unwrap();
+/// let left = reduction.of_double(3.0, Limit::Left).unwrap().unwrap();
 /// assert_eq!((right.period(), right.fraction()), (3, 0));
 /// assert_eq!((left.period(), left.fraction()), (2, 1 << 120));
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Side {
-    /// The limit from earlier times.
+pub enum Limit {
+    /// From earlier times, or from smaller `x`.
     Left,
-    /// The limit from later times.
+    /// From later times, or from larger `x`.
     #[default]
     Right,
 }
@@ -90,8 +90,8 @@ impl Position {
     }
 
     /// The position at or before a joint, as the side says; none before the start.
-    fn on_side(self, side: Side) -> Option<Self> {
-        if side == Side::Right || self.fraction > 0 || !self.exact {
+    fn on_side(self, side: Limit) -> Option<Self> {
+        if side == Limit::Right || self.fraction > 0 || !self.exact {
             return Some(self);
         }
         let period = self.period.checked_sub(1)?;
@@ -106,22 +106,22 @@ impl Position {
 ///
 /// ```
 /// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{Reduction, Side};
+/// use wavestep_kernels::fixed::{Reduction, Limit};
 /// let third = BigRational::new(1.into(), 3.into());
 /// let half = BigRational::new(1.into(), 2.into());
 /// let reduction = Reduction::new(&third, &half).unwrap();
 /// // (2.75 − 1/2)/(1/3) = 6 + 3/4.
-/// let position = reduction.of_double(2.75, Side::Right).unwrap().unwrap();
+/// let position = reduction.of_double(2.75, Limit::Right).unwrap().unwrap();
 /// assert_eq!((position.period(), position.fraction()), (6, 3 << 118));
 /// assert!(position.is_exact());
 /// // The double 0.6 is not 3/5, and 0.3 periods is no sum of powers of two.
-/// let double = reduction.of_double(0.6, Side::Right).unwrap().unwrap();
+/// let double = reduction.of_double(0.6, Limit::Right).unwrap().unwrap();
 /// let rational = BigRational::new(3.into(), 5.into());
-/// let rational = reduction.of_rational(&rational, Side::Right).unwrap().unwrap();
+/// let rational = reduction.of_rational(&rational, Limit::Right).unwrap().unwrap();
 /// assert!(double.is_exact() && !rational.is_exact() && double.fraction() < rational.fraction());
 /// // Before the start there is no position.
-/// assert_eq!(reduction.of_double(0.25, Side::Right).unwrap(), None);
-/// assert_eq!(reduction.of_double(0.5, Side::Left).unwrap(), None);
+/// assert_eq!(reduction.of_double(0.25, Limit::Right).unwrap(), None);
+/// assert_eq!(reduction.of_double(0.5, Limit::Left).unwrap(), None);
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Reduction {
@@ -163,7 +163,7 @@ impl Reduction {
     /// # Cost
     /// Three divisions of words, if period and delay are fractions of words; divisions of long
     /// integers otherwise.
-    pub fn of_double(&self, time: f64, side: Side) -> Result<Option<Position>, FixedError> {
+    pub fn of_double(&self, time: f64, side: Limit) -> Result<Option<Position>, FixedError> {
         if !time.is_finite() {
             return Err(FixedError::TimeNotFinite);
         }
@@ -186,7 +186,7 @@ impl Reduction {
     pub fn of_rational(
         &self,
         time: &BigRational,
-        side: Side,
+        side: Limit,
     ) -> Result<Option<Position>, FixedError> {
         let periods = (time - &self.delay) / &self.period;
         let (period, rest) = periods.numer().div_mod_floor(periods.denom());
@@ -205,12 +205,12 @@ impl Reduction {
 ///
 /// ```
 /// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{ExactTime as _, Reduction, Side};
+/// use wavestep_kernels::fixed::{ExactTime as _, Reduction, Limit};
 /// let half = BigRational::new(1.into(), 2.into());
 /// let reduction = Reduction::new(&half, &BigRational::default()).unwrap();
 /// let rational = BigRational::new(3.into(), 4.into());
-/// let position = rational.position(&reduction, Side::Left).unwrap();
-/// assert_eq!(0.75.position(&reduction, Side::Left).unwrap(), position);
+/// let position = rational.position(&reduction, Limit::Left).unwrap();
+/// assert_eq!(0.75.position(&reduction, Limit::Left).unwrap(), position);
 /// ```
 pub trait ExactTime {
     /// Whether it is a number.
@@ -220,7 +220,7 @@ pub trait ExactTime {
     ///
     /// # Errors
     /// [`FixedError::TimeNotFinite`] and [`FixedError::TimeTooLate`].
-    fn position(&self, reduction: &Reduction, side: Side) -> Result<Option<Position>, FixedError>;
+    fn position(&self, reduction: &Reduction, side: Limit) -> Result<Option<Position>, FixedError>;
 }
 
 impl ExactTime for f64 {
@@ -228,7 +228,7 @@ impl ExactTime for f64 {
         f64::is_finite(*self)
     }
 
-    fn position(&self, reduction: &Reduction, side: Side) -> Result<Option<Position>, FixedError> {
+    fn position(&self, reduction: &Reduction, side: Limit) -> Result<Option<Position>, FixedError> {
         reduction.of_double(*self, side)
     }
 }
@@ -238,7 +238,7 @@ impl ExactTime for BigRational {
         true
     }
 
-    fn position(&self, reduction: &Reduction, side: Side) -> Result<Option<Position>, FixedError> {
+    fn position(&self, reduction: &Reduction, side: Limit) -> Result<Option<Position>, FixedError> {
         reduction.of_rational(self, side)
     }
 }

@@ -355,7 +355,7 @@ fn scaled_down(value: i128, bits: i32) -> Option<Multiplier> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixed::{DelayEquation, March, MarchOptions, Reduction, Side};
+    use crate::fixed::{DelayEquation, Limit, March, MarchOptions, Reduction};
 
     fn rational(numerator: i64, denominator: i64) -> BigRational {
         BigRational::new(numerator.into(), denominator.into())
@@ -400,7 +400,7 @@ mod tests {
                     let u = (exact(t) - exact(cell.middle)) / exact(cell.scale);
                     let horner = |sum: BigRational, c: &f64| sum * &u + exact(*c);
                     let value = cell.coefficients.iter().rev().fold(rational(0, 1), horner);
-                    let position = reduction.of_double(t, Side::Right).unwrap().unwrap();
+                    let position = reduction.of_double(t, Limit::Right).unwrap().unwrap();
                     let known = march.value(&position).unwrap();
                     let known = BigRational::from(BigInt::from(known.midpoint)) / &unit;
                     let error = (value - known).abs().to_f64().unwrap();

@@ -8,8 +8,8 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use support::{Echoes, Samples, integer, ratio};
 use wavestep_kernels::fixed::{
-    DelayEquation, FRACTION_BITS, FixedError, FixedValue, March, MarchOptions, Position, Reduction,
-    Side, Tap, certified, round_to_double,
+    DelayEquation, FRACTION_BITS, FixedError, FixedValue, Limit, March, MarchOptions, Position,
+    Reduction, Tap, certified, round_to_double,
 };
 
 /// What comparisons have seen.
@@ -35,7 +35,7 @@ fn compare(equation: &Echoes, periods: u32, places: u32, samples: &mut Samples, 
         };
         let reduction = Reduction::new(&equation.period, &BigRational::zero()).unwrap();
         // At the end of a period the sum over the echoes so far is the limit from the left.
-        let side = if part.is_one() { Side::Left } else { Side::Right };
+        let side = if part.is_one() { Limit::Left } else { Limit::Right };
         for (period, exact) in (0..periods).zip(equation.solution(&part, periods)) {
             let time = (&part + integer(period.into())) * &equation.period;
             let position = reduction.of_rational(&time, side).unwrap().unwrap();
@@ -178,7 +178,7 @@ fn radii_cover_the_rounding_of_positions() {
     for period in 0..60 {
         let part = ratio((samples.bits() % 1000) as i64 * 3 + 1, 3000);
         let time = (part + integer(period)) * &equation.period;
-        let rounded = reduction.of_rational(&time, Side::Right).unwrap().unwrap();
+        let rounded = reduction.of_rational(&time, Limit::Right).unwrap().unwrap();
         assert!(!rounded.is_exact());
         let value = march.value(&rounded).unwrap();
         let unit = (-f64::from(FRACTION_BITS)).exp2();
@@ -243,7 +243,7 @@ fn certified_doubles_are_the_rounded_exact_values() {
                 (&velocity, &|index| at(index, 0) - at(index, 2)),
                 (&strain, &|index| at(index, 1) * -2),
             ] {
-                let results = certified(&echoes.equation(), taps, &times, Side::Right).unwrap();
+                let results = certified(&echoes.equation(), taps, &times, Limit::Right).unwrap();
                 for (index, value) in results.values.iter().enumerate() {
                     let exact = nearest(&sum(index), echoes.bits(periods));
                     if results.undecided.contains(&index) {
@@ -273,7 +273,7 @@ fn certified_doubles_hold_for_any_times() {
         ];
         let times: Vec<f64> =
             (0..60).map(|_| (samples.bits() >> 11) as f64 / (1u64 << 53) as f64 * 30.0).collect();
-        let results = certified(&echoes.equation(), &taps, &times, Side::Right).unwrap();
+        let results = certified(&echoes.equation(), &taps, &times, Limit::Right).unwrap();
         assert!(results.undecided.is_empty());
         for (time, value) in times.iter().zip(&results.values) {
             let time = BigRational::from_float(*time).unwrap();
@@ -297,8 +297,8 @@ fn sums_before_the_start_are_zero_and_sides_are_told_apart() {
     let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
     let taps = [Tap { weight: ratio(-1, 1), delay: one.clone() }];
     let times = [-1.0, 0.0, 0.5, 1.0, 3.0];
-    let left = certified(&equation, &taps, &times, Side::Left).unwrap();
-    let right = certified(&equation, &taps, &times, Side::Right).unwrap();
+    let left = certified(&equation, &taps, &times, Limit::Left).unwrap();
+    let right = certified(&equation, &taps, &times, Limit::Right).unwrap();
     assert_eq!(left.values[..4], [0.0; 4]);
     assert_eq!(right.values[..4], [0.0, 0.0, 0.0, -1.0]);
     // At T = 3 the wave returns: e^(-2), and 1 more after it.
@@ -308,9 +308,9 @@ fn sums_before_the_start_are_zero_and_sides_are_told_apart() {
 
     // Two equal taps cancel: zero with a radius is undecided; no tap is zero exactly.
     let cancelling = [taps[0].clone(), Tap { weight: one.clone(), delay: one.clone() }];
-    let cancelled = certified(&equation, &cancelling, &[0.0, 2.0], Side::Right).unwrap();
+    let cancelled = certified(&equation, &cancelling, &[0.0, 2.0], Limit::Right).unwrap();
     assert_eq!((cancelled.values[0], &cancelled.undecided[..]), (0.0, &[1][..]));
-    let nothing = certified(&equation, &[], &[2.0], Side::Right).unwrap();
+    let nothing = certified(&equation, &[], &[2.0], Limit::Right).unwrap();
     assert_eq!((nothing.values, nothing.undecided), (vec![0.0], vec![]));
 
     // Weights of any size keep the digits.
@@ -318,12 +318,12 @@ fn sums_before_the_start_are_zero_and_sides_are_told_apart() {
         [Tap { weight: BigRational::from(BigInt::one() << 900u32), delay: BigRational::zero() }];
     let tiny = [Tap { weight: huge[0].weight.recip(), delay: BigRational::zero() }];
     let value = 0.6065306597126334;
-    let scaled = |taps: &[Tap]| certified(&equation, taps, &[0.5], Side::Right).unwrap().values[0];
+    let scaled = |taps: &[Tap]| certified(&equation, taps, &[0.5], Limit::Right).unwrap().values[0];
     assert_eq!(scaled(&huge), value * 900f64.exp2());
     assert_eq!(scaled(&tiny), value * (-900f64).exp2());
 
     let refused =
-        |taps: &[Tap], times: &[f64]| certified(&equation, taps, times, Side::Right).unwrap_err();
+        |taps: &[Tap], times: &[f64]| certified(&equation, taps, times, Limit::Right).unwrap_err();
     assert_eq!(refused(&vec![taps[0].clone(); 9], &[1.0]), FixedError::TooManyTaps(9));
     assert_eq!(refused(&taps, &[f64::NAN]), FixedError::TimeNotFinite);
     assert_eq!(refused(&[], &[f64::INFINITY]), FixedError::TimeNotFinite);
@@ -353,7 +353,7 @@ fn reductions_are_exact() {
             }
         };
         let rational = BigRational::from_float(time).unwrap();
-        for side in [Side::Left, Side::Right] {
+        for side in [Limit::Left, Limit::Right] {
             let found = reduction.of_double(time, side);
             assert_eq!(found, reduction.of_rational(&rational, side), "{time} {period} {delay}");
             let exact = (&rational - &delay) / &period;
@@ -363,7 +363,7 @@ fn reductions_are_exact() {
                     assert!(exact > integer((1 << 32) - 2));
                 }
                 Ok(None) => assert!(
-                    exact <= integer(if side == Side::Left { 0 } else { -1 })
+                    exact <= integer(if side == Limit::Left { 0 } else { -1 })
                         || exact.is_negative()
                 ),
                 Ok(Some(position)) => {
@@ -374,8 +374,10 @@ fn reductions_are_exact() {
                     assert_eq!(excess.is_zero(), position.is_exact());
                     assert!(!excess.is_negative() && excess < unit);
                     let end = position.fraction() == 1 << 120;
-                    assert!(!end || side == Side::Left);
-                    assert!(side == Side::Right || position.fraction() > 0 || !position.is_exact());
+                    assert!(!end || side == Limit::Left);
+                    assert!(
+                        side == Limit::Right || position.fraction() > 0 || !position.is_exact()
+                    );
                     joints += usize::from(end);
                 }
             }

@@ -1,7 +1,8 @@
 //! Arguments of `eval`.
 
-use super::Scene;
+use super::{Scene, limits};
 use clap::{Args, ValueEnum};
+use wavestep::evaluate::Limit;
 
 /// Options of `eval`.
 #[derive(Args)]
@@ -43,8 +44,8 @@ pub struct Eval {
     #[arg(long, value_name = "D", default_value_t = 15)]
     pub digits: usize,
     /// Which limit is meant where an echo arrives
-    #[arg(long, value_enum, default_value_t = SideOption::Right)]
-    pub side: SideOption,
+    #[arg(long, value_parser = limits("From earlier times", "From later times"), default_value = "right")]
+    pub side: Limit,
     /// Say on standard error how many echoes were worked out
     #[arg(long)]
     pub stats: bool,
@@ -66,15 +67,6 @@ pub struct Eval {
     /// Written how
     #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
     pub format: EvalFormat,
-}
-
-/// Which limit is meant.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum SideOption {
-    /// From earlier times
-    Left,
-    /// From later times
-    Right,
 }
 
 /// How values are written.

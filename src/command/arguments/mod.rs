@@ -15,16 +15,25 @@ mod tools;
 pub use book::{Book, BookFormat};
 pub use derive::{Derive, DeriveFormat, Form};
 pub use dispersion::{Dispersion, DispersionFormat};
-pub use eval::{Eval, EvalFormat, SideOption};
+pub use eval::{Eval, EvalFormat};
 pub use events::{Events, EventsFormat};
 pub use export::Export;
 pub use find::Find;
 pub use hertz::{Hertz, HertzFormat};
 pub use locks::{Check, Lock};
-pub use pictures::{Chart, DiagramOption, Field, FieldFormat, FieldSide, Figure, Plot};
+pub use pictures::{Chart, DiagramOption, Field, FieldFormat, Figure, Plot};
 pub use tools::{Generate, Generated, Scenes};
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand as Subcommands, ValueHint};
+use wavestep::evaluate::Limit;
+
+/// `left` and `right`, with what these limits mean.
+fn limits(left: &'static str, right: &'static str) -> impl TypedValueParser<Value = Limit> {
+    let name = |name, help| PossibleValue::new(name).help(help);
+    PossibleValuesParser::new([name("left", left), name("right", right)])
+        .map(|name| if name == "left" { Limit::Left } else { Limit::Right })
+}
 
 /// Exact solutions of wave propagation in bars with lumped ends.
 #[derive(Parser)]

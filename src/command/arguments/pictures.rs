@@ -1,7 +1,8 @@
 //! Arguments of the commands that draw and give fields.
 
-use super::Scene;
+use super::{Scene, limits};
 use clap::{Args, ValueEnum, ValueHint};
+use wavestep::evaluate::Limit;
 
 /// Options of `chart`.
 #[derive(Args)]
@@ -106,8 +107,8 @@ pub struct Field {
     #[arg(long)]
     pub averages: bool,
     /// From which side limits are taken where a field jumps at a node
-    #[arg(long, value_enum, default_value_t = FieldSide::Right)]
-    pub side: FieldSide,
+    #[arg(long, value_parser = limits("From smaller x", "From larger x"), default_value = "right")]
+    pub side: Limit,
     /// This bar only; may be given several times
     #[arg(long, value_name = "NAME", value_hint = ValueHint::Other)]
     pub bar: Vec<String>,
@@ -147,13 +148,4 @@ pub struct Figure {
     /// The file to write: .svg, .png, .json or .csv
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "number")]
     pub output: Option<String>,
-}
-
-/// Which limit of a field is meant.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FieldSide {
-    /// From smaller x
-    Left,
-    /// From larger x
-    Right,
 }

@@ -11,7 +11,7 @@
 //! all of them. The supremum then lies between the largest lower bound and the largest upper bound.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, range_of};
 use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;
@@ -152,7 +152,7 @@ pub struct Extremum {
 /// A place that may have the largest value.
 #[derive(Clone, Debug)]
 enum Candidate {
-    Limit { stretch: usize, side: Side },
+    Limit { stretch: usize, side: Limit },
     Critical(Isolated),
     Plateau { stretch: usize },
     Open { stretch: usize, from: Rational, to: Rational },
@@ -262,9 +262,9 @@ impl<'s> Search<'s> {
             if constant[stretch] {
                 left.push(Candidate::Plateau { stretch });
             } else {
-                left.push(Candidate::Limit { stretch, side: Side::Right });
+                left.push(Candidate::Limit { stretch, side: Limit::Right });
                 if !self.is_instant(stretch) {
-                    left.push(Candidate::Limit { stretch, side: Side::Left });
+                    left.push(Candidate::Limit { stretch, side: Limit::Left });
                 }
             }
         }
@@ -303,11 +303,11 @@ impl<'s> Search<'s> {
                 Finding::Monotone(_) => {
                     // At the ends of the stretch itself, which the cell may reach beyond.
                     let first = match i {
-                        0 => self.slope_sign(stretch, Err(Side::Right), target)?,
+                        0 => self.slope_sign(stretch, Err(Limit::Right), target)?,
                         _ => self.slope_sign(stretch, Ok(&cell.from), target)?,
                     };
                     let last = match i + 1 == count {
-                        true => self.slope_sign(stretch, Err(Side::Left), target)?,
+                        true => self.slope_sign(stretch, Err(Limit::Left), target)?,
                         false => self.slope_sign(stretch, Ok(&cell.to), target)?,
                     };
                     match (first, last) {
@@ -341,7 +341,7 @@ impl<'s> Search<'s> {
     fn slope_sign(
         &self,
         stretch: usize,
-        place: Result<&Rational, Side>,
+        place: Result<&Rational, Limit>,
         target: Target<'_>,
     ) -> Result<Option<Ordering>, EvaluateError> {
         let limit_bits = target.limit_bits.min(SLOPE_BITS);
@@ -377,7 +377,7 @@ impl Contenders<'_, '_> {
         let target = Target { order: 0, level: &zero, limit_bits: self.limit_bits };
         let value = match candidate {
             Candidate::Limit { stretch, side } => search.limit(*stretch, 0, *side, working)?,
-            Candidate::Plateau { stretch } => search.limit(*stretch, 0, Side::Right, working)?,
+            Candidate::Plateau { stretch } => search.limit(*stretch, 0, Limit::Right, working)?,
             Candidate::Critical(root) => {
                 let slope = Target { order: 1, ..target };
                 // The value is as flat as the square of what is unknown of the time.
@@ -443,7 +443,7 @@ impl Contenders<'_, '_> {
         for candidate in &*self.left.borrow() {
             let (stretch, side) = match candidate {
                 Candidate::Limit { stretch, side } => (*stretch, *side),
-                Candidate::Plateau { stretch } => (*stretch, Side::Right),
+                Candidate::Plateau { stretch } => (*stretch, Limit::Right),
                 _ => return Ok(None),
             };
             let Some(value) = self.search.exact(stretch, At::End(side))? else { return Ok(None) };
@@ -467,7 +467,7 @@ impl Contenders<'_, '_> {
         let mut found: Vec<(usize, u8, Place)> = Vec::new();
         for candidate in &*self.left.borrow() {
             found.push(match candidate {
-                Candidate::Limit { stretch, side: Side::Right } => {
+                Candidate::Limit { stretch, side: Limit::Right } => {
                     let time = search.beginning(*stretch, digits, self.limit_bits)?;
                     let place = match stretch {
                         0 => Place::End(time),
@@ -475,7 +475,7 @@ impl Contenders<'_, '_> {
                     };
                     (*stretch, 0, place)
                 }
-                Candidate::Limit { stretch, side: Side::Left } => {
+                Candidate::Limit { stretch, side: Limit::Left } => {
                     let time = end(*stretch)?;
                     let at_end = *stretch == last && !search.arrives_at_end();
                     let place = match at_end {

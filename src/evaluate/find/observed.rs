@@ -4,7 +4,7 @@
 //! where a ball cannot decide because the answer is zero.
 
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::evaluator::{EvaluateError, Evaluator, Side};
+use crate::evaluate::evaluator::{EvaluateError, Evaluator, Limit};
 use crate::evaluate::find::piecewise::{At, Piecewise};
 use crate::evaluate::find::search::{FIRST_BITS, SIGN_BITS};
 use crate::evaluate::scene::SceneEvaluator;
@@ -97,13 +97,13 @@ impl<'a> ObservedSignal<'a> {
     fn scaled(&self, stretch: usize, at: At<'_>) -> Cow<'_, Fraction> {
         match at {
             At::Time(time) => Cow::Owned(self.signal.slowness().scale(time)),
-            At::End(Side::Right) => Cow::Borrowed(self.stretches[stretch].from()),
-            At::End(Side::Left) => Cow::Borrowed(self.stretches[stretch].to()),
+            At::End(Limit::Right) => Cow::Borrowed(self.stretches[stretch].from()),
+            At::End(Limit::Left) => Cow::Borrowed(self.stretches[stretch].to()),
         }
     }
 
     /// The value at a time in the scale of the waves, where it is rational.
-    fn exact_value(&self, at: &Fraction, side: Side) -> Result<Option<Rational>, EvaluateError> {
+    fn exact_value(&self, at: &Fraction, side: Limit) -> Result<Option<Rational>, EvaluateError> {
         let value = match &self.exact {
             Exact::Nowhere => return Ok(None),
             Exact::Recurrence { evaluator, value } => {
@@ -154,14 +154,14 @@ impl Piecewise for ObservedSignal<'_> {
         self.stretches[stretch].is_silent()
     }
 
-    fn exact_time(&self, stretch: usize, end: Side) -> Option<Rational> {
+    fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
         let at = self.scaled(stretch, At::End(end));
         let slowness = self.signal.slowness();
         let own = self.window.iter().rev().find(|time| slowness.scale(time) == *at);
         own.cloned().or_else(|| Some(at.as_constant()? / slowness.as_constant()?))
     }
 
-    fn time(&self, stretch: usize, end: Side, bits: u64) -> Result<Ball, EvaluateError> {
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
         let numbers = self.signal.numbers();
         let slowness = numbers.enclose(self.signal.slowness(), bits)?;
         let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
@@ -208,14 +208,14 @@ impl Piecewise for ObservedSignal<'_> {
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
         let side = match at {
-            At::Time(_) => Side::Right,
+            At::Time(_) => Limit::Right,
             At::End(side) => side,
         };
         self.exact_value(&self.scaled(stretch, at), side)
     }
 
     /// For observables that see no derivatives and no function of time themselves.
-    fn slope_vanishes(&self, stretch: usize, end: Side) -> Result<bool, EvaluateError> {
+    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
         let at = self.scaled(stretch, At::End(end));
         let value = match &self.exact {
             Exact::Nowhere => return Ok(false),
@@ -271,7 +271,7 @@ impl Piecewise for ObservedSignal<'_> {
         for i in 1..=count {
             let share = Rational::new(i.into(), (count + 1).into());
             let at = self.signal.slowness().scale(&(from + &length * share));
-            if self.exact_value(&at, Side::Right)?.as_ref() != Some(value) {
+            if self.exact_value(&at, Limit::Right)?.as_ref() != Some(value) {
                 return Ok(false);
             }
         }

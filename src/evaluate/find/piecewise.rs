@@ -1,7 +1,7 @@
 //! What a search needs to know of a function of time.
 
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::taylor::Taylor;
 use wavestep_polynomial::Rational;
 
@@ -11,7 +11,7 @@ pub(crate) enum At<'a> {
     /// A time of the user's.
     Time(&'a Rational),
     /// The limit at an end of the stretch: on the right side of its first time, the left of its last.
-    End(Side),
+    End(Limit),
 }
 
 /// A real function of the user's time on a window, cut into stretches, on each of which it is analytic.
@@ -32,10 +32,10 @@ pub(crate) trait Piecewise {
     fn is_zero(&self, stretch: usize) -> bool;
 
     /// The time of an end, where it is known to be rational.
-    fn exact_time(&self, stretch: usize, end: Side) -> Option<Rational>;
+    fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational>;
 
     /// An enclosure of the time of an end.
-    fn time(&self, stretch: usize, end: Side, bits: u64) -> Result<Ball, EvaluateError>;
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError>;
 
     /// An enclosure of the derivative of an order.
     fn enclose(
@@ -71,7 +71,7 @@ pub(crate) trait Piecewise {
     fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError>;
 
     /// Whether the derivative in the limit at an end is known to be exactly zero.
-    fn slope_vanishes(&self, stretch: usize, end: Side) -> Result<bool, EvaluateError>;
+    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError>;
 
     /// Whether the function is known to have one value on all of a stretch, which lies within these
     /// bounds.

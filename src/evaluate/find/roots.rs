@@ -14,7 +14,7 @@
 //! Between stretches the two limits tell of jumps.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
 use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;
@@ -191,13 +191,13 @@ impl Search<'_> {
         let mut all = Vec::new();
         let mut before: Option<Ends> = None;
         for stretch in 0..self.count {
-            let first = self.sign_of_limit(stretch, Side::Right, level, limit_bits)?;
+            let first = self.sign_of_limit(stretch, Limit::Right, level, limit_bits)?;
             if self.is_instant(stretch) {
                 let now = Ends { first, last: None, vanishes: false };
                 self.join(stretch, &question, before.take(), &now, &mut all)?;
                 return Ok(Roots { all });
             }
-            let last = self.sign_of_limit(stretch, Side::Left, level, limit_bits)?;
+            let last = self.sign_of_limit(stretch, Limit::Left, level, limit_bits)?;
             let constant = self.is_constant(stretch)?;
             let equal = Some(Ordering::Equal);
             let vanishes = constant && (first == equal || last == equal);
@@ -235,10 +235,10 @@ impl Search<'_> {
         if stretch == 0 {
             return Ok(known(&self.window[0]));
         }
-        match self.function.exact_time(stretch, Side::Right) {
+        match self.function.exact_time(stretch, Limit::Right) {
             Some(time) => Ok(known(&time)),
             None => Determined::of(digits, limit_bits, |bits| {
-                self.function.time(stretch, Side::Right, bits)
+                self.function.time(stretch, Limit::Right, bits)
             }),
         }
     }
@@ -286,8 +286,8 @@ impl Search<'_> {
             }
             (Some(before), Some(after)) if before != after => {
                 let limits = [
-                    self.limit_value(stretch - 1, Side::Left, question)?,
-                    self.limit_value(stretch, Side::Right, question)?,
+                    self.limit_value(stretch - 1, Limit::Left, question)?,
+                    self.limit_value(stretch, Limit::Right, question)?,
                 ];
                 all.push(Root::Jump { time: time()?, limits });
             }
@@ -307,7 +307,7 @@ impl Search<'_> {
     fn limit_value(
         &self,
         stretch: usize,
-        side: Side,
+        side: Limit,
         question: &Question<'_>,
     ) -> Result<Determined, EvaluateError> {
         if let Some(value) = self.exact(stretch, At::End(side))? {
@@ -336,7 +336,7 @@ impl Search<'_> {
         if !slope.coefficients.iter().all(Ball::contains_zero) {
             return Ok(false);
         }
-        match self.exact(stretch, At::End(Side::Right))? {
+        match self.exact(stretch, At::End(Limit::Right))? {
             Some(value) => self.equals(stretch, &value),
             None => Ok(false),
         }
@@ -391,8 +391,8 @@ impl Search<'_> {
                     let starts = i == 0 && first == equal;
                     let stops = i + 1 == count && last == equal;
                     let lone = match (starts, stops) {
-                        (true, false) => self.touches(stretch, Side::Right, cell, target)?,
-                        (false, true) => self.touches(stretch, Side::Left, cell, target)?,
+                        (true, false) => self.touches(stretch, Limit::Right, cell, target)?,
+                        (false, true) => self.touches(stretch, Limit::Left, cell, target)?,
                         _ => false,
                     };
                     if !lone {
@@ -414,7 +414,7 @@ impl Search<'_> {
     fn touches(
         &self,
         stretch: usize,
-        side: Side,
+        side: Limit,
         cell: &Cell,
         target: Target<'_>,
     ) -> Result<bool, EvaluateError> {

@@ -4,7 +4,7 @@
 //! where a ball cannot decide because the answer is zero.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::find::observed::ObservedSignal;
 use crate::evaluate::find::piecewise::{At, Piecewise};
 use crate::evaluate::signal::Signal;
@@ -219,7 +219,7 @@ impl<'a> Search<'a> {
         &self,
         stretch: usize,
         order: usize,
-        side: Side,
+        side: Limit,
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
         self.function.enclose(stretch, order, At::End(side), bits)
@@ -229,7 +229,7 @@ impl<'a> Search<'a> {
     pub(crate) fn sign_of_limit(
         &self,
         stretch: usize,
-        side: Side,
+        side: Limit,
         level: &Rational,
         limit_bits: u64,
     ) -> Result<Option<Ordering>, EvaluateError> {
@@ -293,7 +293,11 @@ impl<'a> Search<'a> {
     }
 
     /// Whether the derivative in the limit at an end of a stretch is known to be exactly zero.
-    pub(crate) fn slope_vanishes(&self, stretch: usize, side: Side) -> Result<bool, EvaluateError> {
+    pub(crate) fn slope_vanishes(
+        &self,
+        stretch: usize,
+        side: Limit,
+    ) -> Result<bool, EvaluateError> {
         Ok(self.limit(stretch, 1, side, self.bits.get())?.contains_zero()
             && self.function.slope_vanishes(stretch, side)?)
     }
@@ -314,7 +318,7 @@ impl<'a> Search<'a> {
                 }
                 Ok(rationals(&self.function.time(stretch, end, bits)?))
             };
-            let ((first, after), (before, last)) = (outer(Side::Right)?, outer(Side::Left)?);
+            let ((first, after), (before, last)) = (outer(Limit::Right)?, outer(Limit::Left)?);
             let slack = (&after - &first).max(&last - &before);
             if slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after
                 || bits >= MAX_BOUND_BITS

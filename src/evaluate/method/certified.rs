@@ -8,7 +8,7 @@
 
 use super::{Method, MethodError};
 use crate::evaluate::cells::{Cell, Fit, Window, at_or_after, rational};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::Signal;
 use std::cell::OnceCell;
@@ -31,22 +31,22 @@ const MANY: usize = 2_000;
 /// Tells a value that is a rational number: it gives the number at a time and a side, or nothing.
 ///
 /// ```
-/// use wavestep::evaluate::{Recogniser, Side};
+/// use wavestep::evaluate::{Recogniser, Limit};
 /// use wavestep::language::parse_number;
 ///
 /// // For sin t, which is rational at 0 alone of all rational times.
 /// let sine: &Recogniser = &|at, _| Ok((*at == Default::default()).then(Default::default));
 /// let zero = parse_number("0")?;
-/// assert_eq!(sine(&zero, Side::Right), Ok(Some(zero.clone())));
-/// assert_eq!(sine(&parse_number("1/2")?, Side::Right), Ok(None));
+/// assert_eq!(sine(&zero, Limit::Right), Ok(Some(zero.clone())));
+/// assert_eq!(sine(&parse_number("1/2")?, Limit::Right), Ok(None));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-pub type Recogniser<'a> = dyn Fn(&Rational, Side) -> Result<Option<Rational>, EvaluateError> + 'a;
+pub type Recogniser<'a> = dyn Fn(&Rational, Limit) -> Result<Option<Rational>, EvaluateError> + 'a;
 
 /// Correctly rounded values of an observable on a window.
 ///
 /// ```
-/// use wavestep::evaluate::{Certified, Evaluator, Method, Side, Signal};
+/// use wavestep::evaluate::{Certified, Evaluator, Method, Limit, Signal};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -60,7 +60,7 @@ pub type Recogniser<'a> = dyn Fn(&Rational, Side) -> Result<Option<Rational>, Ev
 /// let (from, to) = (parse_number("0")?, parse_number("20")?);
 /// let certified = Certified::new(&signal, &from, &to, &recognise).unwrap();
 /// // At 0 the value is 1, exactly; at 1 it is 1/e, correctly rounded.
-/// let at = |t| certified.value(&parse_number(t).unwrap(), Side::Right).unwrap();
+/// let at = |t| certified.value(&parse_number(t).unwrap(), Limit::Right).unwrap();
 /// assert_eq!((at("0"), at("1")), (1.0, 0.36787944117144233));
 /// // Many values come from a table whose pieces are far finer than doubles.
 /// assert!(certified.table().unwrap().certified_bound() < 1e-25);
@@ -114,7 +114,7 @@ impl<'a> Certified<'a> {
     fn by_march(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
         let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
         let inside = times.iter().all(|time| window.contains(time));
-        self.marched.as_ref().filter(|_| inside)?.certified(times, Side::Right)
+        self.marched.as_ref().filter(|_| inside)?.certified(times, Limit::Right)
     }
 
     /// The polynomials in pairs of doubles, made when they are first asked for.
@@ -139,7 +139,7 @@ impl<'a> Certified<'a> {
     }
 
     /// The value of a double's time that no table decides.
-    fn alone(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn alone(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         let window = self.window()?;
         let stretch = &window.stretches[window.stretch_at(at, side)?];
         let scaled = self.signal.slowness().scale(at);
@@ -205,12 +205,12 @@ impl Method for Certified<'_> {
         Some(0.0)
     }
 
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         Ok(self.exact_values(std::slice::from_ref(at), side)?[0])
     }
 
     /// By the march in integers, where there is one, and by a ball where that does not decide.
-    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+    fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         let inside = || at.iter().all(|at| *at >= self.from && *at <= self.to);
         let marched = self.marched.as_ref().filter(|_| inside());
         let Some((mut values, undecided)) = marched.and_then(|march| march.certified(at, side))
@@ -239,7 +239,7 @@ impl Method for Certified<'_> {
             if !at[i].is_finite() {
                 return Err(MethodError::Outside);
             }
-            values[i] = self.alone(&rational(at[i]), Side::Right)?;
+            values[i] = self.alone(&rational(at[i]), Limit::Right)?;
         }
         if values.iter().any(|value| value.is_nan()) { Err(MethodError::Outside) } else { Ok(()) }
     }

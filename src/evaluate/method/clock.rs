@@ -4,7 +4,7 @@ use super::MethodError;
 use crate::ball::Ball;
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::{at_or_after, rational};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::expression::Fraction;
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_kernels::fixed::{self, FixedError, Reduction};
@@ -44,7 +44,7 @@ impl DoublePlaces {
         let (period, delay) = match self {
             DoublePlaces::Whole { period, delay } => (*period, *delay as usize),
             DoublePlaces::Any(reduction) => {
-                let place = reduction.of_double(time, fixed::Side::Right)?;
+                let place = reduction.of_double(time, fixed::Limit::Right)?;
                 return Ok(place.map(|place| (place.period() as usize, place.local())));
             }
         };
@@ -74,7 +74,7 @@ impl Clock {
         &self,
         delay: &Fraction,
         at: &Rational,
-        side: Side,
+        side: Limit,
     ) -> Result<Option<(u64, f64)>, MethodError> {
         let limit = usize::try_from(MAX_PERIODS).unwrap_or(usize::MAX);
         let too_many = || MethodError::TooManyPeriods { periods: usize::MAX, limit };
@@ -83,7 +83,7 @@ impl Clock {
         if let (Some(since), Some(period)) = (since.as_constant(), period.as_constant()) {
             let periods = since / period;
             let mut whole = periods.floor();
-            if side == Side::Left && whole == periods {
+            if side == Limit::Left && whole == periods {
                 whole -= Rational::from_integer(1.into());
             }
             if whole.is_negative() {
@@ -110,7 +110,7 @@ impl Clock {
             near.max(0.into()).to_u64().filter(|near| *near < u64::MAX).ok_or_else(too_many)?;
         for whole in [near + 1, near, near.saturating_sub(1)] {
             let order = compare(whole)?;
-            if order.is_gt() || (order.is_eq() && side == Side::Right) {
+            if order.is_gt() || (order.is_eq() && side == Limit::Right) {
                 let offset = Ball::from_rational(&Rational::from_integer(whole.into()), 192);
                 let local = periods.subtract(&offset, 192).to_double().0;
                 return Ok(Some((whole, local.clamp(0.0, 1.0))));
@@ -145,7 +145,7 @@ impl Clock {
     ) -> Result<u64, MethodError> {
         let mut last = 0;
         for delay in delays {
-            if let Some((period, _)) = self.place(delay, to, Side::Right)? {
+            if let Some((period, _)) = self.place(delay, to, Limit::Right)? {
                 last = last.max(period);
             }
         }

@@ -8,7 +8,7 @@
 use super::{Method, MethodError};
 use crate::ball::{Ball, Magnitude};
 use crate::evaluate::cells::{Cell, Fit, Window, at_or_after, rational};
-use crate::evaluate::evaluator::Side;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::unit_in_the_last_place;
 use std::cmp::Ordering;
@@ -150,7 +150,7 @@ impl Method for Compiled<'_> {
     /// of the time: its rounding is that of the result. What is neglected, `δ² p''/2` and roundings of
     /// the second term, is below `2^−80` of the coefficients. Beside the ends of pieces the value is
     /// enclosed in a ball.
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         let stretch = self.window.stretch_at(at, side)?;
         let pieces = &self.pieces[self.first_pieces[stretch]..self.first_pieces[stretch + 1]];
         let (near, rest) = Ball::from_rational(at, 128).split();

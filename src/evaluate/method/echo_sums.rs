@@ -5,7 +5,7 @@ use super::MethodError;
 use super::doubles::{three, three_of};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
@@ -96,7 +96,7 @@ impl Arrivals {
         since: (f64, f64),
         size: f64,
         delay: &Fraction,
-        (at, side): (&dyn Fn() -> Rational, Side),
+        (at, side): (&dyn Fn() -> Rational, Limit),
     ) -> Result<(f64, f64), MethodError> {
         let Some((number, distance)) = self.near(since, size) else { return Ok(since) };
         let count = Rational::from_integer((number as u64).into());
@@ -105,7 +105,7 @@ impl Arrivals {
         let after = match order.map_err(EvaluateError::from)? {
             Ordering::Greater => true,
             Ordering::Less => false,
-            Ordering::Equal => side == Side::Right,
+            Ordering::Equal => side == Limit::Right,
         };
         let kept = Self::KEPT * (size + self.period[0]);
         let wanted = if after { distance.max(kept) } else { distance.min(-kept) };
@@ -173,7 +173,7 @@ impl EchoSums {
         method: echoes::Method,
         (high, low): (f64, f64),
         at: &dyn Fn() -> Rational,
-        side: Side,
+        side: Limit,
     ) -> Result<f64, MethodError> {
         if !(high >= self.from && high <= self.to) {
             return Err(MethodError::Outside);
@@ -182,7 +182,7 @@ impl EchoSums {
         let [rate, rest] = self.slowness;
         let time = high * rate;
         let low = high.mul_add(rate, -time) + (high * rest + low * rate);
-        let arriving = side == Side::Right;
+        let arriving = side == Limit::Right;
         // Waves can cancel: their sum is rounded once.
         let mut sum = DoubleDouble::default();
         for Seen { weight, delay, exact_delay, sum: echoes } in &self.seen {
@@ -245,7 +245,7 @@ impl EchoSums {
                 if self.arrivals.near((*time, 0.0), time.abs()).is_some() {
                     let exact = || rational(*time);
                     let method = echoes::Method::Scaled;
-                    *value = self.value(method, (*time, 0.0), &exact, Side::Right)?;
+                    *value = self.value(method, (*time, 0.0), &exact, Limit::Right)?;
                 }
             }
         }

@@ -9,7 +9,7 @@ use super::printed::PrintedEchoes;
 use super::{Method, MethodError};
 use crate::ball::Ball;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::Side;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
@@ -17,7 +17,7 @@ use wavestep_polynomial::Rational;
 /// An observable on a window by the formula as printed.
 ///
 /// ```
-/// use wavestep::evaluate::{Expanded, Method, Side, Signal, Stable, StablePrecision};
+/// use wavestep::evaluate::{Expanded, Method, Limit, Signal, Stable, StablePrecision};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -30,7 +30,7 @@ use wavestep_polynomial::Rational;
 /// let off = |t| {
 ///     let at = parse_number(t).unwrap();
 ///     let [expanded, stable]: [&dyn Method; 2] = [&expanded, &stable];
-///     (expanded.value(&at, Side::Right).unwrap() - stable.value(&at, Side::Right).unwrap()).abs()
+///     (expanded.value(&at, Limit::Right).unwrap() - stable.value(&at, Limit::Right).unwrap()).abs()
 /// };
 /// // Right after one period, and of no use after eighty.
 /// assert!(off("3") < 1e-14 && off("161") > 1e3);
@@ -62,7 +62,7 @@ impl Expanded {
         Ok(Expanded { sums })
     }
 
-    fn at(&self, time: f64, exact: &dyn Fn() -> Rational, side: Side) -> Result<f64, MethodError> {
+    fn at(&self, time: f64, exact: &dyn Fn() -> Rational, side: Limit) -> Result<f64, MethodError> {
         match &self.sums {
             Sums::Closed(sums) => sums.value(echoes::Method::Expanded, (time, 0.0), exact, side),
             Sums::Derived(echoes) => Ok(echoes.value(time, side)),
@@ -83,7 +83,7 @@ impl Method for Expanded {
         None
     }
 
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         let high = Ball::from_rational(at, 128).to_double().0;
         self.at(high, &|| at.clone(), side)
     }
@@ -91,7 +91,7 @@ impl Method for Expanded {
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         for (time, value) in at.iter().zip(values) {
-            *value = self.at(*time, &|| rational(*time), Side::Right)?;
+            *value = self.at(*time, &|| rational(*time), Limit::Right)?;
         }
         Ok(())
     }

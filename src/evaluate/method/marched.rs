@@ -6,7 +6,7 @@
 use super::marched_response::MarchedResponse;
 use super::marched_waves::MarchedWaves;
 use super::{Method, MethodError};
-use crate::evaluate::evaluator::Side;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::{NoTaps, Taps};
 use wavestep_polynomial::Rational;
@@ -14,7 +14,7 @@ use wavestep_polynomial::Rational;
 /// An observable on a window by a march.
 ///
 /// ```
-/// use wavestep::evaluate::{Marched, Method, Side, Signal};
+/// use wavestep::evaluate::{Marched, Method, Limit, Signal};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -23,7 +23,7 @@ use wavestep_polynomial::Rational;
 /// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
 /// let (from, to) = (parse_number("0")?, parse_number("20")?);
 /// let marched = Marched::new(&signal, &from, &to, true).unwrap();
-/// let value = marched.value(&parse_number("1")?, Side::Right).unwrap();
+/// let value = marched.value(&parse_number("1")?, Limit::Right).unwrap();
 /// assert!((value - (-1f64).exp()).abs() <= marched.bound().unwrap() + 1e-16);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
@@ -31,7 +31,7 @@ use wavestep_polynomial::Rational;
 /// Waves with several poles have values without a bound:
 ///
 /// ```
-/// use wavestep::evaluate::{Marched, Method, Side, Signal};
+/// use wavestep::evaluate::{Marched, Method, Limit, Signal};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let source = Source::new("two poles", r#"
@@ -50,7 +50,7 @@ use wavestep_polynomial::Rational;
 /// assert_eq!(marched.bound(), None);
 /// assert!(marched.law().contains("no bound"));
 /// // On the first period f = e^{−t} − e^{−2t}.
-/// let value = marched.value(&parse_number("1")?, Side::Right).unwrap();
+/// let value = marched.value(&parse_number("1")?, Limit::Right).unwrap();
 /// assert!((value - (-1f64).exp() + (-2f64).exp()).abs() < 1e-15);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
@@ -121,11 +121,11 @@ impl Method for Marched {
         self.method().bound()
     }
 
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         self.method().value(at, side)
     }
 
-    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+    fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         self.method().exact_values(at, side)
     }
 

@@ -12,7 +12,7 @@ use super::{Method, MethodError};
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::Taps;
 use crate::evaluate::transforms::value_at;
@@ -144,7 +144,7 @@ impl MarchedResponse {
     }
 
     /// What is added to the taps at a time, in a ball whose radius is less than `2^−10` of the bound.
-    fn extras(&self, at: &Rational, side: Side) -> Result<Ball, MethodError> {
+    fn extras(&self, at: &Rational, side: Limit) -> Result<Ball, MethodError> {
         const FIRST_BITS: u64 = 128;
         const MAX_BITS: u64 = 1 << 12;
         let allowed = self.bound.map(|bound| Magnitude::from_double(bound).scale(-10));
@@ -163,7 +163,7 @@ impl MarchedResponse {
     }
 
     /// The same with so many bits.
-    fn extras_in(&self, at: &Rational, side: Side, bits: u64) -> Result<Ball, MethodError> {
+    fn extras_in(&self, at: &Rational, side: Limit, bits: u64) -> Result<Ball, MethodError> {
         let field = self.clock.numbers.field(bits);
         let mut sum = Ball::zero();
         for extra in &self.taps.extras {
@@ -173,7 +173,7 @@ impl MarchedResponse {
                 .numbers
                 .compare(&since, &Fraction::zero())
                 .map_err(EvaluateError::from)?;
-            if order.is_lt() || (order.is_eq() && side == Side::Left) {
+            if order.is_lt() || (order.is_eq() && side == Limit::Left) {
                 continue;
             }
             let exact = Transform::of(&extra.function, &self.local);
@@ -189,7 +189,7 @@ impl MarchedResponse {
     }
 
     /// The values at times: one march through all periods that are seen.
-    fn at(&self, times: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+    fn at(&self, times: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         if times.iter().any(|at| *at < self.from || *at > self.to) {
             return Err(MethodError::Outside);
         }
@@ -304,18 +304,18 @@ impl Method for MarchedResponse {
         self.bound
     }
 
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         Ok(self.at(std::slice::from_ref(at), side)?[0])
     }
 
-    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+    fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         self.at(at, side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         inside(at, [&self.from, &self.to])?;
-        let found = self.at_doubles(at).unwrap_or_else(|| self.at(&exactly(at), Side::Right));
+        let found = self.at_doubles(at).unwrap_or_else(|| self.at(&exactly(at), Limit::Right));
         values.copy_from_slice(&found?);
         Ok(())
     }

@@ -6,7 +6,7 @@ use super::march_system::{SystemBuilder, enclosed, nearest, product, transform};
 use super::{Method, MethodError};
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::NoTaps;
 use crate::expression::{Fraction, Transform};
@@ -110,7 +110,7 @@ impl MarchedWaves {
     }
 
     /// The values at times: one march through all periods that are seen.
-    fn at(&self, times: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+    fn at(&self, times: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         if times.iter().any(|at| *at < self.from || *at > self.to) {
             return Err(MethodError::Outside);
         }
@@ -202,18 +202,18 @@ impl Method for MarchedWaves {
         None
     }
 
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         Ok(self.at(std::slice::from_ref(at), side)?[0])
     }
 
-    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+    fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         self.at(at, side)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         inside(at, [&self.from, &self.to])?;
-        let found = self.at_doubles(at).unwrap_or_else(|| self.at(&exactly(at), Side::Right));
+        let found = self.at_doubles(at).unwrap_or_else(|| self.at(&exactly(at), Limit::Right));
         values.copy_from_slice(&found?);
         Ok(())
     }

@@ -31,7 +31,7 @@ pub use marched::Marched;
 pub use plain::Plain;
 pub use stable::{Stable, StablePrecision};
 
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::taps::NoTaps;
 use std::fmt;
 use wavestep_kernels::TableError;
@@ -40,7 +40,7 @@ use wavestep_polynomial::Rational;
 /// One way to values of an observable in doubles, on a window of time.
 ///
 /// ```
-/// use wavestep::evaluate::{Compiled, Method, Side, Signal};
+/// use wavestep::evaluate::{Compiled, Method, Limit, Signal};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -53,8 +53,8 @@ use wavestep_polynomial::Rational;
 /// let at = |t, side| compiled.value(&parse_number(t).unwrap(), side).unwrap();
 /// let bound = compiled.bound().unwrap();
 /// assert!(bound < 1e-15);
-/// assert!((at("1", Side::Right) - (-1f64).exp()).abs() <= 2.0 * bound);
-/// assert!((at("2", Side::Right) - at("2", Side::Left) - 1.0).abs() <= 2.0 * bound);
+/// assert!((at("1", Limit::Right) - (-1f64).exp()).abs() <= 2.0 * bound);
+/// assert!((at("2", Limit::Right) - at("2", Limit::Left) - 1.0).abs() <= 2.0 * bound);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub trait Method {
@@ -72,13 +72,13 @@ pub trait Method {
     ///
     /// # Errors
     /// [`MethodError`] outside the window, and where there is no value.
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError>;
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError>;
 
     /// The values at many exact times.
     ///
     /// # Errors
     /// As [`Method::value`].
-    fn exact_values(&self, at: &[Rational], side: Side) -> Result<Vec<f64>, MethodError> {
+    fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         at.iter().map(|at| self.value(at, side)).collect()
     }
 

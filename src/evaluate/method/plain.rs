@@ -8,7 +8,7 @@ use super::echo_sums::EchoSums;
 use super::{Method, MethodError};
 use crate::ball::Ball;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::Side;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
@@ -16,7 +16,7 @@ use wavestep_polynomial::Rational;
 /// An observable on a window by the recurrence of three terms.
 ///
 /// ```
-/// use wavestep::evaluate::{Method, Plain, Side, Signal};
+/// use wavestep::evaluate::{Method, Plain, Limit, Signal};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -26,7 +26,7 @@ use wavestep_polynomial::Rational;
 /// let (from, to) = (parse_number("0")?, parse_number("20")?);
 /// let plain = Plain::new(&signal, &from, &to).unwrap();
 /// // e^{−3} + e^{−1}(1 − 2)
-/// let value = plain.value(&parse_number("3")?, Side::Right).unwrap();
+/// let value = plain.value(&parse_number("3")?, Limit::Right).unwrap();
 /// assert!((value - ((-3f64).exp() - (-1f64).exp())).abs() < 1e-15);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
@@ -62,7 +62,7 @@ impl Method for Plain {
         None
     }
 
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         let high = Ball::from_rational(at, 128).to_double().0;
         self.sums.value(echoes::Method::Plain, (high, 0.0), &|| at.clone(), side)
     }
@@ -71,7 +71,7 @@ impl Method for Plain {
         assert_eq!(at.len(), values.len(), "a place for each value");
         for (time, value) in at.iter().zip(values) {
             let exact = || rational(*time);
-            *value = self.sums.value(echoes::Method::Plain, (*time, 0.0), &exact, Side::Right)?;
+            *value = self.sums.value(echoes::Method::Plain, (*time, 0.0), &exact, Limit::Right)?;
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::MethodError;
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::signal::Signal;
 use crate::expression::{Expression, Field as _, Transform};
 use wavestep_polynomial::Rational;
@@ -89,9 +89,9 @@ impl PrintedEchoes {
     }
 
     /// The value at a time, delays and products rounded as they come.
-    pub(super) fn value(&self, at: f64, side: Side) -> f64 {
+    pub(super) fn value(&self, at: f64, side: Limit) -> f64 {
         let time = at * self.slowness;
-        let counts = |since: f64| since > 0.0 || (since == 0.0 && side == Side::Right);
+        let counts = |since: f64| since > 0.0 || (since == 0.0 && side == Limit::Right);
         let mut sum = if counts(time) { evaluate(&self.added, time) } else { 0.0 };
         for Seen { weight, delay, echoes } in &self.seen {
             let arrived = echoes.iter().map(|(since, echo)| (time - delay - since, echo));

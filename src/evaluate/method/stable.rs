@@ -8,7 +8,7 @@ use super::echo_sums::EchoSums;
 use super::{Method, MethodError};
 use crate::ball::Ball;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::Side;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
@@ -44,7 +44,7 @@ pub enum StablePrecision {
 /// An observable on a window by the stable sum of its echoes.
 ///
 /// ```
-/// use wavestep::evaluate::{Method, Side, Signal, Stable, StablePrecision};
+/// use wavestep::evaluate::{Method, Limit, Signal, Stable, StablePrecision};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -53,7 +53,7 @@ pub enum StablePrecision {
 /// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
 /// let (from, to) = (parse_number("0")?, parse_number("20")?);
 /// let stable = Stable::new(&signal, &from, &to, StablePrecision::DoubleDouble).unwrap();
-/// let at = |t| stable.value(&parse_number(t).unwrap(), Side::Right).unwrap();
+/// let at = |t| stable.value(&parse_number(t).unwrap(), Limit::Right).unwrap();
 /// assert_eq!((at("0"), at("1")), (1.0, (-1f64).exp()));
 /// assert_eq!(stable.bound(), None);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -115,7 +115,7 @@ impl Method for Stable {
         None
     }
 
-    fn value(&self, at: &Rational, side: Side) -> Result<f64, MethodError> {
+    fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
         let (high, rest) = Ball::from_rational(at, 128).split();
         self.sums.value(self.sum(), (high, rest.midpoint().to_double()), &|| at.clone(), side)
     }
@@ -128,7 +128,8 @@ impl Method for Stable {
             return done;
         }
         for (time, value) in at.iter().zip(values) {
-            *value = self.sums.value(self.sum(), (*time, 0.0), &|| rational(*time), Side::Right)?;
+            *value =
+                self.sums.value(self.sum(), (*time, 0.0), &|| rational(*time), Limit::Right)?;
         }
         Ok(())
     }

@@ -55,7 +55,7 @@ const MAX_PRECISIONS: usize = 3;
 /// An observable with numbers in place of all symbols, as a function of the user's time.
 ///
 /// ```
-/// use wavestep::evaluate::{Side, Signal};
+/// use wavestep::evaluate::{Limit, Signal};
 /// use wavestep::expression::Fraction;
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
@@ -75,8 +75,8 @@ const MAX_PRECISIONS: usize = 3;
 /// let stretches = signal.stretches(&from, &to).unwrap();
 /// assert_eq!(stretches.len(), 4);
 /// let two = parse_number("2")?;
-/// assert_eq!(signal.stretch_at(&stretches, &two, Side::Left), Ok(0));
-/// assert_eq!(signal.stretch_at(&stretches, &two, Side::Right), Ok(1));
+/// assert_eq!(signal.stretch_at(&stretches, &two, Limit::Left), Ok(0));
+/// assert_eq!(signal.stretch_at(&stretches, &two, Limit::Right), Ok(1));
 /// // On the first one f = e^{−t}, whose derivative is −f; at 2 it rises by 1.
 /// let at = |stretch: usize, derivative, t: &str| {
 ///     let time = signal.slowness().scale(&parse_number(t).unwrap());

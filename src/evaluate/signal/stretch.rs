@@ -2,7 +2,7 @@
 
 use super::{MAX_STRETCHES, Signal};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::evaluator::{EvaluateError, Side};
+use crate::evaluate::evaluator::{EvaluateError, Limit};
 use crate::evaluate::scene::{MAX_ECHOES, whole_periods};
 use crate::expression::Fraction;
 use std::cmp::Ordering;
@@ -155,7 +155,7 @@ impl Signal {
     /// [`EvaluateError`] where two times cannot be told apart.
     ///
     /// ```
-    /// use wavestep::evaluate::{Side, Signal};
+    /// use wavestep::evaluate::{Limit, Signal};
     /// use wavestep::language::{Source, parse_number, read_recurrence};
     ///
     /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
@@ -165,7 +165,7 @@ impl Signal {
     /// let stretches = f.stretches(&parse_number("0")?, &parse_number("6")?).unwrap();
     /// // A front arrives at 2.
     /// let at = parse_number("2")?;
-    /// let sides = [Side::Left, Side::Right].map(|side| f.stretch_at(&stretches, &at, side).unwrap());
+    /// let sides = [Limit::Left, Limit::Right].map(|side| f.stretch_at(&stretches, &at, side).unwrap());
     /// assert_eq!(sides, [0, 1]);
     /// # Ok::<(), wavestep::language::Diagnostic>(())
     /// ```
@@ -173,14 +173,14 @@ impl Signal {
         &self,
         stretches: &[Stretch],
         at: &Rational,
-        side: Side,
+        side: Limit,
     ) -> Result<usize, EvaluateError> {
         let at = self.slowness.scale(at);
         let (mut low, mut high) = (0, stretches.len());
         while high - low > 1 {
             let middle = low.midpoint(high);
             let order = self.numbers.compare(&stretches[middle].from, &at)?;
-            match order == Ordering::Less || (order == Ordering::Equal && side == Side::Right) {
+            match order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right) {
                 true => low = middle,
                 false => high = middle,
             }
