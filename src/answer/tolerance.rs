@@ -9,16 +9,6 @@ use std::str::FromStr;
 /// Written as a number, it is relative to the largest absolute value; `abs:1e-9` is in the unit of the
 /// values; `ulp:4` is in units in the last place of the largest value, which are `2^(e−52)` for values
 /// from `2^e` to `2^(e+1)`.
-///
-/// ```
-/// use wavestep::answer::Tolerance;
-///
-/// let absolute = |text: &str| text.parse::<Tolerance>().map(|t| t.absolute(4.0));
-/// assert_eq!(absolute("1e-9"), Ok(4e-9));
-/// assert_eq!(absolute("abs:1e-9"), Ok(1e-9));
-/// assert_eq!(absolute("ulp:4"), Ok(2f64.powi(-48)));
-/// assert!(absolute("-1").is_err() && absolute("rel:1").is_err());
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Tolerance {
     /// In the unit of the values.
@@ -41,23 +31,9 @@ impl Tolerance {
 }
 
 /// What is no tolerance.
-///
-/// ```
-/// use wavestep::answer::Tolerance;
-///
-/// let error = "often".parse::<Tolerance>().unwrap_err();
-/// assert_eq!(error.to_string(), "`often` is no tolerance");
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("`{0}` is no tolerance")]
 pub struct InvalidTolerance(String);
-
-impl fmt::Display for InvalidTolerance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` is no tolerance", self.0)
-    }
-}
-
-impl std::error::Error for InvalidTolerance {}
 
 impl FromStr for Tolerance {
     type Err = InvalidTolerance;

@@ -146,30 +146,15 @@ impl fmt::Display for Kind {
 }
 
 /// What names no way.
-///
-/// ```
-/// use wavestep::answer::{InvalidWay, Kind};
-///
-/// assert_eq!("magic".parse::<Kind>(), Err(InvalidWay::Name("magic".to_owned())));
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum InvalidWay {
     /// No way has this name.
+    #[error("there is no method `{0}`")]
     Name(String),
     /// A way has not this setting.
+    #[error("`{1}` is no setting of {0}")]
     Setting(&'static str, String),
 }
-
-impl fmt::Display for InvalidWay {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            InvalidWay::Name(name) => write!(f, "there is no method `{name}`"),
-            InvalidWay::Setting(way, setting) => write!(f, "`{setting}` is no setting of {way}"),
-        }
-    }
-}
-
-impl std::error::Error for InvalidWay {}
 
 impl FromStr for Kind {
     type Err = InvalidWay;
@@ -216,63 +201,28 @@ impl FromStr for Kind {
 }
 
 /// Why a way has no values.
-///
-/// ```
-/// use wavestep::answer::WayError;
-///
-/// let error = WayError::NeedsScene("rigid");
-/// assert_eq!(error.to_string(), "rigid models a scene of bars, and this is a recurrence");
-/// ```
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum WayError {
     /// A method refuses.
-    Method(MethodError),
+    #[error(transparent)]
+    Method(#[from] MethodError),
     /// A model refuses.
-    Model(ModelError),
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// A model has no scene to be made of.
+    #[error("{0} models a scene of bars, and this is a recurrence")]
     NeedsScene(&'static str),
     /// A method computes from the recurrence of a scene that has none.
+    #[error("{0} computes from the exact solution, and none is known with a local contact")]
     NeedsRecurrence(&'static str),
     /// Models have values after arrivals only.
+    #[error("{0} is a model, and has no limits from one side")]
     LeftLimit(&'static str),
-}
-
-impl fmt::Display for WayError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            WayError::Method(error) => error.fmt(f),
-            WayError::Model(error) => error.fmt(f),
-            WayError::NeedsScene(name) => {
-                write!(f, "{name} models a scene of bars, and this is a recurrence")
-            }
-            WayError::NeedsRecurrence(name) => write!(
-                f,
-                "{name} computes from the exact solution, and none is known with a local contact"
-            ),
-            WayError::LeftLimit(name) => {
-                write!(f, "{name} is a model, and has no limits from one side")
-            }
-        }
-    }
-}
-
-impl std::error::Error for WayError {}
-
-impl From<MethodError> for WayError {
-    fn from(error: MethodError) -> WayError {
-        WayError::Method(error)
-    }
 }
 
 impl From<EvaluateError> for WayError {
     fn from(error: EvaluateError) -> WayError {
         WayError::Method(error.into())
-    }
-}
-
-impl From<ModelError> for WayError {
-    fn from(error: ModelError) -> WayError {
-        WayError::Model(error)
     }
 }
 

@@ -1,8 +1,5 @@
 //! Ziv's loop: the precision is doubled until the digits asked for are proven.
 
-use std::error::Error;
-use std::fmt;
-
 use super::ball::Ball;
 use super::decimal::{Decimal, proven_digits};
 
@@ -10,26 +7,6 @@ use super::decimal::{Decimal, proven_digits};
 const SPARE_BITS: u64 = 32;
 
 /// A decimal that is proven, and what it took.
-///
-/// ```
-/// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Evaluator, Limit, Value};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1/4")?)]);
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let f = solution.recurrence().observation("f").unwrap();
-/// let (evaluator, third) = (Evaluator::new(&solution).unwrap(), parse_number("1/3")?);
-/// // Before the first return f is exp(-t), which is no rational number.
-/// let Ok(Value::Certified(certified)) = evaluator.value(&f, &third, Limit::Right, 6, 200) else {
-///     panic!("exp(-1/3) is irrational");
-/// };
-/// assert_eq!(certified.decimal.to_string(), "0.716531");
-/// assert!(!certified.ball.contains(&certified.decimal.to_rational()));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Certified {
     /// The correctly rounded value.
@@ -55,28 +32,6 @@ pub(crate) enum CertifyError<E> {
     },
     /// The enclosure could not be computed.
     Enclosure(E),
-}
-
-impl<E: fmt::Display> fmt::Display for CertifyError<E> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::AccuracyNotReached { best, bits } => write!(
-                formatter,
-                "accuracy not reached with {bits} bits; best radius {}",
-                best.radius()
-            ),
-            Self::Enclosure(error) => error.fmt(formatter),
-        }
-    }
-}
-
-impl<E: Error + 'static> Error for CertifyError<E> {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            Self::AccuracyNotReached { .. } => None,
-            Self::Enclosure(error) => error.source(),
-        }
-    }
 }
 
 /// The value enclosed by `enclosure(bits)`, rounded correctly to `digits` significant decimal
@@ -193,7 +148,8 @@ mod tests {
             Ok::<_, Infallible>(Ball::new(Binary::zero(), Magnitude::from_u64(attempts)))
         })
         .unwrap_err();
-        assert_eq!(error.to_string(), "accuracy not reached with 200 bits; best radius 1.0e0");
+        let best = Ball::new(Binary::zero(), Magnitude::from_u64(1));
+        assert_eq!(error, CertifyError::AccuracyNotReached { best, bits: 200 });
         assert_eq!(attempts, 4);
         let error = certify(3, 200, |bits| exp_of_rational(&ratio(1 << 50, 1), bits)).unwrap_err();
         assert_eq!(error, CertifyError::Enclosure(BallError::ArgumentTooLarge));

@@ -62,7 +62,7 @@ impl From<HistoryError> for Failure {
                 "ask for an earlier end"
             }
             HistoryError::Field(error) => return (**error).clone().into(),
-            HistoryError::Refused(_) => {
+            HistoryError::Refused(_) | HistoryError::NoObservable(_) => {
                 "docs/scene-language.md says under `Contacts` what is followed"
             }
             _ => "ask for an earlier time",

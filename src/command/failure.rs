@@ -121,7 +121,7 @@ impl From<NetworkError> for Failure {
             NetworkError::Incommensurate => {
                 "ask `derive` for echoes in order of their arrival, with --form echo, or `eval` for values"
             }
-            NetworkError::Unobservable(..) => "observe it at another place",
+            NetworkError::Unobservable { .. } => "observe it at another place",
             NetworkError::Rates { .. } => {
                 "give values with --set; or state the elements by their rates a and b, or sigma and \
                  omega, as docs/scene-language.md shows"

@@ -6,7 +6,6 @@ use super::numbers::real_part;
 use crate::ball::Ball;
 use crate::expression::Expression;
 use std::cmp::Ordering;
-use std::fmt;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Bits of the first look at a sign, and of the last one.
@@ -17,48 +16,18 @@ const LAST_BITS: u64 = 1 << 12;
 const MAX_HALVINGS: u32 = 200;
 
 /// Why no zero is enclosed.
-///
-/// ```
-/// use wavestep::enclosure::{ZeroError, enclose_zero};
-/// use wavestep::expression::Expression;
-/// use wavestep_polynomial::{Rational, Symbol};
-///
-/// let x = Symbol::new("x").unwrap();
-/// let bounds = [1, 2].map(|end| Rational::from_integer(end.into()));
-/// // 1 is nowhere zero.
-/// assert_eq!(enclose_zero(&Expression::one(), &x, &bounds, 60), Err(ZeroError::SameSign));
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ZeroError {
     /// The expression has the same sign at both ends, or none that can be told.
+    #[error("the expression has no certain change of sign between these bounds; take others")]
     SameSign,
     /// The derivative has no certain sign on any interval that was tried: the zero may be double.
+    #[error("the zero may be double, and cannot be enclosed by signs")]
     NotSimple,
     /// An enclosure failed.
-    Enclosure(EnclosureError),
-}
-
-impl fmt::Display for ZeroError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::SameSign => f.write_str(
-                "the expression has no certain change of sign between these bounds; take others",
-            ),
-            Self::NotSimple => {
-                f.write_str("the zero may be double, and cannot be enclosed by signs")
-            }
-            Self::Enclosure(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ZeroError {}
-
-impl From<EnclosureError> for ZeroError {
-    fn from(error: EnclosureError) -> ZeroError {
-        ZeroError::Enclosure(error)
-    }
+    #[error(transparent)]
+    Enclosure(#[from] EnclosureError),
 }
 
 /// An expression of one symbol with its derivative.

@@ -1,7 +1,7 @@
 //! The echoes of a lattice in the order in which they arrive.
 
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::recurrence::WaveIndex;

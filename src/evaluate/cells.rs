@@ -7,7 +7,8 @@
 //! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
 
 use crate::ball::{Ball, Binary, Magnitude};
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::fitted_cells;
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{MAX_PIECES, Signal, Stretch};

@@ -2,7 +2,7 @@
 //! square roots, as an expression.
 
 use crate::ball::{Ball, BallError, evaluate_divided, exp_of_rational};
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::modular::{self, Residue};
 use crate::expression::{Expression, Fraction};
 use num_traits::Zero;

@@ -8,7 +8,8 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::scene::{Arrived, SceneEvaluator};
 use crate::evaluate::transforms::in_divided_powers;
 use crate::expression::{Expression, Field as _, Fraction, Transform};

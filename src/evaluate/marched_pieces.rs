@@ -7,7 +7,8 @@
 use crate::ball::{Ball, Binary, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::{at_or_after, rational};
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::{Extra, Taps};
 use crate::evaluate::taylor::Taylor;

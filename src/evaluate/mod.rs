@@ -8,6 +8,7 @@ mod arrivals;
 mod cells;
 mod contribution;
 mod energy;
+mod error;
 mod evaluator;
 mod find;
 mod fitted_cells;
@@ -25,9 +26,9 @@ mod waves;
 
 pub use arrivals::{Arrival, ArrivalError, arrivals};
 pub(crate) use cells::scale;
+pub use error::EvaluateError;
 pub use evaluator::{
-    EvaluateError, Evaluator, Limit, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE,
-    MAX_ORDER_WITHOUT_FORM,
+    Evaluator, Limit, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
 };
 pub(crate) use find::{At, ObservedSignal, Piecewise};
 pub use find::{Determined, Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};

@@ -10,7 +10,7 @@
 
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::transforms::{divided_powers, dot, exponential, later};
 use crate::expression::{Field as _, Fraction, Transform};
 use crate::recurrence::{Recurrence, WaveIndex};

@@ -6,7 +6,8 @@
 
 use crate::ball::{Ball, BallError, Binary, ComplexBall, Magnitude};
 use crate::enclosure::{Numbers, real_part};
-use crate::evaluate::evaluator::{EvaluateError, Limit, certified};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::{Limit, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
 use crate::evaluate::transforms::value_at;
 use crate::evaluate::value::Value;

@@ -15,7 +15,6 @@ use crate::evaluate::signal::Signal;
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::ObservedWave;
 use crate::solution::{EchoTemplate, Family, GeneralForm, Solution};
-use std::fmt;
 use wavestep_polynomial::Rational;
 
 /// The most echoes that stand before a general form.
@@ -101,62 +100,30 @@ pub struct Taps {
 }
 
 /// Why an observable is no sum of taps.
-///
-/// ```
-/// use wavestep::evaluate::{NoTaps, Signal, Taps};
-/// use wavestep::language::{Source, read_recurrence};
-///
-/// let source = Source::new("two poles", r#"
-///     recurrence "Two poles"
-///     period 2, local s, time t
-///     wave h, f
-///     equation h[n]' + h[n] = h[n-1]' - h[n-1]
-///     equation f[n]' + 2*f[n] = h[n]
-///     continuous h[n] - h[n-1] starts at 1
-///     continuous f[n] starts at 0
-/// "#)?;
-/// let recurrence = read_recurrence(&source, &Default::default())?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// assert_eq!(Taps::of(&signal), Err(NoTaps::NoForm("f".to_owned())));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NoTaps {
     /// Echoes arrive on no grid.
+    #[error("echoes arrive on no common grid")]
     NoGrid,
     /// No closed form of the echoes of this wave is known.
+    #[error("the echoes of {0} have no closed form with one pole and one lag")]
     NoForm(String),
     /// This wave is constant on each period.
+    #[error("{0} is constant on each period")]
     Sequence(String),
     /// The echoes of this wave are powers, not Laguerre polynomials.
+    #[error("the echoes of {0} are powers of time, not Laguerre polynomials")]
     Powers(String),
     /// The waves that are seen have different poles.
+    #[error("the waves that are seen have different poles")]
     TwoPoles,
     /// The slope of this wave is seen.
+    #[error("the slope of {0} is seen")]
     Slope(String),
     /// Something is added that is no number of exponential polynomials.
+    #[error("what is added to the waves is not known by its values")]
     Forcing,
 }
-
-impl fmt::Display for NoTaps {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoTaps::NoGrid => f.write_str("echoes arrive on no common grid"),
-            NoTaps::NoForm(wave) => {
-                write!(f, "the echoes of {wave} have no closed form with one pole and one lag")
-            }
-            NoTaps::Sequence(wave) => write!(f, "{wave} is constant on each period"),
-            NoTaps::Powers(wave) => {
-                write!(f, "the echoes of {wave} are powers of time, not Laguerre polynomials")
-            }
-            NoTaps::TwoPoles => f.write_str("the waves that are seen have different poles"),
-            NoTaps::Slope(wave) => write!(f, "the slope of {wave} is seen"),
-            NoTaps::Forcing => f.write_str("what is added to the waves is not known by its values"),
-        }
-    }
-}
-
-impl std::error::Error for NoTaps {}
 
 impl Taps {
     /// The taps of a signal.

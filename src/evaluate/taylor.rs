@@ -17,7 +17,7 @@
 
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::{EnclosureError, Numbers, real_part};
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::transforms::{divided_powers, dot, exponential};
 use crate::expression::{Field as _, Fraction, Transform};
 use wavestep_polynomial::Rational;

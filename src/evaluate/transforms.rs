@@ -4,7 +4,7 @@
 
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::expression::{Field as _, Fraction, Transform};
 use std::collections::BTreeMap;
 use wavestep_polynomial::Rational;

@@ -5,7 +5,8 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::scene::whole_periods;
 use crate::evaluate::signal::{MAX_PIECES, Signal};
 use crate::evaluate::transforms::value_at;

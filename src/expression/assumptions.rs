@@ -127,39 +127,18 @@ pub struct Assumptions {
 }
 
 /// An expression that the declared factors do not allow to divide by.
-///
-/// ```
-/// use wavestep::expression::{Assumptions, Expression, NotInvertible};
-/// use wavestep_polynomial::Symbol;
-///
-/// let known = Assumptions::default();
-/// assert_eq!(known.invert(&Expression::zero()), Err(NotInvertible::Zero));
-/// let error = known.invert(&Expression::symbol(&Symbol::new("r").unwrap())).unwrap_err();
-/// assert_eq!(error.to_string(), "division by r, which is not known to be non-zero");
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NotInvertible {
     /// The expression is zero.
+    #[error("division by zero")]
     Zero,
     /// This factor would have to be declared non-zero first.
+    #[error("division by {0}, which is not known to be non-zero")]
     Undeclared(Polynomial),
     /// A sum of exponentials, which may vanish somewhere.
+    #[error("division by a sum of exponentials")]
     SumOfExponentials,
 }
-
-impl fmt::Display for NotInvertible {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NotInvertible::Zero => f.write_str("division by zero"),
-            NotInvertible::Undeclared(factor) => {
-                write!(f, "division by {factor}, which is not known to be non-zero")
-            }
-            NotInvertible::SumOfExponentials => f.write_str("division by a sum of exponentials"),
-        }
-    }
-}
-
-impl std::error::Error for NotInvertible {}
 
 impl Assumptions {
     /// Declares a symbol, with a condition on its values if there is one.

@@ -52,30 +52,18 @@ pub struct Fraction {
 
 /// A polynomial that cannot be divided by: zero, or not a product of symbols and at most one
 /// further factor that is linear in some symbol, or a quadratic that has no factors.
-///
-/// ```
-/// use wavestep::expression::{Fraction, NotAUnit};
-/// use wavestep_polynomial::Polynomial;
-///
-/// let p: Polynomial = "r*r*r + 1".parse().unwrap();
-/// let error = Fraction::reciprocal(&p).unwrap_err();
-/// assert_eq!(error, NotAUnit(p));
-/// assert_eq!(error.to_string(), "cannot divide by r^3 + 1: it is not linear in any symbol");
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{}", self.message())]
 pub struct NotAUnit(pub Polynomial);
 
-impl fmt::Display for NotAUnit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_zero() {
-            f.write_str("division by zero")
-        } else {
-            write!(f, "cannot divide by {}: it is not linear in any symbol", self.0)
+impl NotAUnit {
+    fn message(&self) -> String {
+        match self.0.is_zero() {
+            true => "division by zero".to_owned(),
+            false => format!("cannot divide by {}: it is not linear in any symbol", self.0),
         }
     }
 }
-
-impl std::error::Error for NotAUnit {}
 
 impl Fraction {
     /// The value 0.

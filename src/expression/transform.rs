@@ -5,7 +5,6 @@ use crate::expression::calculus::rate_of;
 use crate::expression::fraction::{Fraction, NotAUnit};
 use crate::expression::sum::Expression;
 use std::collections::BTreeMap;
-use std::fmt;
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, factorial};
 
 /// A proper rational function of `p` in partial fractions,
@@ -143,41 +142,14 @@ impl Field for Exact<'_> {
 }
 
 /// A division that cannot be done exactly.
-///
-/// ```
-/// use wavestep::expression::{InexactDivision, NotInvertible};
-///
-/// assert_eq!(InexactDivision::from(NotInvertible::Zero).to_string(), "division by zero");
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum InexactDivision {
     /// By what is not known to be non-zero.
-    NotInvertible(NotInvertible),
+    #[error(transparent)]
+    NotInvertible(#[from] NotInvertible),
     /// By what a fraction cannot have in its denominator.
-    NotAUnit(NotAUnit),
-}
-
-impl fmt::Display for InexactDivision {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            InexactDivision::NotInvertible(reason) => reason.fmt(f),
-            InexactDivision::NotAUnit(reason) => reason.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for InexactDivision {}
-
-impl From<NotInvertible> for InexactDivision {
-    fn from(reason: NotInvertible) -> InexactDivision {
-        InexactDivision::NotInvertible(reason)
-    }
-}
-
-impl From<NotAUnit> for InexactDivision {
-    fn from(reason: NotAUnit) -> InexactDivision {
-        InexactDivision::NotAUnit(reason)
-    }
+    #[error(transparent)]
+    NotAUnit(#[from] NotAUnit),
 }
 
 impl<V: Clone> Transform<V> {

@@ -4,21 +4,13 @@ use crate::ball::Ball;
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
 use crate::network::NetworkError;
-use std::fmt;
 use wavestep_polynomial::Rational;
 
 /// Why fields cannot be given.
-///
-/// ```
-/// use wavestep::field::{FieldError, MAX_CELLS, Mesh};
-///
-/// let error = Mesh::new(0).unwrap_err();
-/// assert_eq!(error, FieldError::Cells { cells: 0, limit: MAX_CELLS });
-/// assert!(error.to_string().contains("from 1 to"));
-/// ```
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum FieldError {
     /// A number of cells that a bar is not divided into.
+    #[error("{cells} cells a bar are none that are made: give from 1 to {limit}")]
     Cells {
         /// What was asked for.
         cells: usize,
@@ -26,6 +18,7 @@ pub enum FieldError {
         limit: usize,
     },
     /// No bar of the line has this name.
+    #[error("the line has no bar `{name}`: its bars are {}", bars.join(", "))]
     UnknownBar {
         /// The name.
         name: String,
@@ -33,53 +26,27 @@ pub enum FieldError {
         bars: Vec<String>,
     },
     /// A time before the start.
+    #[error("the time {0} lies before the start: give a time from 0 on")]
     Negative(Rational),
     /// A section at a distance below zero.
+    #[error("the distance {0} lies outside of the bar: give one above 0")]
     NegativeReach(Rational),
     /// A wave cannot be evaluated.
-    Evaluate(EvaluateError),
+    #[error(transparent)]
+    Evaluate(#[from] EvaluateError),
     /// The precision allowed does not tell whether an instant comes before or after a break of a wave
     /// of which only an enclosure is known.
+    #[error(
+        "undecided whether a place is before or behind a front that a contact caused as it opened or \
+         closed, which enters the bar about t = {}, with {bits} bits",
+        at.to_decimal(20)
+    )]
     Undecided {
         /// About the break, in the scale of the scene.
         at: Box<Ball>,
         /// The precision in bits.
         bits: u64,
     },
-}
-
-impl fmt::Display for FieldError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            FieldError::Cells { cells, limit } => {
-                write!(f, "{cells} cells a bar are none that are made: give from 1 to {limit}")
-            }
-            FieldError::UnknownBar { name, bars } => {
-                write!(f, "the line has no bar `{name}`: its bars are {}", bars.join(", "))
-            }
-            FieldError::Negative(time) => {
-                write!(f, "the time {time} lies before the start: give a time from 0 on")
-            }
-            FieldError::NegativeReach(reach) => {
-                write!(f, "the distance {reach} lies outside of the bar: give one above 0")
-            }
-            FieldError::Evaluate(error) => error.fmt(f),
-            FieldError::Undecided { at, bits } => write!(
-                f,
-                "undecided whether a place is before or behind a front that a contact caused as it opened \
-                 or closed, which enters the bar about t = {}, with {bits} bits",
-                at.to_decimal(20)
-            ),
-        }
-    }
-}
-
-impl std::error::Error for FieldError {}
-
-impl From<EvaluateError> for FieldError {
-    fn from(error: EvaluateError) -> FieldError {
-        FieldError::Evaluate(error)
-    }
 }
 
 impl From<EnclosureError> for FieldError {

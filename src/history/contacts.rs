@@ -7,7 +7,7 @@
 use crate::ball::Number;
 use crate::history::crossing::{Beginning, Course, beginning, follow};
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, Question};
 use crate::history::junction::{Junction, Motion};
 use crate::history::moment::Moment;
 use crate::history::series::Series;
@@ -83,8 +83,8 @@ impl Engine {
                 Beginning::Positive | Beginning::Zero => {}
                 Beginning::Negative => changes.push(contact),
                 Beginning::Undecided => {
-                    let what = if closed { "whether the force" } else { "whether the gap" };
-                    let what = format!("{what} {} is positive", self.between(contact));
+                    let quantity = if closed { "the force" } else { "the gap" };
+                    let what = Question::Sign { quantity, place: self.between(contact) };
                     return self.undecided(what, &self.states[node].now, None);
                 }
             }
@@ -113,8 +113,7 @@ impl Engine {
                 Course::Positive => continue,
                 Course::Falls(at) => at,
                 Course::Undecided(at) => {
-                    let between = self.between(contact);
-                    let what = format!("whether {quantity} {between} becomes zero");
+                    let what = Question::Zero { quantity, place: self.between(contact) };
                     return self.undecided(what, now, Some(&at));
                 }
             };
@@ -122,10 +121,8 @@ impl Engine {
                 Some(Ordering::Less) => {}
                 Some(_) => continue,
                 None => {
-                    let between = self.between(contact);
-                    let what = format!(
-                        "whether {quantity} {between} becomes zero before something arrives there"
-                    );
+                    let place = self.between(contact);
+                    let what = Question::ZeroBeforeArrival { quantity, place };
                     return self.undecided(what, now, Some(&at.ball(self.cut.bits)));
                 }
             }
@@ -135,8 +132,7 @@ impl Engine {
                     Some(Ordering::Less) => (contact, at),
                     Some(Ordering::Greater) => (other, earliest),
                     _ => {
-                        let (one, two) = (self.between(other), self.between(contact));
-                        let what = format!("whether the contact {one} or {two} changes first");
+                        let what = Question::First([other, contact].map(|one| self.between(one)));
                         return self.undecided(what, now, Some(&at.ball(self.cut.bits)));
                     }
                 },

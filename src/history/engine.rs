@@ -9,7 +9,7 @@ use crate::ball::Number;
 use crate::ball::{Ball, Magnitude};
 use crate::expression::Fraction;
 use crate::history::contacts::{Contact, Happening};
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, NotFollowed, Question};
 use crate::history::junction::{Junction, Motion};
 use crate::history::moment::{Clock, Moment};
 use crate::history::node::{ContactPlace, Node, nodes};
@@ -144,12 +144,9 @@ impl Engine {
         for (number, node) in self.nodes.iter().enumerate() {
             let contacts: Vec<usize> = node.contacts().map(|(contact, _)| contact).collect();
             if contacts.len() > MAX_CONTACTS {
-                let reason = format!(
-                    "{} {} contacts meet, and at most {MAX_CONTACTS} in one place are followed",
-                    self.places[number],
-                    contacts.len()
-                );
-                return Err(HistoryError::Refused(reason));
+                let place = self.places[number].clone();
+                let (contacts, limit) = (contacts.len(), MAX_CONTACTS);
+                return Err(NotFollowed::ContactsInOnePlace { place, contacts, limit }.into());
             }
             for choice in 0..1_u32 << contacts.len() {
                 let closed = |contact: usize| {
@@ -265,7 +262,7 @@ impl Engine {
         Box::new(ball.unwrap_or_else(|_| Ball::zero()))
     }
 
-    pub fn undecided<T>(&self, what: String, at: &Moment, by: Option<&Ball>) -> Outcome<T> {
+    pub fn undecided<T>(&self, what: Question, at: &Moment, by: Option<&Ball>) -> Outcome<T> {
         let mut at = self.ball_at(at);
         if let Some(by) = by {
             *at = at.add(by, self.cut.bits);
@@ -350,8 +347,7 @@ impl Engine {
             }
             changed += changes.len();
             if changed > MAX_CHANGES {
-                let what = "which contacts are closed after several change at once".to_owned();
-                return self.undecided(what, &self.states[node].now, None);
+                return self.undecided(Question::Simultaneous, &self.states[node].now, None);
             }
             self.change(node, &changes, false)?;
         };

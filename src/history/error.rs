@@ -1,45 +1,39 @@
-//! Why a history is not told.
+//! Why a history cannot be followed.
 
-use crate::ball::Ball;
+use crate::ball::{Ball, BallError};
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
 use crate::field::FieldError;
-use std::fmt;
 use wavestep_polynomial::Symbol;
 
-/// Why a history is not told to its end.
-///
-/// ```
-/// use wavestep::history::{History, HistoryError};
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// let scene = read_scene(&Source::new("mass", text)?, &Default::default()).unwrap();
-/// let error = History::of(&Network::new(&scene).unwrap(), None, 12).err().unwrap();
-/// assert!(matches!(&error, HistoryError::MissingValue(mu) if mu.name() == "mu"));
-/// assert_eq!(error.to_string(), "the history needs numbers, and `mu` has no value");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Debug)]
+/// Why a history cannot be followed to its end.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum HistoryError {
     /// A symbol without a value.
+    #[error("the history needs numbers, and `{0}` has no value")]
     MissingValue(Symbol),
     /// A value of the scene that is no number.
+    #[error(transparent)]
     Value(EnclosureError),
-    /// What is not followed, by the name of the element.
-    Refused(String),
+    /// The scene has no observable of this name.
+    #[error("`{0}` is no observable of this scene")]
+    NoObservable(String),
+    /// Something that is not followed.
+    #[error(transparent)]
+    Refused(#[from] NotFollowed),
     /// Something that the precision allowed does not decide.
+    #[error("undecided {what}, at t = {} with {bits} bits", at.to_decimal(20))]
     Undecided {
-        /// Whether what.
-        what: String,
+        /// What is not decided.
+        what: Question,
         /// About when, in the scale of the scene.
         at: Box<Ball>,
         /// The precision in bits.
         bits: u64,
     },
     /// More events than are followed.
+    #[error("more than {limit} events, the last of them followed at t = {}", at.to_decimal(8))]
     TooManyEvents {
         /// How many are followed.
         limit: usize,
@@ -47,6 +41,7 @@ pub enum HistoryError {
         at: Box<Ball>,
     },
     /// More cells than are worked out.
+    #[error("more than {limit} cells of waves; followed until t = {}", at.to_decimal(8))]
     TooManyCells {
         /// How many are worked out.
         limit: usize,
@@ -54,13 +49,129 @@ pub enum HistoryError {
         at: Box<Ball>,
     },
     /// A time after the last one that was asked for.
+    #[error("a time after the last one that was followed")]
     AfterLast,
     /// A value that is not enclosed.
+    #[error(transparent)]
     Evaluate(Box<EvaluateError>),
     /// A window that does not end after it begins, at or after time 0.
+    #[error("the window is empty, or begins before time 0")]
     EmptyWindow,
     /// Fields along the bars cannot be given.
+    #[error(transparent)]
     Field(Box<FieldError>),
+}
+
+/// What is not followed through the openings of contacts.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotFollowed {
+    /// A local contact, by its name.
+    #[error("the local contact {0} is not linear: its openings are followed by `eval` alone")]
+    LocalContact(String),
+    /// A load, by its name, that imposes a velocity.
+    #[error(
+        "the load {0} imposes a velocity, and contacts beside imposed motions are not followed: \
+         replace it by a force"
+    )]
+    ImposedVelocity(String),
+    /// Too many contacts in one place.
+    #[error("{place} {contacts} contacts meet, and at most {limit} in one place are followed")]
+    ContactsInOnePlace {
+        /// Where, in words.
+        place: String,
+        /// How many there are.
+        contacts: usize,
+        /// How many are followed.
+        limit: usize,
+    },
+    /// A part without mass, at this place, that nothing resists.
+    #[error("{place} something moves that has no mass, and nothing resists it")]
+    Massless {
+        /// Where, in words.
+        place: String,
+    },
+    /// Two masses that meet with different velocities, at this place.
+    #[error(
+        "{place} two rigid masses meet with different velocities: what then happens needs a spring \
+         or a bar between them"
+    )]
+    RigidImpact {
+        /// Where, in words.
+        place: String,
+    },
+    /// Energies and momenta, where pieces are asked for.
+    #[error("energies and momenta are followed by `eval` and `plot` alone")]
+    EnergyOrMomentum,
+    /// A measure of the whole line.
+    #[error("nothing is measured there")]
+    NoPlace,
+    /// A measure that a place does not have.
+    #[error("nothing of that kind is measured there")]
+    NoMeasure,
+    /// Strain or stress of what is no bar.
+    #[error("strain and stress are seen in bars")]
+    NotInBar,
+    /// Stress of a bar that is given by its impedance.
+    #[error("stress needs a bar with an area")]
+    NoArea,
+    /// Velocity or displacement of a bar.
+    #[error("a bar as a whole has no one velocity: name a section")]
+    WholeBar,
+    /// Velocity or displacement of a spring.
+    #[error("a spring has two ends with two velocities")]
+    TwoVelocities,
+    /// Energy or momentum of an endless bar that moves.
+    #[error("an endless bar that moves has no finite energy")]
+    InfiniteEnergy,
+    /// A distance in a bar without a wave speed.
+    #[error("no wave speed")]
+    NoWaveSpeed,
+    /// A section whose travel time is no rational multiple of that of the bar.
+    #[error(
+        "the distance of a section is no rational number of travel times: give it as a share of the \
+         length"
+    )]
+    IrrationalSection,
+}
+
+/// What the precision allowed does not decide.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Question {
+    /// The order of two instants.
+    #[error("which of two instants is earlier, an event and an arrival or two events")]
+    Order,
+    /// The state after several contacts of a node change at once.
+    #[error("which contacts are closed after several change at once")]
+    Simultaneous,
+    /// The sign of the force or the gap of a contact.
+    #[error("whether {quantity} {place} is positive")]
+    Sign {
+        /// The force or the gap.
+        quantity: &'static str,
+        /// Where, in words.
+        place: String,
+    },
+    /// Whether a contact opens or closes.
+    #[error("whether {quantity} {place} becomes zero")]
+    Zero {
+        /// The force or the gap.
+        quantity: &'static str,
+        /// Where, in words.
+        place: String,
+    },
+    /// Whether a contact opens or closes before the next arrival.
+    #[error("whether {quantity} {place} becomes zero before something arrives there")]
+    ZeroBeforeArrival {
+        /// The force or the gap.
+        quantity: &'static str,
+        /// Where, in words.
+        place: String,
+    },
+    /// Which of two contacts changes first.
+    #[error("whether the contact {} or {} changes first", .0[0], .0[1])]
+    First([String; 2]),
 }
 
 impl From<EnclosureError> for HistoryError {
@@ -81,37 +192,8 @@ impl From<EvaluateError> for HistoryError {
     }
 }
 
-impl From<crate::ball::BallError> for HistoryError {
-    fn from(error: crate::ball::BallError) -> HistoryError {
+impl From<BallError> for HistoryError {
+    fn from(error: BallError) -> HistoryError {
         HistoryError::Value(EnclosureError::Ball(error))
     }
 }
-
-impl fmt::Display for HistoryError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::MissingValue(symbol) => {
-                write!(f, "the history needs numbers, and `{symbol}` has no value")
-            }
-            Self::Value(error) => error.fmt(f),
-            Self::Refused(reason) => f.write_str(reason),
-            Self::Undecided { what, at, bits } => {
-                write!(f, "undecided {what}, at t = {} with {bits} bits", at.to_decimal(20))
-            }
-            Self::TooManyEvents { limit, at } => {
-                let at = at.to_decimal(8);
-                write!(f, "more than {limit} events, the last of them followed at t = {at}")
-            }
-            Self::TooManyCells { limit, at } => {
-                let at = at.to_decimal(8);
-                write!(f, "more than {limit} cells of waves; followed until t = {at}")
-            }
-            Self::Field(error) => error.fmt(f),
-            Self::AfterLast => f.write_str("a time after the last one that was followed"),
-            Self::Evaluate(error) => error.fmt(f),
-            Self::EmptyWindow => f.write_str("the window is empty, or begins before time 0"),
-        }
-    }
-}
-
-impl std::error::Error for HistoryError {}

@@ -7,14 +7,9 @@
 
 use crate::ball::Magnitude;
 use crate::ball::Number;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::node::{Link, Node};
 use crate::history::series::{Series, Truncation};
-
-/// What is not followed in a node, as a reason.
-fn refused(reason: &str, place: &str) -> HistoryError {
-    HistoryError::Refused(format!("{place} {reason}"))
-}
 
 /// A node whose contacts are open or closed.
 ///
@@ -140,9 +135,8 @@ impl Junction {
             junction.massless.iter().map(|column| resistance[*row][*column].clone()).collect()
         };
         let matrix = junction.massless.iter().map(row).collect();
-        junction.inverse = inverse(matrix, bits).ok_or_else(|| {
-            refused("something moves that has no mass, and nothing resists it", place)
-        })?;
+        junction.inverse = inverse(matrix, bits)
+            .ok_or_else(|| NotFollowed::Massless { place: place.to_owned() })?;
         junction.set_matrices(node);
         Ok(junction)
     }
@@ -426,9 +420,7 @@ impl Junction {
             let first = own.next().and_then(&velocity).expect("a mass has a velocity");
             for run in own {
                 if velocity(run).is_none_or(|other| other != first) {
-                    let reason = "two rigid masses meet with different velocities: what then \
-                                  happens needs a spring or a bar between them";
-                    return Err(refused(reason, place));
+                    return Err(NotFollowed::RigidImpact { place: place.to_owned() }.into());
                 }
             }
             state.push(first);

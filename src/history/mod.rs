@@ -33,7 +33,7 @@ mod track;
 mod validity;
 mod waves;
 
-pub use error::HistoryError;
+pub use error::{HistoryError, NotFollowed, Question};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History, MAX_BITS};
 pub use validity::Validity;
 pub use waves::field_evaluator;

@@ -8,7 +8,7 @@ use crate::ball::Ball;
 use crate::ball::Number;
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::Fraction;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, Question};
 use num_traits::Zero;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -105,7 +105,7 @@ impl Clock {
         }
         let difference = self.since(right, left)?;
         difference.sign().ok_or_else(|| HistoryError::Undecided {
-            what: "which of two instants is earlier, an event and an arrival or two events".into(),
+            what: Question::Order,
             at: Box::new(self.time(left).map_or_else(|_| Ball::zero(), |t| t.ball(self.bits))),
             bits: self.bits,
         })

@@ -6,7 +6,7 @@
 use crate::ball::Number;
 use crate::enclosure::EnclosureError;
 use crate::expression::Fraction;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::load::Course;
 use crate::history::moment::Clock;
 use crate::network::{Layout, ModelLump, Network, Side};
@@ -216,16 +216,11 @@ fn node(
             }
             ModelLump::Hertz(..) => {
                 let name = &scene.elements[element].name;
-                return Err(HistoryError::Refused(format!(
-                    "the local contact {name} is not linear: its openings are followed by `eval` alone"
-                )));
+                return Err(NotFollowed::LocalContact(name.clone()).into());
             }
             ModelLump::Load(Drive::Velocity, ..) => {
                 let name = &scene.elements[element].name;
-                return Err(HistoryError::Refused(format!(
-                    "the load {name} imposes a velocity, and contacts beside imposed motions are \
-                     not followed: replace it by a force"
-                )));
+                return Err(NotFollowed::ImposedVelocity(name.clone()).into());
             }
         }
     }

@@ -5,10 +5,10 @@
 //! that left the right end at `t − (τ − s)`. Energies and momenta of bodies are sums over bars instead.
 
 use crate::ball::Number;
-use crate::evaluate::{Determined, Limit, Value};
+use crate::evaluate::{Determined, EvaluateError, Limit, Value};
 use crate::expression::{Fraction, Root};
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::history::{History, MAX_BITS, determined, unit};
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Signal, Source};
@@ -87,9 +87,9 @@ impl History {
         name: &str,
     ) -> Result<&'a Observable, HistoryError> {
         let mut observables = network.scene().observables.iter();
-        observables.find(|own| own.name == name).ok_or_else(|| {
-            HistoryError::Refused(format!("`{name}` is no observable of this scene"))
-        })
+        observables
+            .find(|own| own.name == name)
+            .ok_or_else(|| HistoryError::NoObservable(name.to_owned()))
     }
 }
 
@@ -132,8 +132,8 @@ struct Section {
     at: Fraction,
 }
 
-fn refuse<T>(reason: &str) -> Outcome<T> {
-    Err(HistoryError::Refused(reason.to_owned()))
+fn refuse<T>(reason: NotFollowed) -> Outcome<T> {
+    Err(reason.into())
 }
 
 impl Engine {
@@ -143,14 +143,14 @@ impl Engine {
     /// [`HistoryError::Refused`] for energies and momenta, and for what is not measured.
     pub fn parts(&self, network: &Network, seen: &Seen) -> Outcome<Vec<Part>> {
         if matches!(seen.measure, Measure::Energy | Measure::Momentum) {
-            return refuse("energies and momenta are followed by `eval` and `plot` alone");
+            return refuse(NotFollowed::EnergyOrMomentum);
         }
         let bits = self.cut.bits;
         let coefficient = self.clock.number(&seen.coefficient)?;
         let unit = self.unit_of(network, seen.measure)?.multiply(&coefficient, bits);
         let Some(section) = self.section(network, &seen.place)? else {
             let Place::Element(element) = &seen.place else {
-                return refuse("nothing is measured there");
+                return refuse(NotFollowed::NoPlace);
             };
             return self.lumped(seen.measure, *element, &unit);
         };
@@ -177,7 +177,7 @@ impl Engine {
                 let tension = impedance.multiply(&over, bits);
                 ([tension.negate(), tension], false)
             }
-            _ => return refuse("nothing of that kind is measured there"),
+            _ => return refuse(NotFollowed::NoMeasure),
         };
         let delays = self.delays(&section).into_iter();
         let parts = delays.zip(factors).enumerate().map(|(direction, (delay, factor))| {
@@ -238,15 +238,12 @@ impl Engine {
     ) -> Outcome<Number> {
         let element = self.layout.bars[section.bar];
         let Kind::Bar(bar) = &network.scene().elements[element].kind else {
-            return refuse("strain and stress are seen in bars");
+            return refuse(NotFollowed::NotInBar);
         };
         let over = match (&bar.body, measure) {
             (Body::Solid { area, .. }, Measure::Stress) => Root::from(area.clone()),
-            (_, Measure::Stress) => return refuse("stress needs a bar with an area"),
-            (body, _) => match bar_roots(body) {
-                Ok((_, _, stiffness)) => stiffness,
-                Err(error) => return refuse(&error.to_string()),
-            },
+            (_, Measure::Stress) => return refuse(NotFollowed::NoArea),
+            (body, _) => bar_roots(body).map_err(EvaluateError::from)?.2,
         };
         Ok(unit(&over, &self.clock.numbers, self.cut.bits)?)
     }
@@ -255,7 +252,7 @@ impl Engine {
     fn lumped(&self, measure: Measure, element: ElementIndex, one: &Number) -> Outcome<Vec<Part>> {
         let bits = self.cut.bits;
         let Some(node) = self.layout.node_of(element) else {
-            return refuse("a bar as a whole has no one velocity: name a section");
+            return refuse(NotFollowed::WholeBar);
         };
         let part = |signal, factor| Part::of(Source::Node { node, signal }, factor);
         let own = &self.nodes[node];
@@ -300,12 +297,12 @@ impl Engine {
         let load = own.loads.iter().find(|load| load.element == element).map(|load| load.run);
         let support = yields.and_then(|(_, (run, _, spring))| (!spring).then_some(run));
         let Some(run) = mass.or(load).or(support) else {
-            return refuse("a spring has two ends with two velocities");
+            return refuse(NotFollowed::TwoVelocities);
         };
         match measure {
             Measure::Velocity => Ok(vec![part(Signal::Velocity(run), one.clone())]),
             Measure::Displacement => Ok(vec![part(Signal::Displacement(run), one.clone())]),
-            _ => refuse("nothing of that kind is measured there"),
+            _ => refuse(NotFollowed::NoMeasure),
         }
     }
 
@@ -326,7 +323,7 @@ impl Engine {
             _ => held.momentum,
         };
         let Some(value) = value else {
-            return refuse("an endless bar that moves has no finite energy");
+            return refuse(NotFollowed::InfiniteEnergy);
         };
         let coefficient = self.clock.number(&seen.coefficient)?;
         let unit = self.unit_of(network, seen.measure)?.multiply(&coefficient, self.cut.bits);
@@ -353,7 +350,9 @@ impl Engine {
                     Body::Impedance { .. } => Root::from(distance.clone()),
                     Body::Solid { modulus, density, .. } => {
                         let slowness = Root::of(density.clone()).over(&Root::of(modulus.clone()));
-                        let Ok(slowness) = slowness else { return refuse("no wave speed") };
+                        let Ok(slowness) = slowness else {
+                            return refuse(NotFollowed::NoWaveSpeed);
+                        };
                         Root::from(distance.clone()).times(&slowness)
                     }
                 };
@@ -361,10 +360,7 @@ impl Engine {
                 match scaled.and_then(|time| time.exact()) {
                     Some(exact) => exact,
                     None => {
-                        return refuse(
-                            "the distance of a section is no rational number of travel times: give \
-                             it as a share of the length",
-                        );
+                        return refuse(NotFollowed::IrrationalSection);
                     }
                 }
             }

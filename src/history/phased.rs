@@ -149,10 +149,10 @@ impl<'a> PhasedSignal<'a> {
         }
         let finer =
             Followed::of(self.network, &self.seen, &self.window, bits.next_multiple_of(STEP_BITS));
-        let finer = finer.map_err(|error| EvaluateError::NotFollowed(error.to_string()))?;
+        // The window was followed before, so nothing but the precision can be wanting.
+        let finer = finer.map_err(|_| EvaluateError::NotFollowed { bits })?;
         if finer.pieces.len() != known.pieces.len() {
-            let message = "a finer history has other arrivals".to_owned();
-            return Err(EvaluateError::NotFollowed(message));
+            return Err(EvaluateError::NotFollowed { bits });
         }
         let finer = Rc::new(finer);
         *self.known.borrow_mut() = Rc::clone(&finer);

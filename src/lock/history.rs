@@ -13,7 +13,6 @@ use num_bigint::BigInt;
 use num_traits::Zero;
 use std::collections::{BTreeMap, BTreeSet};
 use std::convert::Infallible;
-use std::fmt;
 use wavestep_polynomial::Rational;
 
 /// The longest fraction that is locked; numbers with longer ones are rounded.
@@ -90,51 +89,17 @@ impl Default for HistoryRequest {
 }
 
 /// Why no history can be locked.
-///
-/// ```
-/// use wavestep::history::HistoryError;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::lock::{HistoryLock, HistoryLockError, HistoryRequest};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("saint-venant").unwrap().text;
-/// let scene = read_scene(&Source::new("saint-venant", text)?, &Default::default()).unwrap();
-/// let error = HistoryLock::derive(&Network::new(&scene).unwrap(), &HistoryRequest::default());
-/// // A history needs a number for mu.
-/// let Err(HistoryLockError::History(HistoryError::MissingValue(symbol))) = error else { panic!() };
-/// assert_eq!(symbol.name(), "mu");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum HistoryLockError {
     /// The history, or a value, is not told.
-    History(HistoryError),
+    #[error(transparent)]
+    History(#[from] HistoryError),
     /// Numbers cannot have this many digits.
+    #[error("{0} significant digits cannot be certified")]
     Digits(usize),
     /// What has no proven digits, and is not so near to zero that it needs none.
+    #[error("accuracy not reached: {0} has no proven digits")]
     AccuracyNotReached(String),
-}
-
-impl fmt::Display for HistoryLockError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            HistoryLockError::History(error) => error.fmt(f),
-            HistoryLockError::Digits(digits) => {
-                write!(f, "{digits} significant digits cannot be certified")
-            }
-            HistoryLockError::AccuracyNotReached(what) => {
-                write!(f, "accuracy not reached: {what} has no proven digits")
-            }
-        }
-    }
-}
-
-impl std::error::Error for HistoryLockError {}
-
-impl From<HistoryError> for HistoryLockError {
-    fn from(error: HistoryError) -> HistoryLockError {
-        HistoryLockError::History(error)
-    }
 }
 
 type Outcome<T> = Result<T, HistoryLockError>;

@@ -19,7 +19,6 @@ use crate::language::{Diagnostic, Source};
 use crate::recurrence::{Observation, Statement};
 use crate::solution::{Solution, SolveError};
 use std::collections::BTreeMap;
-use std::fmt;
 use wavestep_polynomial::{Rational, Symbol};
 
 pub use difference::Difference;
@@ -129,54 +128,17 @@ struct Piece {
 }
 
 /// Why nothing can be locked.
-///
-/// ```
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::lock::{Lock, LockError, Request};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let request = Request { times: vec![parse_number("33/10")?], ..Request::default() };
-/// // A value needs a number for mu.
-/// assert!(matches!(Lock::derive(&solution, &request), Err(LockError::Evaluate(_))));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum LockError {
     /// A piece cannot be given exactly.
-    Solve(SolveError),
+    #[error(transparent)]
+    Solve(#[from] SolveError),
     /// A value cannot be certified.
-    Evaluate(EvaluateError),
+    #[error(transparent)]
+    Evaluate(#[from] EvaluateError),
     /// Values cannot have this many digits.
+    #[error("{0} significant digits cannot be certified")]
     Digits(usize),
-}
-
-impl fmt::Display for LockError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            LockError::Solve(error) => error.fmt(f),
-            LockError::Evaluate(error) => error.fmt(f),
-            LockError::Digits(digits) => {
-                write!(f, "{digits} significant digits cannot be certified")
-            }
-        }
-    }
-}
-
-impl std::error::Error for LockError {}
-
-impl From<SolveError> for LockError {
-    fn from(error: SolveError) -> LockError {
-        LockError::Solve(error)
-    }
-}
-
-impl From<EvaluateError> for LockError {
-    fn from(error: EvaluateError) -> LockError {
-        LockError::Evaluate(error)
-    }
 }
 
 impl Lock {

@@ -4,8 +4,9 @@
 //! the start. So of the two waves in a bar one is seen at both ends at once, and the other a round
 //! trip later: the wave functions of successive periods, as textbooks have them.
 
-use crate::expression::{Expression, Fraction, NotAUnit};
+use crate::expression::{Expression, Fraction};
 use crate::network::delay::Lattice;
+use crate::network::error::NetworkError;
 use crate::network::layout::{Layout, Node, Run, Side};
 use crate::network::model::{Model, ModelLump};
 use crate::network::observe::Observed;
@@ -13,77 +14,7 @@ use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
 use num_integer::Integer as _;
-use std::fmt;
 use wavestep_polynomial::Rational;
-
-/// Why a scene gives no recurrence.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::NetworkError;
-///
-/// let text = wavestep::scenes::find("incommensurate").unwrap().text;
-/// let scene = read_scene(&Source::new("incommensurate", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // No period suits all its bars.
-/// assert_eq!(network.recurrence(), Err(NetworkError::Incommensurate));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
-#[non_exhaustive]
-pub enum NetworkError {
-    /// A value that cannot be divided by.
-    Division(NotAUnit),
-    /// The travel times have no common measure, or too fine a one, so that no period suits them all.
-    Incommensurate,
-    /// The laws at the nodes cannot be solved for the waves.
-    Recurrence(Box<InvalidRecurrence>),
-    /// Waves decay together at rates that are not known exactly.
-    Rates {
-        /// Where, in words.
-        place: String,
-        /// The waves.
-        waves: Vec<String>,
-    },
-    /// What is observed cannot be formed, and why.
-    Unobservable(String, &'static str),
-    /// A local contact, by its name: its force is a power of its compression, so that waves do not
-    /// add up and nothing that recurs can be stated.
-    NotLinear(String),
-}
-
-impl fmt::Display for NetworkError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NetworkError::Division(reason) => reason.fmt(f),
-            NetworkError::Incommensurate => {
-                f.write_str("the travel times have no common measure, or too fine a one")
-            }
-            NetworkError::Recurrence(invalid) => {
-                write!(f, "the laws of this scene cannot be solved for its waves: {invalid}")
-            }
-            NetworkError::Rates { place, waves } => {
-                let waves = waves.join(" and ");
-                write!(f, "{place}, {waves} decay together at rates that are not known exactly")
-            }
-            NetworkError::Unobservable(name, reason) => write!(f, "{name} {reason}"),
-            NetworkError::NotLinear(contact) => write!(
-                f,
-                "the local contact `{contact}` only pushes, with a power of its compression, so \
-                 this scene has no recurrence and no exact solution"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NetworkError {}
-
-impl From<NotAUnit> for NetworkError {
-    fn from(reason: NotAUnit) -> NetworkError {
-        NetworkError::Division(reason)
-    }
-}
 
 /// What a wave of a network is.
 ///

@@ -2,7 +2,8 @@
 //! what velocities, strains and lengths are in its scale.
 
 use crate::expression::{Fraction, Root};
-use crate::network::equations::{Network, NetworkError, Role};
+use crate::network::equations::{Network, Role};
+use crate::network::error::NetworkError;
 use crate::network::model::{ModelBar, bar_roots};
 use crate::recurrence::WaveIndex;
 use crate::scene::{ElementIndex, Kind};

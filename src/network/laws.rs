@@ -1,7 +1,8 @@
 //! The equations of a network.
 
 use crate::expression::{Expression, Fraction};
-use crate::network::equations::{Network, NetworkError, Role, lag};
+use crate::network::equations::{Network, Role, lag};
+use crate::network::error::NetworkError;
 use crate::network::layout::{Node, Run, Side};
 use crate::network::model::ModelLump;
 use crate::network::observe::{Observed, ObservedValue};

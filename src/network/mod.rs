@@ -17,6 +17,7 @@
 
 mod delay;
 mod equations;
+mod error;
 mod fields;
 mod laws;
 mod layout;
@@ -26,7 +27,8 @@ mod scaled;
 mod unfold;
 
 pub use delay::Lattice;
-pub use equations::{Network, NetworkError, Role, WaveRole};
+pub use equations::{Network, Role, WaveRole};
+pub use error::{NetworkError, Unobservable};
 pub(crate) use fields::{Extent, FieldBar, Way};
 pub use laws::{Law, Rule};
 pub(crate) use layout::{Layout, Side};

@@ -8,7 +8,7 @@ use crate::enclosure::Numbers;
 use crate::expression::{
     Assumptions, Condition, Constant, Definition, Expression, Fraction, Relation, Root,
 };
-use crate::network::equations::NetworkError;
+use crate::network::error::NetworkError;
 use crate::scene::{Body, Drive, ElementIndex, Kind, PI, Scene};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;

@@ -4,7 +4,8 @@
 //! left the right end at `t − (1−ξ)τ`; the clocks of the two nodes turn these into wave functions.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::equations::{Network, NetworkError, Role};
+use crate::network::equations::{Network, Role};
+use crate::network::error::{NetworkError, Unobservable};
 use crate::network::layout::{Node, Run, Side};
 use crate::network::model::{ModelLump, bar_roots};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
@@ -195,7 +196,7 @@ impl Network {
     }
 
     fn measured(&mut self, name: &str, seen: &Seen) -> Result<Measured<Observation>, NetworkError> {
-        let refuse = |reason| Err(NetworkError::Unobservable(name.to_owned(), reason));
+        let refuse = |reason| Err(NetworkError::Unobservable { name: name.to_owned(), reason });
         let scale = self.scaled.model.scale.clone();
         let length = scale.velocity.times(&scale.time);
         let unit = match seen.measure {
@@ -220,11 +221,11 @@ impl Network {
             (Measure::Force, _, Some((bar, share))) => (self.force_in(bar, &share), unit),
             (Measure::Strain | Measure::Stress, _, Some((bar, share))) => {
                 let Kind::Bar(data) = &self.scaled.scene.elements[bar].kind else {
-                    return refuse("is not seen in a bar");
+                    return refuse(Unobservable::NotInBar);
                 };
                 let over = match (&data.body, seen.measure) {
                     (Body::Solid { area, .. }, Measure::Stress) => Root::from(area.clone()),
-                    (_, Measure::Stress) => return refuse("needs a bar with an area"),
+                    (_, Measure::Stress) => return refuse(Unobservable::NoArea),
                     (body, _) => bar_roots(body)?.2,
                 };
                 let mut pulled = Observation::default();
@@ -236,33 +237,31 @@ impl Network {
             }
             (Measure::Velocity, Place::Element(element), _) => {
                 let Some(velocity) = self.velocity_of(*element) else {
-                    return refuse("has two ends with two velocities");
+                    return refuse(Unobservable::TwoVelocities);
                 };
                 (velocity, unit)
             }
             (Measure::Displacement, Place::Element(element), _) => {
                 let Some(velocity) = self.velocity_of(*element) else {
-                    return refuse("has two ends with two displacements");
+                    return refuse(Unobservable::TwoDisplacements);
                 };
                 (self.integrated(&velocity), unit)
             }
             (Measure::Compression, Place::Element(element), _) => {
                 let Some(compression) = self.compression_of(*element) else {
-                    return refuse("is no compression of a spring");
+                    return refuse(Unobservable::NotCompressible);
                 };
                 (compression, unit)
             }
             (Measure::Force, Place::Element(element), _) => {
                 let Some(force) = self.force_of(*element) else {
-                    return refuse("is seen in bars, springs and supports only");
+                    return refuse(Unobservable::NoForce);
                 };
                 (force, unit)
             }
             (Measure::Momentum, Place::Element(element), _) => {
                 let Some(momentum) = self.momentum_of(*element) else {
-                    return refuse(
-                        "is that of a mass or of a bar that is at rest where it is endless",
-                    );
+                    return refuse(Unobservable::NoMomentum);
                 };
                 (momentum, unit)
             }
@@ -277,13 +276,13 @@ impl Network {
                         continue;
                     }
                     let Some(momentum) = self.momentum_of(element) else {
-                        return refuse("is infinite: an endless bar moves from the start");
+                        return refuse(Unobservable::InfiniteMomentum);
                     };
                     add(&mut sum, &momentum, &Fraction::one());
                 }
                 (sum, unit)
             }
-            _ => return refuse("is measured at no such place"),
+            _ => return refuse(Unobservable::NoSuchPlace),
         };
         Ok((observation, unit, seen.measure.dimension()))
     }
@@ -297,14 +296,17 @@ impl Network {
         position: &Position,
     ) -> Result<Fraction, NetworkError> {
         let Kind::Bar(data) = &self.scaled.scene.elements[bar].kind else {
-            return Err(NetworkError::Unobservable(name.to_owned(), "is not seen in a bar"));
+            return Err(NetworkError::Unobservable {
+                name: name.to_owned(),
+                reason: Unobservable::NotInBar,
+            });
         };
         let travel = self.scaled.model.bars[&bar].travel.clone();
         let distance = match (position, travel) {
             (Position::Share(share), Some(_)) => return Ok(share.clone()),
             (Position::Share(_), None) => {
-                let reason = "is asked for at a share of the length of an endless bar";
-                return Err(NetworkError::Unobservable(name.to_owned(), reason));
+                let reason = Unobservable::ShareOfEndless;
+                return Err(NetworkError::Unobservable { name: name.to_owned(), reason });
             }
             (Position::Distance(distance), travel) => (distance, travel),
         };
@@ -528,22 +530,20 @@ impl Network {
 
     /// A sum of energies.
     fn energies(&mut self, name: &str, terms: &[Seen]) -> Result<Observed, NetworkError> {
-        let refuse = |reason| Err(NetworkError::Unobservable(name.to_owned(), reason));
+        let refuse = |reason| Err(NetworkError::Unobservable { name: name.to_owned(), reason });
         let mut parts = Vec::new();
         for term in terms {
             if term.measure != Measure::Energy {
-                return refuse("adds an energy to something else");
+                return refuse(Unobservable::MixedEnergy);
             }
             let elements = match &term.place {
                 Place::Element(element) => vec![*element],
                 Place::Line => self.scaled.scene.line.elements.clone(),
-                _ => return refuse("is an energy of a whole element, or of the line"),
+                _ => return refuse(Unobservable::EnergyOfSection),
             };
             for element in elements {
                 let Some(energy) = self.energy_of(element) else {
-                    return refuse(
-                        "is infinite: an endless bar moves or is strained from the start",
-                    );
+                    return refuse(Unobservable::InfiniteEnergy);
                 };
                 parts.extend(energy.into_iter().map(|part| EnergyTerm {
                     coefficient: &part.coefficient * &term.coefficient,

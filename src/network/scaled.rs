@@ -1,7 +1,8 @@
 //! A scene together with its scales, before anything is said of waves.
 
 use crate::expression::Fraction;
-use crate::network::equations::{Network, NetworkError};
+use crate::network::equations::Network;
+use crate::network::error::NetworkError;
 use crate::network::model::Model;
 use crate::scene::{ElementIndex, Kind, Scene};
 use wavestep_polynomial::Rational;

@@ -6,7 +6,8 @@
 
 use crate::expression::Fraction;
 use crate::network::delay::Lattice;
-use crate::network::equations::{Network, NetworkError};
+use crate::network::equations::Network;
+use crate::network::error::NetworkError;
 use crate::recurrence::Recurrence;
 
 /// A recurrence in which the lag `k` stands for counts on a lattice, up to a bound for each.

@@ -4,7 +4,6 @@ use crate::expression::{Assumptions, Constant, Expression, Fraction, NotInvertib
 use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::notation::SourceNotation;
-use std::fmt;
 use wavestep_polynomial::Symbol;
 
 /// A form that is continuous over all arrivals and starts at a value:
@@ -200,11 +199,13 @@ pub enum Part {
 /// assert_eq!(Recurrence::new(statement).unwrap_err().fault, Fault::NoStart("f".to_owned()));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Fault {
     /// The period is not certainly positive.
+    #[error("the period is not certainly positive")]
     PeriodNotPositive,
     /// There are more or fewer equations than waves.
+    #[error("{}", counted(*equations, *waves))]
     Count {
         /// How many equations.
         equations: usize,
@@ -212,11 +213,14 @@ pub enum Fault {
         waves: usize,
     },
     /// The equation holds no wave on the current period that is still to be determined.
+    #[error("this equation determines no wave on the current period")]
     DeterminesNothing,
     /// The waves named depend on each other on the same period.
+    #[error("{} depend on each other on the same period", .0.join(" and "))]
     Coupled(Vec<String>),
     /// The waves named are coupled by their derivatives, and their rates, the roots of a
     /// polynomial, are not known exactly.
+    #[error("the rates at which {} decay together are not known exactly", waves.join(" and "))]
     Rates {
         /// The waves.
         waves: Vec<String>,
@@ -224,83 +228,43 @@ pub enum Fault {
         polynomial: Vec<Fraction>,
     },
     /// A coefficient that has to be divided by.
-    NotInvertible(NotInvertible),
+    #[error("solving this needs a {0}")]
+    NotInvertible(#[source] NotInvertible),
     /// The rate of a differential equation has an exponential in it.
+    #[error("the rate of this differential equation holds an exponential")]
     RateHoldsExponential,
     /// A wave with a differential equation and no continuity rule to start it.
+    #[error("nothing says how {0} starts and goes on")]
     NoStart(String),
     /// A continuity rule that starts no wave.
+    #[error("this continuity rule starts no wave")]
     StartsNothing,
     /// A continuity rule with a derivative or a sum in it.
+    #[error("a continuity rule holds no derivatives and no sums")]
     ContinuityOfSlope,
     /// A wave that is not declared, a coefficient or a start that depends on time, or forcing that
     /// is no exponential polynomial of scene time.
+    #[error(
+        "a wave is not declared, a coefficient depends on time, or the forcing is no exponential \
+         polynomial of scene time"
+    )]
     IllFormed,
     /// Coefficients whose product would have too high a degree.
+    #[error("the coefficients of the equations have too high a degree together")]
     DegreeTooHigh,
 }
 
+fn counted(equations: usize, waves: usize) -> String {
+    let s = |count| if count == 1 { "" } else { "s" };
+    format!("{equations} equation{} for {waves} wave{}", s(equations), s(waves))
+}
+
 /// A statement that was refused: the part at fault, and why.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::{Fault, InvalidRecurrence, Part, Recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let mut statement = recurrence.statement().clone();
-/// statement.period = -&statement.period;
-/// let invalid = Recurrence::new(statement).unwrap_err();
-/// let expected = InvalidRecurrence { part: Part::Period, fault: Fault::PeriodNotPositive };
-/// assert_eq!(invalid, expected);
-/// assert_eq!(invalid.to_string(), "the period is not certainly positive");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{fault}")]
 pub struct InvalidRecurrence {
     /// The part at fault.
     pub part: Part,
     /// What is wrong with it.
     pub fault: Fault,
 }
-
-impl fmt::Display for InvalidRecurrence {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.fault {
-            Fault::PeriodNotPositive => f.write_str("the period is not certainly positive"),
-            Fault::Count { equations, waves } => {
-                let s = |count: &usize| if *count == 1 { "" } else { "s" };
-                write!(f, "{equations} equation{} for {waves} wave{}", s(equations), s(waves))
-            }
-            Fault::DeterminesNothing => {
-                f.write_str("this equation determines no wave on the current period")
-            }
-            Fault::Coupled(waves) => {
-                write!(f, "{} depend on each other on the same period", waves.join(" and "))
-            }
-            Fault::Rates { waves, .. } => write!(
-                f,
-                "the rates at which {} decay together are not known exactly",
-                waves.join(" and ")
-            ),
-            Fault::NotInvertible(reason) => write!(f, "solving this needs a {reason}"),
-            Fault::RateHoldsExponential => {
-                f.write_str("the rate of this differential equation holds an exponential")
-            }
-            Fault::NoStart(wave) => write!(f, "nothing says how {wave} starts and goes on"),
-            Fault::StartsNothing => f.write_str("this continuity rule starts no wave"),
-            Fault::IllFormed => f.write_str(
-                "a wave is not declared, a coefficient depends on time, or the forcing is no \
-                 exponential polynomial of scene time",
-            ),
-            Fault::DegreeTooHigh => {
-                f.write_str("the coefficients of the equations have too high a degree together")
-            }
-            Fault::ContinuityOfSlope => {
-                f.write_str("a continuity rule holds no derivatives and no sums")
-            }
-        }
-    }
-}
-
-impl std::error::Error for InvalidRecurrence {}

@@ -5,23 +5,8 @@ use std::fmt;
 use crate::scene::ElementIndex;
 
 /// A mistake in a scene with the parts involved, the one to change first.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Body, Fault, Kind, Mistake, Part, Property};
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod - fixed";
-/// let mut scene = read_scene(&Source::new("rod.wave", text)?, &Default::default()).unwrap();
-/// assert_eq!(scene.faults(), []);
-/// let Kind::Bar(bar) = &mut scene.elements[0].kind else { panic!("a bar") };
-/// let Body::Impedance { travel, .. } = &mut bar.body else { panic!("by impedance") };
-/// *travel = Some(wavestep::expression::Fraction::zero());
-/// let Fault { mistake, parts } = &scene.faults()[0];
-/// assert_eq!((mistake, &parts[..]), (&Mistake::NotPositive, &[Part::Property(0, Property::Travel)][..]));
-/// assert_eq!(scene.faults()[0].to_string(), "the travel time is not certainly positive");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{}", self.sentence())]
 pub struct Fault {
     /// What is wrong.
     pub mistake: Mistake,
@@ -29,13 +14,21 @@ pub struct Fault {
     pub parts: Vec<Part>,
 }
 
+impl Fault {
+    fn sentence(&self) -> String {
+        match (self.mistake, self.parts.first()) {
+            (Mistake::NotPositive, Some(Part::Property(_, property))) => {
+                format!("{property} is not certainly positive")
+            }
+            (Mistake::Negative, Some(Part::Property(_, property))) => {
+                format!("{property} may be negative")
+            }
+            (mistake, _) => mistake.to_string(),
+        }
+    }
+}
+
 /// A part of a scene.
-///
-/// ```
-/// use wavestep::scene::{Part, Property};
-///
-/// assert_ne!(Part::Element(0), Part::Property(0, Property::Length));
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Part {
     /// An element as declared.
@@ -62,12 +55,6 @@ pub enum Part {
 }
 
 /// A property of an element. `Display` names it.
-///
-/// ```
-/// use wavestep::scene::Property;
-///
-/// assert_eq!(Property::Travel.to_string(), "the travel time");
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Property {
     /// The impedance of a bar.
@@ -103,84 +90,88 @@ pub enum Property {
 }
 
 /// What is wrong with a scene.
-///
-/// ```
-/// use wavestep::scene::Mistake;
-///
-/// assert_eq!(Mistake::NothingMoves.to_string(), "nothing moves in this scene");
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Mistake {
     /// An index that points nowhere, or a wrong number of joints.
+    #[error("the scene is not well formed")]
     IllFormed,
     /// An element stands twice in the line: here, and there before.
+    #[error("an element stands in the line twice")]
     Repeated,
     /// An element stands nowhere in the line.
+    #[error("an element does not stand in the line")]
     Unused,
     /// A property that must be positive may be zero or negative.
+    #[error("a property is not certainly positive")]
     NotPositive,
     /// A property that must not be negative may be.
+    #[error("a property may be negative")]
     Negative,
     /// A spring or support with neither stiffness nor damping.
+    #[error("it has neither stiffness nor damping")]
     NoStiffness,
     /// A load may end before it begins.
+    #[error("the load does not certainly end after it begins")]
     EndsBeforeBegin,
     /// The exponent of a local contact is below 1/10.
+    #[error("the exponent of a local contact is at least 1/10")]
     ExponentTooSmall,
     /// The exponent of a local contact is larger than
     /// [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
+    #[error("the exponent of a local contact is at most 100")]
     ExponentTooLarge,
     /// No initial velocity, no strain, and no load.
+    #[error("nothing moves in this scene")]
     NothingMoves,
     /// `endless` beside a lumped element.
+    #[error("only a bar can go on for ever")]
     EndlessWithoutBar,
     /// `endless` beside a bar with a length.
+    #[error("a bar with a length does not go on for ever")]
     EndlessWithLength,
     /// A bar without length that does not go on for ever.
+    #[error("this bar has no length")]
     NoLength,
     /// One bar endless on both sides.
+    #[error("a bar that is endless on both sides has no end")]
     EndlessBothSides,
     /// A contact with a free or endless end.
+    #[error("there is nothing to be in contact with")]
     ContactAtEnd,
     /// A lumped element or a load at a place that is fixed.
+    #[error("what is fixed cannot move")]
     Held,
     /// A spring with nothing between it and a free end.
+    #[error("this spring has nothing to press against")]
     Idle,
     /// A second imposed velocity at one place.
+    #[error("two velocities are imposed at one place")]
     TwoVelocities,
     /// A measure that this place does not have.
+    #[error("this cannot be measured there")]
     NotMeasurable,
     /// Stress of a bar that has no area.
+    #[error("this bar has no stress")]
     NoArea,
     /// Strain of a bar that is given by impedance, in a scene with units.
+    #[error("this bar has no strain")]
     NoWaveSpeed,
     /// The end at which a bar goes on for ever.
+    #[error("the bar goes on for ever on this side")]
     NoSuchEnd,
     /// A share of the length of an endless bar.
+    #[error("an endless bar has no length to take a share of")]
     ShareOfEndless,
     /// A section that may lie outside the bar.
+    #[error("this section may lie outside the bar")]
     OutsideBar,
     /// Terms of different dimensions.
+    #[error("terms of different dimensions cannot be added")]
     MixedDimensions,
     /// Energy or momentum of an endless bar that moves or is strained as a whole.
+    #[error("what an endless bar holds from the start is infinite")]
     Infinite,
 }
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.mistake, self.parts.first()) {
-            (Mistake::NotPositive, Some(Part::Property(_, property))) => {
-                write!(f, "{property} is not certainly positive")
-            }
-            (Mistake::Negative, Some(Part::Property(_, property))) => {
-                write!(f, "{property} may be negative")
-            }
-            (mistake, _) => mistake.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for Fault {}
 
 impl fmt::Display for Property {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -200,39 +191,6 @@ impl fmt::Display for Property {
             Property::Force => "the force",
             Property::Compression => "the compression",
             Property::Exponent => "the exponent",
-        })
-    }
-}
-
-impl fmt::Display for Mistake {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Mistake::IllFormed => "the scene is not well formed",
-            Mistake::Repeated => "an element stands in the line twice",
-            Mistake::Unused => "an element does not stand in the line",
-            Mistake::NotPositive => "a property is not certainly positive",
-            Mistake::Negative => "a property may be negative",
-            Mistake::NoStiffness => "it has neither stiffness nor damping",
-            Mistake::EndsBeforeBegin => "the load does not certainly end after it begins",
-            Mistake::ExponentTooSmall => "the exponent of a local contact is at least 1/10",
-            Mistake::ExponentTooLarge => "the exponent of a local contact is at most 100",
-            Mistake::NothingMoves => "nothing moves in this scene",
-            Mistake::EndlessWithoutBar => "only a bar can go on for ever",
-            Mistake::EndlessWithLength => "a bar with a length does not go on for ever",
-            Mistake::NoLength => "this bar has no length",
-            Mistake::EndlessBothSides => "a bar that is endless on both sides has no end",
-            Mistake::ContactAtEnd => "there is nothing to be in contact with",
-            Mistake::Held => "what is fixed cannot move",
-            Mistake::Idle => "this spring has nothing to press against",
-            Mistake::TwoVelocities => "two velocities are imposed at one place",
-            Mistake::NotMeasurable => "this cannot be measured there",
-            Mistake::NoArea => "this bar has no stress",
-            Mistake::NoWaveSpeed => "this bar has no strain",
-            Mistake::NoSuchEnd => "the bar goes on for ever on this side",
-            Mistake::ShareOfEndless => "an endless bar has no length to take a share of",
-            Mistake::OutsideBar => "this section may lie outside the bar",
-            Mistake::MixedDimensions => "terms of different dimensions cannot be added",
-            Mistake::Infinite => "what an endless bar holds from the start is infinite",
         })
     }
 }

@@ -2,32 +2,19 @@
 
 use crate::expression::{InexactDivision, NotAUnit, NotInvertible};
 use crate::recurrence::{Recurrence, WaveIndex};
-use std::fmt;
 use wavestep_polynomial::Polynomial;
 
 /// Why a piece or an echo cannot be given exactly.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{Solution, Unsolvable};
-///
-/// let text = "recurrence \"Two rates\"\nsymbol a > 0, b > 0\nperiod 1, local s, time t\n\
-///     wave f\nequation f[n]' + a*f[n] = exp(-b*t)\ncontinuous f[n] starts at 0\n";
-/// let read = |text| read_recurrence(&Source::new("two rates", text)?, &Default::default());
-/// // (exp(-b*s) - exp(-a*s))/(a - b): that a differs from b has to be stated.
-/// let error = Solution::new(read(text.to_owned())?).pieces(0, 0, 0).unwrap_err();
-/// assert!(matches!(error.reason, Unsolvable::NotInvertible(_)));
-/// let stated = text.replace("period", "nonzero a - b\nperiod");
-/// assert!(Solution::new(read(stated)?).pieces(0, 0, 0).is_ok());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Unsolvable {
     /// Something would have to be divided by that is not known to be non-zero.
-    NotInvertible(NotInvertible),
+    #[error("it needs {0}")]
+    NotInvertible(#[from] NotInvertible),
     /// A denominator cannot be carried through a substitution.
-    NotAUnit(NotAUnit),
+    #[error(transparent)]
+    NotAUnit(#[from] NotAUnit),
     /// Polynomials of a higher degree than are worked with.
+    #[error("its degree may exceed {}", Polynomial::MAX_EXPONENT)]
     DegreeTooHigh,
 }
 
@@ -52,41 +39,16 @@ impl From<InexactDivision> for Unsolvable {
     }
 }
 
-impl From<NotInvertible> for Unsolvable {
-    fn from(reason: NotInvertible) -> Unsolvable {
-        Unsolvable::NotInvertible(reason)
-    }
-}
-
-impl From<NotAUnit> for Unsolvable {
-    fn from(reason: NotAUnit) -> Unsolvable {
-        Unsolvable::NotAUnit(reason)
-    }
-}
-
 /// A wave that cannot be solved for exactly on some period.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{Solution, Unsolvable};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let error = solution.pieces(0, 5000, 5000).unwrap_err();
-/// assert_eq!((error.wave.as_str(), error.order), ("f", 5000));
-/// assert_eq!(error.reason, Unsolvable::DegreeTooHigh);
-/// let message = "f[5000] cannot be given exactly: its degree may exceed 4095";
-/// assert_eq!(error.to_string(), message);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("{wave}[{order}] cannot be given exactly: {reason}")]
 pub struct SolveError {
     /// The wave.
     pub wave: String,
     /// The period or echo.
     pub order: usize,
     /// What stands in the way.
+    #[source]
     pub reason: Unsolvable,
 }
 
@@ -100,19 +62,3 @@ impl SolveError {
         SolveError { wave: recurrence.wave_name(wave), order, reason }
     }
 }
-
-impl fmt::Display for SolveError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let SolveError { wave, order, reason } = self;
-        write!(f, "{wave}[{order}] cannot be given exactly: ")?;
-        match reason {
-            Unsolvable::NotInvertible(reason) => write!(f, "it needs {reason}"),
-            Unsolvable::NotAUnit(reason) => write!(f, "{reason}"),
-            Unsolvable::DegreeTooHigh => {
-                write!(f, "its degree may exceed {}", Polynomial::MAX_EXPONENT)
-            }
-        }
-    }
-}
-
-impl std::error::Error for SolveError {}

@@ -6,7 +6,6 @@ use crate::solution::error::SolveError;
 use crate::solution::solved::Solution;
 use num_traits::ToPrimitive;
 use std::collections::BTreeMap;
-use std::fmt;
 use wavestep_polynomial::Rational;
 
 /// An observable on periods of its own, which begin at an offset from those of the waves:
@@ -62,43 +61,14 @@ pub struct ObservedStretch {
 }
 
 /// Why an observable has no pieces.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{ObserveError, Solution};
-///
-/// let scene = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("apart", format!("{scene}observe apart = f(t) + f(t - mu)\n"))?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let apart = solution.recurrence().observation("apart").unwrap();
-/// assert_eq!(solution.observed(&apart, 0, 0), Err(ObserveError::MixedOffsets));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum ObserveError {
     /// Its waves do not arrive together, so that no period suits all of them.
+    #[error("its waves do not arrive together, so it has no common periods")]
     MixedOffsets,
     /// A piece cannot be given exactly.
-    Solve(SolveError),
-}
-
-impl fmt::Display for ObserveError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ObserveError::MixedOffsets => {
-                f.write_str("its waves do not arrive together, so it has no common periods")
-            }
-            ObserveError::Solve(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ObserveError {}
-
-impl From<SolveError> for ObserveError {
-    fn from(error: SolveError) -> ObserveError {
-        ObserveError::Solve(error)
-    }
+    #[error(transparent)]
+    Solve(#[from] SolveError),
 }
 
 /// How many periods a delay is, where that is a whole number.

@@ -15,7 +15,7 @@
 //! ([`Finding::Low`]).
 
 use crate::ball::{Ball, Binary, Magnitude};
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::find::search::{Search, sign_of};
 use crate::evaluate::taylor::Taylor;
 use std::cmp::Ordering;

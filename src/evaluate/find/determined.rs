@@ -1,7 +1,8 @@
 //! A number as far as it is known: with proven digits, or an enclosure.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, certified};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::certified;
 use crate::evaluate::value::Value;
 
 /// The precision of doubles, and a few bits more.

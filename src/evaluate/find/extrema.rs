@@ -11,7 +11,8 @@
 //! all of them. The supremum then lies between the largest lower bound and the largest upper bound.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, range_of};
 use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;

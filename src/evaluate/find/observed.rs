@@ -4,7 +4,8 @@
 //! where a ball cannot decide because the answer is zero.
 
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::evaluator::{EvaluateError, Evaluator, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::{Evaluator, Limit};
 use crate::evaluate::find::piecewise::{At, Piecewise};
 use crate::evaluate::find::search::{FIRST_BITS, SIGN_BITS};
 use crate::evaluate::scene::SceneEvaluator;

@@ -1,7 +1,8 @@
 //! What a search needs to know of a function of time.
 
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::taylor::Taylor;
 use wavestep_polynomial::Rational;
 

@@ -6,7 +6,7 @@
 //! where `F(m)` is too coarse for either.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::find::cover::{Target, middle_and_half};
 use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;

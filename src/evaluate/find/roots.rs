@@ -14,7 +14,8 @@
 //! Between stretches the two limits tell of jumps.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
 use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;

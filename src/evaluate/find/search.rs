@@ -4,7 +4,8 @@
 //! where a ball cannot decide because the answer is zero.
 
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::observed::ObservedSignal;
 use crate::evaluate::find::piecewise::{At, Piecewise};
 use crate::evaluate::signal::Signal;

@@ -8,7 +8,8 @@
 
 use super::{Method, MethodError};
 use crate::evaluate::cells::{Cell, Fit, Window, at_or_after, rational};
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::Signal;
 use std::cell::OnceCell;

@@ -5,7 +5,8 @@ use super::MethodError;
 use super::doubles::{three, three_of};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
@@ -153,7 +154,7 @@ impl EchoSums {
                 weight: pair(three(&numbers, &weight).map_err(EvaluateError::from)?)?,
                 delay: [high, low],
                 exact_delay: wave.delay.clone(),
-                sum: EchoSum::new(echoes, order.max(1)).map_err(refused)?,
+                sum: EchoSum::new(echoes, order.max(1))?,
             });
         }
         let forcing = &signal.observation().forcing;
@@ -189,11 +190,11 @@ impl EchoSums {
             let (since, error) = two_sum(time, -delay[0]);
             let since = (since, error + (low - delay[1]));
             let (since, rest) = self.arrivals.sided(since, time.abs(), exact_delay, (at, side))?;
-            let since = Time::new(since, rest).map_err(refused)?;
+            let since = Time::new(since, rest)?;
             if since.high() < 0.0 || (since.high() == 0.0 && since.low() < 0.0) {
                 continue;
             }
-            sum = sum + *weight * echoes.pair(method, since, arriving).map_err(refused)?;
+            sum = sum + *weight * echoes.pair(method, since, arriving)?;
         }
         if time > 0.0 || (time == 0.0 && arriving) {
             for part in &self.added {
@@ -223,14 +224,14 @@ impl EchoSums {
             values.fill(0.0);
             return Ok(());
         };
-        first.sum.fill(at, true, values).map_err(refused)?;
+        first.sum.fill(at, true, values)?;
         let weight = (first.weight * self.unit).high();
         if weight != 1.0 {
             values.iter_mut().for_each(|value| *value *= weight);
         }
         let mut part = if others.is_empty() { Vec::new() } else { vec![0.0; at.len()] };
         for seen in others {
-            seen.sum.fill(at, true, &mut part).map_err(refused)?;
+            seen.sum.fill(at, true, &mut part)?;
             let weight = (seen.weight * self.unit).high();
             values.iter_mut().zip(&part).for_each(|(value, part)| *value += weight * part);
         }
@@ -255,17 +256,12 @@ impl EchoSums {
 
 /// The two leading ones of three doubles.
 fn pair([high, low, _]: [f64; 3]) -> Result<DoubleDouble, MethodError> {
-    DoubleDouble::from_sum(high, low).ok_or_else(|| refused(echoes::EchoError::NotFinite))
-}
-
-/// What the kernel says, in the words of this layer.
-fn refused(error: echoes::EchoError) -> MethodError {
-    MethodError::Kernel(error.to_string())
+    DoubleDouble::from_sum(high, low).ok_or(MethodError::Echoes(echoes::EchoError::NotFinite))
 }
 
 fn expansion(numbers: &Numbers, value: &Fraction) -> Result<Expansion, MethodError> {
     let parts = three(numbers, value).map_err(EvaluateError::from)?;
-    Expansion::new(parts).map_err(refused)
+    Ok(Expansion::new(parts)?)
 }
 
 /// Echoes in closed form with their constants in doubles.
@@ -285,11 +281,10 @@ fn in_doubles(
         terms.push(Term { lag: *lag, coefficient: number(coefficient)? });
     }
     let (rate, ratio) = (number(template.rate())?, number(template.ratio())?);
-    let echoes =
-        Echoes::new(family, rate, scale, ratio, &terms, number(period)?).map_err(refused)?;
+    let echoes = Echoes::new(family, rate, scale, ratio, &terms, number(period)?)?;
     let first = template.first().iter();
     let first = first.map(|echo| exponential_polynomials(echo, local, numbers));
-    echoes.with_first(first.collect::<Result<_, _>>()?).map_err(refused)
+    Ok(echoes.with_first(first.collect::<Result<_, _>>()?)?)
 }
 
 /// An expression in `x` by the rates of its exponentials.

@@ -10,7 +10,7 @@
 use super::MethodError;
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::expression::{Expression, Field as _, Fraction, Transform};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::{FieldForm, FieldStep};
@@ -67,7 +67,7 @@ impl<'a> SystemBuilder<'a> {
     /// The system; nothing can be added any more.
     pub fn build(self) -> Result<WaveSystem<Complex64>, MethodError> {
         let steps = self.source_steps.into_iter().chain(self.steps).collect();
-        WaveSystem::new(steps).map_err(|error| MethodError::Kernel(error.to_string()))
+        Ok(WaveSystem::new(steps)?)
     }
 
     /// A function of time by waves, each with its weight.

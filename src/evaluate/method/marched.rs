@@ -72,7 +72,7 @@ impl Marched {
     ///
     /// # Errors
     /// [`MethodError::NoTaps`], where arrivals lie on no common grid; [`MethodError::TooManyPeriods`];
-    /// [`MethodError::Kernel`], where a number is none that doubles can hold.
+    /// [`MethodError::Echoes`], where a number is none that doubles can hold.
     ///
     /// # Cost
     /// With one pole and one lag some hundred operations a coefficient for each period, of which there
@@ -95,7 +95,9 @@ impl Marched {
         match MarchedResponse::new(taps, signal, from, to, proven) {
             Ok(response) => Ok(Marched { march: Inner::Response(Box::new(response)) }),
             // Growing reflections have no certificate; their waves have values as others have.
-            Err(error @ MethodError::Kernel(_)) => waves().map_err(|_| error),
+            Err(error @ (MethodError::Reflection(_) | MethodError::March(_))) => {
+                waves().map_err(|_| error)
+            }
             Err(error) => Err(error),
         }
     }

@@ -12,7 +12,8 @@ use super::{Method, MethodError};
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::Taps;
 use crate::evaluate::transforms::value_at;
@@ -54,7 +55,7 @@ impl MarchedResponse {
     /// a bound is proven.
     ///
     /// # Errors
-    /// [`MethodError::Kernel`] where waves grow without bound.
+    /// [`MethodError::March`] where waves grow without bound.
     ///
     /// # Cost
     /// For each period some hundred operations a coefficient, of which there are about `√(2nD)`; two
@@ -70,11 +71,11 @@ impl MarchedResponse {
         let reflection = {
             let parameter = |value: &Fraction| -> Result<Parameter, MethodError> {
                 let (value, radius) = near(&numbers, value).map_err(EvaluateError::from)?;
-                Parameter::within(value, radius).map_err(refused)
+                Ok(Parameter::within(value, radius)?)
             };
             let rate = parameter(&(&taps.rate * &taps.period))?;
             let zero = parameter(&(&taps.zero * &taps.period))?;
-            Reflection::new(rate, zero, parameter(&taps.ratio)?).map_err(refused)?
+            Reflection::new(rate, zero, parameter(&taps.ratio)?)?
         };
         let mut marched = MarchedResponse {
             clock: Clock {
@@ -104,7 +105,7 @@ impl MarchedResponse {
     /// error of the value. The waves are held where there is room for all of them.
     fn prove(&self, last: u64) -> Result<(Option<f64>, Option<HeldWaves>), MethodError> {
         let options = MarchOptions { bounds: Bounds::Proven, ..MarchOptions::default() };
-        let mut march = March::new(&self.reflection, options).map_err(refused)?;
+        let mut march = March::new(&self.reflection, options)?;
         let mut slope = 0.0_f64;
         let mut sum = 0.0_f64;
         let mut bound = 0.0_f64;
@@ -122,7 +123,7 @@ impl MarchedResponse {
             if march.period() as u64 >= last {
                 break;
             }
-            march.advance().map_err(refused)?;
+            march.advance()?;
         }
         let weights = self.weights()?;
         let total: f64 = weights.iter().map(|weight| weight.abs()).sum();
@@ -266,10 +267,10 @@ impl MarchedResponse {
             })),
             None => {
                 let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
-                let mut march = March::new(&self.reflection, options).map_err(refused)?;
+                let mut march = March::new(&self.reflection, options)?;
                 for (period, points, values) in groups {
                     while march.period() < period {
-                        march.advance().map_err(refused)?;
+                        march.advance()?;
                     }
                     march.values(points, values);
                 }
@@ -284,9 +285,6 @@ impl MarchedResponse {
 }
 
 /// What the kernel says, in the words of this layer.
-fn refused(error: impl std::fmt::Display) -> MethodError {
-    MethodError::Kernel(error.to_string())
-}
 
 impl Method for MarchedResponse {
     fn name(&self) -> &'static str {

@@ -6,7 +6,8 @@ use super::march_system::{SystemBuilder, enclosed, nearest, product, transform};
 use super::{Method, MethodError};
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::NoTaps;
 use crate::expression::{Fraction, Transform};
@@ -61,7 +62,7 @@ impl MarchedWaves {
     ///
     /// # Errors
     /// [`MethodError::NoTaps`] off a grid; [`MethodError::TooManyPeriods`]; [`MethodError::Evaluate`]
-    /// where a constant cannot be enclosed; [`MethodError::Kernel`] where one is too large.
+    /// where a constant cannot be enclosed; [`MethodError::System`] where one is too large.
     ///
     /// # Cost
     /// That of the numbers in balls; the march is made when values are asked for.
@@ -156,17 +157,15 @@ impl MarchedWaves {
         mut places: Vec<Place>,
         count: usize,
     ) -> Result<Vec<f64>, MethodError> {
-        let refused =
-            |error: wavestep_kernels::march::WaveMarchError| MethodError::Kernel(error.to_string());
         let mut sums = vec![(Complex64::ZERO, 0.0); count];
         places.sort_by_key(|place| (place.period, place.seen));
         let Some(last) = places.last() else { return Ok(vec![0.0; count]) };
         let last = last.period;
-        let mut march = WaveMarch::new(system.clone()).map_err(refused)?;
+        let mut march = WaveMarch::new(system.clone())?;
         let (mut points, mut real, mut imaginary) = (Vec::new(), Vec::new(), Vec::new());
         for group in places.chunk_by(|a, b| (a.period, a.seen) == (b.period, b.seen)) {
             while march.period() < group[0].period {
-                march.advance().map_err(refused)?;
+                march.advance()?;
             }
             let Seen { wave, slope, weight, .. } = &self.seen[group[0].seen];
             points.clear();

@@ -2,7 +2,8 @@
 
 use super::MethodError;
 use crate::ball::Ball;
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::expression::{Expression, Field as _, Transform};
 use wavestep_polynomial::Rational;

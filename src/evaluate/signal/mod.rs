@@ -13,7 +13,7 @@ pub use stretch::Stretch;
 
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::first_double;
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::periods::Periods;
 use crate::evaluate::scene::{Echoes, SceneEvaluator, solve_in, whole_periods};
 use crate::expression::{Fraction, Root};

@@ -2,7 +2,8 @@
 
 use super::{MAX_STRETCHES, Signal};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::evaluator::{EvaluateError, Limit};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::evaluator::Limit;
 use crate::evaluate::scene::{MAX_ECHOES, whole_periods};
 use crate::expression::Fraction;
 use std::cmp::Ordering;

@@ -4,7 +4,7 @@ use super::stretch::{Part, Stretch};
 use super::{MAX_PIECES, Signal, Solved};
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::real_part;
-use crate::evaluate::evaluator::EvaluateError;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taylor::Taylor;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Transform};
