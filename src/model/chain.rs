@@ -1,6 +1,6 @@
 //! The points and links of a line that is cut into cells, and their motion step by step.
 
-use crate::model::error::ModelError;
+use crate::model::error::{ModelError, NotRepresented};
 use crate::model::leapfrog::{MAX_CELL_UPDATES, NAME};
 use crate::model::line::{Law, Line, Quantity, Spot, Term};
 use crate::scene::Drive;
@@ -112,9 +112,7 @@ impl Chain {
         let refuse = |reason| Err(ModelError::Refused { model: NAME, reason });
         let shortest = line.bars.iter().filter_map(|bar| bar.travel).fold(f64::INFINITY, f64::min);
         if !shortest.is_finite() {
-            return refuse(
-                "no bar has a finite length, and nothing else says how long a cell is".into(),
-            );
+            return refuse(NotRepresented::NoFiniteBar);
         }
         let size = shortest / cells as f64;
         let mut chain = Chain {
@@ -157,7 +155,7 @@ impl Chain {
             if let Some(place) = knot.runs.iter().position(|run| !run.held && run.mass <= 0.0) {
                 let lumps = &line.nodes[knot.node.expect("bare ends have cells")].lumps;
                 let near = lumps.iter().find(|lump| lump.run + 1 >= place).unwrap_or(&lumps[0]);
-                return refuse(format!("beside {} something moves that has no mass", near.name));
+                return refuse(NotRepresented::Massless(near.name.clone()));
             }
         }
         Ok(chain)

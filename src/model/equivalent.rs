@@ -1,7 +1,7 @@
 //! The linear spring that lets the force of a local contact rise in about the same time.
 
-use crate::model::ModelError;
 use crate::model::course::double_root;
+use crate::model::error::{ModelError, NotRepresented};
 use crate::model::line::{Bar, Law, Line};
 use crate::network::{ScaledScene, Side};
 use crate::scene::ElementIndex;
@@ -40,19 +40,20 @@ pub fn equivalent_stiffness(
     contact: ElementIndex,
 ) -> Result<f64, ModelError> {
     let scaled = scene.as_ref();
-    let refuse = |reason: String| Err(ModelError::Refused { model: NAME, reason });
+    let refuse = |reason| Err(ModelError::Refused { model: NAME, reason });
     let Some(element) = scaled.scene().elements.get(contact) else {
-        return refuse(format!("there is no element {contact}"));
+        return refuse(NotRepresented::NoElement(contact));
     };
     let line = Line::of(scaled)?;
+    let name = || element.name.clone();
     let here = |node: &&crate::model::line::Node| {
         node.lumps.iter().any(|lump| lump.name == element.name && matches!(lump.law, Law::Hertz(_)))
     };
     let Some(node) = line.nodes.iter().find(here) else {
-        return refuse(format!("{} is no local contact", element.name));
+        return refuse(NotRepresented::NotALocalContact(name()));
     };
     let [lump] = &node.lumps[..] else {
-        return refuse(format!("{} does not stand between two bars alone", element.name));
+        return refuse(NotRepresented::NotBetweenBars(name()));
     };
     let Law::Hertz(law) = lump.law else { unreachable!("just seen") };
     // 1/Z, and the velocity that what arrives would give a free end.
@@ -65,11 +66,11 @@ pub fn equivalent_stiffness(
         Side::Free => None,
     };
     let (Some(left), Some(right)) = (side(node.left, 0), side(node.right, 1)) else {
-        return refuse(format!("{} has a free end beside it", element.name));
+        return refuse(NotRepresented::FreeEnd(name()));
     };
     let velocity = left.1 - right.1;
     if velocity <= 0.0 {
-        return refuse(format!("what {} joins does not approach at the start", element.name));
+        return refuse(NotRepresented::NoApproach(name()));
     }
     let stiffness = law.equivalent_stiffness(left.0 + right.0, velocity);
     let numbers = crate::enclosure::Numbers::new(&scaled.model().constants);

@@ -5,7 +5,7 @@
 //! holds the velocities of what has a mass, the compressions of springs and local contacts, and the
 //! displacements of supports; velocities of what has no mass follow from a balance of forces.
 
-use crate::model::error::ModelError;
+use crate::model::error::{ModelError, NotRepresented};
 use crate::model::line::{Bar, Law, LocalContact, Node};
 use crate::network::Side;
 use crate::scene::Drive;
@@ -161,8 +161,7 @@ impl Junction {
         let row = |row: &usize| massless.iter().map(|column| resistance[*row][*column]).collect();
         let Some(inverse) = inverse(massless.iter().map(row).collect()) else {
             let name = node.lumps.first().map_or("an end", |lump| lump.name.as_str());
-            let reason =
-                format!("beside {name} something moves that has no mass, and nothing resists it");
+            let reason = NotRepresented::Unresisted(name.to_owned());
             return Err(ModelError::Refused { model, reason });
         };
         Ok(Junction { mass, start, held, resistance, massless, inverse, yields, impedance })

@@ -19,7 +19,7 @@
 
 use crate::model::Model;
 use crate::model::chain::{Chain, Tap};
-use crate::model::error::ModelError;
+use crate::model::error::{BadSetting, ModelError, NotSeen};
 use crate::model::line::Line;
 use crate::network::ScaledScene;
 
@@ -95,20 +95,15 @@ impl Leapfrog {
         cells: usize,
         courant: f64,
     ) -> Result<Leapfrog, ModelError> {
-        let setting = |reason: String| Err(ModelError::Setting { model: NAME, reason });
+        let setting = |reason| Err(ModelError::Setting { model: NAME, reason });
         if cells == 0 {
-            return setting("it takes at least one cell".to_owned());
+            return setting(BadSetting::NoCells);
         }
         if courant > 1.0 {
-            return setting(format!(
-                "a Courant number of {courant} is unstable: a wave would cross more than a cell in a \
-                 step; take at most 1"
-            ));
+            return setting(BadSetting::Unstable(courant));
         }
         if courant.is_nan() || courant <= 0.0 {
-            return setting(format!(
-                "the Courant number {courant} is not positive; take 1 or less"
-            ));
+            return setting(BadSetting::NoStep(courant));
         }
         let line = Line::linear(NAME, scene.as_ref())?;
         let chain = Chain::of(&line, cells, courant)?;
@@ -166,7 +161,7 @@ impl Model for Leapfrog {
         for term in &observable.terms {
             match self.chain.tap(&self.line, term) {
                 Some(tap) => readings.push(Reading { tap, before: None, served: 0 }),
-                None => return self.line.refuse(NAME, observable, "what points do not have"),
+                None => return self.line.refuse(NAME, observable, NotSeen::Other),
             }
         }
         let scaled = self.line.scaled(times)?;

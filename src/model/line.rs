@@ -3,7 +3,7 @@
 
 use crate::enclosure::Numbers;
 use crate::model::course::{Course, double, double_root};
-use crate::model::error::ModelError;
+use crate::model::error::{ModelError, NotRepresented, NotSeen};
 use crate::network::{Layout, ModelLump, ScaledScene, Side, bar_roots};
 use crate::scene::{Body, Drive, ElementIndex, Kind, Measure, Place, Position};
 use num_traits::ToPrimitive as _;
@@ -241,11 +241,7 @@ impl Line {
         match lumps.find(|lump| matches!(lump.law, Law::Hertz(_))) {
             None => Ok(line),
             Some(contact) => {
-                let reason = format!(
-                    "it takes linear laws, and the force in the local contact {} is a power of its \
-                     compression; the method of steps takes it",
-                    contact.name
-                );
+                let reason = NotRepresented::LocalContact(contact.name.clone());
                 Err(ModelError::Refused { model, reason })
             }
         }
@@ -273,12 +269,12 @@ impl Line {
         let observable = observable.ok_or(ModelError::NoObservable { asked: index, count })?;
         for term in &observable.terms {
             if term.quantity == Quantity::Energy {
-                return self.refuse(model, observable, "an energy, of which it keeps no account");
+                return self.refuse(model, observable, NotSeen::Energy);
             }
             if let (Quantity::Momentum, Spot::Bar(bar)) = (term.quantity, term.spot)
                 && self.bars[bar].travel.is_none()
             {
-                return self.refuse(model, observable, "the momentum of an endless bar");
+                return self.refuse(model, observable, NotSeen::EndlessMomentum);
             }
         }
         Ok(observable)
@@ -289,9 +285,9 @@ impl Line {
         &self,
         model: &'static str,
         observable: &Observable,
-        what: &str,
+        term: NotSeen,
     ) -> Result<T, ModelError> {
-        let reason = format!("{} observes {what}", observable.name);
+        let reason = NotRepresented::Observable { observable: observable.name.clone(), term };
         Err(ModelError::Refused { model, reason })
     }
 

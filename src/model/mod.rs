@@ -19,7 +19,7 @@ mod third;
 mod track;
 
 pub use equivalent::equivalent_stiffness;
-pub use error::ModelError;
+pub use error::{BadSetting, ModelError, NotRepresented, NotSeen, SolverFailure};
 pub use leapfrog::{Leapfrog, MAX_CELL_UPDATES};
 pub use modes::{MAX_MODE_TERMS, MAX_MODES, Modes};
 pub use rigid::RigidBody;

@@ -9,7 +9,7 @@
 //! fall, as is known of Fourier series.
 
 use crate::model::Model;
-use crate::model::error::ModelError;
+use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen};
 use crate::model::line::{Law, Line, Quantity, Spot, Term};
 use crate::model::shape::{Part, Shape, frequency};
 use crate::network::{ScaledScene, Side};
@@ -86,7 +86,7 @@ pub struct Modes {
     unit: f64,
 }
 
-fn refuse<T>(reason: String) -> Result<T, ModelError> {
+fn refuse<T>(reason: NotRepresented) -> Result<T, ModelError> {
     Err(ModelError::Refused { model: NAME, reason })
 }
 
@@ -96,23 +96,20 @@ fn refuse<T>(reason: String) -> Result<T, ModelError> {
 /// [`ModelError::Refused`] for what does not keep energy, or has no modes.
 fn parts(line: &Line) -> Result<Vec<Part>, ModelError> {
     if let Some(bar) = line.endless() {
-        return refuse(format!(
-            "bar {} is endless, and waves that leave are no vibration",
-            bar.name
-        ));
+        return refuse(NotRepresented::EndlessVibration(bar.name.clone()));
     }
     if line.bars.is_empty() {
-        return refuse("it takes a line with at least one bar".to_owned());
+        return refuse(NotRepresented::NoBar);
     }
     let mut parts = Vec::new();
     for (place, node) in line.nodes.iter().enumerate() {
         for lump in &node.lumps {
             parts.push(match lump.law {
                 Law::Spring { damping, .. } | Law::Support { damping, .. } if damping > 0.0 => {
-                    return refuse(format!("{} damps the motion", lump.name));
+                    return refuse(NotRepresented::Damping(lump.name.clone()));
                 }
                 Law::Load { .. } => {
-                    return refuse(format!("load {} acts from outside", lump.name));
+                    return refuse(NotRepresented::Load(lump.name.clone()));
                 }
                 Law::Hertz(_) => unreachable!("the line is linear"),
                 Law::Mass { mass, .. } => Part::Mass { mass },
@@ -137,7 +134,7 @@ impl Modes {
     /// [`ModelError::MissingValue`] for symbols without values.
     pub fn new(scene: &impl AsRef<ScaledScene>, count: usize) -> Result<Modes, ModelError> {
         if count == 0 {
-            let reason = "it takes at least one mode".to_owned();
+            let reason = BadSetting::NoModes;
             return Err(ModelError::Setting { model: NAME, reason });
         }
         if count > MAX_MODES {
@@ -280,7 +277,7 @@ impl Model for Modes {
             let mut factors = [0.0; 2];
             for term in &observable.terms {
                 let Some([x, v]) = self.seen(term, &mode.shape) else {
-                    return self.line.refuse(NAME, observable, "what modes do not have");
+                    return self.line.refuse(NAME, observable, NotSeen::Other);
                 };
                 factors[0] += term.coefficient * x;
                 factors[1] += term.coefficient * v;

@@ -11,7 +11,7 @@
 //! many round trips the velocity of a free line is right, because momentum is kept.
 
 use crate::model::Model;
-use crate::model::error::ModelError;
+use crate::model::error::{ModelError, NotRepresented, NotSeen};
 use crate::model::line::{Law, Line, Node, Quantity, Spot, Term};
 use crate::network::{ScaledScene, Side};
 use crate::scene::Drive;
@@ -64,7 +64,7 @@ pub struct RigidBody {
     body: Vec<usize>,
 }
 
-fn refuse<T>(reason: String) -> Result<T, ModelError> {
+fn refuse<T>(reason: NotRepresented) -> Result<T, ModelError> {
     Err(ModelError::Refused { model: NAME, reason })
 }
 
@@ -112,13 +112,10 @@ impl RigidBody {
     pub fn new(scene: &impl AsRef<ScaledScene>) -> Result<RigidBody, ModelError> {
         let line = Line::linear(NAME, scene.as_ref())?;
         if let Some(bar) = line.endless() {
-            return refuse(format!("bar {} is endless, so its mass has no bound", bar.name));
+            return refuse(NotRepresented::EndlessBody(bar.name.clone()));
         }
         if let Some(bar) = line.bars.iter().find(|bar| bar.force != 0.0) {
-            return refuse(format!(
-                "bar {} is strained at the start, and a rigid one is not",
-                bar.name
-            ));
+            return refuse(NotRepresented::StrainedBody(bar.name.clone()));
         }
         let mut body = RigidBody {
             mass: line.bars.iter().map(|bar| bar.mass()).sum(),
@@ -135,7 +132,7 @@ impl RigidBody {
         }
         body.line.nodes = nodes;
         if !(body.mass > 0.0 && body.mass.is_finite()) {
-            return refuse("the line has no mass".to_owned());
+            return refuse(NotRepresented::NoMass);
         }
         body.start /= body.mass;
         Ok(body)
@@ -155,25 +152,17 @@ impl RigidBody {
         let springs: Vec<_> = springs.collect();
         let [run] = moving[..] else {
             let Some(spring) = springs.get(moving.first().copied().unwrap_or(0)) else {
-                return refuse("the line has no mass".to_owned());
+                return refuse(NotRepresented::NoMass);
             };
-            return refuse(format!(
-                "it takes one body, and spring {} parts this line into more",
-                spring.name
-            ));
+            return refuse(NotRepresented::SeveralBodies(spring.name.clone()));
         };
         if node.is_held(run) {
-            return refuse(
-                "an end is fixed without a spring, so that a rigid line cannot move".to_owned(),
-            );
+            return refuse(NotRepresented::HeldBody);
         }
         for (left, spring) in springs.iter().enumerate() {
             let outer = if left < run { left } else { left + 1 };
             if !node.is_held(outer) || outer.abs_diff(run) != 1 {
-                return refuse(format!(
-                    "spring {} does not lie between the body and a fixed end",
-                    spring.name
-                ));
+                return refuse(NotRepresented::SpringElsewhere(spring.name.clone()));
             }
         }
         for lump in &node.lumps {
@@ -191,11 +180,11 @@ impl RigidBody {
                     self.damping += damping;
                 }
                 Law::Load { drive: Drive::Velocity, .. } => {
-                    return refuse(format!("load {} imposes a velocity", lump.name));
+                    return refuse(NotRepresented::ImposedVelocity(lump.name.clone()));
                 }
                 Law::Load { course, from, until, .. } if lump.run == run => {
                     let Some(force) = course.constant() else {
-                        return refuse(format!("the force of load {} varies in time", lump.name));
+                        return refuse(NotRepresented::VaryingForce(lump.name.clone()));
                     };
                     self.forces.push((force, *from, *until));
                 }
@@ -222,13 +211,13 @@ impl RigidBody {
     }
 
     /// What is seen when the body is at `x` and moves with `v`, as factors of the two.
-    fn seen(&self, term: &Term) -> Result<[f64; 2], &'static str> {
+    fn seen(&self, term: &Term) -> Result<[f64; 2], NotSeen> {
         let (node, place) = match term.spot {
             Spot::Section { .. } => {
                 return match term.quantity {
                     Quantity::Velocity => Ok([0.0, 1.0]),
                     Quantity::Displacement => Ok([1.0, 0.0]),
-                    _ => Err("the force within a rigid bar"),
+                    _ => Err(NotSeen::ForceInRigidBar),
                 };
             }
             Spot::Bar(bar) => return Ok([0.0, self.line.bars[bar].mass()]),
@@ -250,7 +239,7 @@ impl RigidBody {
             (Quantity::Velocity, _) => [0.0, moves],
             (Quantity::Displacement, _) => [moves, 0.0],
             (Quantity::Momentum, Law::Mass { mass, .. }) => [0.0, moves * mass],
-            _ => return Err("what a rigid body does not have"),
+            _ => return Err(NotSeen::Other),
         })
     }
 }
@@ -273,7 +262,7 @@ impl Model for RigidBody {
                     factors[0] += term.coefficient * x;
                     factors[1] += term.coefficient * v;
                 }
-                Err(what) => return self.line.refuse(NAME, observable, what),
+                Err(term) => return self.line.refuse(NAME, observable, term),
             }
         }
         let value = |time: f64| match time < 0.0 {

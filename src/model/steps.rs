@@ -17,7 +17,7 @@
 
 use crate::expression::{Fraction, Root};
 use crate::model::Model;
-use crate::model::error::ModelError;
+use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen, SolverFailure};
 use crate::model::junction::{Acting, Junction};
 use crate::model::line::{Law, Line, Quantity, Spot, Term};
 use crate::model::track::{DEGREE, Track, points, series};
@@ -25,6 +25,7 @@ use crate::network::{ModelLump, ScaledScene, Side};
 use crate::scene::Drive;
 use num_integer::Integer as _;
 use num_traits::{Signed, ToPrimitive, Zero};
+use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{DVector, Dop853, OutputType, System};
 use wavestep_polynomial::Rational;
 
@@ -129,7 +130,7 @@ impl Steps {
     pub fn new(scene: &impl AsRef<ScaledScene>, tolerance: f64) -> Result<Steps, ModelError> {
         let scaled = scene.as_ref();
         if !(1e-13..=1e-2).contains(&tolerance) {
-            let reason = format!("the tolerance {tolerance:e} is not between 1e-13 and 1e-2");
+            let reason = BadSetting::Tolerance(tolerance);
             return Err(ModelError::Setting { model: NAME, reason });
         }
         let line = Line::of(scaled)?;
@@ -152,9 +153,7 @@ impl Steps {
         }
         let refuse = |name: String| ModelError::Refused {
             model: NAME,
-            reason: format!(
-                "the times of {name} and of what is before it in the line have no common measure"
-            ),
+            reason: NotRepresented::NoCommonMeasure(name),
         };
         let grid = measure(&times).map_err(refuse)?;
         let counts = grid.as_ref().map_or(vec![0; times.len()], |(_, counts)| counts.clone());
@@ -341,7 +340,7 @@ impl Motion<'_> {
             let piece = self.piece(node, number, start as f64 * length, length, &state)?;
             if !self.is_resolved(node, &piece.rows) {
                 if halvings >= MAX_HALVINGS {
-                    let reason = format!("no piece of period {number} is smooth");
+                    let reason = SolverFailure::NotSmooth(number);
                     return Err(ModelError::Solver { model: NAME, reason });
                 }
                 (start, halvings) = (2 * start, halvings + 1);
@@ -440,7 +439,14 @@ impl Motion<'_> {
             OutputType::Sparse,
         );
         if let Err(error) = solver.integrate() {
-            return Err(ModelError::Solver { model: NAME, reason: error.to_string() });
+            let reason = match error {
+                IntegrationError::MaxNumStepReached { x, n_step } => {
+                    SolverFailure::TooManySteps { at: x, limit: n_step }
+                }
+                IntegrationError::StepSizeUnderflow { x } => SolverFailure::StepTooShort(x),
+                IntegrationError::StiffnessDetected { x } => SolverFailure::Stiff(x),
+            };
+            return Err(ModelError::Solver { model: NAME, reason });
         }
         let last = solver.y_out().last().expect("the last point");
         Ok(last.as_slice()[..last.len() - 1].to_vec())
@@ -525,7 +531,7 @@ impl Model for Steps {
             for term in observable.terms.iter().filter(|_| time >= 0.0) {
                 match motion.value(term, time) {
                     Some(seen) => *value += term.coefficient * seen,
-                    None => return self.line.refuse(NAME, observable, "what nodes do not have"),
+                    None => return self.line.refuse(NAME, observable, NotSeen::Other),
                 }
             }
         }

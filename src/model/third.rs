@@ -13,7 +13,7 @@
 //! 49 % below the exact one at the fixed end; with the front added, 0.8, 3.6 and 4.5 % below.
 
 use crate::model::Model;
-use crate::model::error::ModelError;
+use crate::model::error::{ModelError, NotRepresented, NotSeen};
 use crate::model::line::{Law, Line, Quantity, Spot};
 use crate::network::{ScaledScene, Side};
 
@@ -96,8 +96,8 @@ pub struct ThirdOfMass {
     strain: f64,
 }
 
-fn refuse<T>(reason: &str) -> Result<T, ModelError> {
-    Err(ModelError::Refused { model: NAME, reason: reason.to_owned() })
+fn refuse<T>(reason: NotRepresented) -> Result<T, ModelError> {
+    Err(ModelError::Refused { model: NAME, reason })
 }
 
 impl ThirdOfMass {
@@ -112,37 +112,31 @@ impl ThirdOfMass {
     ) -> Result<ThirdOfMass, ModelError> {
         let line = Line::linear(NAME, scene.as_ref())?;
         let ([bar], [left, right]) = (&line.bars[..], &line.nodes[..]) else {
-            let reason = match (&line.bars[..], line.endless()) {
-                ([_], Some(bar)) => format!("bar {} is endless, and no spring", bar.name),
-                (bars, _) => format!("it takes one bar; this line has {}", bars.len()),
-            };
-            return Err(ModelError::Refused { model: NAME, reason });
+            return refuse(match (&line.bars[..], line.endless()) {
+                ([_], Some(bar)) => NotRepresented::EndlessSpring(bar.name.clone()),
+                (bars, _) => NotRepresented::NotOneBar(bars.len()),
+            });
         };
         let travel = bar.travel.expect("a bar between two nodes is finite");
         let (struck, fixed, mirrored) = match (left.left, right.right) {
             (Side::Free, Side::Fixed) => (left, right, false),
             (Side::Fixed, Side::Free) => (right, left, true),
-            _ => return refuse("it takes a line with one free and one fixed end"),
+            _ => return refuse(NotRepresented::OtherEnds),
         };
         if let Some(lump) = fixed.lumps.first() {
-            return Err(ModelError::Refused {
-                model: NAME,
-                reason: format!("{} stands at the fixed end, which it takes bare", lump.name),
-            });
+            return refuse(NotRepresented::FixedEndNotBare(lump.name.clone()));
         }
         for lump in &struck.lumps {
             if !matches!(lump.law, Law::Mass { .. }) {
-                let reason = format!("{} is no mass; it takes masses at the struck end", lump.name);
-                return Err(ModelError::Refused { model: NAME, reason });
+                return refuse(NotRepresented::NotAMass(lump.name.clone()));
             }
         }
         if bar.velocity != 0.0 || bar.force != 0.0 {
-            let reason = format!("bar {} is not at rest at the start", bar.name);
-            return Err(ModelError::Refused { model: NAME, reason });
+            return refuse(NotRepresented::NotAtRest(bar.name.clone()));
         }
         let (mass, momentum) = struck.mass_of(0);
         if mass <= 0.0 {
-            return refuse("no mass strikes the bar");
+            return refuse(NotRepresented::NoStriker);
         }
         let velocity = momentum / mass;
         let whole = mass + bar.mass() / 3.0;
@@ -213,10 +207,9 @@ impl Model for ThirdOfMass {
                     }
                 }
                 (Quantity::Momentum, _) => {
-                    let what = "the momentum of a bar, which a third of its mass does not tell";
-                    return self.line.refuse(NAME, observable, what);
+                    return self.line.refuse(NAME, observable, NotSeen::MomentumOfThird);
                 }
-                _ => return self.line.refuse(NAME, observable, "what the model does not have"),
+                _ => return self.line.refuse(NAME, observable, NotSeen::Other),
             };
             factors[0] += term.coefficient * x;
             factors[1] += term.coefficient * v;

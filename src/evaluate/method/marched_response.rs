@@ -284,8 +284,6 @@ impl MarchedResponse {
     }
 }
 
-/// What the kernel says, in the words of this layer.
-
 impl Method for MarchedResponse {
     fn name(&self) -> &'static str {
         "marched"
