@@ -36,7 +36,7 @@ fn shuffled(end: f64) -> Vec<f64> {
 /// A table of one constant: what writing costs.
 fn constant(end: f64) -> Table {
     let (coefficients, low) = (vec![1.0], Vec::new());
-    let scale = 0.5_f64.powi(20);
+    let scale = 0.5_f64.powi(24);
     let piece = Piece { start: 0.0, centre: 0.0, scale, coefficients, low, error: 0.0 };
     Table::new(&[piece], end).unwrap()
 }

@@ -2,24 +2,32 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use wavestep_kernels::march::{
-    Bounds, LocalTime, March, MarchOptions, Reflection, sample, sample_with_bounds,
-};
+use wavestep_kernels::march::{Bounds, March, MarchOptions, Reflection};
 
 fn rigid_mass() -> Reflection {
     Reflection::exact(2.0, 2.0, 1.0).expect("a reflection")
 }
 
 fn values(criterion: &mut Criterion) {
-    let times: Vec<LocalTime> = (0..1000)
-        .map(|i| LocalTime::new(i / 5, (f64::from(i as u16) * 0.618).fract()).expect("a time"))
-        .collect();
-    let (wave, options) = (rigid_mass(), MarchOptions::default());
+    let wave = rigid_mass();
+    let points: Vec<f64> = (0..1000).map(|i| (f64::from(i) * 0.618).fract()).collect();
+    let mut values = vec![0.0; points.len()];
     let mut group = criterion.benchmark_group("march: 1000 values to period 200");
-    group.bench_function("values", |b| b.iter(|| sample(&wave, options, black_box(&times))));
-    group.bench_function("values and bounds", |b| {
-        b.iter(|| sample_with_bounds(&wave, options, black_box(&times)))
-    });
+    for (bounds, name) in [(Bounds::None, "values"), (Bounds::Proven, "values and bounds")] {
+        let options = MarchOptions { bounds, ..Default::default() };
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                let mut march = March::new(&wave, options).expect("a march");
+                let mut bound = 0.0_f64;
+                for (points, values) in points.chunks(5).zip(values.chunks_mut(5)) {
+                    march.values(black_box(points), values);
+                    bound = bound.max(march.bound().unwrap_or(0.0));
+                    march.advance().expect("room");
+                }
+                bound
+            });
+        });
+    }
     group.finish();
 }
 

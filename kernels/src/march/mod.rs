@@ -14,7 +14,7 @@
 //! | `relaxation` | `u' + B u = r` on coefficients in O(N) |
 //! | `scalar` | one wave, period by period |
 //! | `bound` | the proof that the computed wave is near the true one |
-//! | `sample` | values at ascending times |
+//! | `number` | real and complex numbers that waves are made of |
 //! | `system` | several waves with several poles and lags, driven by each other: what they obey |
 //! | `first_order` | `z' = λ z + r` on coefficients, for any real or complex `λ` of modest size |
 //! | `waves` | such a system, period by period; measured, without a proven bound |
@@ -23,16 +23,16 @@ mod bound;
 pub mod chebyshev;
 mod compensated;
 mod first_order;
+mod number;
 mod reflection;
 mod relaxation;
-mod sample;
 mod scalar;
 mod system;
 mod waves;
 
 pub use bound::Certificate;
+pub use number::{Complex, Scalar};
 pub use reflection::{Parameter, Reflection, ReflectionError};
-pub use sample::{LocalTime, SampleError, sample, sample_with_bounds};
 pub use scalar::{Bounds, March, MarchError, MarchOptions};
-pub use system::{Scalar, State, SystemError, Term, WaveStep, WaveSystem};
+pub use system::{State, SystemError, Term, WaveStep, WaveSystem};
 pub use waves::{WaveMarch, WaveMarchError};

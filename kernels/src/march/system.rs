@@ -13,57 +13,10 @@
 //! of time that act from outside are states that nothing drives, and pairs of complex poles are states
 //! with complex numbers.
 
-use num_complex::Complex64;
-use num_traits::{NumAssign, Zero as _};
+use super::number::{Complex, Scalar};
 use std::fmt;
-use std::ops::Neg;
-
-/// A number that waves are made of: real or complex.
-///
-/// ```
-/// use num_complex::Complex64;
-/// use wavestep_kernels::march::Scalar;
-///
-/// assert_eq!(2.0.parts(), (2.0, 0.0));
-/// let z = Complex64::new(3.0, -4.0);
-/// assert_eq!((z.parts(), z.size()), ((3.0, -4.0), 5.0));
-/// ```
-pub trait Scalar: NumAssign + Neg<Output = Self> + Copy + From<f64> + fmt::Debug {
-    /// The real and the imaginary part.
-    fn parts(self) -> (f64, f64);
-
-    /// The absolute value.
-    fn size(self) -> f64 {
-        let (real, imaginary) = self.parts();
-        real.hypot(imaginary)
-    }
-}
-
-impl Scalar for f64 {
-    fn parts(self) -> (f64, f64) {
-        (self, 0.0)
-    }
-
-    fn size(self) -> f64 {
-        self.abs()
-    }
-}
-
-impl Scalar for Complex64 {
-    fn parts(self) -> (f64, f64) {
-        (self.re, self.im)
-    }
-}
 
 /// `weight · v[n−lag]`, or the same of `v'`.
-///
-/// ```
-/// use wavestep_kernels::march::Term;
-///
-/// // Half of the first wave, two periods ago.
-/// let term = Term { wave: 0, lag: 2, weight: 0.5 };
-/// assert_eq!(term.lag, 2);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Term<T> {
     /// Which wave.
@@ -75,14 +28,6 @@ pub struct Term<T> {
 }
 
 /// The state of a wave: `z' = λ z + Σ drive`.
-///
-/// ```
-/// use wavestep_kernels::march::State;
-///
-/// // e^{−x}, on and on.
-/// let decay = State { rate: -1.0, drive: vec![], jumps: vec![], initial: 1.0 };
-/// assert_eq!(decay.rate, -1.0);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct State<T> {
     /// The pole `λ`, a period.
@@ -96,15 +41,6 @@ pub struct State<T> {
 }
 
 /// How one wave follows from others.
-///
-/// ```
-/// use wavestep_kernels::march::{Term, WaveStep};
-///
-/// // v[n] = −w[n−1].
-/// let back = Term { wave: 1, lag: 1, weight: -1.0 };
-/// let step = WaveStep { wave: 0, values: vec![back], slopes: vec![], state: None };
-/// assert!(step.state.is_none() && step.values[0].wave == 1);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct WaveStep<T> {
     /// Which wave.
@@ -123,38 +59,12 @@ pub struct WaveStep<T> {
 /// - each wave has one step, and waves are numbered from 0 without a gap;
 /// - a step names waves at lag 0 only of steps before it;
 /// - all numbers are finite, and there is one wave at least.
-///
-/// ```
-/// use wavestep_kernels::march::{State, SystemError, Term, WaveStep, WaveSystem};
-///
-/// // w' = −2 w + v and v[n] = w[n]: each needs the other first.
-/// let term = |wave| vec![Term { wave, lag: 0, weight: 1.0 }];
-/// let state = State { rate: -2.0, drive: term(1), jumps: vec![], initial: 1.0 };
-/// let w = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
-/// let v = WaveStep { wave: 1, values: term(0), slopes: vec![], state: None };
-/// let refused = WaveSystem::new(vec![w.clone(), v.clone()]);
-/// assert_eq!(refused, Err(SystemError::NotYetKnown { wave: 0, other: 1 }));
-/// // One period later it is known.
-/// let mut later = w;
-/// later.state.as_mut().unwrap().drive[0].lag = 1;
-/// let system = WaveSystem::new(vec![later, v]).unwrap();
-/// assert_eq!((system.waves(), system.largest_lag()), (2, 1));
-/// assert_eq!(system.steps().len(), 2);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct WaveSystem<T> {
     steps: Vec<WaveStep<T>>,
 }
 
 /// Why steps make no system.
-///
-/// ```
-/// use wavestep_kernels::march::{SystemError, WaveSystem};
-///
-/// let refused = WaveSystem::<f64>::new(vec![]).unwrap_err();
-/// assert_eq!(refused, SystemError::Empty);
-/// assert_eq!(refused.to_string(), "there are no waves; give one step at least");
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SystemError {
     /// There are no waves.
@@ -249,17 +159,17 @@ impl<T: Scalar> WaveStep<T> {
     }
 }
 
-impl WaveSystem<Complex64> {
+impl WaveSystem<Complex> {
     /// The same in real numbers, where no number has an imaginary part: a quarter of the work.
     pub fn real(&self) -> Option<WaveSystem<f64>> {
-        let real = |value: Complex64| value.im.is_zero().then_some(value.re);
-        let terms = |terms: &[Term<Complex64>]| -> Option<Vec<Term<f64>>> {
-            let term = |t: &Term<Complex64>| {
+        let real = |value: Complex| (value.im == 0.0).then_some(value.re);
+        let terms = |terms: &[Term<Complex>]| -> Option<Vec<Term<f64>>> {
+            let term = |t: &Term<Complex>| {
                 Some(Term { wave: t.wave, lag: t.lag, weight: real(t.weight)? })
             };
             terms.iter().map(term).collect()
         };
-        let step = |step: &WaveStep<Complex64>| {
+        let step = |step: &WaveStep<Complex>| {
             let state = match &step.state {
                 None => None,
                 Some(state) => Some(State {

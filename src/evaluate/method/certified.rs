@@ -6,8 +6,9 @@
 //! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
 //! enclosed one by one.
 
+use super::doubles::{Kept, piece};
 use super::{Method, MethodError};
-use crate::evaluate::cells::{Cell, Fit, Window, at_or_after, rational};
+use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::marched_pieces::MarchedPieces;
@@ -30,43 +31,9 @@ const MAX_BITS: u64 = 1 << 13;
 const MANY: usize = 2_000;
 
 /// Tells a value that is a rational number: it gives the number at a time and a side, or nothing.
-///
-/// ```
-/// use wavestep::evaluate::{Recogniser, Limit};
-/// use wavestep::language::parse_number;
-///
-/// // For sin t, which is rational at 0 alone of all rational times.
-/// let sine: &Recogniser = &|at, _| Ok((*at == Default::default()).then(Default::default));
-/// let zero = parse_number("0")?;
-/// assert_eq!(sine(&zero, Limit::Right), Ok(Some(zero.clone())));
-/// assert_eq!(sine(&parse_number("1/2")?, Limit::Right), Ok(None));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub type Recogniser<'a> = dyn Fn(&Rational, Limit) -> Result<Option<Rational>, EvaluateError> + 'a;
 
 /// Correctly rounded values of an observable on a window.
-///
-/// ```
-/// use wavestep::evaluate::{Certified, Evaluator, Method, Limit, Signal};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let f = solution.recurrence().observation("f").unwrap();
-/// let signal = Signal::of_recurrence(solution.recurrence(), &f).unwrap();
-/// let evaluator = Evaluator::new(&solution).unwrap();
-/// let recognise = |at: &_, side| evaluator.rational(&f, at, side);
-/// let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// let certified = Certified::new(&signal, &from, &to, &recognise).unwrap();
-/// // At 0 the value is 1, exactly; at 1 it is 1/e, correctly rounded.
-/// let at = |t| certified.value(&parse_number(t).unwrap(), Limit::Right).unwrap();
-/// assert_eq!((at("0"), at("1")), (1.0, 0.36787944117144233));
-/// // Many values come from a table whose pieces are far finer than doubles.
-/// assert!(certified.table().unwrap().certified_bound() < 1e-25);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Certified<'a> {
     signal: &'a Signal,
     from: Rational,
@@ -134,7 +101,7 @@ impl<'a> Certified<'a> {
         let window = self.window()?;
         let error = window.scale()?.scale(-ERROR_BITS);
         let cells = window.cells(Fit { degree: DEGREE, error, rounding: None })?;
-        let pieces: Vec<Piece> = cells.iter().map(in_pairs).collect();
+        let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, Kept::Two)).collect();
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         Ok(Table::new(&pieces, end)?)
     }
@@ -169,28 +136,6 @@ impl<'a> Certified<'a> {
 fn nearest(value: &Rational) -> f64 {
     use num_traits::ToPrimitive as _;
     value.to_f64().unwrap_or(f64::NAN)
-}
-
-/// The polynomial of a cell with its coefficients as pairs.
-fn in_pairs(cell: &Cell) -> Piece {
-    let mut error = cell.taylor.remainder;
-    let mut coefficients = Vec::with_capacity(cell.taylor.coefficients.len());
-    let mut low = Vec::with_capacity(cell.taylor.coefficients.len());
-    for coefficient in &cell.taylor.coefficients {
-        let (high, rest) = coefficient.split();
-        let (double, distance) = rest.to_double();
-        coefficients.push(high);
-        low.push(double);
-        error = error.add(&distance);
-    }
-    Piece {
-        start: cell.first,
-        centre: cell.middle,
-        scale: cell.scale.recip(),
-        coefficients,
-        low,
-        error: error.to_double(),
-    }
 }
 
 impl Method for Certified<'_> {

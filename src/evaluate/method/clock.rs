@@ -23,8 +23,33 @@ pub(super) struct Clock {
     pub period: Fraction,
 }
 
+/// What is seen of a wave: `w(T − delay)`, from a time on.
+pub(super) struct Delayed {
+    pub delay: Fraction,
+    /// The delay, or a later time.
+    pub since: Fraction,
+}
+
+impl Delayed {
+    /// A wave that is seen as soon as it arrives.
+    pub fn at_once(delay: Fraction) -> Delayed {
+        Delayed { since: delay.clone(), delay }
+    }
+}
+
+/// A place at which a wave is asked for.
+pub(super) struct Place {
+    pub period: usize,
+    /// In parts of the period.
+    pub local: f64,
+    /// Which of the waves that are seen.
+    pub seen: usize,
+    /// Which of the values it is for.
+    pub value: usize,
+}
+
 /// Places of times that are doubles, just after arrivals.
-pub(super) enum DoublePlaces {
+enum DoublePlaces {
     /// The period is a double, and so many of them are the delay.
     Whole { period: f64, delay: u32 },
     /// Any rational numbers.
@@ -41,7 +66,7 @@ impl DoublePlaces {
     ///
     /// # Errors
     /// Where the time is not finite or too late.
-    pub fn of(&self, time: f64) -> Result<Option<(usize, f64)>, FixedError> {
+    fn of(&self, time: f64) -> Result<Option<(usize, f64)>, FixedError> {
         let (period, delay) = match self {
             DoublePlaces::Whole { period, delay } => (*period, *delay as usize),
             DoublePlaces::Any(reduction) => {
@@ -71,7 +96,7 @@ impl DoublePlaces {
 
 impl Clock {
     /// The period and the place on it of a time that is seen with a delay; `None` before the start.
-    pub fn place(
+    fn place(
         &self,
         delay: &Fraction,
         at: &Rational,
@@ -120,8 +145,48 @@ impl Clock {
         Ok(None)
     }
 
-    /// The same for doubles, just after arrivals, where period and delay are rational numbers.
-    pub fn double_places(&self, delay: &Fraction) -> Option<DoublePlaces> {
+    /// The places at times of all that is seen.
+    pub fn places(
+        &self,
+        seen: &[Delayed],
+        at: &[Rational],
+        side: Limit,
+    ) -> Result<Vec<Place>, MethodError> {
+        let mut places = Vec::with_capacity(seen.len() * at.len());
+        for (value, at) in at.iter().enumerate() {
+            for (number, Delayed { delay, since }) in seen.iter().enumerate() {
+                if since != delay && self.place(since, at, side)?.is_none() {
+                    continue;
+                }
+                if let Some((period, local)) = self.place(delay, at, side)? {
+                    let period = usize::try_from(period).unwrap_or(usize::MAX);
+                    places.push(Place { period, local, seen: number, value });
+                }
+            }
+        }
+        Ok(places)
+    }
+
+    /// The same for doubles, just after arrivals, where period and delays are rational numbers and
+    /// waves are seen as soon as they arrive: places are found in integers.
+    pub fn places_of_doubles(&self, seen: &[Delayed], at: &[f64]) -> Option<Vec<Place>> {
+        let delays = seen.iter().map(|seen| {
+            (seen.since == seen.delay).then(|| self.double_places(&seen.delay)).flatten()
+        });
+        let delays: Vec<DoublePlaces> = delays.collect::<Option<_>>()?;
+        let mut places = Vec::with_capacity(seen.len() * at.len());
+        for (value, time) in at.iter().enumerate() {
+            for (seen, delay) in delays.iter().enumerate() {
+                if let Some((period, local)) = delay.of(*time).ok()? {
+                    places.push(Place { period, local, seen, value });
+                }
+            }
+        }
+        Some(places)
+    }
+
+    /// How doubles find their places with a delay, where period and delay are rational numbers.
+    fn double_places(&self, delay: &Fraction) -> Option<DoublePlaces> {
         let slowness = self.slowness.as_constant()?;
         let period = self.period.as_constant()? / &slowness;
         let delay = delay.as_constant()? / &slowness;
@@ -135,17 +200,13 @@ impl Clock {
         Reduction::new(&period, &delay).ok().map(DoublePlaces::Any)
     }
 
-    /// The last period that is seen with one of these delays until a time.
+    /// The last period of which something is seen until a time.
     ///
     /// # Errors
     /// [`MethodError::TooManyPeriods`] beyond the limit.
-    pub fn last_period<'a>(
-        &self,
-        delays: impl Iterator<Item = &'a Fraction>,
-        to: &Rational,
-    ) -> Result<u64, MethodError> {
+    pub fn last_period(&self, seen: &[Delayed], to: &Rational) -> Result<u64, MethodError> {
         let mut last = 0;
-        for delay in delays {
+        for Delayed { delay, .. } in seen {
             if let Some((period, _)) = self.place(delay, to, Limit::Right)? {
                 last = last.max(period);
             }

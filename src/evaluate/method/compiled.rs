@@ -5,9 +5,10 @@
 //! the rounding of their coefficients to doubles, and that of evaluating them, which
 //! [`Table`] proves. Whatever the order of the waves, a value costs some ten multiply-adds.
 
+use super::doubles::{Kept, piece};
 use super::{Method, MethodError};
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::cells::{Cell, Fit, Window, at_or_after, rational};
+use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
 use crate::evaluate::unit_in_the_last_place;
@@ -24,26 +25,6 @@ const DEGREE: usize = 11;
 const ERROR_BITS: i64 = 56;
 
 /// An observable on a window as polynomials in doubles.
-///
-/// ```
-/// use wavestep::evaluate::{Compiled, Method as _};
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// let compiled = Compiled::new(&signal, &from, &to, None).unwrap();
-/// let table = compiled.table();
-/// assert_eq!((table.start(), table.end(), table.pieces()), (0.0, 20.0, compiled.pieces().len()));
-/// // The bound holds for all pieces; a tolerance makes them fewer.
-/// assert!(compiled.bound().unwrap() >= table.bound() && table.bound() < 1e-15);
-/// let coarse = Compiled::new(&signal, &from, &to, Some(1e-4)).unwrap();
-/// assert!(coarse.bound().unwrap() <= 1e-4 && coarse.pieces().len() < table.pieces());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Compiled<'a> {
     window: Window<'a>,
     table: Table,
@@ -89,7 +70,7 @@ impl<'a> Compiled<'a> {
         let allowed = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 2.0));
         let rounding = Some(allowed.map_or(kept, |allowed| allowed.max(kept)));
         let cells = window.cells(Fit { degree: DEGREE, error, rounding })?;
-        let pieces: Vec<Piece> = cells.iter().map(in_doubles).collect();
+        let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, Kept::One)).collect();
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         let table = Table::new(&pieces, end)?;
         let stretches = window.stretches.len();
@@ -106,25 +87,6 @@ impl<'a> Compiled<'a> {
     /// The pieces of the table.
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces
-    }
-}
-
-/// The polynomial of a cell with its coefficients rounded.
-fn in_doubles(cell: &Cell) -> Piece {
-    let mut error = cell.taylor.remainder;
-    let mut coefficients = Vec::with_capacity(cell.taylor.coefficients.len());
-    for coefficient in &cell.taylor.coefficients {
-        let (double, distance) = coefficient.to_double();
-        error = error.add(&distance);
-        coefficients.push(double);
-    }
-    Piece {
-        start: cell.first,
-        centre: cell.middle,
-        scale: cell.scale.recip(),
-        coefficients,
-        low: Vec::new(),
-        error: error.to_double(),
     }
 }
 

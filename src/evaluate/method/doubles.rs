@@ -1,10 +1,12 @@
-//! Exact constants as doubles with what is left of them, and doubles as the numbers that they are.
+//! Exact constants and polynomials in doubles, with what is left of them, and doubles as the numbers
+//! that they are.
 
 use super::MethodError;
 use crate::ball::Ball;
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::cells::{at_or_after, rational};
+use crate::evaluate::cells::{Cell, at_or_after, rational};
 use crate::expression::Fraction;
+use wavestep_kernels::Piece;
 use wavestep_polynomial::Rational;
 
 /// Bits of the balls that are rounded.
@@ -37,4 +39,38 @@ pub(super) fn inside(at: &[f64], [from, to]: [&Rational; 2]) -> Result<(), Metho
 /// Doubles as the numbers that they are.
 pub(super) fn exactly(at: &[f64]) -> Vec<Rational> {
     at.iter().map(|time| rational(*time)).collect()
+}
+
+/// In how many doubles a coefficient is kept.
+#[derive(Clone, Copy)]
+pub(super) enum Kept {
+    One,
+    Two,
+}
+
+/// The polynomial of a cell in doubles; the rounding of its coefficients counts as part of its error.
+pub(super) fn piece(cell: &Cell, kept: Kept) -> Piece {
+    let mut error = cell.taylor.remainder;
+    let (mut coefficients, mut low) = (Vec::new(), Vec::new());
+    for coefficient in &cell.taylor.coefficients {
+        let (double, distance) = match kept {
+            Kept::One => coefficient.to_double(),
+            Kept::Two => {
+                let (high, rest) = coefficient.split();
+                let (rest, distance) = rest.to_double();
+                low.push(rest);
+                (high, distance)
+            }
+        };
+        coefficients.push(double);
+        error = error.add(&distance);
+    }
+    Piece {
+        start: cell.first,
+        centre: cell.middle,
+        scale: cell.scale.recip(),
+        coefficients,
+        low,
+        error: error.to_double(),
+    }
 }

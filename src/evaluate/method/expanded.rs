@@ -15,27 +15,6 @@ use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
 /// An observable on a window by the formula as printed.
-///
-/// ```
-/// use wavestep::evaluate::{Expanded, Method, Limit, Signal, Stable, StablePrecision};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("200")?);
-/// let expanded = Expanded::new(&signal, &from, &to).unwrap();
-/// let stable = Stable::new(&signal, &from, &to, StablePrecision::DoubleDouble).unwrap();
-/// let off = |t| {
-///     let at = parse_number(t).unwrap();
-///     let [expanded, stable]: [&dyn Method; 2] = [&expanded, &stable];
-///     (expanded.value(&at, Limit::Right).unwrap() - stable.value(&at, Limit::Right).unwrap()).abs()
-/// };
-/// // Right after one period, and of no use after eighty.
-/// assert!(off("3") < 1e-14 && off("161") > 1e3);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Expanded {
     sums: Sums,
 }

@@ -14,9 +14,8 @@ use crate::evaluate::error::EvaluateError;
 use crate::expression::{Expression, Field as _, Fraction, Transform};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::{FieldForm, FieldStep};
-use num_complex::Complex64;
 use std::collections::BTreeMap;
-use wavestep_kernels::march::{State, Term, WaveStep, WaveSystem};
+use wavestep_kernels::march::{Complex, Scalar as _, State, Term, WaveStep, WaveSystem};
 
 /// Bits of the balls that are rounded.
 const BITS: u64 = 256;
@@ -33,8 +32,8 @@ pub(super) struct SystemBuilder<'a> {
     /// `m_0, m_1 …` of each pole.
     sources: BTreeMap<Fraction, Vec<WaveIndex>>,
     /// Their steps: functions of time follow from themselves alone, and come first.
-    source_steps: Vec<WaveStep<Complex64>>,
-    steps: Vec<WaveStep<Complex64>>,
+    source_steps: Vec<WaveStep<Complex>>,
+    steps: Vec<WaveStep<Complex>>,
 }
 
 impl<'a> SystemBuilder<'a> {
@@ -65,7 +64,7 @@ impl<'a> SystemBuilder<'a> {
     }
 
     /// The system; nothing can be added any more.
-    pub fn build(self) -> Result<WaveSystem<Complex64>, MethodError> {
+    pub fn build(self) -> Result<WaveSystem<Complex>, MethodError> {
         let steps = self.source_steps.into_iter().chain(self.steps).collect();
         Ok(WaveSystem::new(steps)?)
     }
@@ -84,9 +83,8 @@ impl<'a> SystemBuilder<'a> {
             while known.len() < coefficients.len() {
                 let wave = self.count;
                 self.count += 1;
-                let before =
-                    known.last().map(|m| Term { wave: *m, lag: 0, weight: Complex64::ONE });
-                let initial = if before.is_none() { Complex64::ONE } else { Complex64::ZERO };
+                let before = known.last().map(|m| Term { wave: *m, lag: 0, weight: Complex::ONE });
+                let initial = if before.is_none() { Complex::ONE } else { Complex::ZERO };
                 let drive = before.into_iter().collect();
                 let state = Some(State { rate, drive, jumps: Vec::new(), initial });
                 let step = WaveStep { wave, values: Vec::new(), slopes: Vec::new(), state };
@@ -103,10 +101,7 @@ impl<'a> SystemBuilder<'a> {
         Ok(found)
     }
 
-    fn step(
-        &mut self,
-        step: &FieldStep<ComplexBall>,
-    ) -> Result<WaveStep<Complex64>, EnclosureError> {
+    fn step(&mut self, step: &FieldStep<ComplexBall>) -> Result<WaveStep<Complex>, EnclosureError> {
         let field = self.numbers.field(BITS);
         let FieldStep { wave, equation, start } = step;
         let forcing = self.forcing(equation)?;
@@ -180,18 +175,18 @@ fn add(weights: &mut Weights, place: (WaveIndex, usize), weight: &ComplexBall) {
 }
 
 /// The weights that are not zero.
-fn rounded(weights: &Weights) -> Vec<Term<Complex64>> {
+fn rounded(weights: &Weights) -> Vec<Term<Complex>> {
     let terms = weights.iter().map(|((wave, lag), weight)| {
         let (wave, lag, weight) = (*wave, *lag, nearest(weight));
         Term { wave, lag, weight }
     });
-    terms.filter(|term| term.weight != Complex64::ZERO).collect()
+    terms.filter(|term| term.weight != Complex::ZERO).collect()
 }
 
 /// The nearest doubles. What may be zero to so many bits is zero.
-pub(super) fn nearest(value: &ComplexBall) -> Complex64 {
+pub(super) fn nearest(value: &ComplexBall) -> Complex {
     let part = |part: &Ball| if part.contains_zero() { 0.0 } else { part.to_double().0 };
-    Complex64::new(part(value.real()), part(value.imaginary()))
+    Complex { re: part(value.real()), im: part(value.imaginary()) }
 }
 
 /// The exact value of an expression as a ball that is rounded once.

@@ -3,67 +3,56 @@
 //! Where all that is seen has one pole and one lag it is made of delayed copies of one impulse response,
 //! and a bound can be proven. All other recurrences are marched through wave by wave, without a bound.
 
-use super::marched_response::MarchedResponse;
-use super::marched_waves::MarchedWaves;
+use super::clock::{Clock, Delayed, Place};
+use super::doubles::{exactly, inside};
+use super::marched_response::{Response, reflection, weights};
+use super::marched_waves::Waves;
 use super::{Method, MethodError};
+use crate::ball::{Ball, ComplexBall, Magnitude};
+use crate::enclosure::Numbers;
+use crate::evaluate::cells::rational;
+use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
-use crate::evaluate::taps::{NoTaps, Taps};
-use wavestep_polynomial::Rational;
+use crate::evaluate::taps::{Extra, NoTaps, Taps};
+use crate::evaluate::transforms::value_at;
+use crate::expression::{Field as _, Fraction, Root, Transform};
+use wavestep_polynomial::{Rational, Symbol};
+
+/// Bits of the sum of the waves and what is added, whatever their sizes.
+const SUM_BITS: u64 = 1 << 12;
 
 /// An observable on a window by a march.
 ///
-/// ```
-/// use wavestep::evaluate::{Marched, Method, Limit, Signal};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// let marched = Marched::new(&signal, &from, &to, true).unwrap();
-/// let value = marched.value(&parse_number("1")?, Limit::Right).unwrap();
-/// assert!((value - (-1f64).exp()).abs() <= marched.bound().unwrap() + 1e-16);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-///
 /// Waves with several poles have values without a bound:
-///
-/// ```
-/// use wavestep::evaluate::{Marched, Method, Limit, Signal};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let source = Source::new("two poles", r#"
-///     recurrence "Two poles"
-///     period 2, local s, time t
-///     wave h, f
-///     equation h[n]' + h[n] = h[n-1]' - h[n-1]
-///     equation f[n]' + 2*f[n] = h[n]
-///     continuous h[n] - h[n-1] starts at 1
-///     continuous f[n] starts at 0
-/// "#)?;
-/// let recurrence = read_recurrence(&source, &Default::default())?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// let marched = Marched::new(&signal, &from, &to, true).unwrap();
-/// assert_eq!(marched.bound(), None);
-/// assert!(marched.law().contains("no bound"));
-/// // On the first period f = e^{−t} − e^{−2t}.
-/// let value = marched.value(&parse_number("1")?, Limit::Right).unwrap();
-/// assert!((value - (-1f64).exp() + (-2f64).exp()).abs() < 1e-15);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Marched {
-    march: Inner,
+    clock: Clock,
+    /// When the waves are seen.
+    seen: Vec<Delayed>,
+    march: Box<dyn March>,
+    extras: Extras,
+    from: Rational,
+    to: Rational,
 }
 
 /// What is marched through.
-enum Inner {
-    /// One impulse response.
-    Response(Box<MarchedResponse>),
-    /// All waves.
-    Waves(Box<MarchedWaves>),
+pub(super) trait March {
+    /// How far values can be off, in words.
+    fn law(&self) -> String;
+
+    /// A proven bound on the window, where one is asked for and proven.
+    fn bound(&self) -> Option<f64>;
+
+    /// The weighted sums of the waves at all places, for so many values: one march through all periods
+    /// that are seen.
+    fn sums(&self, places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError>;
+}
+
+/// What is added to the waves, in the local time and in the unit of the observable.
+struct Extras {
+    functions: Vec<Extra>,
+    local: Symbol,
+    unit: Root,
 }
 
 impl Marched {
@@ -83,30 +72,99 @@ impl Marched {
         to: &Rational,
         proven: bool,
     ) -> Result<Marched, MethodError> {
-        let waves = || -> Result<Marched, MethodError> {
-            let march = Inner::Waves(Box::new(MarchedWaves::new(signal, from, to)?));
-            Ok(Marched { march })
-        };
         let taps = match Taps::of(signal) {
             Ok(taps) => taps,
             Err(NoTaps::NoGrid) => return Err(NoTaps::NoGrid.into()),
-            Err(_) => return waves(),
+            Err(_) => return Marched::of_waves(signal, from, to),
         };
-        match MarchedResponse::new(taps, signal, from, to, proven) {
-            Ok(response) => Ok(Marched { march: Inner::Response(Box::new(response)) }),
+        match Marched::of_response(taps, signal, from, to, proven) {
             // Growing reflections have no certificate; their waves have values as others have.
             Err(error @ (MethodError::Reflection(_) | MethodError::March(_))) => {
-                waves().map_err(|_| error)
+                Marched::of_waves(signal, from, to).map_err(|_| error)
             }
-            Err(error) => Err(error),
+            marched => marched,
         }
     }
 
-    fn method(&self) -> &dyn Method {
-        match &self.march {
-            Inner::Response(response) => response.as_ref(),
-            Inner::Waves(waves) => waves.as_ref(),
+    /// By the impulse response.
+    fn of_response(
+        taps: Taps,
+        signal: &Signal,
+        from: &Rational,
+        to: &Rational,
+        proven: bool,
+    ) -> Result<Marched, MethodError> {
+        let numbers = Numbers::new(signal.recurrence().constants());
+        let reflection = reflection(&taps, &numbers)?;
+        let weights = weights(&taps.taps, signal.unit(), &numbers)?;
+        let Taps { period, taps, extras: functions, .. } = taps;
+        let clock = Clock { numbers, slowness: signal.slowness().clone(), period };
+        let seen = taps.into_iter().map(|tap| Delayed { delay: tap.delay, since: tap.since });
+        let seen: Vec<Delayed> = seen.collect();
+        let last = clock.last_period(&seen, to)?;
+        let march = Response::new(reflection, weights, proven.then_some(last))?;
+        let local = signal.recurrence().statement().local.clone();
+        let extras = Extras { functions, local, unit: signal.unit().clone() };
+        let (from, to) = (from.clone(), to.clone());
+        Ok(Marched { clock, seen, march: Box::new(march), extras, from, to })
+    }
+
+    /// By all waves.
+    fn of_waves(signal: &Signal, from: &Rational, to: &Rational) -> Result<Marched, MethodError> {
+        if !signal.is_on_grid() {
+            return Err(NoTaps::NoGrid.into());
         }
+        let statement = signal.recurrence().statement();
+        let numbers = Numbers::new(signal.recurrence().constants());
+        let (march, seen) = Waves::new(signal, &numbers)?;
+        let (slowness, period) = (signal.slowness().clone(), statement.period.clone());
+        let clock = Clock { numbers, slowness, period };
+        clock.last_period(&seen, to)?;
+        let local = statement.local.clone();
+        let extras = Extras { functions: Vec::new(), local, unit: signal.unit().clone() };
+        let (from, to) = (from.clone(), to.clone());
+        Ok(Marched { clock, seen, march: Box::new(march), extras, from, to })
+    }
+
+    /// What is added to the waves at a time, in a ball whose radius is less than `2^−10` of the bound.
+    fn extras(&self, at: &Rational, side: Limit) -> Result<Ball, MethodError> {
+        const FIRST_BITS: u64 = 128;
+        const MAX_BITS: u64 = 1 << 12;
+        let allowed = self.march.bound().map(|bound| Magnitude::from_double(bound).scale(-10));
+        let mut bits = FIRST_BITS;
+        loop {
+            let sum = self.extras_in(at, side, bits)?;
+            if allowed.is_none_or(|allowed| *sum.radius() <= allowed) {
+                return Ok(sum);
+            }
+            if bits >= MAX_BITS {
+                let best = Box::new(sum);
+                return Err(EvaluateError::AccuracyNotReached { best, bits }.into());
+            }
+            bits *= 2;
+        }
+    }
+
+    /// The same with so many bits.
+    fn extras_in(&self, at: &Rational, side: Limit, bits: u64) -> Result<Ball, MethodError> {
+        let Clock { numbers, slowness, .. } = &self.clock;
+        let field = numbers.field(bits);
+        let mut sum = Ball::zero();
+        for extra in &self.extras.functions {
+            let since = &slowness.scale(at) - &extra.origin;
+            let order = numbers.compare(&since, &Fraction::zero()).map_err(EvaluateError::from)?;
+            if order.is_lt() || (order.is_eq() && side == Limit::Left) {
+                continue;
+            }
+            let exact = Transform::of(&extra.function, &self.extras.local);
+            let function =
+                Transform::<ComplexBall>::embedded(&exact, &field).map_err(EvaluateError::from)?;
+            let x = field.embed(&since.into()).map_err(EvaluateError::from)?;
+            let value = value_at(&function, &x, numbers, bits)?;
+            sum = sum.add(value.real(), bits);
+        }
+        let unit = numbers.enclose_root(&self.extras.unit, bits).map_err(EvaluateError::from)?;
+        Ok(sum.multiply(&unit, bits))
     }
 }
 
@@ -116,22 +174,45 @@ impl Method for Marched {
     }
 
     fn law(&self) -> String {
-        self.method().law()
+        self.march.law()
     }
 
     fn bound(&self) -> Option<f64> {
-        self.method().bound()
+        self.march.bound()
     }
 
     fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
-        self.method().value(at, side)
+        Ok(self.exact_values(std::slice::from_ref(at), side)?[0])
     }
 
     fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
-        self.method().exact_values(at, side)
+        if at.iter().any(|at| *at < self.from || *at > self.to) {
+            return Err(MethodError::Outside);
+        }
+        let places = self.clock.places(&self.seen, at, side)?;
+        let mut values = self.march.sums(places, at.len())?;
+        if !self.extras.functions.is_empty() {
+            // What is added can be much larger than the waves: the sum is rounded once.
+            for (value, at) in values.iter_mut().zip(at) {
+                let waves = Ball::from_rational(&rational(*value), 64);
+                *value = waves.add(&self.extras(at, side)?, SUM_BITS).to_double().0;
+            }
+        }
+        Ok(values)
     }
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
-        self.method().values(at, values)
+        assert_eq!(at.len(), values.len(), "a place for each value");
+        inside(at, [&self.from, &self.to])?;
+        let places = match self.extras.functions.is_empty() {
+            true => self.clock.places_of_doubles(&self.seen, at),
+            false => None,
+        };
+        let found = match places {
+            Some(places) => self.march.sums(places, at.len()),
+            None => self.exact_values(&exactly(at), Limit::Right),
+        };
+        values.copy_from_slice(&found?);
+        Ok(())
     }
 }

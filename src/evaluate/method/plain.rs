@@ -14,22 +14,6 @@ use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
 /// An observable on a window by the recurrence of three terms.
-///
-/// ```
-/// use wavestep::evaluate::{Method, Plain, Limit, Signal};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// let plain = Plain::new(&signal, &from, &to).unwrap();
-/// // e^{−3} + e^{−1}(1 − 2)
-/// let value = plain.value(&parse_number("3")?, Limit::Right).unwrap();
-/// assert!((value - ((-3f64).exp() - (-1f64).exp())).abs() < 1e-15);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Plain {
     sums: EchoSums,
 }

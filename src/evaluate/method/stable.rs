@@ -14,25 +14,6 @@ use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
 /// In which numbers echoes are summed.
-///
-/// ```
-/// use wavestep::evaluate::{Method as _, Stable, StablePrecision};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("60")?);
-/// let with = |precision| Stable::new(&signal, &from, &to, precision).unwrap();
-/// let (single, pairs) = (with(StablePrecision::Double), with(StablePrecision::DoubleDouble));
-/// assert_eq!((single.name(), pairs.name()), ("stable", "double-double"));
-/// let (mut fast, mut fine) = ([0.0; 2], [0.0; 2]);
-/// single.values(&[7.5, 59.5], &mut fast).unwrap();
-/// pairs.values(&[7.5, 59.5], &mut fine).unwrap();
-/// assert!(fast.iter().zip(fine).all(|(fast, fine)| (fast - fine).abs() < 64.0 * f64::EPSILON));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum StablePrecision {
     /// Doubles.
@@ -42,22 +23,6 @@ pub enum StablePrecision {
 }
 
 /// An observable on a window by the stable sum of its echoes.
-///
-/// ```
-/// use wavestep::evaluate::{Method, Limit, Signal, Stable, StablePrecision};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// let stable = Stable::new(&signal, &from, &to, StablePrecision::DoubleDouble).unwrap();
-/// let at = |t| stable.value(&parse_number(t).unwrap(), Limit::Right).unwrap();
-/// assert_eq!((at("0"), at("1")), (1.0, (-1f64).exp()));
-/// assert_eq!(stable.bound(), None);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Stable {
     sums: EchoSums,
     precision: StablePrecision,
