@@ -7,7 +7,9 @@ use crate::tally::{Tally, ends};
 use crate::{exact, mass_ratio, random, unit_in_the_last_place};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
-use wavestep::evaluate::{Limit, Method as _, MethodError, NoTaps, Stable, StablePrecision};
+use wavestep::evaluate::{
+    Expanded, Limit, Method, MethodError, NoTaps, Plain, Stable, StablePrecision,
+};
 use wavestep::language::parse_number;
 
 /// Doubles on every period up to a last one: just after its start, just before its end, and four
@@ -172,4 +174,22 @@ fn what_has_no_echoes_is_refused() {
         refused("stepped-striker", &[], "pulse"),
         NoTaps::NoForm(_) | NoTaps::Sequence(_)
     ));
+}
+
+/// The formula as printed is right after one period and of no use after eighty; the recurrence of
+/// three terms still is.
+#[test]
+fn the_printed_formula_fails_first() {
+    with("rigid-mass", &[("mu", "1")], "f", ("0", "200"), |subject| {
+        let (signal, from, to) = (subject.signal, &subject.from, &subject.to);
+        let plain = Plain::new(signal, from, to).unwrap();
+        let expanded = Expanded::new(signal, from, to).unwrap();
+        let stable = Stable::new(signal, from, to, StablePrecision::DoubleDouble).unwrap();
+        let off = |method: &dyn Method, at: f64| {
+            let value = |method: &dyn Method| method.value(&exact(at), Limit::Right).unwrap();
+            (value(method) - value(&stable)).abs()
+        };
+        assert!(off(&plain, 3.0) < 1e-15 && off(&expanded, 3.0) < 1e-14);
+        assert!(off(&plain, 161.0) < 1e-11 && off(&expanded, 161.0) > 1e3);
+    });
 }
