@@ -21,6 +21,8 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod error;
+
 pub mod answer;
 pub mod ball;
 pub mod book;
@@ -44,3 +46,5 @@ pub mod scene;
 pub mod scenes;
 pub mod solution;
 pub mod study;
+
+pub use error::{Error, Remedy};

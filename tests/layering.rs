@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 24] = [
+const LAYERS: [(&str, &[&str]); 25] = [
     ("ball", &[]),
     ("plot", &[]),
     ("expression", &[]),
@@ -47,6 +47,22 @@ const LAYERS: [(&str, &[&str]); 24] = [
             "network",
             "recurrence",
             "scene",
+            "solution",
+        ],
+    ),
+    (
+        "error",
+        &[
+            "answer",
+            "ball",
+            "evaluate",
+            "expression",
+            "field",
+            "history",
+            "language",
+            "lock",
+            "model",
+            "network",
             "solution",
         ],
     ),

@@ -7,7 +7,7 @@ use super::input::{self, Readable, Subject};
 use super::lock;
 use super::progress;
 use super::rates::{failure_of_rates, rates};
-use wavestep::evaluate::{ArrivalError, EvaluateError, arrivals};
+use wavestep::evaluate::arrivals;
 use wavestep::export;
 use wavestep::network::{Network, ScaledScene};
 use wavestep::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution, SolveError};
@@ -127,11 +127,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
 /// derived.
 fn on_lattice(network: &Network) -> Result<String, Failure> {
     let waves: Vec<usize> = (0..network.waves().len()).collect();
-    let found = arrivals(network, &waves, FIRST_ECHOES).map_err(|error| match error {
-        ArrivalError::Solve(error) => Failure::from(error),
-        ArrivalError::Evaluate(EvaluateError::Network(error)) => Failure::from(*error),
-        ArrivalError::Evaluate(error) => error.into(),
-    })?;
+    let found = arrivals(network, &waves, FIRST_ECHOES)?;
     let names: Vec<&str> = network.waves().iter().map(|wave| wave.name.as_str()).collect();
     let observables: Vec<&str> =
         network.observables().iter().map(|observed| observed.name.as_str()).collect();

@@ -8,7 +8,7 @@ use super::rates::failure_of_rates;
 use serde_json::{Value as Json, json};
 use std::collections::BTreeSet;
 use wavestep::enclosure::Numbers;
-use wavestep::evaluate::{Arrival, ArrivalError, EvaluateError, arrivals};
+use wavestep::evaluate::{Arrival, arrivals};
 use wavestep::export::{self, Derivation, Formula, Head};
 use wavestep::expression::{Constant, Definition, Root};
 use wavestep::language;
@@ -201,11 +201,7 @@ fn on_lattice(network: &Network, options: &Derive) -> Result<String, Failure> {
         return Err(Failure::usage(message, "ask for a smaller --through, or one wave"));
     }
     let _progress = progress::spinner("deriving");
-    let found = arrivals(network, &waves, through).map_err(|error| match error {
-        ArrivalError::Solve(error) => Failure::from(error),
-        ArrivalError::Evaluate(EvaluateError::Network(error)) => Failure::from(*error),
-        ArrivalError::Evaluate(error) => error.into(),
-    })?;
+    let found = arrivals(network, &waves, through)?;
     let local = network.local();
     if options.format == DeriveFormat::Json {
         return Ok(json_document(network, &found));

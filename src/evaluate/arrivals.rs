@@ -1,37 +1,15 @@
 //! The echoes of a lattice in the order in which they arrive.
 
-use crate::enclosure::{EnclosureError, Numbers};
+use crate::enclosure::Numbers;
 use crate::evaluate::error::EvaluateError;
 use crate::expression::{Expression, Fraction};
 use crate::network::Network;
 use crate::recurrence::WaveIndex;
-use crate::solution::{Demand, EchoByEcho, SolveError};
+use crate::solution::{Demand, EchoByEcho};
 use std::cmp::Ordering;
 use wavestep_polynomial::Symbol;
 
 /// An echo of a wave on a lattice of delays.
-///
-/// ```
-/// use wavestep::evaluate::arrivals;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let source = Source::new("steps.wave", r#"
-///     scene "Two bars whose travel times have no common measure"
-///     symbol a > 0, b > 0
-///     bar left  { impedance = 1, travel = a, velocity = 1 }
-///     bar right { impedance = 1, travel = b }
-///     line free - left | right - free
-/// "#)?;
-/// let network = Network::new(&read_scene(&source, &Default::default()).unwrap()).unwrap();
-/// let g = network.waves().iter().position(|wave| wave.name == "g_left").unwrap();
-/// let echoes = arrivals(&network, &[g], 1).unwrap();
-/// // First −1/2 goes back; equal bars reflect nothing, so the next comes from the far end of the
-/// // right bar, after two passages of it.
-/// let shown: Vec<String> = echoes.iter().map(|echo| echo.delay.to_string()).collect();
-/// assert_eq!(shown, ["0", "2*b"]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Arrival {
     /// The wave.
@@ -44,67 +22,20 @@ pub struct Arrival {
     pub echo: Expression,
 }
 
-/// Why echoes cannot be listed.
-///
-/// ```
-/// use wavestep::evaluate::ArrivalError;
-/// use wavestep::enclosure::EnclosureError;
-///
-/// let error = ArrivalError::from(EnclosureError::NotReal);
-/// assert!(matches!(error, ArrivalError::Evaluate(_)));
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum ArrivalError {
-    /// An echo cannot be given exactly.
-    Solve(SolveError),
-    /// The scene gives no recurrence, or its times cannot be told apart.
-    Evaluate(EvaluateError),
-}
-
-impl From<SolveError> for ArrivalError {
-    fn from(error: SolveError) -> ArrivalError {
-        ArrivalError::Solve(error)
-    }
-}
-
-impl From<EnclosureError> for ArrivalError {
-    fn from(error: EnclosureError) -> ArrivalError {
-        ArrivalError::Evaluate(error.into())
-    }
-}
-
-impl From<EvaluateError> for ArrivalError {
-    fn from(error: EvaluateError) -> ArrivalError {
-        ArrivalError::Evaluate(error)
-    }
-}
-
 /// The echoes of some waves that are not zero, of at most `through` periods of the lattice together:
 /// where the periods are numbers those are left out that others may come before, and the rest is in
 /// order of arrival; else they are in order of their counts.
 ///
 /// # Errors
-/// [`ArrivalError`].
+/// [`EvaluateError`].
 ///
 /// # Cost
 /// That of all echoes of so many periods: for `r` periods in the lattice about `through^r/r!` of them.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("incommensurate").unwrap().text;
-/// let scene = read_scene(&Source::new("incommensurate", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let echoes = wavestep::evaluate::arrivals(&network, &[0], 4).unwrap();
-/// assert!(echoes.iter().all(|arrival| arrival.counts.iter().sum::<usize>() <= 4));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn arrivals(
     network: &Network,
     waves: &[WaveIndex],
     through: usize,
-) -> Result<Vec<Arrival>, ArrivalError> {
+) -> Result<Vec<Arrival>, EvaluateError> {
     let numbers = Numbers::new(&network.model().constants);
     let periods = network.lattice().periods();
     let bounds = vec![through; periods.len()];
@@ -142,7 +73,7 @@ fn in_order(
     numbers: &Numbers,
     periods: &[Fraction],
     through: usize,
-) -> Result<Vec<Arrival>, ArrivalError> {
+) -> Result<Vec<Arrival>, EvaluateError> {
     let told = periods.iter().all(|period| numbers.enclose(period, 64).is_ok());
     if !told {
         let total = |arrival: &Arrival| arrival.counts.iter().sum::<usize>();

@@ -24,7 +24,7 @@ mod transforms;
 mod value;
 mod waves;
 
-pub use arrivals::{Arrival, ArrivalError, arrivals};
+pub use arrivals::{Arrival, arrivals};
 pub(crate) use cells::scale;
 pub use error::EvaluateError;
 pub use evaluator::{
