@@ -6,9 +6,10 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use wavestep::evaluate::{Certified, Compiled, Limit, Marched, Method, Signal, Stable};
+use wavestep::evaluate::{Certified, Compiled, Limit, Marched, Method, Stable};
 use wavestep::evaluate::{StablePrecision, Taps};
-use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep::language::parse_number;
+use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_polynomial::Rational;
 
 /// The order at which costs are measured, and the count of echoes that its values sum.
@@ -47,15 +48,6 @@ fn seconds<T>(mut work: impl FnMut() -> T) -> f64 {
     least
 }
 
-/// Calls `work` with what a recurrence shows of a wave.
-fn with_signal(text: &str, mass: Option<&str>, work: impl FnOnce(&Signal)) {
-    let values = mass.map(|mass| ("mu".to_owned(), parse_number(mass).unwrap()));
-    let source = Source::new("costs", text).unwrap();
-    let recurrence = read_recurrence(&source, &values.into_iter().collect()).unwrap();
-    let observation = recurrence.observation("f").unwrap();
-    work(&Signal::of_recurrence(&recurrence, &observation).unwrap());
-}
-
 fn print(name: &str, what: &str, seconds: f64) {
     println!("const {name}: f64 = {seconds:.1e}; // {what}");
 }
@@ -64,8 +56,7 @@ fn main() {
     let (from, to) = (Rational::default(), Rational::from_integer((2 * ORDER).into()));
     let late = &to - &parse_number("1/3").unwrap();
     let value = |method: &dyn Method| seconds(|| method.value(&late, Limit::Right).unwrap());
-    let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    with_signal(text, Some("1"), |signal| {
+    with_signal(rigid_mass(), Some("1"), |signal| {
         assert!(Taps::of(signal).is_ok(), "the march in integers is measured");
         let certified = |times: &[Rational]| {
             let method = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();

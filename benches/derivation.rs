@@ -6,7 +6,6 @@ use std::hint::black_box;
 use wavestep::export::{Formula, Head, LATEX_WIDTH, latex};
 use wavestep::language::{Source, read_recurrence};
 use wavestep::recurrence::Recurrence;
-use wavestep::scenes;
 use wavestep::solution::{EchoByEcho, EchoTable, PeriodByPeriod, Solution};
 
 fn scene(text: &str) -> Recurrence {
@@ -15,7 +14,7 @@ fn scene(text: &str) -> Recurrence {
 }
 
 fn rigid_mass() -> Recurrence {
-    scene(scenes::find("rigid-mass").expect("a built-in scene").text)
+    scene(wavestep_benches::rigid_mass())
 }
 
 fn another() -> Recurrence {

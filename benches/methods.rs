@@ -7,9 +7,10 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use std::cell::LazyCell;
 use std::hint::black_box;
 use wavestep::evaluate::{Certified, Compiled, Marched, Method, Signal, Stable, StablePrecision};
-use wavestep::language::{Source, parse_number, read_recurrence};
-use wavestep::study::Sampling;
+use wavestep::language::parse_number;
+use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_kernels::{Level, Piece, Table};
+use wavestep_studies::study::Sampling;
 
 const ORDER: u32 = 200;
 const POINTS: usize = 10_000_000;
@@ -17,14 +18,10 @@ const UNSORTED: usize = 1_000_000;
 const MASSES: [&str; 2] = ["1", "1/4"];
 
 /// Calls `work` with the wave f, and the end of the window.
-fn with_signal(mass: &str, work: impl FnOnce(&Signal, &str)) {
-    let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    let values = [("mu".to_owned(), parse_number(mass).unwrap())].into();
-    let source = Source::new("rigid-mass", text).unwrap();
-    let recurrence = read_recurrence(&source, &values).unwrap();
-    let observation = recurrence.observation("f").unwrap();
-    let signal = Signal::of_recurrence(&recurrence, &observation).unwrap();
-    work(&signal, &format!("{}*2*{mass}", ORDER + 1));
+fn with_wave(mass: &str, work: impl FnOnce(&Signal, &str)) {
+    with_signal(rigid_mass(), Some(mass), |signal| {
+        work(signal, &format!("{}*2*{mass}", ORDER + 1))
+    });
 }
 
 /// Times in an order that no cache knows.
@@ -60,7 +57,7 @@ impl Prepared<'_> {
 
 fn polynomials(criterion: &mut Criterion) {
     for mass in MASSES {
-        with_signal(mass, |signal, last| {
+        with_wave(mass, |signal, last| {
             let prepared = LazyCell::new(|| Prepared::new(signal, last));
             let mut values = vec![0.0; POINTS];
             let mut group = criterion.benchmark_group(format!("rigid-mass mu={mass} n≤{ORDER}"));
@@ -104,7 +101,7 @@ fn polynomials(criterion: &mut Criterion) {
 
 /// A thousand values from scratch: nothing is prepared.
 fn from_scratch(criterion: &mut Criterion) {
-    with_signal("1", |signal, last| {
+    with_wave("1", |signal, last| {
         let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
         let times = Sampling { points: 1000, seed: 1 }.times(0.0, 402.0);
         let mut values = vec![0.0; 1000];
@@ -136,7 +133,7 @@ fn from_scratch(criterion: &mut Criterion) {
 
 /// Sums of echoes, on one period.
 fn sums(criterion: &mut Criterion) {
-    with_signal("1", |signal, last| {
+    with_wave("1", |signal, last| {
         let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
         let mut group = criterion.benchmark_group("sums of echoes");
         for order in [10_u32, 50, 200] {

@@ -2,8 +2,7 @@
 //!
 //! Data flows one way: text ([`language`]) → [`recurrence`] → [`solution`] → numbers ([`evaluate`])
 //! and formulas ([`export`]), all in exact [`expression`]s; [`ball`] encloses what is not rational.
-//! [`field`] gives velocities and strains along the bars of a scene; [`plot`] draws what it is given, and
-//! [`picture`] gives it scenes.
+//! [`field`] gives velocities and strains along the bars of a scene.
 //!
 //! ```
 //! use wavestep::{language, solution::Solution};
@@ -23,28 +22,38 @@ struct Readme;
 
 mod error;
 
+// These modules are for the member crates of this repository, and no part of the public surface.
+#[doc(hidden)]
 pub mod answer;
+#[doc(hidden)]
 pub mod ball;
-pub mod book;
-pub mod dispersion;
+#[doc(hidden)]
 pub mod enclosure;
+#[doc(hidden)]
 pub mod evaluate;
+#[doc(hidden)]
 pub mod export;
+#[doc(hidden)]
 pub mod expression;
+#[doc(hidden)]
 pub mod field;
-pub mod figures;
-pub mod hertz;
+#[doc(hidden)]
 pub mod history;
+#[doc(hidden)]
 pub mod language;
+#[doc(hidden)]
 pub mod lock;
+#[doc(hidden)]
 pub mod model;
+#[doc(hidden)]
 pub mod network;
-pub mod picture;
-pub mod plot;
+#[doc(hidden)]
 pub mod recurrence;
+#[doc(hidden)]
 pub mod scene;
+#[doc(hidden)]
 pub mod scenes;
+#[doc(hidden)]
 pub mod solution;
-pub mod study;
 
 pub use error::{Error, Remedy};

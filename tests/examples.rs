@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The folders of the libraries' source.
-const LIBRARIES: [&str; 2] = ["src", "polynomial/src"];
+const LIBRARIES: [&str; 2] = ["src", "crates/polynomial/src"];
 
 /// The names that `pub use` exports in a text.
 fn exported(root: &str) -> Vec<&str> {

@@ -4,9 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use wavestep::export::{
-    self, Formula, Head, LATEX_WIDTH, TEXT_WIDTH, general_form, latex_width, pieces_json,
-};
+use wavestep::export::{self, Formula, Head, LATEX_WIDTH, TEXT_WIDTH, general_form, latex_width};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_listing, read_recurrence};
 use wavestep::recurrence::WaveIndex;
@@ -114,9 +112,6 @@ fn rigid_mass_in_other_forms() {
     let cases = export::latex_cases("f", &statement.time, &piecewise, LATEX_WIDTH);
     assert_sound_latex(&cases);
     assert_snapshot("rigid-mass-piecewise-latex", &cases);
-    let json = pieces_json("n", 0, &statement.local, &pieces(&solution, f, 2));
-    let json = serde_json::to_string_pretty(&json).expect("JSON");
-    assert_snapshot("rigid-mass-json", &json);
 }
 
 #[test]

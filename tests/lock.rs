@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use proptest::prelude::*;
 use wavestep::language::{Source, parse_number, read_recurrence};
@@ -54,24 +53,6 @@ fn snapshot(name: &str, text: &str) {
     settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
-fn run(arguments: &[&str], folder: &Path) -> (i32, String, String) {
-    let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_wavestep"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the command runs");
-    let text = |bytes| String::from_utf8(bytes).expect("text");
-    (status.code().expect("an exit code"), text(stdout), text(stderr))
-}
-
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lock-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
 /// Recurrences whose pieces hold denominators, several exponentials, and names with subscripts.
 const OTHERS: [&str; 3] = [
     "recurrence \"  = spaces # and signs  \"\nperiod 1, local s, time t\nwave f\n\
@@ -98,6 +79,7 @@ fn locks_are_read_as_they_were_written() {
         assert_eq!(read, lock, "{}", lock.to_text());
         assert!(read.differences(&lock).is_empty());
         assert_eq!(read.to_text(), lock.to_text());
+        assert!(self::read("windows.lock", &lock.to_text().replace('\n', "\r\n")).is_ok());
     }
 }
 
@@ -178,35 +160,6 @@ fn long_differences_are_cut() {
     assert!(differences.iter().any(|d| d.to_string().contains("more terms")));
 }
 
-#[test]
-fn damaged_files_are_explained() {
-    let good = derived(scene("constant-force"), &request(1, "", &["1"])).to_text();
-    let cases = [
-        ("heading", good.replace("# wavestep lock 1", "# my notes")),
-        ("version", good.replace("lock 1", "lock 3")),
-        ("history", good.replace("lock 1", "lock 2")),
-        ("empty", String::new()),
-        ("count", good.replace("through 1", "through many")),
-        ("value", good.replace("value f(1)", "value f")),
-        ("value-time", good.replace("value f(1)", "value f(soon)")),
-        ("digits", good.replace("digits 20", "digits 0")),
-        ("twice", good.replace("f[1](s) = 2", "f[0](s) = 2")),
-        ("value-number", good.replace("value f(1) = 1", "value f(1) = one")),
-        ("setting", good.replace("digits 20", "set mu")),
-        ("piece", good.replace("f[1](s) = 2", "f[1](s) = 2 +")),
-        ("line", good.replace("f[1](s) = 2", "f[1] is two")),
-        ("cut", good[..good.find("\nvalue ").expect("a value")].to_owned()),
-        ("binary", good.replace("= 2", "= \0")),
-    ];
-    for (name, text) in cases {
-        assert_ne!(text, good, "{name}");
-        let error = read("damaged.lock", &text).expect_err(name);
-        snapshot(&format!("damaged-{name}"), &error);
-    }
-    assert!(read("good.lock", &good).is_ok());
-    assert!(read("windows.lock", &good.replace('\n', "\r\n")).is_ok());
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
     /// Another digit anywhere in a piece or a value is a difference or an error, never passed over.
@@ -238,61 +191,5 @@ proptest! {
         let end = (start + length).min(characters.len());
         characters.splice(start..end, with.chars());
         let _ = read("damaged.lock", &characters.into_iter().collect::<String>());
-    }
-}
-
-#[test]
-fn the_command_locks_and_checks() {
-    let folder = folder("command");
-    fs::write(folder.join("my.wave"), scene("rigid-mass")).expect("a file");
-    let lock = ["lock", "my.wave", "--through", "2", "-o", "my.lock"];
-    let (code, out, err) = run(&lock, &folder);
-    assert_eq!((code, &*out, &*err), (0, "my.lock: locked 6 pieces\n", ""));
-    let check = ["check", "my.wave", "--locked", "my.lock"];
-    let (code, out, err) = run(&check, &folder);
-    assert_eq!((code, &*out, &*err), (0, "my.lock: 6 pieces as locked\n", ""));
-    let changed = scene("rigid-mass").replace("starts at 1 ", "starts at 1/2 ");
-    fs::write(folder.join("my.wave"), changed).expect("a file");
-    let (code, out, err) = run(&check, &folder);
-    assert_eq!(code, 1);
-    assert!(out.starts_with("f[0] differs\n  exp(-s): locked 1, now 1/2\n"), "{out}");
-    let message = "error: my.wave differs in 5 places from my.lock\nhelp: ";
-    assert!(err.starts_with(message), "{err}");
-    // Without a file, what would be in it; an old file stays whole when there is nothing to write.
-    let (_, out, _) = run(&["lock", "two-bars", "--through", "2"], &folder);
-    assert_eq!(out, derived(scene("two-bars"), &request(2, "", &[])).to_text());
-    let before = fs::read_to_string(folder.join("my.lock")).expect("a file");
-    let (code, _, err) =
-        run(&["lock", "my.wave", "--through", "2", "--at", "1", "-o", "my.lock"], &folder);
-    assert_eq!((code, err.contains("mu has no value")), (2, true), "{err}");
-    assert_eq!(fs::read_to_string(folder.join("my.lock")).expect("a file"), before);
-    // What is no ordinary file is written to, and stays what it is.
-    let (code, _, _) = run(&["lock", "two-bars", "--through", "0", "-o", "/dev/null"], &folder);
-    assert!(code == 0 && !fs::metadata("/dev/null").expect("a device").is_file());
-    let files = fs::read_dir(&folder).expect("a folder").count();
-    assert_eq!(files, 2, "no partial file is left");
-}
-
-#[test]
-fn bad_requests_are_refused() {
-    let folder = folder("refused");
-    fs::write(folder.join("m.wave"), scene("rigid-mass")).expect("a file");
-    let long = "recurrence \"long\"\nperiod 1, local s, time t\nwave f\n\
-                equation f[n] = 1e100*f[n-1] + 1/3\n";
-    fs::write(folder.join("long.wave"), long).expect("a file");
-    let cases: [(&[&str], &str); 8] = [
-        (&["lock", "rigid-mass", "--through", "500"], "terms"),
-        (&["lock", "rigid-mass", "--through", "1", "-o", "nowhere/my.lock"], "cannot be written"),
-        (&["lock", "rigid-mass", "--through", "1", "--digits", "0"], "cannot be certified"),
-        (&["lock", "m.wave", "--through", "0", "-o", "m.wave"], "the scene itself"),
-        (&["lock", "long.wave", "--through", "15"], "too long to be read back"),
-        (&["lock", "rigid-mass", "--through", "1", "--at", "-1"], "before the start"),
-        (&["check", "rigid-mass", "--locked", "nowhere.lock"], "cannot be read"),
-        (&["check", "rigid-mass", "--locked", "x", "--set", "mu=1"], "cannot be used with"),
-    ];
-    for (arguments, expected) in cases {
-        let (code, out, err) = run(arguments, &folder);
-        assert_eq!((code, &*out), (2, ""), "{arguments:?}: {err}");
-        assert!(err.contains(expected), "{arguments:?}: {err}");
     }
 }

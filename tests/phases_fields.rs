@@ -1,11 +1,7 @@
 //! Fields of scenes whose contacts open and close: against observables of their history at the same
 //! places, averages against momentum, energy and displacements, against closed contacts as long as they
-//! are closed; fronts of what an opening or a closing sends out; and the commands that give them.
+//! are closed; and fronts of what an opening or a closing sends out.
 
-use serde_json::Value as Json;
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 use wavestep::evaluate::{Determined, Limit, Value};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Mesh, Profile, Quantity};
@@ -398,64 +394,4 @@ fn what_cannot_be_given_is_refused() {
         evaluator.at(&number("2"), &mesh).is_err() && evaluator.at(&number("1"), &mesh).is_ok()
     );
     assert!(evaluator.waves([&number("0"), &number("9")], 4).is_err());
-}
-
-// ---- The commands -----------------------------------------------------------------------------
-
-fn run(arguments: &[&str]) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.current_dir(env!("CARGO_TARGET_TMPDIR")).env("NO_COLOR", "1");
-    let Output { status, stdout, stderr } = command.args(arguments).output().expect("it runs");
-    assert!(status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&stderr));
-    String::from_utf8(stdout).unwrap()
-}
-
-#[test]
-fn the_commands_follow_contacts_that_open() {
-    let rows =
-        run(&["field", "bars-of-equal-length", "--time", "3", "--mesh", "2", "--bar", "first"]);
-    let row = rows.lines().nth(2).unwrap();
-    assert_eq!(row, "first,0.5,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0");
-    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("phases.json");
-    let drawn = |arguments: &[&str]| -> Json {
-        run(&[&["plot"], arguments, &["-o", "phases.json"]].concat());
-        serde_json::from_slice(&fs::read(&file).unwrap()).unwrap()
-    };
-    let diagram =
-        drawn(&["bars-of-equal-length", "--diagram", "velocity", "--from", "2", "--to", "4"]);
-    // The striker, between 0 and 1, is at rest; the other bar moves with 0 or 1.
-    let cells = diagram["cells"].as_array().unwrap();
-    let is_left = |cell: &&Json| {
-        cell["outline"].as_array().unwrap().iter().all(|corner| corner[0].as_f64() <= Some(1.0))
-    };
-    assert!(cells.iter().filter(is_left).all(|cell| cell["value"].as_f64() == Some(0.0)));
-    assert!(cells.iter().any(|cell| cell["value"].as_f64() == Some(1.0)));
-    let figure =
-        drawn(&["saint-venant", "--set", "mu=1", "--at-time", "5", "--quantity", "strain"]);
-    let points = figure["panels"][0]["series"][0]["points"].as_array().unwrap();
-    assert_eq!(points[0][1].as_f64(), Some(0.0), "a free end");
-}
-
-/// Each picture of contacts that open is what the command beside it draws; `UPDATE_DOCUMENTS=1` draws them anew.
-#[test]
-fn pictures_of_the_page_are_fresh() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = fs::read_to_string(root.join("docs/pictures.md")).unwrap();
-    let commands = page.lines().filter(|line| line.starts_with("wavestep plot "));
-    let mut fresh = 0;
-    for line in commands.filter(|line| line.contains("-with-release") || line.contains("-venant")) {
-        let (arguments, file) = line.split_once(" -o ").expect("a file");
-        assert!(page.contains(&format!("({})", file.trim_start_matches("docs/"))), "{file}");
-        let mut arguments: Vec<&str> = arguments.split_whitespace().skip(1).collect();
-        arguments.extend(["-o", "page.svg"]);
-        run(&arguments);
-        let drawn = fs::read(Path::new(env!("CARGO_TARGET_TMPDIR")).join("page.svg")).unwrap();
-        if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
-            fs::write(root.join(file), &drawn).unwrap();
-        }
-        let told = format!("{file} is stale: run with UPDATE_DOCUMENTS=1");
-        assert!(fs::read(root.join(file)).ok().as_deref() == Some(&drawn[..]), "{told}");
-        fresh += 1;
-    }
-    assert_eq!(fresh, 2);
 }

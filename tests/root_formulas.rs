@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use wavestep::evaluate::{EvaluateError, Evaluator, Limit, Value};
-use wavestep::export::{Formula, Head, LATEX_WIDTH, expression_json, expression_text, latex};
+use wavestep::export::{Formula, Head, LATEX_WIDTH, expression_text, latex};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, parse_number, read_expression, read_listing, read_recurrence};
 use wavestep::solution::Solution;
@@ -99,15 +99,6 @@ fn identities_hold_as_they_are_read() {
     assert_ne!(read("sqrt(2)"), read("1.41421356"));
     // A symbol may be called i.
     assert_ne!(read("i"), read("sqrt(-1)"));
-}
-
-#[test]
-fn roots_stand_apart_in_json() {
-    let terms = expression_json(&read("3/2*sqrt(6)*s*exp(-sqrt(2)*s)"));
-    assert_eq!(
-        terms.to_string(),
-        r#"[{"coefficient":"3/2","roots":["2","3"],"powers":{"s":1},"exponent":"-s*sqrt(2)"}]"#
-    );
 }
 
 fn numbers() -> impl Strategy<Value = Fraction> {

@@ -55,13 +55,13 @@ impl Ball {
 
     /// The ball of one point, zero.
     #[must_use]
-    pub(crate) fn zero() -> Self {
+    pub fn zero() -> Self {
         Self::new(Binary::zero(), Magnitude::ZERO)
     }
 
     /// The ball of one point, the integer itself.
     #[must_use]
-    pub(crate) fn from_integer(value: &BigInt) -> Self {
+    pub fn from_integer(value: &BigInt) -> Self {
         Self::new(Binary::new(value.clone(), 0), Magnitude::ZERO)
     }
 
@@ -89,7 +89,7 @@ impl Ball {
 
     /// A ball around two rationals and all that is between them.
     #[must_use]
-    pub(crate) fn between(lower: &BigRational, upper: &BigRational, precision: u64) -> Self {
+    pub fn between(lower: &BigRational, upper: &BigRational, precision: u64) -> Self {
         let two = BigRational::from_integer(2.into());
         let half = (upper - lower) / &two;
         let middle = Self::from_rational(&((lower + upper) / &two), precision);
@@ -99,19 +99,19 @@ impl Ball {
 
     /// The midpoint.
     #[must_use]
-    pub(crate) const fn midpoint(&self) -> &Binary {
+    pub const fn midpoint(&self) -> &Binary {
         &self.midpoint
     }
 
     /// The radius.
     #[must_use]
-    pub(crate) const fn radius(&self) -> &Magnitude {
+    pub const fn radius(&self) -> &Magnitude {
         &self.radius
     }
 
     /// Whether the ball is a single point.
     #[must_use]
-    pub(crate) const fn is_exact(&self) -> bool {
+    pub const fn is_exact(&self) -> bool {
         self.radius.is_zero()
     }
 
@@ -123,7 +123,7 @@ impl Ball {
 
     /// Whether zero is in the ball.
     #[must_use]
-    pub(crate) fn contains_zero(&self) -> bool {
+    pub fn contains_zero(&self) -> bool {
         let below = |midpoint: Binary| midpoint <= self.radius.to_binary();
         if self.midpoint.is_negative() {
             below(self.midpoint.clone().negate())
@@ -142,7 +142,7 @@ impl Ball {
 
     /// An upper bound of `|x|` over the ball.
     #[must_use]
-    pub(crate) fn magnitude(&self) -> Magnitude {
+    pub fn magnitude(&self) -> Magnitude {
         self.midpoint.magnitude().add(&self.radius)
     }
 
@@ -152,7 +152,7 @@ impl Ball {
     /// further out, or the radius is more than `2^20` bits below the last bit of the midpoint,
     /// where they lie that far out.
     #[must_use]
-    pub(crate) fn endpoints(&self) -> (Binary, Binary) {
+    pub fn endpoints(&self) -> (Binary, Binary) {
         if self.is_exact() {
             return (self.midpoint.clone(), self.midpoint.clone());
         }
@@ -175,13 +175,13 @@ impl Ball {
 
     /// All points within `by` of this ball.
     #[must_use]
-    pub(crate) fn widened(&self, by: &Magnitude) -> Self {
+    pub fn widened(&self, by: &Magnitude) -> Self {
         Self::new(self.midpoint.clone(), self.radius.add(by))
     }
 
     /// `−x`, exactly.
     #[must_use]
-    pub(crate) fn negate(self) -> Self {
+    pub fn negate(self) -> Self {
         Self::new(self.midpoint.negate(), self.radius)
     }
 

@@ -24,7 +24,7 @@ pub(super) const LEAST_PRECISION: u64 = 2;
 /// # Panics
 /// Every operation panics when the exponent of its result leaves `i64`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Binary {
+pub struct Binary {
     mantissa: BigInt,
     exponent: i64,
 }

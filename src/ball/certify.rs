@@ -21,8 +21,7 @@ pub struct Certified {
 
 /// Why there are no proven digits.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub(crate) enum CertifyError<E> {
+pub enum CertifyError<E> {
     /// The enclosures up to the limit leave several decimals.
     AccuracyNotReached {
         /// The enclosure of least radius.
@@ -52,7 +51,7 @@ pub(crate) enum CertifyError<E> {
 ///
 /// # Cost
 /// When the cost of an enclosure grows at least linearly, at most twice that of the last attempt.
-pub(crate) fn certify<E>(
+pub fn certify<E>(
     digits: usize,
     limit_bits: u64,
     mut enclosure: impl FnMut(u64) -> Result<Ball, E>,

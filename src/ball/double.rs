@@ -8,7 +8,7 @@ impl Ball {
     /// A double near the midpoint, and a bound on its distance from every point of the ball.
     /// Infinite where the midpoint is beyond all doubles.
     ///
-    pub(crate) fn to_double(&self) -> (f64, Magnitude) {
+    pub fn to_double(&self) -> (f64, Magnitude) {
         let (double, rest) = self.split();
         (double, rest.magnitude())
     }
@@ -26,7 +26,7 @@ impl Ball {
 
     /// Two doubles whose sum is near the midpoint, and a bound on its distance from every point of the
     /// ball.
-    pub(crate) fn two_doubles(&self) -> (f64, f64, f64) {
+    pub fn two_doubles(&self) -> (f64, f64, f64) {
         let (high, rest) = self.split();
         let (low, rest) = rest.split();
         (high, low, rest.magnitude().to_double())
@@ -52,7 +52,7 @@ impl Ball {
 
 impl Binary {
     /// The nearest double, ties to even; infinite beyond all doubles.
-    pub(crate) fn to_double(&self) -> f64 {
+    pub fn to_double(&self) -> f64 {
         let Some(top) = self.top() else { return 0.0 };
         if top > 1024 {
             return if self.is_negative() { f64::NEG_INFINITY } else { f64::INFINITY };
@@ -85,7 +85,7 @@ impl Binary {
     }
 
     /// A double exactly; `None` where it is no number.
-    pub(crate) fn from_double(value: f64) -> Option<Binary> {
+    pub fn from_double(value: f64) -> Option<Binary> {
         if value.is_zero() {
             return Some(Binary::zero());
         }
@@ -116,7 +116,7 @@ impl Magnitude {
 
     /// The least double that is at least as large, or infinity.
     ///
-    pub(crate) fn to_double(self) -> f64 {
+    pub fn to_double(self) -> f64 {
         match self.top() {
             None => 0.0,
             Some(top) if top > 1023 => f64::INFINITY,

@@ -28,7 +28,7 @@ const BITS: u32 = 32;
 /// `2^(2^63)`: no sum of exponentials whose arguments [`exp_of_rational`](super::exp_of_rational)
 /// admits comes near.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Magnitude {
+pub struct Magnitude {
     mantissa: u64,
     exponent: i64,
 }

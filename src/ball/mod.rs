@@ -29,14 +29,14 @@ mod samples;
 mod trigonometry;
 
 pub use ball::Ball;
-pub(crate) use binary::Binary;
-pub use certify::Certified;
-pub(crate) use certify::{CertifyError, certify};
+pub use binary::Binary;
+pub use certify::{Certified, CertifyError, certify};
+
 pub use complex::ComplexBall;
 pub use decimal::{Decimal, Exactness};
 pub(crate) use divided::evaluate_divided;
 pub use enclosure::DecimalEnclosure;
 pub use error::BallError;
 pub(crate) use exponential::exp_of_rational;
-pub(crate) use magnitude::Magnitude;
+pub use magnitude::Magnitude;
 pub(crate) use number::Number;

@@ -103,7 +103,7 @@ impl Numbers {
     ///
     /// # Errors
     /// As [`Numbers::enclose`]; also where the radicand is not certainly positive.
-    pub(crate) fn enclose_root(&self, value: &Root, bits: u64) -> Result<Ball, EnclosureError> {
+    pub fn enclose_root(&self, value: &Root, bits: u64) -> Result<Ball, EnclosureError> {
         let factor = self.enclose(value.factor(), bits)?;
         if value.radicand().is_one() {
             return Ok(factor);

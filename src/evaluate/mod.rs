@@ -30,7 +30,7 @@ pub use error::EvaluateError;
 pub use evaluator::{
     Evaluator, Limit, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
 };
-pub(crate) use find::{At, ObservedSignal, Piecewise};
+pub use find::{At, ObservedSignal, Piecewise};
 pub use find::{Determined, Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,
@@ -39,7 +39,7 @@ pub use method::{
 pub use scene::{MAX_ECHOES, SceneEvaluator};
 pub use signal::{MAX_PIECES, Signal, Stretch};
 pub use taps::{Extra, NoTaps, Tap, Taps};
-pub(crate) use taylor::Taylor;
+pub use taylor::Taylor;
 pub use value::Value;
 pub(crate) use value::unit_in_the_last_place;
 pub(crate) use waves::Waves;

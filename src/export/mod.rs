@@ -1,17 +1,14 @@
-//! Exact results as text, LaTeX and JSON, and numbers as C.
+//! Exact results as text and LaTeX, and numbers as C.
 //!
 //! A [`Formula`] holds an expression in the order a person would write it; one walk with two
 //! notations then writes plain text or LaTeX. The language reads back the text of pieces and echoes
-//! in a scene's own symbols. Breaking of long lines is shared as well. JSON gives reduced
-//! rationals, term by term.
+//! in a scene's own symbols. Breaking of long lines is shared as well.
 
 mod arrangement;
 mod c;
-mod dispersion;
 mod explain;
 mod formula;
 mod general;
-mod json;
 mod lines;
 mod names;
 mod notation;
@@ -19,11 +16,9 @@ mod oscillation;
 mod source;
 
 pub use c::{CHeading, to_c};
-pub use dispersion::{dispersion_latex, dispersion_text};
 pub use explain::{Derivation, form_text, latex_name, solved_equations};
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,
 };
 pub use general::{assumed_factors, general_form, operator_names, operator_of};
-pub use json::{SCHEMA_VERSION, expression_json, fraction_json, pieces_json};
 pub use source::SourceForm;

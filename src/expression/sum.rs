@@ -143,7 +143,7 @@ impl Expression {
     }
 
     /// The number of terms, each coefficient's numerator counted out.
-    pub(crate) fn term_count(&self) -> usize {
+    pub fn term_count(&self) -> usize {
         self.terms.values().map(|coefficient| coefficient.numerator().term_count()).sum()
     }
 

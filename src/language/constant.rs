@@ -28,10 +28,7 @@ pub const MAX_CONSTANT_BITS: u64 = 1 << 15;
 /// # Errors
 /// Refuses names, waves, functions, division by zero, powers that are no whole numbers, and values
 /// longer than [`MAX_CONSTANT_BITS`].
-pub(super) fn constant(
-    expression: &Expression,
-    source: &Source,
-) -> Result<BigRational, Diagnostic> {
+pub fn constant(expression: &Expression, source: &Source) -> Result<BigRational, Diagnostic> {
     let Fraction(numerator, denominator) = evaluate(expression, source)?;
     Ok(BigRational::new(numerator, denominator))
 }

@@ -4,28 +4,16 @@
 use std::error::Error;
 use std::fmt;
 
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-
 use super::source::Source;
 use super::syntax::Span;
 
 /// One error in a text: a message, the place it is about, places that help to understand it, and a
 /// remedy.
 ///
-/// `Display` is [`Diagnostic::render`] in plain text.
+/// `Display` gives the place as `name:line:column`, the message and the remedy.
 ///
-/// ```
-/// use wavestep::language::{Diagnostic, Source, Style, read_number};
-///
-/// let source = Source::new("example", "3/mu")?;
-/// let error = read_number(&source).unwrap_err();
-/// assert_eq!(error.message(), "this is not a constant");
-/// assert_eq!((source.slice(error.span()), error.label()), ("mu", "a number is needed here"));
-/// assert_eq!(error.remedy(), Some("write a number such as `3`, `0.25`, `33/10` or `1e-3`"));
-/// assert_eq!(error.render(Style::Plain), error.to_string());
-/// assert!(error.to_string().contains("example:1:3"));
-/// # Ok::<(), Diagnostic>(())
-/// ```
+/// # Invariants
+/// All spans lie in the text and start and end between characters.
 #[derive(Clone, Debug)]
 pub struct Diagnostic(Box<Content>);
 
@@ -40,17 +28,6 @@ struct Content {
 }
 
 /// A remark about a place.
-///
-/// ```
-/// use wavestep::language::{Label, Source, read_recurrence};
-///
-/// let source = Source::new("twice.wave", "recurrence \"Twice\"\nsymbol f\nwave f")?;
-/// let error = read_recurrence(&source, &Default::default()).unwrap_err();
-/// let [Label { span, text }] = error.secondary() else { panic!("one more place") };
-/// assert_eq!((source.slice(*span), span.start), ("f", 26));
-/// assert_eq!(text, "first declared here");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The place.
@@ -59,27 +36,11 @@ pub struct Label {
     pub text: String,
 }
 
-/// How a [`Diagnostic`] is rendered.
-///
-/// ```
-/// use wavestep::language::{Style, parse_number};
-///
-/// let error = parse_number("1/0").unwrap_err();
-/// assert!(error.render(Style::Plain).starts_with("error: division by zero"));
-/// assert!(error.render(Style::Coloured).contains("\u{1b}["));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Style {
-    /// Text alone.
-    Plain,
-    /// Text with ANSI colour codes, for a terminal.
-    Coloured,
-}
-
 impl Diagnostic {
-    /// An error with its message and the place it is about.
+    /// An error with its message and the place it is about; the place is moved into the text and onto
+    /// characters, because a message about an error must not itself fail.
     #[must_use]
-    pub(crate) fn new(
+    pub fn new(
         source: &Source,
         message: impl Into<String>,
         span: Span,
@@ -88,7 +49,7 @@ impl Diagnostic {
         Self(Box::new(Content {
             message: message.into(),
             source: source.clone(),
-            primary: Label { span, text: label.into() },
+            primary: Label { span: on_characters(source.text(), span), text: label.into() },
             secondary: Vec::new(),
             remedy: None,
         }))
@@ -97,20 +58,21 @@ impl Diagnostic {
     /// Adds a place that helps to understand the error.
     #[must_use]
     pub(super) fn with_secondary(mut self, span: Span, label: impl Into<String>) -> Self {
+        let span = on_characters(self.0.source.text(), span);
         self.0.secondary.push(Label { span, text: label.into() });
         self
     }
 
     /// Says what to do, replacing what was said before.
     #[must_use]
-    pub(crate) fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
+    pub fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
         self.0.remedy = Some(remedy.into());
         self
     }
 
     /// Says `did you mean …?` if one of the candidates is close to the name, see [`closest`].
     #[must_use]
-    pub(super) fn with_closest<'a>(
+    pub fn with_closest<'a>(
         self,
         name: &str,
         candidates: impl IntoIterator<Item = &'a str>,
@@ -123,7 +85,7 @@ impl Diagnostic {
 
     /// Adds a remedy where there is none yet.
     #[must_use]
-    pub(super) fn or_remedy(self, remedy: impl Into<String>) -> Self {
+    pub fn or_remedy(self, remedy: impl Into<String>) -> Self {
         if self.remedy().is_some() { self } else { self.with_remedy(remedy) }
     }
 
@@ -157,51 +119,38 @@ impl Diagnostic {
         self.0.remedy.as_deref()
     }
 
-    /// The message with the lines of the text it is about. The text is left out if it is empty.
+    /// The text with its name; empty where it could not be read.
     #[must_use]
-    pub fn render(&self, style: Style) -> String {
-        let Content { message, source, primary, secondary, remedy } = &*self.0;
-        let mut group = Group::with_title(Level::ERROR.primary_title(message));
-        let text = source.text();
-        if !text.is_empty() {
-            let mark = |label: &'_ Label, kind: AnnotationKind| {
-                let label_text = (!label.text.is_empty()).then(|| label.text.clone());
-                kind.span(on_characters(text, label.span)).label(label_text)
-            };
-            let snippet = Snippet::source(text)
-                .path(source.name())
-                .annotation(mark(primary, AnnotationKind::Primary))
-                .annotations(secondary.iter().map(|label| mark(label, AnnotationKind::Context)));
-            group = group.element(snippet);
-        }
-        if let Some(remedy) = remedy {
-            group = group.element(Level::HELP.message(remedy));
-        }
-        let renderer = match style {
-            Style::Plain => Renderer::plain(),
-            Style::Coloured => Renderer::styled(),
-        };
-        renderer.term_width(WIDTH).render(&[group])
+    pub fn source(&self) -> &Source {
+        &self.0.source
     }
 }
 
-/// Longer lines are cut around the place they are shown for.
-const WIDTH: usize = 100;
-
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.render(Style::Plain))
+        let Content { message, source, primary, remedy, .. } = &*self.0;
+        f.write_str(source.name())?;
+        if !source.text().is_empty() {
+            let before = &source.text()[..primary.span.start];
+            let line = before.matches('\n').count() + 1;
+            let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+            write!(f, ":{line}:{column}")?;
+        }
+        write!(f, ": {message}")?;
+        match remedy {
+            Some(remedy) => write!(f, "\nhelp: {remedy}"),
+            None => Ok(()),
+        }
     }
 }
 
 impl Error for Diagnostic {}
 
-/// The span as a range that lies in the text and starts and ends between characters, whatever the
-/// caller passed: a message about an error must not itself fail.
-fn on_characters(text: &str, span: Span) -> std::ops::Range<usize> {
+/// The span as one that lies in the text and starts and ends between characters.
+fn on_characters(text: &str, span: Span) -> Span {
     let start = text.floor_char_boundary(span.start.min(text.len()));
     let end = text.ceil_char_boundary(span.end.min(text.len()));
-    start..end.max(start)
+    Span::new(start, end.max(start))
 }
 
 /// Names longer than this are not compared: nobody mistypes them into another name.
@@ -212,13 +161,6 @@ const LONGEST_COMPARED: usize = 64;
 ///
 /// An edit inserts, removes or replaces a character, or swaps two neighbours (the
 /// Damerau–Levenshtein distance in which no piece is edited twice).
-///
-/// ```
-/// use wavestep::language::closest;
-///
-/// assert_eq!(closest("equasion", ["observe", "equation"]), Some("equation"));
-/// assert_eq!(closest("q", ["mu", "r"]), None);
-/// ```
 #[must_use]
 pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let name: Vec<char> = name.chars().take(LONGEST_COMPARED + 1).collect();
@@ -267,8 +209,17 @@ mod tests {
     }
 
     #[test]
+    fn errors_say_their_place_and_a_remedy() {
+        let source = Source::new("a.wave", "wave f\nμ g = 1").unwrap();
+        let error = Diagnostic::new(&source, "no", Span::new(10, 11), "here");
+        assert_eq!(error.to_string(), "a.wave:2:3: no");
+        assert_eq!(error.with_remedy("yes").to_string(), "a.wave:2:3: no\nhelp: yes");
+    }
+
+    #[test]
     fn only_slips_are_close() {
         assert_eq!(closest("waves", ["wave"]), Some("wave"));
+        assert_eq!(closest("equasion", ["observe", "equation"]), Some("equation"));
         assert_eq!(closest("Mu", ["r", "mu"]), None);
         assert_eq!(closest("alhpa", ["beta", "alpha"]), Some("alpha"));
         assert_eq!(closest("x", ["y", "z"]), None);
@@ -276,14 +227,17 @@ mod tests {
     }
 
     #[test]
-    fn any_span_renders() {
+    fn any_span_is_moved_onto_characters() {
         for text in ["σ = ρcV\n", "", "a", "\u{4F60}\u{597D} f"] {
             let source = Source::new("t", text).unwrap();
             for (start, end) in [(0, 0), (1, 2), (3, 1), (5, 999), (usize::MAX, usize::MAX)] {
                 let error = Diagnostic::new(&source, "m", Span::new(start, end), "l")
                     .with_secondary(Span::new(end, start), "s");
-                assert!(error.render(Style::Plain).contains('m'));
-                assert!(error.render(Style::Coloured).contains('m'));
+                let marked = error.secondary().iter().map(|label| label.span).chain([error.span()]);
+                for Span { start, end } in marked {
+                    assert!(text.get(start..end).is_some());
+                }
+                assert!(error.to_string().ends_with("m"));
             }
         }
     }

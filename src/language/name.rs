@@ -2,7 +2,7 @@
 //! to write its English name, so `μ` and `mu` are one name, and all output is ASCII.
 
 /// Words with a meaning of their own in expressions, which cannot name anything else.
-pub(super) const RESERVED: [&str; 5] = ["cos", "exp", "sin", "sqrt", "sum"];
+pub const RESERVED: [&str; 5] = ["cos", "exp", "sin", "sqrt", "sum"];
 
 const LOWER: [&str; 25] = [
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",

@@ -236,7 +236,7 @@ impl LinearForm {
     ///
     /// # Panics
     /// Where the form has slopes or sums.
-    pub(crate) fn derivative(&self, time: &Symbol) -> LinearForm {
+    pub fn derivative(&self, time: &Symbol) -> LinearForm {
         let derive = |(wave, operator): (&WaveIndex, &Operator)| {
             assert!(operator.slope.is_empty() && operator.sum.is_empty(), "a second derivative");
             let slope = operator.value.clone();
@@ -254,7 +254,7 @@ impl LinearForm {
 
     /// The form with sums over all earlier pieces removed: where there are any, the difference
     /// `form[n] − form[n−1]`, in which `Σ_{i<n} w[i]` leaves `w[n−1]`.
-    pub(crate) fn without_sums(&self) -> LinearForm {
+    pub fn without_sums(&self) -> LinearForm {
         if self.operators.values().all(|operator| operator.sum.is_empty()) {
             return self.clone();
         }

@@ -81,7 +81,7 @@ pub enum Measure {
 
 impl Measure {
     /// Its name in the language.
-    pub(crate) const fn word(self) -> &'static str {
+    pub const fn word(self) -> &'static str {
         match self {
             Measure::Velocity => "velocity",
             Measure::Force => "force",

@@ -3,7 +3,6 @@
 use crate::{network_of, rational, shipped};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 use wavestep::ball::Decimal;
 use wavestep::language::{Source, parse_number};
 use wavestep::lock::{HistoryLock, HistoryLockError, HistoryRequest, Lock, Locked};
@@ -238,58 +237,5 @@ fn numbers_without_digits_are_refused_or_bounded() {
     for digits in [0, 1_000_000] {
         let refused = HistoryLock::derive(&network_of(&text, &[]), &request(digits, &[], &[]));
         assert_eq!(refused, Err(HistoryLockError::Digits(digits)));
-    }
-}
-
-fn run(arguments: &[&str], folder: &Path) -> (i32, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.args(arguments).current_dir(folder).env("NO_COLOR", "1");
-    let Output { status, stdout, stderr } = command.output().expect("the command runs");
-    let text = |bytes| String::from_utf8(bytes).expect("text");
-    (status.code().expect("an exit code"), text(stdout), text(stderr))
-}
-
-#[test]
-fn the_command_locks_events_and_checks_them() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("history-locks");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    let scene = wavestep::scenes::find("bars-of-equal-length").unwrap().text;
-    fs::write(folder.join("my.wave"), scene).unwrap();
-    fs::write(folder.join("closed.wave"), scene.replace("contacts open\n", "")).unwrap();
-    let (code, out, err) = run(&["lock", "my.wave", "--at", "5/2", "-o", "my.lock"], &folder);
-    assert_eq!((code, &*out, &*err), (0, "my.lock: locked 2 events and 5 values\n", ""));
-    let check = ["check", "my.wave", "--locked", "my.lock"];
-    let (code, out, err) = run(&check, &folder);
-    assert_eq!((code, &*out, &*err), (0, "my.lock: 2 events and 5 values as locked\n", ""));
-    fs::write(folder.join("my.wave"), scene.replace("velocity = 1", "velocity = 2")).unwrap();
-    let (code, out, err) = run(&check, &folder);
-    assert_eq!(code, 1);
-    assert!(out.starts_with("event 1 differs\n  force after: locked 1/2, now 1\n"), "{out}");
-    assert!(err.starts_with("error: my.wave differs in "), "{err}");
-    fs::write(folder.join("my.wave"), scene).unwrap();
-    // Values that were set are in the file.
-    let set =
-        ["lock", "saint-venant", "--set", "mu=1", "--at", "1/2", "--at", "5", "-o", "sv.lock"];
-    assert_eq!(run(&set, &folder).1, "sv.lock: locked 4 events and 10 values\n");
-    let (code, out, _) = run(&["check", "saint-venant", "--locked", "sv.lock"], &folder);
-    assert_eq!((code, &*out), (0, "sv.lock: 4 events and 10 values as locked\n"));
-    assert_eq!(fs::read(folder.join("sv.lock")).unwrap(), fs::read(fixture()).unwrap());
-    let closed = ["lock", "closed.wave", "--through", "1", "-o", "closed.lock"];
-    assert_eq!(run(&closed, &folder).0, 0);
-    let cases: [(&[&str], &str); 8] = [
-        (&["lock", "saint-venant"], "the history needs numbers, and `mu` has no value"),
-        (&["lock", "my.wave", "--through", "1"], "where contacts open there are no periods"),
-        (&["lock", "my.wave", "--until", "-1"], "before the start"),
-        (&["lock", "my.wave", "-o", "my.wave"], "the scene itself"),
-        (&["lock", "closed.wave"], "through which period"),
-        (&["lock", "closed.wave", "--until", "3"], "there are no events here"),
-        (&["check", "closed.wave", "--locked", "my.lock"], "no contacts open in closed.wave now"),
-        (&["check", "my.wave", "--locked", "closed.lock"], "contacts open in my.wave now"),
-    ];
-    for (arguments, expected) in cases {
-        let (code, out, err) = run(arguments, &folder);
-        assert_eq!((code, &*out), (2, ""), "{arguments:?}: {err}");
-        assert!(err.contains(expected), "{arguments:?}: {err}");
     }
 }

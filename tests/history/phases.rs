@@ -4,7 +4,6 @@ use crate::{SHIPPED, ball, is_zero, network_of, rational, shipped};
 use wavestep::evaluate::{Determined, Goal, Limit, Place, Root};
 use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::network::Network;
-use wavestep::picture::sampled_search;
 use wavestep_polynomial::Rational;
 
 const BITS: u64 = 1 << 10;
@@ -87,32 +86,6 @@ fn no_value_is_larger_than_the_largest() {
             let there = History::values(&network, &observable, &[at], side, 9).unwrap();
             let (there, top) = (double(&there[0]), double(&largest.value));
             assert!((there - top).abs() <= 1e-8 * top.abs(), "{name} {observable}: {there} {top}");
-        }
-    }
-}
-
-/// A line that is drawn goes through values, and jumps where they do.
-#[test]
-fn lines_go_through_values() {
-    for (name, values, observable) in [
-        ("saint-venant", &[("mu", "1")][..], "strain_fixed"),
-        ("saint-venant", &[("mu", "2")], "strain_impact"),
-        ("bars-of-unequal-length", &[], "force"),
-    ] {
-        let network = shipped(name, values);
-        let window = [rational(0, 1), rational(5, 1)];
-        let search = History::search(&network, observable, [&window[0], &window[1]]).unwrap();
-        let line = sampled_search(&search).unwrap();
-        let points = line.points.iter().filter(|(time, _)| time.is_finite());
-        for (time, value) in points.step_by(7) {
-            let at = Rational::from_float(*time).unwrap();
-            let known = [Limit::Left, Limit::Right].map(|side| {
-                let values =
-                    History::values(&network, observable, std::slice::from_ref(&at), side, 9);
-                double(&values.unwrap()[0])
-            });
-            let off = known.map(|known| (known - value).abs());
-            assert!(off[0].min(off[1]) < 1e-9, "{name} {observable} at {time}: {value} {known:?}");
         }
     }
 }

@@ -2,8 +2,6 @@
 
 use crate::{SHIPPED, ball, is_zero, network_of, rational, shipped};
 use std::cmp::Ordering;
-use std::path::Path;
-use std::process::Command;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{Determined, Limit, SceneEvaluator, Value};
 use wavestep::history::{EventKind, History, HistoryError, Validity};
@@ -164,44 +162,4 @@ fn limits_are_kept() {
     assert!(matches!(Validity::of(&network, None, 12, CELLS), Ok(Validity::Until { .. })));
     let error = Validity::of(&shipped("saint-venant", &[]), None, 12, CELLS);
     assert!(matches!(error, Err(HistoryError::MissingValue(_))));
-}
-
-/// The command says so on standard error; what it derives stays what it is.
-#[test]
-fn commands_say_how_long_closed_contacts_are_true() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let scene = wavestep::scenes::find("saint-venant").unwrap().text;
-    std::fs::write(folder.join("validity.wave"), scene.replace("contacts open\n", "")).unwrap();
-    let run = |line: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-        command.current_dir(folder).env("NO_COLOR", "1").args(line.split(' '));
-        let output = command.output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (text(output.stdout), text(output.stderr))
-    };
-    let pulls = "from t = 3.06766764162 on the contact between hammer and rod would pull; with \
-                 `contacts open` it opens then";
-    for (line, told) in [
-        (
-            "derive validity.wave --through 0 --set mu=1",
-            "this holds until t = 3.06766764162, when the contact between hammer and rod would pull",
-        ),
-        (
-            "derive validity.wave --through 0",
-            "this is valid as long as force(rod.left) >= 0 at the contact between hammer and rod",
-        ),
-        ("find validity.wave --set mu=1 --zero velocity --from 0 --to 4", pulls),
-    ] {
-        let (out, err) = run(line);
-        assert_eq!(err, format!("note: {told}\n"), "{line}");
-        assert!(!out.is_empty() && !out.contains("note"), "{line}");
-    }
-    for line in [
-        "eval validity.wave --set mu=1 --quantity velocity --at 3",
-        "find validity.wave --set mu=1 --zero velocity --from 0 --to 3",
-        "eval saint-venant --set mu=1 --quantity velocity --at 4",
-        "derive mass-on-fixed-bar --through 0",
-    ] {
-        assert_eq!(run(line).1, "", "{line}");
-    }
 }

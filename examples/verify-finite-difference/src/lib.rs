@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use wavestep::field::{FieldEvaluator, Mesh, Quantity};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
-use wavestep::plot::{Axis, Caption, Figure, Look, Panel, PlotError, Series};
+use wavestep_draw::{Axis, Caption, Figure, Look, Panel, PlotError, Series};
 
 /// The cases, with how their fields are.
 pub const CASES: [(LeftEnd, &str); 3] =

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use verify_finite_difference::{CASES, Errors, errors, figure, order};
-use wavestep::plot::Chart;
+use wavestep_draw::Chart;
 
 const CELLS: [usize; 6] = [40, 80, 160, 320, 640, 1280];
 

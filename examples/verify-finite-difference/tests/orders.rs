@@ -1,7 +1,7 @@
 //! The orders of convergence are those that theory gives for leapfrog.
 
 use verify_finite_difference::{Errors, LeftEnd, errors, figure, order};
-use wavestep::plot::Chart;
+use wavestep_draw::Chart;
 
 /// The orders between two meshes, one 8 times as fine: of the mean, the root of the mean square, and
 /// the largest error.

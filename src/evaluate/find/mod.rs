@@ -25,7 +25,7 @@ mod search;
 
 pub use determined::Determined;
 pub use extrema::{Extremum, Goal, Place};
-pub(crate) use observed::ObservedSignal;
-pub(crate) use piecewise::{At, Piecewise};
+pub use observed::ObservedSignal;
+pub use piecewise::{At, Piecewise};
 pub use roots::{MAX_ROOTS, Root, Roots};
 pub use search::Search;

@@ -30,7 +30,7 @@ const MAX_ZEROS: usize = 48;
 const SCALE_BITS: u64 = 64;
 
 /// An observable on a window of the user's time; every symbol has a value, its arrivals are known.
-pub(crate) struct ObservedSignal<'a> {
+pub struct ObservedSignal<'a> {
     signal: Signal,
     exact: Exact<'a>,
     stretches: Vec<Stretch>,

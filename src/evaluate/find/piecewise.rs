@@ -8,7 +8,7 @@ use wavestep_polynomial::Rational;
 
 /// Where in a stretch.
 #[derive(Clone, Copy)]
-pub(crate) enum At<'a> {
+pub enum At<'a> {
     /// A time of the user's.
     Time(&'a Rational),
     /// The limit at an end of the stretch: on the right side of its first time, the left of its last.
@@ -22,7 +22,7 @@ pub(crate) enum At<'a> {
 ///   the end of the window where the function jumps.
 /// - The function of a stretch goes on analytically a little beyond its ends, and enclosures hold there.
 /// - Enclosures hold for every precision in bits; with more bits they are narrower, until a limit.
-pub(crate) trait Piecewise {
+pub trait Piecewise {
     /// How many stretches there are.
     fn count(&self) -> usize;
 

@@ -60,7 +60,7 @@ pub(crate) const SIGN_BITS: u64 = 1 << 12;
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 pub struct Search<'a> {
-    pub(crate) function: Box<dyn Piecewise + 'a>,
+    pub function: Box<dyn Piecewise + 'a>,
     /// How many stretches are looked at.
     pub(crate) count: usize,
     pub(crate) window: [Rational; 2],

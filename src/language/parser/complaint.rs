@@ -24,7 +24,7 @@ pub(super) fn at(
     span: Span,
     label: impl Into<String>,
 ) -> Diagnostic {
-    Diagnostic::new(input.extra.source, message, span, label)
+    Diagnostic::new(input.context.source, message, span, label)
 }
 
 /// What stands next, as a reader would call it, and its place. The end is just behind the last token.
@@ -46,17 +46,17 @@ enum FoundKind {
 
 fn found(input: Input<'_>) -> Found {
     let start = skip_blank(input);
-    let Some(next) = start.fragment().chars().next() else {
+    let Some(next) = start.text.chars().next() else {
         return Found {
-            description: format!("the end of the {}", input.extra.unit),
+            description: format!("the end of the {}", input.context.unit),
             span: here(input),
             kind: FoundKind::End,
         };
     };
     if let Some(word) = next_word(start) {
-        let skipped = &input.fragment()[..between(input, start).end - input.location_offset()];
+        let skipped = &input.text[..between(input, start).end - input.offset];
         let opens_line = skipped.contains('\n');
-        let is_keyword = input.extra.forms.iter().any(|(keyword, _)| *keyword == word.value);
+        let is_keyword = input.context.forms.iter().any(|(keyword, _)| *keyword == word.value);
         return Found {
             description: quoted(word.value),
             span: word.span,
@@ -70,8 +70,8 @@ fn found(input: Input<'_>) -> Found {
             kind: FoundKind::Number,
         };
     }
-    let offset = start.location_offset();
-    let pair = PAIRS.iter().find(|pair| start.fragment().starts_with(**pair));
+    let offset = start.offset;
+    let pair = PAIRS.iter().find(|pair| start.text.starts_with(**pair));
     let (description, length) = match pair {
         Some(pair) => (format!("`{pair}`"), pair.len()),
         None => (character(next), next.len_utf8()),
@@ -137,7 +137,7 @@ fn replacement(character: char) -> Option<&'static str> {
 }
 
 fn form_remedy(input: Input<'_>) -> Option<String> {
-    input.extra.form.map(|form| format!("write it like `{form}`"))
+    input.context.form.map(|form| format!("write it like `{form}`"))
 }
 
 /// Something else is needed than what stands here.
@@ -160,21 +160,21 @@ pub(super) fn expected_end(input: Input<'_>) -> Refusal {
         return refuse(diagnostic);
     }
     let next = skip_blank(input);
-    let unit = input.extra.unit;
+    let unit = input.context.unit;
     let one_equals =
-        !input.extra.is_scene() && input.extra.form.is_none_or(|form| form.contains('='));
-    if next.fragment().starts_with('=') && one_equals {
+        !input.context.is_scene() && input.context.form.is_none_or(|form| form.contains('='));
+    if next.text.starts_with('=') && one_equals {
         let diagnostic = at(input, "one `=` too many", found(input).span, "not expected here");
-        return refuse(match input.extra.form {
+        return refuse(match input.context.form {
             Some(_) => diagnostic.with_remedy("write `a = b = c` as two equations"),
             None => diagnostic.with_remedy(format!("write only the {unit} itself, without `=`")),
         });
     }
-    let mut after = next.fragment().chars();
+    let mut after = next.text.chars();
     let decimal_comma = before(input).is_some_and(|last| last.is_ascii_digit())
         && after.next() == Some(',')
         && after.next().is_some_and(|digit| digit.is_ascii_digit());
-    let is_value = next.fragment().starts_with('=') && input.extra.form == Some(SYMBOL_FORM);
+    let is_value = next.text.starts_with('=') && input.context.form == Some(SYMBOL_FORM);
     let remedy = if is_value {
         Some(
             "a symbol stands for every value that meets its condition, such as `mu > 0`".to_owned(),
@@ -189,7 +189,7 @@ pub(super) fn expected_end(input: Input<'_>) -> Refusal {
 
 /// The character just before.
 fn before(input: Input<'_>) -> Option<char> {
-    input.extra.source.text()[..input.location_offset()].chars().next_back()
+    input.context.source.text()[..input.offset].chars().next_back()
 }
 
 /// Signs that are wrong after any complete expression.
@@ -246,7 +246,7 @@ const ALPHABET: &str = "outside the title and comments, write ASCII and Greek le
                         and the signs of arithmetic";
 
 fn is_sign_of_scenes(input: Input<'_>, character: char) -> bool {
-    input.extra.is_scene() && matches!(character, '{' | '}' | '|')
+    input.context.is_scene() && matches!(character, '{' | '}' | '|')
 }
 
 /// Whether a character stands nowhere in the language but in titles and comments.
@@ -257,9 +257,9 @@ fn is_foreign(input: Input<'_>, character: char) -> bool {
 /// An operand is missing.
 pub(super) fn expected_expression(input: Input<'_>) -> Refusal {
     let start = skip_blank(input);
-    let previous = before(input).filter(|_| input.location_offset() > 0);
-    if start.fragment().starts_with('=') && previous == Some('=') {
-        let span = Span::new(input.location_offset() - 1, start.location_offset() + 1);
+    let previous = before(input).filter(|_| input.offset > 0);
+    if start.text.starts_with('=') && previous == Some('=') {
+        let span = Span::new(input.offset - 1, start.offset + 1);
         return refuse(
             at(input, "`==` is no sign of the language", span, "an equation?")
                 .with_remedy("write one `=`"),
@@ -269,7 +269,7 @@ pub(super) fn expected_expression(input: Input<'_>) -> Refusal {
         Some(operator @ ('+' | '-' | '*' | '/' | '^')) => {
             Some(format!("write an operand after `{operator}`, or delete the `{operator}`"))
         }
-        _ if start.fragment().starts_with('{') => replacement('{').map(str::to_owned),
+        _ if start.text.starts_with('{') => replacement('{').map(str::to_owned),
         Some('(') => Some("write an expression between the parentheses".to_owned()),
         _ => form_remedy(input),
     };
@@ -288,7 +288,7 @@ const NUMBERS: &str = "write a plain number such as `3`, `0.25`, `33/10` or `1e-
 
 /// A parenthesis or bracket is not closed before something else comes.
 pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Refusal {
-    let opening = input.extra.source.slice(opener);
+    let opening = input.context.source.slice(opener);
     let next = found(input);
     let remedy = format!("add the missing `{closing}`");
     if matches!(next.kind, FoundKind::End | FoundKind::Keyword) {
@@ -300,7 +300,7 @@ pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Refusal
         );
     }
     let what = format!("an operator or `{closing}`");
-    let remedy = if next.kind == FoundKind::Word && input.extra.extent == Extent::Unit {
+    let remedy = if next.kind == FoundKind::Word && input.context.extent == Extent::Unit {
         "a unit stands behind the whole value, and multiplication is always written".to_owned()
     } else {
         remedy
@@ -312,7 +312,7 @@ pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Refusal
 pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Refusal {
     const SHOWN: usize = 20;
     let next = found(input);
-    let Context { source, unit, form, .. } = input.extra;
+    let Context { source, unit, form, .. } = input.context;
     if next.kind == FoundKind::Keyword {
         return expected(input, "an operator or the end of the statement");
     }
@@ -326,7 +326,7 @@ pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Refusal {
     }
     let numbers = matches!(left.value, Node::Number(_)) && next.kind == FoundKind::Number;
     let applied = source.text()[next.span.end..].starts_with('(');
-    let unit_first = input.extra.extent == Extent::Unit
+    let unit_first = input.context.extent == Extent::Unit
         && matches!(left.value, Node::Name(_))
         && next.kind == FoundKind::Number;
     let remedy = if unit_first {
@@ -455,7 +455,7 @@ pub(super) fn index_too_large(input: Input<'_>, span: Span) -> Refusal {
 /// `f[n](t)`
 pub(super) fn index_and_argument(input: Input<'_>, name: &str) -> Refusal {
     let start = skip_blank(input);
-    let offset = start.location_offset();
+    let offset = start.offset;
     refuse(
         at(
             input,
@@ -530,13 +530,13 @@ pub(super) fn expected_title(input: Input<'_>) -> Refusal {
 pub(super) fn title_missing(input: Input<'_>, span: Span) -> Refusal {
     refuse(
         at(input, "the text does not begin with its title", span, "the first statement")
-            .with_remedy(format!("put a first line before it: `{}`", input.extra.forms[0].1)),
+            .with_remedy(format!("put a first line before it: `{}`", input.context.forms[0].1)),
     )
 }
 
 /// A second `recurrence` or `scene`.
 pub(super) fn second_title(input: Input<'_>, span: Span, first: Span) -> Refusal {
-    let whole = input.extra.forms[0].0;
+    let whole = input.context.forms[0].0;
     refuse(
         at(input, "a second title", span, format!("another {whole} begins here"))
             .with_secondary(first, "the first title")
@@ -562,13 +562,13 @@ pub(super) fn no_keyword(input: Input<'_>) -> Refusal {
 pub(super) fn unknown_keyword(input: Input<'_>, word: &str, span: Span) -> Refusal {
     let diagnostic =
         at(input, format!("no statement begins with {}", quoted(word)), span, "unknown statement");
-    let after = input.fragment()[span.end - input.location_offset()..].trim_start();
+    let after = input.text[span.end - input.offset..].trim_start();
     let lower = word.to_ascii_lowercase();
     let remedy = if let Some(keyword) =
-        closest(&lower, input.extra.forms.iter().map(|(keyword, _)| *keyword))
+        closest(&lower, input.context.forms.iter().map(|(keyword, _)| *keyword))
     {
         format!("did you mean `{keyword}`?")
-    } else if !input.extra.is_scene()
+    } else if !input.context.is_scene()
         && after.starts_with(['[', '\'', '(', '=', '+', '-', '*', '/'])
     {
         format!("an equation begins with `equation`: write `equation {word}…`")
@@ -580,7 +580,7 @@ pub(super) fn unknown_keyword(input: Input<'_>, word: &str, span: Span) -> Refus
 
 fn keywords(input: Input<'_>) -> String {
     let words: Vec<String> =
-        input.extra.forms.iter().map(|(keyword, _)| format!("`{keyword}`")).collect();
+        input.context.forms.iter().map(|(keyword, _)| format!("`{keyword}`")).collect();
     format!("statements begin with one of {}", words.join(", "))
 }
 
@@ -638,12 +638,12 @@ pub(super) fn expected_unit(input: Input<'_>) -> Refusal {
 /// A power of a unit that is no small whole number.
 pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Refusal {
     let start = skip_blank(from);
-    let end = to.location_offset().max(start.location_offset());
+    let end = to.offset.max(start.offset);
     refuse(
         at(
             from,
             "the power of a unit is a small whole number",
-            Span::new(start.location_offset(), end),
+            Span::new(start.offset, end),
             "not a whole number from -9 to 9",
         )
         .with_remedy("write it like `m^3`, `s^-1` or `m³`"),

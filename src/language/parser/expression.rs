@@ -31,7 +31,7 @@ pub(super) fn alone(input: Input<'_>) -> Parsed<'_, Expression> {
 /// Nothing but blanks.
 pub(super) fn end(input: Input<'_>) -> Parsed<'_, ()> {
     let rest = skip_blank(input);
-    if rest.fragment().is_empty() { Ok((rest, ())) } else { Err(complaint::expected_end(input)) }
+    if rest.text.is_empty() { Ok((rest, ())) } else { Err(complaint::expected_end(input)) }
 }
 
 /// An expression up to where it cannot go on.
@@ -214,7 +214,7 @@ fn join<'a>(rest: Input<'a>, unfinished: &mut Unfinished, value: Expression) -> 
         return Ok((rest, Joined::Operand));
     }
     unfinished.depth -= unfinished.level.prefixes.len();
-    let one_factor = rest.extra.extent == Extent::Factor && unfinished.outer.is_empty();
+    let one_factor = rest.context.extent == Extent::Factor && unfinished.outer.is_empty();
     let level = &mut unfinished.level;
     let value = level.apply_prefixes(value);
     if one_factor {
@@ -265,7 +265,7 @@ fn range(input: Input<'_>, parenthesis: Span, term: Expression) -> Parsed<'_, No
     let (after, Some(_)) = opt(symbol("<")).parse(rest)? else {
         return Err(complaint::sum_range(rest, &index));
     };
-    if after.fragment().starts_with('=') {
+    if after.text.starts_with('=') {
         return Err(complaint::sum_range(rest, &index));
     }
     let (rest, bound) = demand_name("the name that the index stays below", after)?;
@@ -276,12 +276,12 @@ fn range(input: Input<'_>, parenthesis: Span, term: Expression) -> Parsed<'_, No
 /// Refuses `2 mu`, `(a)(b)` and the like: what follows a factor is no other factor.
 fn refuse_neighbour<'a>(left: &Expression, rest: Input<'a>) -> Parsed<'a, ()> {
     let start = skip_blank(rest);
-    let starts_factor = match start.fragment().chars().next() {
+    let starts_factor = match start.text.chars().next() {
         Some('(') => true,
-        Some('.') => start.fragment()[1..].starts_with(|next: char| next.is_ascii_digit()),
+        Some('.') => start.text[1..].starts_with(|next: char| next.is_ascii_digit()),
         Some(next) if name::is_letter(next) => !next_word(start).is_some_and(|word| {
-            let applied = || rest.extra.source.text()[word.span.end..].starts_with('(');
-            FOLLOWING.contains(&word.value) || rest.extra.extent == Extent::Unit && !applied()
+            let applied = || rest.context.source.text()[word.span.end..].starts_with('(');
+            FOLLOWING.contains(&word.value) || rest.context.extent == Extent::Unit && !applied()
         }),
         Some(next) => next.is_ascii_digit(),
         None => false,
@@ -295,7 +295,7 @@ fn operand(input: Input<'_>) -> Parsed<'_, Operand> {
         return Ok((rest, Operand::Sign(sign)));
     }
     let start = skip_blank(input);
-    match start.fragment().chars().next() {
+    match start.text.chars().next() {
         Some('(') => {
             let (rest, parenthesis) = symbol("(")(start)?;
             Ok((rest, open(start, parenthesis, Role::Grouping)))
@@ -307,7 +307,7 @@ fn operand(input: Input<'_>) -> Parsed<'_, Operand> {
 }
 
 fn open(start: Input<'_>, parenthesis: Span, role: Role) -> Operand {
-    Operand::Open(Opening { start: start.location_offset(), parenthesis, role })
+    Operand::Open(Opening { start: start.offset, parenthesis, role })
 }
 
 fn number<'a>(start: Input<'a>, before: Input<'a>) -> Parsed<'a, Operand> {
@@ -371,7 +371,7 @@ fn wave(input: Input<'_>, name: Spanned<String>, opener: Span) -> Parsed<'_, Nod
         primes = primes.saturating_add(prime.value);
         rest = after;
     }
-    if skip_blank(rest).fragment().starts_with('(') {
+    if skip_blank(rest).text.starts_with('(') {
         return Err(complaint::index_and_argument(rest, &name.value));
     }
     let wave = Wave { name, index, primes };

@@ -94,7 +94,7 @@ pub(super) fn prime(input: Input<'_>) -> Parsed<'_, u32> {
 pub(super) fn word(input: Input<'_>) -> Parsed<'_, &str> {
     let (rest, word) =
         recognize((satisfy(name::is_letter), take_while(name::continues))).parse(input)?;
-    Ok((rest, word.into_fragment()))
+    Ok((rest, word.text))
 }
 
 /// The word that follows the blanks, left where it is.
@@ -129,13 +129,13 @@ pub(super) fn literal(input: Input<'_>) -> Parsed<'_, BigRational> {
     ))
     .parse(input)?;
     let span = between(input, rest);
-    if rest.fragment().starts_with('.') {
+    if rest.text.starts_with('.') {
         return Err(complaint::two_points(input, span));
     }
-    if rest.fragment().starts_with('_') {
+    if rest.text.starts_with('_') {
         return Err(complaint::grouped_digits(input, here(rest)));
     }
-    match number::literal(written.fragment()) {
+    match number::literal(written.text) {
         Ok(value) => Ok((rest, value)),
         Err(error) => Err(complaint::literal(input, span, error)),
     }
@@ -144,7 +144,7 @@ pub(super) fn literal(input: Input<'_>) -> Parsed<'_, BigRational> {
 /// Digits alone, as they are written.
 pub(super) fn digits(input: Input<'_>) -> Parsed<'_, &str> {
     let (rest, digits) = digit1(input)?;
-    Ok((rest, digits.into_fragment()))
+    Ok((rest, digits.text))
 }
 
 /// A string between straight quotes on one line, after blanks.
@@ -155,6 +155,6 @@ pub(super) fn string(input: Input<'_>) -> Parsed<'_, Spanned<String>> {
     let Some((rest, _)) = char::<_, super::Problem>('"').parse(end).ok() else {
         return Err(complaint::unclosed_string(input, between(start, after), here(end)));
     };
-    let text = text.fragment().to_string();
+    let text = text.text.to_string();
     Ok((rest, Spanned::new(text, between(start, rest))))
 }

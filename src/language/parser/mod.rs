@@ -6,22 +6,20 @@
 
 mod complaint;
 mod expression;
+mod input;
 mod lexical;
 mod scene;
 mod statement;
 
 use nom::error::{ErrorKind, ParseError};
 use nom::{IResult, Input as _};
-use nom_locate::LocatedSpan;
 
 use super::MAX_MISTAKES;
 use super::diagnostic::Diagnostic;
 use super::layout;
 use super::source::Source;
 use super::syntax::{Expression, Listing, Recurrence, Scene, Span, Spanned, Unit};
-
-/// The rest of a text, aware of its place in the whole.
-type Input<'a> = LocatedSpan<&'a str, Context<'a>>;
+use input::Input;
 
 type Parsed<'a, T> = IResult<Input<'a>, T, Problem>;
 
@@ -78,12 +76,12 @@ impl ParseError<Input<'_>> for Problem {
 
 /// The place where the input starts, of no width.
 fn here(input: Input<'_>) -> Span {
-    Span::new(input.location_offset(), input.location_offset())
+    Span::new(input.offset, input.offset)
 }
 
 /// From the start of one input to the start of a later one.
 fn between(from: Input<'_>, to: Input<'_>) -> Span {
-    Span::new(from.location_offset(), to.location_offset())
+    Span::new(from.offset, to.offset)
 }
 
 /// The boundary to nom: what a parser found, or what is wrong.
@@ -107,19 +105,14 @@ fn finish<T>(source: &Source, parsed: Parsed<'_, T>) -> Result<T, Diagnostic> {
 fn whole<'a>(source: &'a Source, unit: &'static str) -> Input<'a> {
     let (form, forms) = (None, &statement::FORMS[..]);
     let context = Context { source, unit, form, forms, extent: Extent::Whole };
-    Input::new_extra(source.text(), context)
+    Input { text: source.text(), offset: 0, context }
 }
 
 /// The statements of a text, one input each.
 fn statements(source: &Source) -> impl Iterator<Item = Input<'_>> {
-    let mut rest = whole(source, "statement");
-    layout::statements(source.text()).into_iter().map(move |Span { start, end }| {
-        // Always moving on from the statement before keeps the count of lines linear.
-        rest = rest.take_from(start - rest.location_offset());
-        let (after, statement) = rest.take_split(end - start);
-        rest = after;
-        statement
-    })
+    let whole = whole(source, "statement");
+    let statement = move |Span { start, end }| whole.take_from(start).take(end - start);
+    layout::statements(source.text()).into_iter().map(statement)
 }
 
 /// See [`parse_recurrence`](super::parse_recurrence).
@@ -137,7 +130,7 @@ pub(super) fn recurrence(source: &Source) -> Result<Recurrence, Diagnostic> {
 /// See [`parse_scene`](super::parse_scene); all statements that are wrong, in their order.
 pub(super) fn scene(source: &Source) -> Result<Scene, Vec<Diagnostic>> {
     let mut inputs = statements(source).map(|mut input| {
-        input.extra.forms = &scene::FORMS;
+        input.context.forms = &scene::FORMS;
         input
     });
     let Some(first) = inputs.next() else {
@@ -199,7 +192,7 @@ pub(super) fn number(source: &Source) -> Result<Expression, Diagnostic> {
 /// A text that is one number with a unit, or without.
 pub(super) fn quantity(source: &Source) -> Result<(Expression, Option<Unit>), Diagnostic> {
     let input = whole(source, "quantity");
-    if lexical::skip_blank(input).fragment().is_empty() {
+    if lexical::skip_blank(input).text.is_empty() {
         return Err(complaint::nothing(source, "quantity"));
     }
     let quantity = scene::with_unit(input).and_then(|(rest, value)| {
@@ -212,7 +205,7 @@ pub(super) fn quantity(source: &Source) -> Result<(Expression, Option<Unit>), Di
 /// A text that is one expression; messages call it `unit`.
 fn alone(source: &Source, unit: &'static str) -> Result<Expression, Diagnostic> {
     let input = whole(source, unit);
-    if lexical::skip_blank(input).fragment().is_empty() {
+    if lexical::skip_blank(input).text.is_empty() {
         return Err(complaint::nothing(source, unit));
     }
     finish(source, expression::alone(input))

@@ -55,7 +55,7 @@ const MEASURES: [Measure; 8] = [
 
 /// Whether a statement opens a brace that it does not close.
 pub(super) fn leaves_brace_open(input: Input<'_>) -> bool {
-    let code = || input.fragment().lines().map(|line| line.split('#').next().unwrap_or(line));
+    let code = || input.text.lines().map(|line| line.split('#').next().unwrap_or(line));
     let count = |brace| code().map(|line| line.matches(brace).count()).sum::<usize>();
     count('{') > count('}')
 }
@@ -106,7 +106,7 @@ fn declaration(input: Input<'_>, kind: Declared) -> Parsed<'_, SceneStatementKin
         properties.push(property);
         rest = match opt(symbol(",")).parse(after)? {
             (after, Some(_)) => after,
-            (_, None) if skip_blank(after).fragment().starts_with('}') => after,
+            (_, None) if skip_blank(after).text.starts_with('}') => after,
             (_, None) => return Err(complaint::open_brace(after, opener, "`,` or `}`")),
         };
     }
@@ -128,12 +128,12 @@ fn property(input: Input<'_>, opener: Span) -> Parsed<'_, Property> {
 pub(super) fn with_unit(
     mut input: Input<'_>,
 ) -> Parsed<'_, (super::super::syntax::Expression, Option<Unit>)> {
-    let outside = input.extra.extent;
-    input.extra.extent = Extent::Unit;
+    let outside = input.context.extent;
+    input.context.extent = Extent::Unit;
     let (mut rest, value) = expression(input)?;
-    rest.extra.extent = outside;
+    rest.context.extent = outside;
     let Some(next) = next_word(rest) else { return Ok((rest, (value, None))) };
-    let after = rest.extra.source.text()[next.span.end..].trim_start();
+    let after = rest.context.source.text()[next.span.end..].trim_start();
     if after.starts_with('=') {
         return Err(complaint::missing_comma(rest));
     }
@@ -178,20 +178,20 @@ const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 /// The power of a unit; without one it is 1.
 fn unit_power(input: Input<'_>) -> Parsed<'_, i8> {
     let (after, raised) = take_while(|c| c == '⁻' || SUPERSCRIPTS.contains(c)).parse(input)?;
-    let (rest, power) = if raised.fragment().is_empty() {
+    let (rest, power) = if raised.text.is_empty() {
         let (rest, Some(_)) = opt(symbol("^")).parse(input)? else { return Ok((input, 1)) };
         let (rest, minus) = opt(token(one_of("-−"))).parse(rest)?;
         let (rest, Some(digits)) = opt(token(digits)).parse(rest)? else {
             return Err(complaint::unit_power(input, rest));
         };
-        if rest.fragment().starts_with('.') {
+        if rest.text.starts_with('.') {
             return Err(complaint::unit_power(input, rest));
         }
         let sign = if minus.is_some() { "-" } else { "" };
         (rest, format!("{sign}{}", digits.value))
     } else {
         let plain = |c| SUPERSCRIPTS.chars().zip("0123456789".chars()).find(|pair| pair.0 == c);
-        let digits = raised.fragment().chars().map(|c| plain(c).map_or('-', |pair| pair.1));
+        let digits = raised.text.chars().map(|c| plain(c).map_or('-', |pair| pair.1));
         (after, digits.collect())
     };
     match power.parse::<i8>() {
@@ -216,7 +216,7 @@ fn line(input: Input<'_>) -> Parsed<'_, SceneStatementKind> {
     loop {
         let (after, joint) = opt(token(joint)).parse(rest)?;
         let Some(joint) = joint else {
-            return Err(match skip_blank(rest).fragment().is_empty() {
+            return Err(match skip_blank(rest).text.is_empty() {
                 true => complaint::expected_end_of_line(rest, "right"),
                 false => complaint::expected(rest, "`-` or `|`"),
             });
@@ -291,9 +291,9 @@ fn term(input: Input<'_>, sign: Sign) -> Parsed<'_, Spanned<ObservedTerm>> {
             }
             None => {
                 refuse_group(rest)?;
-                rest.extra.extent = Extent::Factor;
+                rest.context.extent = Extent::Factor;
                 let (mut after, value) = expression(rest)?;
-                after.extra.extent = Extent::Whole;
+                after.context.extent = Extent::Whole;
                 factors.push(Factor { operator, value });
                 after
             }
@@ -320,7 +320,7 @@ struct Reading {
 /// unless they may be functions.
 fn next_measure(input: Input<'_>) -> Result<Option<Spanned<Measure>>, nom::Err<super::Problem>> {
     let Some(word) = next_word(input) else { return Ok(None) };
-    let after = input.extra.source.text()[word.span.end..].trim_start();
+    let after = input.context.source.text()[word.span.end..].trim_start();
     let measure = MEASURES.into_iter().find(|measure| measure.word() == word.value);
     match measure {
         Some(measure) if after.starts_with('(') => Ok(Some(Spanned::new(measure, word.span))),
@@ -343,17 +343,17 @@ fn measure_words() -> [&'static str; 8] {
 /// Refuses a sum of measures in parentheses.
 fn refuse_group(input: Input<'_>) -> Result<(), nom::Err<super::Problem>> {
     let start = skip_blank(input);
-    if !start.fragment().starts_with('(') {
+    if !start.text.starts_with('(') {
         return Ok(());
     }
     let mut depth = 0_usize;
-    for (at, character) in start.fragment().char_indices() {
+    for (at, character) in start.text.char_indices() {
         match character {
             '(' => {
                 depth += 1;
-                let before = start.fragment()[..at].trim_end();
+                let before = start.text[..at].trim_end();
                 if measure_words().iter().any(|word| before.ends_with(word)) {
-                    let offset = start.location_offset();
+                    let offset = start.offset;
                     return Err(complaint::grouped_measures(input, Span::new(offset, offset + 1)));
                 }
             }
@@ -371,7 +371,7 @@ fn measured(input: Input<'_>, measure: Spanned<Measure>) -> Parsed<'_, Reading> 
     let (rest, opener) = demand("(", rest)?;
     let (rest, place) = place(rest)?;
     match opt(symbol(")")).parse(rest)? {
-        (rest, Some(_)) if skip_blank(rest).fragment().starts_with('^') => {
+        (rest, Some(_)) if skip_blank(rest).text.starts_with('^') => {
             Err(complaint::power_of_measure(rest, measure.span))
         }
         (rest, Some(_)) => Ok((rest, Reading { measure, place })),

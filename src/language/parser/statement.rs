@@ -36,9 +36,9 @@ pub(super) fn opening(input: Input<'_>) -> Parsed<'_, Spanned<&'static str>> {
     let Ok((mut rest, found)) = token(word).parse(input) else {
         return Err(complaint::no_keyword(input));
     };
-    match input.extra.forms.iter().find(|(keyword, _)| *keyword == found.value) {
+    match input.context.forms.iter().find(|(keyword, _)| *keyword == found.value) {
         Some(&(keyword, form)) => {
-            rest.extra.form = Some(form);
+            rest.context.form = Some(form);
             Ok((rest, Spanned::new(keyword, found.span)))
         }
         None => Err(complaint::unknown_keyword(input, found.value, found.span)),
@@ -48,7 +48,7 @@ pub(super) fn opening(input: Input<'_>) -> Parsed<'_, Spanned<&'static str>> {
 /// `recurrence "…"` or `scene "…"`, with which every text of statements begins.
 pub(super) fn title(input: Input<'_>) -> Parsed<'_, Spanned<String>> {
     let (rest, opening) = opening(input)?;
-    if opening.value != input.extra.forms[0].0 {
+    if opening.value != input.context.forms[0].0 {
         return Err(complaint::title_missing(input, opening.span));
     }
     let (rest, Some(title)) = opt(string).parse(rest)? else {
@@ -182,8 +182,8 @@ fn role<'a>(input: Input<'a>, wanted: &'static str, what: &str) -> Parsed<'a, Na
 
 /// `f[3](s) = …`
 pub(super) fn formula(mut input: Input<'_>) -> Parsed<'_, Spanned<Formula>> {
-    input.extra.unit = "formula";
-    input.extra.form = Some(FORMULA_FORM);
+    input.context.unit = "formula";
+    input.context.form = Some(FORMULA_FORM);
     let (rest, wave) = demand_name("the name of a wave", input)?;
     let (rest, _) = demand("[", rest)?;
     let (rest, index) = demand_index(rest)?;

@@ -1,0 +1,40 @@
+//! `book`: the equations of the source with their verdicts.
+
+use super::arguments::{Book, BookFormat};
+use super::failure::Failure;
+use super::json::SCHEMA_VERSION;
+use super::progress;
+use serde_json::json;
+use wavestep::export::TEXT_WIDTH;
+use wavestep_studies::book::{self, UnknownNumber};
+
+/// The table of all equations, or one of them.
+pub fn run(options: &Book) -> Result<String, Failure> {
+    let unknown = |error: UnknownNumber| Failure::usage(error.to_string(), error.remedy());
+    let Some(number) = &options.number else {
+        let _progress = progress::spinner("deriving");
+        let all = book::examine_all();
+        return Ok(match options.format {
+            BookFormat::Text => book::table(&all),
+            BookFormat::Latex => book::table_latex(&all),
+            BookFormat::Json => {
+                let equations = book::table_json(&all);
+                format!("{}\n", json!({"schema_version": SCHEMA_VERSION, "equations": equations}))
+            }
+            BookFormat::Markdown => book::table_markdown(&all),
+        });
+    };
+    if options.format == BookFormat::Markdown {
+        let remedy = "ask for --format text, latex or json, or leave out the number";
+        return Err(Failure::usage("only the whole table is written as Markdown", remedy));
+    }
+    // What is not there is told before anything is derived.
+    book::find(number).map_err(unknown)?;
+    let _progress = progress::spinner("deriving");
+    let found = book::examine(number).map_err(unknown)?;
+    Ok(match options.format {
+        BookFormat::Latex => found.to_latex(),
+        BookFormat::Json => format!("{}\n", found.to_json()),
+        BookFormat::Text | BookFormat::Markdown => found.to_text(TEXT_WIDTH),
+    })
+}

@@ -1,0 +1,70 @@
+//! Charts as files: each as a picture, as JSON and as CSV, and one page with all of them.
+
+use super::failure::Failure;
+use super::output::write_whole;
+use std::fs;
+use std::path::Path;
+use wavestep_draw::{Chart, Listing, Section, Table, page};
+
+/// A chart with its file name and what is to be seen.
+pub struct Figure {
+    name: String,
+    text: &'static str,
+    chart: Box<dyn Chart>,
+    listing: Option<Listing>,
+}
+
+impl Figure {
+    /// A figure.
+    pub fn new(name: &str, text: &'static str, chart: impl Chart + 'static) -> Figure {
+        Figure { name: name.to_owned(), text, chart: Box::new(chart), listing: None }
+    }
+
+    /// The same with a small table.
+    pub fn listed(self, listing: Listing) -> Figure {
+        Figure { listing: Some(listing), ..self }
+    }
+}
+
+/// Refuses a folder that cannot be made, before anything is measured.
+pub fn check(folder: &str) -> Result<(), Failure> {
+    let known = Path::new(folder).ancestors().find(|folder| folder.exists());
+    match known.is_none_or(Path::is_dir) {
+        true => Ok(()),
+        false => Err(unusable(folder, "a part of its path is a file")),
+    }
+}
+
+fn unusable(folder: &str, reason: impl std::fmt::Display) -> Failure {
+    let message = format!("the folder `{folder}` cannot be made: {reason}");
+    Failure::usage(message, "name a folder that can be written to with -o")
+}
+
+/// Writes all files, and says which.
+pub fn write(
+    folder: &str,
+    title: &str,
+    figures: &[Figure],
+    table: &Table,
+) -> Result<String, Failure> {
+    fs::create_dir_all(folder).map_err(|error| unusable(folder, error))?;
+    let folder = Path::new(folder);
+    let mut told = String::new();
+    let mut sections = Vec::new();
+    for figure in figures {
+        let chart = figure.chart.as_ref();
+        let files =
+            [("svg", chart.svg()), ("json", format!("{:#}\n", chart.json())), ("csv", chart.csv())];
+        for (ending, text) in files {
+            let file = folder.join(format!("{}.{ending}", figure.name));
+            write_whole(&file, text.as_bytes())?;
+            told += &format!("{}\n", file.display());
+        }
+        let (heading, explanation) = (chart.title(), figure.text);
+        let listing = figure.listing.as_ref();
+        sections.push(Section { heading, explanation, chart, listing });
+    }
+    let file = folder.join("index.html");
+    write_whole(&file, page(title, &sections, table).as_bytes())?;
+    Ok(told + &format!("{}\n", file.display()))
+}

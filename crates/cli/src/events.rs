@@ -1,0 +1,282 @@
+//! `events`: when contacts open and close, as a time line.
+
+use super::arguments::{Events, EventsFormat};
+use super::failure::Failure;
+use super::found::number;
+use super::input::{self, Subject};
+use super::json::SCHEMA_VERSION;
+use super::progress;
+use super::rows::in_decimals;
+use serde_json::{Value as Json, json};
+use std::fmt::Write as _;
+use wavestep::evaluate::{Determined, Value};
+use wavestep::export::expression_text;
+use wavestep::history::{Body, Ending, Event, EventKind, History, HistoryError};
+use wavestep::language;
+use wavestep::network::Network;
+use wavestep::scene::{Dimension, Joint};
+
+/// Tells the history of a scene.
+pub fn run(options: &Events) -> Result<String, Failure> {
+    input::digits(options.digits)?;
+    let Subject::Scene(network) = input::subject(&options.scene)? else {
+        let message = "a recurrence has no contacts";
+        return Err(Failure::usage(
+            message,
+            "describe it by its parts: see docs/scene-language.md",
+        ));
+    };
+    let scene = network.scene();
+    if !scene.line.joints.contains(&Joint::Contact) {
+        let message = "this scene has no contact that could open";
+        return Err(Failure::usage(message, "write `|` in its line where bodies only touch"));
+    }
+    let until = options.until.as_ref();
+    let until = until.map(|until| input::time("--until", until, scene.dimensional)).transpose()?;
+    let history = {
+        let _progress = progress::spinner("following contacts");
+        History::of(&network, until.as_ref(), options.digits)?
+    };
+    let told = Told { options, network: &network, history: &history };
+    Ok(match options.format {
+        EventsFormat::Text => told.text(),
+        EventsFormat::Json => told.json(),
+        EventsFormat::Latex => told.latex(),
+    })
+}
+
+impl From<HistoryError> for Failure {
+    fn from(error: HistoryError) -> Failure {
+        let message = error.to_string();
+        let remedy = match &error {
+            HistoryError::MissingValue(symbol) => {
+                return Failure::usage(message, format!("give it one: --set {symbol}=1"));
+            }
+            HistoryError::Undecided { .. } => {
+                return Failure::Accuracy(
+                    message,
+                    "change a value a little, or ask for an earlier end".to_owned(),
+                );
+            }
+            HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
+                "ask for an earlier end"
+            }
+            HistoryError::Field(error) => return (**error).clone().into(),
+            HistoryError::Refused(_) | HistoryError::NoObservable(_) => {
+                "docs/scene-language.md says under `Contacts` what is followed"
+            }
+            _ => "ask for an earlier time",
+        };
+        Failure::Computation(message, remedy.to_owned())
+    }
+}
+
+struct Told<'a> {
+    options: &'a Events,
+    network: &'a Network,
+    history: &'a History,
+}
+
+fn word(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Impact => "impact",
+        EventKind::Opening => "opening",
+        EventKind::Release => "release",
+        EventKind::Closing => "closing",
+    }
+}
+
+impl Told<'_> {
+    /// A value with the unit of its dimension.
+    fn value(&self, value: &Determined, dimension: Dimension) -> String {
+        let dimensional = self.network.scene().dimensional;
+        let text = match value {
+            Determined::Digits(Value::Exact(value)) if dimensional => in_decimals(value),
+            other => other.to_text(self.options.digits),
+        };
+        match dimensional {
+            true if dimension == Dimension::TIME => format!("{text} s"),
+            true => format!("{text} {}", language::unit_of(dimension)),
+            false => text,
+        }
+    }
+
+    fn pair(&self, [before, after]: &[Determined; 2], dimension: Dimension) -> String {
+        let (before, after) = (self.value(before, dimension), self.value(after, dimension));
+        match before == after {
+            true => before,
+            false => format!("{before} -> {after}"),
+        }
+    }
+
+    fn sentence(&self, event: &Event) -> String {
+        let [left, right] = &event.between;
+        match event.kind {
+            EventKind::Impact => format!("{left} and {right} press on each other"),
+            EventKind::Opening => format!("{left} and {right} part"),
+            EventKind::Release => format!("{left} and {right} touch without force from now on"),
+            EventKind::Closing => format!("{left} and {right} meet again"),
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("{}\n", self.network.scene().title);
+        for event in &self.history.events {
+            let mut time = self.value(&event.time, Dimension::TIME);
+            if let Some(exact) = &event.exact {
+                let _ = write!(time, " = {}", expression_text(exact));
+            }
+            let [left, right] = &event.between;
+            let _ = write!(text, "\nt = {time}: {}\n", self.sentence(event));
+            let _ = writeln!(text, "  force    {}", self.pair(&event.forces, Dimension::FORCE));
+            let [[l0, r0], [l1, r1]] = event.velocities.clone();
+            for (name, pair) in [(left, [l0, l1]), (right, [r0, r1])] {
+                if name != "wall" {
+                    let velocity = self.pair(&pair, Dimension::VELOCITY);
+                    let _ = writeln!(text, "  velocity {velocity} of {name}");
+                }
+            }
+            for body in &event.bodies {
+                let _ = writeln!(text, "  {}", self.body(body));
+            }
+        }
+        for contact in &self.history.contacts {
+            let [left, right] = &contact.between;
+            let _ = write!(text, "\nBetween {left} and {right}\n");
+            if contact.impulses.is_empty() {
+                let _ = writeln!(text, "  no force until the end");
+            }
+            for (duration, impulse) in contact.durations.iter().zip(&contact.impulses) {
+                let impulse = self.value(impulse, Dimension::MOMENTUM);
+                let _ = match duration {
+                    Some(duration) => {
+                        let duration = self.value(duration, Dimension::TIME);
+                        writeln!(text, "  closed for {duration}, impulse {impulse}")
+                    }
+                    None => writeln!(text, "  closed still, impulse so far {impulse}"),
+                };
+            }
+            if let Some(restitution) = &contact.restitution {
+                let restitution = restitution.to_text(self.options.digits);
+                let _ = writeln!(text, "  coefficient of restitution {restitution}");
+            }
+        }
+        let _ = write!(text, "\n{}\n", self.ending());
+        text
+    }
+
+    fn ending(&self) -> String {
+        match &self.history.ending {
+            Ending::Parted => {
+                "Nothing meets again: the bodies move apart, or rest, and their energy of vibration \
+                 does not\nsuffice to bring them together."
+                    .to_owned()
+            }
+            Ending::Followed(end) => {
+                let end = self.value(end, Dimension::TIME);
+                format!("Followed until t = {end}; what comes later is not known.")
+            }
+        }
+    }
+
+    fn body(&self, body: &Body) -> String {
+        let mut text = format!("{}:", body.elements.join(" - "));
+        let named = [
+            ("energy", &body.energy, Dimension::ENERGY),
+            ("of vibration", &body.vibration, Dimension::ENERGY),
+            ("momentum", &body.momentum, Dimension::MOMENTUM),
+            ("mean velocity", &body.velocity, Dimension::VELOCITY),
+        ];
+        for (number, (name, value, dimension)) in named.into_iter().enumerate() {
+            let Some(value) = value else { continue };
+            let comma = if number == 0 { "" } else { "," };
+            let _ = write!(text, "{comma} {name} {}", self.value(value, dimension));
+        }
+        text
+    }
+
+    fn json(&self) -> String {
+        let optional = |value: &Option<Determined>| value.as_ref().map(number);
+        let pair = |pair: &[Determined; 2]| pair.each_ref().map(number);
+        let body = |body: &Body| {
+            json!({
+                "elements": body.elements,
+                "energy": optional(&body.energy),
+                "momentum": optional(&body.momentum),
+                "mean_velocity": optional(&body.velocity),
+                "vibration": optional(&body.vibration),
+            })
+        };
+        let events = self.history.events.iter().map(|event| {
+            let mut time = number(&event.time);
+            if let Some(exact) = &event.exact {
+                time["expression"] = expression_text(exact).into();
+            }
+            json!({
+                "kind": word(event.kind),
+                "between": event.between,
+                "time": time,
+                "force": pair(&event.forces),
+                "velocities": { "before": pair(&event.velocities[0]),
+                                "after": pair(&event.velocities[1]) },
+                "bodies": event.bodies.iter().map(body).collect::<Vec<_>>(),
+            })
+        });
+        let contacts = self.history.contacts.iter().map(|contact| {
+            json!({
+                "between": contact.between,
+                "durations": contact.durations.iter().map(optional).collect::<Vec<_>>(),
+                "impulses": contact.impulses.iter().map(number).collect::<Vec<_>>(),
+                "restitution": optional(&contact.restitution),
+            })
+        });
+        let ending: Json = match &self.history.ending {
+            Ending::Parted => json!({ "kind": "parted" }),
+            Ending::Followed(time) => json!({ "kind": "followed", "until": number(time) }),
+        };
+        let mut document = json!({
+            "schema_version": SCHEMA_VERSION,
+            "title": self.network.scene().title,
+            "set": self.options.scene.set,
+            "digits": self.options.digits,
+            "bits": self.history.bits,
+            "events": events.collect::<Vec<_>>(),
+            "contacts": contacts.collect::<Vec<_>>(),
+            "ending": ending,
+        });
+        if self.network.scene().dimensional {
+            document["units"] = json!({
+                "time": "s",
+                "force": language::unit_of(Dimension::FORCE),
+                "velocity": language::unit_of(Dimension::VELOCITY),
+                "energy": language::unit_of(Dimension::ENERGY),
+                "momentum": language::unit_of(Dimension::MOMENTUM),
+            });
+        }
+        document.to_string() + "\n"
+    }
+
+    fn latex(&self) -> String {
+        let escaped = |name: &str| name.replace('_', r"\_");
+        let decimals = |value: &Determined| match value {
+            Determined::Digits(value) => value.decimal(self.options.digits).0.to_string(),
+            Determined::Enclosed(ball) => {
+                ball.to_decimal(self.options.digits).to_string().replace('±', r"\pm")
+            }
+        };
+        let mut text = String::from("\\begin{tabular}{llrrrr}\n");
+        text += "event & contact & $t$ & force before & after & left, right after \\\\\n\\hline\n";
+        for event in &self.history.events {
+            let [left, right] = event.between.each_ref().map(|name| escaped(name));
+            let [before, after] = event.forces.each_ref().map(decimals);
+            let [u, v] = event.velocities[1].each_ref().map(decimals);
+            let _ = writeln!(
+                text,
+                "{} & {left}, {right} & ${}$ & ${before}$ & ${after}$ & ${u}$, ${v}$ \\\\",
+                word(event.kind),
+                decimals(&event.time),
+            );
+        }
+        text + "\\end{tabular}\n"
+    }
+}

@@ -1,0 +1,130 @@
+//! `field`: velocity, strain, displacement and force along the bars at a time.
+
+use super::arguments::{Field, FieldFormat};
+use super::failure::Failure;
+use super::input::{self, Subject};
+use super::json::SCHEMA_VERSION;
+use super::output::written;
+use num_rational::BigRational;
+use serde_json::{Value as Json, json};
+use std::fmt::Write as _;
+use wavestep::evaluate::Limit;
+use wavestep::field::{BarFields, Bounded, FieldEvaluator, Fields, Mesh, Quantity, Sampling};
+use wavestep::history::field_evaluator;
+use wavestep::language::{self, Source};
+use wavestep::network::Network;
+use wavestep::scene::Dimension;
+
+/// Gives the fields.
+pub fn run(options: &Field) -> Result<String, Failure> {
+    let network = scene(input::subject(&options.scene)?)?;
+    let dimensional = network.scene().dimensional;
+    let time = input::time("--time", &options.time, dimensional)?;
+    let mut mesh = Mesh::new(options.mesh)?.with_limit(options.side);
+    if options.averages {
+        mesh = mesh.averages();
+    }
+    for bar in &options.bar {
+        mesh = mesh.only(&language::normalise_name(bar));
+    }
+    if let Some(reach) = &options.to {
+        let reach = match dimensional {
+            true => {
+                language::read_quantity(&Source::new("--to", reach.as_str())?, Dimension::LENGTH)?
+            }
+            false => input::number("--to", reach)?,
+        };
+        mesh = mesh.reaching(&reach)?;
+    }
+    let fields = evaluator(&network, &time)?.at(&time, &mesh)?;
+    let text = match options.format {
+        FieldFormat::Csv => csv(&fields),
+        FieldFormat::Json => json_document(&fields, &network, options),
+    };
+    written(text, options.output.as_deref())
+}
+
+/// The scene that has a line of bars.
+pub fn scene(subject: Subject) -> Result<Network, Failure> {
+    match subject {
+        Subject::Scene(network) => Ok(*network),
+        Subject::Recurrence(recurrence) => {
+            let title = &recurrence.statement().title;
+            let message = format!("\"{title}\" states equations, and no bars along which to look");
+            let remedy = "describe it by its parts: see docs/scene-language.md";
+            Err(Failure::usage(message, remedy))
+        }
+    }
+}
+
+/// The fields until a time: of a scene whose contacts open, across all their phases.
+pub fn evaluator(network: &Network, last: &BigRational) -> Result<FieldEvaluator, Failure> {
+    match network.scene().contacts_open {
+        true => Ok(field_evaluator(network, last)?),
+        false => Ok(FieldEvaluator::new(network, last)?),
+    }
+}
+
+/// The places of a row: a node, or the two ends of a cell.
+fn places(bar: &BarFields, sampling: Sampling) -> impl Iterator<Item = &[f64]> {
+    bar.x.windows(if sampling == Sampling::Nodes { 1 } else { 2 })
+}
+
+fn csv(fields: &Fields) -> String {
+    let place = match fields.sampling {
+        Sampling::Nodes => "x",
+        Sampling::Averages => "x_left,x_right",
+    };
+    let mut text = format!("bar,{place}");
+    for quantity in Quantity::ALL {
+        let name = quantity.name();
+        let _ = write!(text, ",{name},{name}_bound");
+    }
+    text.push('\n');
+    for bar in &fields.bars {
+        for (row, place) in places(bar, fields.sampling).enumerate() {
+            text += &bar.name;
+            for x in place {
+                let _ = write!(text, ",{x:?}");
+            }
+            for quantity in Quantity::ALL {
+                let Bounded { value, bound } = bar.of(quantity)[row];
+                let _ = write!(text, ",{value:?},{bound:?}");
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+fn json_document(fields: &Fields, network: &Network, options: &Field) -> String {
+    let bar = |bar: &BarFields| {
+        let mut told = json!({"bar": bar.name, "x": bar.x});
+        for quantity in Quantity::ALL {
+            let values = bar.of(quantity);
+            let of = |which: fn(&Bounded) -> f64| values.iter().map(which).collect::<Vec<f64>>();
+            told[quantity.name()] = json!(of(|value| value.value));
+            told[format!("{}_bound", quantity.name())] = json!(of(|value| value.bound));
+        }
+        told
+    };
+    let mut document = json!({
+        "schema_version": SCHEMA_VERSION,
+        "title": network.scene().title,
+        "set": options.scene.set,
+        "time": fields.time.to_string(),
+        "sampling": if fields.sampling == Sampling::Nodes { "nodes" } else { "averages" },
+        "side": if fields.side == Limit::Left { "left" } else { "right" },
+        "bars": fields.bars.iter().map(bar).collect::<Vec<Json>>(),
+    });
+    if fields.dimensional {
+        let unit = |quantity: &Quantity| {
+            (quantity.name().to_owned(), json!(language::unit_of(quantity.dimension())))
+        };
+        let units = Quantity::ALL.iter().map(unit).collect::<serde_json::Map<_, _>>();
+        document["time_unit"] = json!("s");
+        document["x_unit"] = json!("m");
+        document["units"] = Json::Object(units);
+    }
+    format!("{document}\n")
+}

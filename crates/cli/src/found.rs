@@ -1,0 +1,302 @@
+//! Roots and extrema as text, as JSON, and as columns.
+
+use super::arguments::{EvalFormat, Find};
+use super::find::{Seen, quantity};
+use super::json::SCHEMA_VERSION;
+use super::rows::{ALL_DIGITS, in_decimals};
+use num_rational::BigRational;
+use serde_json::{Value as Json, json};
+use wavestep::ball::Ball;
+use wavestep::evaluate::{Determined, Extremum, Goal, Place, Root, Roots, Value};
+
+/// Digits of bounds and of intervals that stay undecided.
+const BOUND_DIGITS: usize = 20;
+
+/// What was asked for.
+pub struct Told<'a> {
+    /// The arguments.
+    pub options: &'a Find,
+    /// The quantity.
+    pub seen: &'a Seen,
+    /// The window.
+    pub window: [&'a BigRational; 2],
+}
+
+impl Told<'_> {
+    fn name(&self) -> &str {
+        quantity(self.options).map_or("", |(name, _)| name)
+    }
+
+    /// The level as it was written.
+    fn level(&self) -> &str {
+        quantity(self.options).map_or("0", |(_, level)| level)
+    }
+
+    fn second(&self) -> &str {
+        if self.seen.is_dimensional() { " s" } else { "" }
+    }
+
+    /// A time with its unit.
+    fn time(&self, time: &Determined) -> String {
+        let text = match time {
+            Determined::Digits(Value::Exact(time)) if self.seen.is_dimensional() => {
+                in_decimals(time)
+            }
+            Determined::Digits(Value::Exact(time)) => time.to_string(),
+            other => other.to_text(self.options.digits),
+        };
+        text + self.second()
+    }
+
+    fn window(&self) -> String {
+        let [from, to] = self.window.map(|time| Determined::Digits(Value::Exact(time.clone())));
+        format!("{} <= t <= {}", self.time(&from), self.time(&to))
+    }
+
+    fn value(&self, value: &Determined) -> String {
+        let unit = self.seen.unit();
+        let space = if unit.is_empty() { "" } else { " " };
+        format!("{}{space}{unit}", value.to_text(self.options.digits))
+    }
+}
+
+/// Roots in the format asked for.
+pub fn roots(roots: &Roots, told: &Told<'_>) -> String {
+    match told.options.format {
+        EvalFormat::Text => {
+            roots.all.iter().map(|root| root_line(root, told)).collect::<String>()
+                + &summary(roots, told)
+        }
+        EvalFormat::Json => {
+            let list: Vec<Json> = roots.all.iter().map(root_json).collect();
+            document(told, json!({ "level": told.level(), "roots": list }))
+        }
+        EvalFormat::Csv => {
+            let line = |root: &Root| columns(&root_json(root));
+            HEADING.to_owned() + &roots.all.iter().map(line).collect::<String>()
+        }
+    }
+}
+
+/// An extremum in the format asked for.
+pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
+    match told.options.format {
+        EvalFormat::Text => extremum_text(extremum, goal, told),
+        EvalFormat::Json => {
+            let places: Vec<Json> = extremum.places.iter().map(place_json).collect();
+            let goal = if goal == Goal::Largest { "largest" } else { "smallest" };
+            let body = json!({ "goal": goal, "value": number(&extremum.value), "places": places });
+            document(told, body)
+        }
+        EvalFormat::Csv => {
+            let line = |place: &Place| columns(&place_json(place));
+            HEADING.to_owned() + &extremum.places.iter().map(line).collect::<String>()
+        }
+    }
+}
+
+fn enclosed(from: &BigRational, to: &BigRational) -> Ball {
+    let (sum, difference) = (from + to, to - from);
+    let half = BigRational::new(1.into(), 2.into());
+    let bits = 64 + sum.numer().bits() + sum.denom().bits();
+    let middle = Ball::from_rational(&(sum * &half), bits);
+    // `±` half the width: a ball from a point and a symmetric one around zero.
+    middle.add(&Ball::symmetric(&(difference * half)), bits)
+}
+
+fn root_line(root: &Root, told: &Told<'_>) -> String {
+    let (name, level) = (told.name(), told.level());
+    let at = |time: &Determined| format!("{name} = {level} at t = {}", told.time(time));
+    let line = match root {
+        Root::Simple { time, rises } => {
+            format!("{} (simple, {})", at(time), if *rises { "rising" } else { "falling" })
+        }
+        Root::End { time } => format!("{} (exactly, at an end of the window)", at(time)),
+        Root::Arrival { time, before, after } => {
+            let limits = match (before, after) {
+                (true, true) => "in both limits",
+                (true, false) => "in the limit before, not after",
+                _ => "from then on, not in the limit before",
+            };
+            format!("{} (exactly, at an arrival, {limits})", at(time))
+        }
+        Root::Jump { time, limits: [before, after] } => {
+            let (before, after) = (told.value(before), told.value(after));
+            let time = told.time(time);
+            format!("{name} jumps over {level} at t = {time} (from {before} to {after}; no root)")
+        }
+        Root::Interval { from, to, closed } => {
+            let relation = if *closed { "<=" } else { "<" };
+            let (from, to) = (told.time(from), told.time(to));
+            format!("{name} = {level} for {from} <= t {relation} {to} (identically)")
+        }
+        Root::Undecided { from, to, range, crosses } => {
+            let time = enclosed(from, to).to_decimal(BOUND_DIGITS);
+            let sure = if *crosses { "at least one root" } else { "undecided" };
+            let range = range.to_decimal(3);
+            let second = told.second();
+            format!("{name} = {level} at t = {time}{second}? ({sure}; the difference is {range})")
+        }
+    };
+    line + "\n"
+}
+
+fn counted(count: usize, one: &str, many: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {many}"),
+    }
+}
+
+fn summary(roots: &Roots, told: &Told<'_>) -> String {
+    let count = |wanted: fn(&Root) -> bool| roots.all.iter().filter(|root| wanted(root)).count();
+    let jumps = count(|root| matches!(root, Root::Jump { .. }));
+    let intervals = count(|root| matches!(root, Root::Interval { .. }));
+    let undecided = roots.undecided();
+    let single = roots.all.len() - jumps - intervals - undecided;
+    let mut parts = vec![counted(single, "root", "roots")];
+    if intervals > 0 {
+        parts.push(counted(intervals, "interval of roots", "intervals of roots"));
+    }
+    if jumps > 0 {
+        parts.push(counted(jumps, "jump", "jumps"));
+    }
+    let known = parts.join(", ");
+    format!("{known}, {undecided} undecided; no others in {}\n", told.window())
+}
+
+fn extremum_text(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
+    let which = if goal == Goal::Largest { "largest" } else { "smallest" };
+    let (name, value, window) = (told.name(), told.value(&extremum.value), told.window());
+    let mut text = format!("{which} {name} = {value} in {window}\n");
+    let second = told.second();
+    for place in &extremum.places {
+        text += &match place {
+            Place::Critical(time) => format!("at t = {} (critical point)\n", told.time(time)),
+            Place::End(time) => format!("at t = {} (end of the window)\n", told.time(time)),
+            Place::Arrival { time, before, after } => {
+                let limit = match (before, after) {
+                    (true, true) => "in both limits",
+                    (false, _) => "from then on",
+                    _ => "limit before; not attained",
+                };
+                format!("at t = {} (arrival, {limit})\n", told.time(time))
+            }
+            Place::Plateau { from, to, closed } => {
+                let relation = if *closed { "<=" } else { "<" };
+                format!("for {} <= t {relation} {} (constant)\n", told.time(from), told.time(to))
+            }
+            Place::Undecided { from, to } => {
+                let time = enclosed(from, to).to_decimal(BOUND_DIGITS);
+                format!("at t = {time}{second}? (undecided)\n")
+            }
+        };
+    }
+    if extremum.places.len() > 1 {
+        text += match &extremum.value {
+            Determined::Digits(Value::Exact(_)) => "tied: the value is exactly the same there\n",
+            _ => "tied: these places cannot be told apart\n",
+        };
+    }
+    text
+}
+
+/// A number with all that is proven of it.
+pub fn number(number: &Determined) -> Json {
+    let with_ball = |ball: &Ball| {
+        let enclosure = ball.to_decimal(ALL_DIGITS);
+        let radius = format!("{:e}", enclosure.radius());
+        json!({ "midpoint": enclosure.midpoint().to_string(), "radius": radius })
+    };
+    match number {
+        Determined::Digits(Value::Exact(value)) => json!({ "exact": value.to_string() }),
+        Determined::Digits(Value::Certified(certified)) => {
+            let mut body = with_ball(&certified.ball);
+            body["decimal"] = json!(certified.decimal.to_string());
+            body
+        }
+        Determined::Enclosed(ball) => with_ball(ball),
+    }
+}
+
+fn root_json(root: &Root) -> Json {
+    match root {
+        Root::Simple { time, rises } => {
+            json!({ "kind": "simple", "time": number(time), "rises": rises })
+        }
+        Root::End { time } => json!({ "kind": "end", "time": number(time) }),
+        Root::Arrival { time, before, after } => {
+            json!({ "kind": "arrival", "time": number(time), "before": before, "after": after })
+        }
+        Root::Jump { time, limits: [before, after] } => {
+            let limits = [number(before), number(after)];
+            json!({ "kind": "jump", "time": number(time), "limits": limits })
+        }
+        Root::Interval { from, to, closed } => {
+            json!({ "kind": "interval", "from": number(from), "to": number(to), "closed": closed })
+        }
+        Root::Undecided { from, to, range, crosses } => json!({
+            "kind": "undecided",
+            "time": number(&Determined::Enclosed(enclosed(from, to))),
+            "difference": number(&Determined::Enclosed(range.clone())),
+            "crosses": crosses,
+        }),
+    }
+}
+
+fn place_json(place: &Place) -> Json {
+    let mut body = match place {
+        Place::Critical(time) => json!({ "kind": "critical", "time": number(time) }),
+        Place::End(time) => json!({ "kind": "end", "time": number(time) }),
+        Place::Arrival { time, before, after } => {
+            json!({ "kind": "arrival", "time": number(time), "before": before, "after": after })
+        }
+        Place::Plateau { from, to, closed } => {
+            json!({ "kind": "plateau", "from": number(from), "to": number(to), "closed": closed })
+        }
+        Place::Undecided { from, to } => {
+            let time = number(&Determined::Enclosed(enclosed(from, to)));
+            json!({ "kind": "undecided", "time": time })
+        }
+    };
+    body["attained"] = json!(place.is_attained());
+    body
+}
+
+/// What all documents begin with.
+fn document(told: &Told<'_>, body: Json) -> String {
+    let [from, to] = told.window.map(BigRational::to_string);
+    let mut document = json!({
+        "schema_version": SCHEMA_VERSION,
+        "title": told.seen.title(),
+        "quantity": told.name(),
+        "set": told.options.scene.set,
+        "digits": told.options.digits,
+        "from": from,
+        "to": to,
+    });
+    let Json::Object(body) = body else { unreachable!("bodies are objects") };
+    document.as_object_mut().expect("an object").extend(body);
+    if told.seen.is_dimensional() {
+        document["unit"] = json!(told.seen.unit());
+        document["time_unit"] = json!("s");
+    }
+    format!("{document}\n")
+}
+
+/// The heading of columns.
+const HEADING: &str = "kind,time,until,radius,exact\n";
+
+/// A line of columns: the time, or the first and last one of an interval, each as a fraction where
+/// it is exact; else the digits, or a midpoint, and the radius of an enclosure.
+fn columns(body: &Json) -> String {
+    let text = |value: &Json| value.as_str().unwrap_or_default().to_owned();
+    let written = |time: &Json| {
+        let keys = ["exact", "decimal", "midpoint"];
+        keys.iter().map(|key| text(&time[*key])).find(|text| !text.is_empty()).unwrap_or_default()
+    };
+    let time = if body["time"].is_null() { &body["from"] } else { &body["time"] };
+    let (kind, first, until) = (text(&body["kind"]), written(time), written(&body["to"]));
+    let (radius, exact) = (text(&time["radius"]), !time["exact"].is_null());
+    format!("{kind},{first},{until},{radius},{exact}\n")
+}

@@ -1,0 +1,139 @@
+//! The command line: what is asked for, and how failures are told.
+//!
+//! Standard output carries results alone; errors and progress go to standard error. Exit codes:
+//! 0 done, 1 could not compute or not as locked, 2 usage or bad scene, 3 accuracy not reached.
+
+mod arguments;
+mod book;
+mod bounds;
+mod chart;
+mod chart_page;
+mod check;
+mod derive;
+mod derive_recurrence;
+mod derive_scene;
+pub mod diagnostic;
+mod dispersion;
+mod eval;
+mod eval_contact;
+mod eval_doubles;
+mod eval_recurrence;
+mod eval_scene;
+mod events;
+mod export;
+mod failure;
+mod field;
+mod figure;
+mod find;
+mod find_equal;
+mod found;
+mod generate;
+mod hertz;
+mod input;
+mod json;
+mod lock;
+mod lock_history;
+mod output;
+mod picture;
+mod plot;
+mod plot_contact;
+mod problem;
+mod progress;
+mod quantity;
+mod rates;
+mod rows;
+mod validity;
+
+use arguments::{Arguments, Scenes, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _};
+use diagnostic::Style;
+use failure::Failure;
+use std::io::{self, IsTerminal as _, Write as _};
+use std::process::ExitCode;
+use wavestep::scenes::{SCENES, Scene};
+
+/// Runs the command that the arguments name.
+pub fn run() -> ExitCode {
+    let arguments = match parsed() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no failures; clap prints them to standard output.
+            let code = if error.use_stderr() { failure::USAGE } else { 0 };
+            return match error.print() {
+                Ok(()) => ExitCode::from(code),
+                Err(error) => written(Err(error)),
+            };
+        }
+    };
+    let result = match &arguments.subcommand {
+        Subcommand::Derive(options) => derive::run(options),
+        Subcommand::Eval(options) => eval::run(options),
+        Subcommand::Chart(options) => chart::run(options),
+        Subcommand::Events(options) => events::run(options),
+        Subcommand::Export(options) => export::run(options),
+        Subcommand::Plot(options) => plot::run(options),
+        Subcommand::Field(options) => field::run(options),
+        Subcommand::Find(options) => find::run(options),
+        Subcommand::Dispersion(options) => dispersion::run(options),
+        Subcommand::Hertz(options) => hertz::run(options),
+        Subcommand::Figure(options) => figure::run(options),
+        Subcommand::Book(options) => book::run(options),
+        Subcommand::Check(options) => check::run(options),
+        Subcommand::Lock(options) => lock::run(options),
+        Subcommand::Scenes(options) => scenes(options),
+        Subcommand::Generate(options) => generate::run(options),
+    };
+    match result {
+        Ok(output) => written(io::stdout().lock().write_all(output.as_bytes())),
+        Err(failure) => {
+            if let Failure::Difference { report, .. } | Failure::Undecided { report, .. } = &failure
+            {
+                let _ = io::stdout().lock().write_all(report.as_bytes());
+            }
+            let coloured = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+            let style = if coloured { Style::Coloured } else { Style::Plain };
+            let _ = writeln!(io::stderr(), "{}", failure.render(style));
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+/// The arguments. A negative number is the value of the option before it, which says what is wrong with it.
+fn parsed() -> Result<Arguments, clap::Error> {
+    let mut command = Arguments::command().mut_subcommands(|subcommand| {
+        subcommand.mut_args(|argument| match argument.get_action().takes_values() {
+            true => argument.allow_negative_numbers(true),
+            false => argument,
+        })
+    });
+    let mut matches = command.try_get_matches_from_mut(std::env::args_os())?;
+    Arguments::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
+}
+
+/// The exit code after writing: a reader that has gone away ends the command quietly.
+fn written(result: io::Result<()>) -> ExitCode {
+    let result = result.and_then(|()| io::stdout().flush());
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(io::stderr(), "error: the output cannot be written: {error}");
+            ExitCode::from(failure::COMPUTATION)
+        }
+    }
+}
+
+/// The built-in scenes with their titles, or the text of one.
+fn scenes(options: &Scenes) -> Result<String, Failure> {
+    if let Some(name) = &options.name {
+        return Ok(input::built_in(name)?.text.to_owned());
+    }
+    let title = |text: &str| {
+        let keywords = ["recurrence ", "scene "];
+        let line = |line| keywords.iter().find_map(|keyword| str::strip_prefix(line, keyword));
+        text.lines().find_map(line).unwrap_or_default().trim_matches('"').to_owned()
+    };
+    let width = SCENES.iter().map(|scene| scene.name.len()).max().unwrap_or_default() + 2;
+    let line = |scene: &Scene| format!("{:<width$}{}\n", scene.name, title(scene.text));
+    Ok(SCENES.iter().map(line).collect())
+}

@@ -1,0 +1,491 @@
+//! The built command: what it prints, where, and with which exit code.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+use serde_json::Value;
+use wavestep::language::{Source, read_listing};
+use wavestep_polynomial::Symbol;
+
+const SCENES: [&str; 25] = [
+    "two-bars",
+    "constant-force",
+    "pulse-shape",
+    "rigid-mass",
+    "striker-on-long-bar",
+    "pushed-bar",
+    "cushioned-impact",
+    "mass-on-fixed-bar",
+    "struck-free-bar",
+    "stepped-striker",
+    "mass-between-bars",
+    "hopkinson",
+    "pile",
+    "percussive-drill",
+    "incommensurate",
+    "bars-that-part",
+    "bars-of-equal-length",
+    "bars-of-unequal-length",
+    "saint-venant",
+    "mass-on-free-bar",
+    "cushion-with-release",
+    "hopkinson-with-release",
+    "mass-that-bounces",
+    "local-contact",
+    "hertz-striker",
+];
+
+/// A folder of its own for the files of a test, empty.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("command-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
+    command.current_dir(folder).args(arguments).stdin(Stdio::null());
+    command.env("COLUMNS", "100").env("NO_COLOR", "1");
+    command
+}
+
+fn run_in(folder: &Path, arguments: &[&str]) -> Output {
+    let start = Instant::now();
+    let output = command(folder, arguments).output().unwrap();
+    assert!(start.elapsed() < Duration::from_secs(30), "{arguments:?} is slow");
+    output
+}
+
+/// The arguments of a line; quotes are not needed here.
+fn split(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+/// The standard output of a command that does its work, and is quiet about it.
+fn output_in(folder: &Path, line: &str) -> String {
+    let Output { status, stdout, stderr } = run_in(folder, &split(line));
+    let stderr = String::from_utf8(stderr).unwrap();
+    assert!(status.success(), "{line}: {stderr}");
+    assert_eq!(stderr, "", "{line}");
+    String::from_utf8(stdout).unwrap()
+}
+
+fn output(line: &str) -> String {
+    output_in(Path::new(env!("CARGO_TARGET_TMPDIR")), line)
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+fn snapshot(name: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/command"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
+}
+
+// ---- What is printed --------------------------------------------------------------------------
+
+#[test]
+fn help_is_as_recorded() {
+    snapshot("help", &output("--help"));
+    for subcommand in ["derive", "eval", "find", "export", "chart", "dispersion", "check", "scenes"]
+    {
+        let help = output(&format!("{subcommand} --help"));
+        assert_eq!(help, output(&format!("help {subcommand}")));
+        snapshot(&format!("help-{subcommand}"), &help);
+    }
+    assert!(output("--version").starts_with("wavestep "));
+}
+
+#[test]
+fn scenes_are_listed_and_correct() {
+    let list = output("scenes");
+    assert_eq!(list.lines().map(|line| split(line)[0]).collect::<Vec<_>>(), SCENES);
+    snapshot("scenes", &list);
+    // In `incommensurate` nothing has a common measure, and the last two are not linear.
+    let linear = &SCENES[..SCENES.len() - 2];
+    for scene in linear.iter().filter(|scene| **scene != "incommensurate") {
+        let report = output(&format!("check {scene}"));
+        let derived = ["derived in two ways, equal on periods 0 to", "derived echo by echo"];
+        assert!(derived.iter().any(|told| report.contains(told)), "{report}");
+        snapshot(&format!("check-{scene}"), &report);
+    }
+}
+
+#[test]
+fn derivations_are_as_recorded() {
+    for (name, line) in [
+        ("derive-rigid-mass", "derive rigid-mass"),
+        ("derive-rigid-mass-echo", "derive rigid-mass --form echo --through 5"),
+        ("derive-rigid-mass-latex", "derive rigid-mass --wave f --format latex"),
+        ("derive-rigid-mass-piecewise", "derive rigid-mass --wave f --form piecewise --through 2"),
+        ("derive-rigid-mass-json", "derive rigid-mass --wave f --piece 1 --format json"),
+        ("derive-rigid-mass-value", "derive rigid-mass --set mu=1/4 --wave f"),
+        ("derive-rigid-mass-general", "derive rigid-mass --general"),
+        ("derive-rigid-mass-observable", "derive rigid-mass --observable strain_fixed"),
+        ("derive-pulse-shape", "derive pulse-shape --through 4"),
+        ("derive-two-bars-general", "derive two-bars --general"),
+        ("derive-two-bars-general-latex", "derive two-bars --general --format latex"),
+        ("derive-constant-force-general", "derive constant-force --general"),
+    ] {
+        snapshot(name, &output(line));
+    }
+}
+
+#[test]
+fn values_are_as_recorded() {
+    for (name, line) in [
+        ("eval-text", "eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30"),
+        ("eval-exact", "eval two-bars --set r=1/3 --quantity force --at 0 --at 2 --at 7.5 --at 9"),
+        ("eval-left", "eval rigid-mass --set mu=1 --quantity g --at 2 --side left"),
+        (
+            "eval-csv",
+            "eval rigid-mass --set mu=1 --quantity strain_fixed --from 0 --to 6 --points 13 \
+             --format csv",
+        ),
+        (
+            "eval-json",
+            "eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json",
+        ),
+    ] {
+        snapshot(name, &output(line));
+    }
+}
+
+// ---- What is printed can be read by others ------------------------------------------------------
+
+#[test]
+fn a_long_piece_has_every_term() {
+    let text = output("derive rigid-mass --wave f --piece 80 --format json");
+    let document = json(&text);
+    let function = &document["waves"][0]["functions"][0];
+    assert_eq!(function["n"], 80);
+    assert_eq!(terms(function), 88_641);
+}
+
+/// The terms of a function: a term is where a coefficient is.
+fn terms(value: &Value) -> usize {
+    match value {
+        Value::Array(values) => values.iter().map(terms).sum(),
+        Value::Object(members) => {
+            let own = usize::from(members.contains_key("coefficient"));
+            own + members.values().map(terms).sum::<usize>()
+        }
+        _ => 0,
+    }
+}
+
+#[test]
+fn values_in_json_are_enclosed() {
+    use wavestep::language::parse_number;
+    let line = "eval rigid-mass --set mu=1/4 --quantity f --from 0 --to 3 --points 7 --digits 25 \
+                --format json";
+    let document = json(&output(line));
+    let values = document["values"].as_array().unwrap();
+    assert_eq!(values.len(), 7);
+    let number = |value: &Value| parse_number(value.as_str().unwrap()).unwrap();
+    for row in values {
+        let value = number(&row["value"]);
+        let Some(midpoint) = row.get("midpoint") else {
+            assert_eq!(value, number(&row["exact"]));
+            continue;
+        };
+        let (midpoint, radius) = (number(midpoint), number(&row["radius"]));
+        // The enclosure proves the digits: it is far narrower than a unit of the last.
+        assert!(radius < parse_number("1e-25").unwrap(), "{row}");
+        let distance = if value > midpoint { value - midpoint } else { midpoint - value };
+        assert!(distance < parse_number("1e-24").unwrap(), "{row}");
+    }
+}
+
+#[test]
+fn values_in_csv_have_four_columns() {
+    let line = "eval two-bars --set r=1/3 --quantity g --from 0 --to 20 --points 41 --format csv";
+    let text = output(line);
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("time,time_decimal,value,exact"));
+    assert_eq!(lines.clone().count(), 41);
+    for line in lines {
+        let columns: Vec<&str> = line.split(',').collect();
+        assert_eq!(columns.len(), 4, "{line}");
+        assert!(columns[1].parse::<f64>().is_ok() && columns[2].parse::<f64>().is_ok(), "{line}");
+        assert!(["true", "false"].contains(&columns[3]));
+    }
+}
+
+/// A scene like none of those that are shipped: Windows line ends, Greek, names used elsewhere.
+const STRANGE: &str = "\u{FEFF}recurrence \"Größe \\\\ & % $ _ {x} <b>\"\r\n\
+    symbol μ > 0, r_1 >= 1/2\r\n\
+    period μ, local σ, time τ\r\n\
+    wave φ, Ψ_2\r\n\
+    equation φ[n] = −Ψ_2[n−1]/r_1\r\n\
+    equation Ψ_2[n]′ + 2·Ψ_2[n] = φ[n] + exp(−τ)\r\n\
+    continuous Ψ_2[n] starts at 1\r\n\
+    observe Σ = φ(τ − μ/2)\r\n";
+
+#[test]
+fn a_scene_of_ones_own_works_everywhere() {
+    let folder = folder("own");
+    fs::write(folder.join("strange.wave"), STRANGE).unwrap();
+    snapshot("own-check", &output_in(&folder, "check strange.wave"));
+    snapshot("own-derive", &output_in(&folder, "derive strange.wave --through 1"));
+    for form in ["period", "echo", "piecewise"] {
+        let line = format!("derive strange.wave --through 1 --form {form} --format");
+        snapshot(&format!("own-{form}-latex"), &output_in(&folder, &format!("{line} latex")));
+        let document = json(&output_in(&folder, &format!("{line} json")));
+        assert_eq!(document["title"], "Größe \\\\ & % $ _ {x} <b>");
+        assert_eq!(document["waves"].as_array().unwrap().len(), 2);
+    }
+    let values = "--set μ=1 --set r_1=3/4";
+    let text = output_in(&folder, &format!("eval strange.wave {values} --quantity Σ --at 15/4"));
+    let again =
+        output_in(&folder, &format!("eval strange.wave {values} --quantity Sigma --at 15/4"));
+    assert_eq!(text.split('=').next_back(), again.split('=').next_back());
+    snapshot("own-eval", &text);
+    let general = "recurrence \"One pole\"\nperiod 1, local s, time t\nwave u\n\
+                   equation u[n]' + 3*u[n] = 2*u[n-1]\ncontinuous u[n] starts at 1\n";
+    fs::write(folder.join("general.wave"), general).unwrap();
+    snapshot("own-general", &output_in(&folder, "derive general.wave --general"));
+    json(&output_in(&folder, "derive general.wave --general --format json"));
+    output_in(&folder, "derive general.wave --general --format latex");
+}
+
+// ---- What goes wrong --------------------------------------------------------------------------
+
+/// Refused: the exit code, one error on standard error, nothing on standard output.
+fn assert_fails(folder: &Path, name: &str, arguments: &[&str], code: i32) {
+    let start = Instant::now();
+    let Output { status, stdout, stderr } = run_in(folder, arguments);
+    assert!(start.elapsed() < Duration::from_secs(10), "{name} is slow");
+    let stderr = String::from_utf8(stderr).unwrap();
+    assert_eq!(status.code(), Some(code), "{name}: {stderr}");
+    assert!(stdout.is_empty(), "{name} prints to standard output");
+    assert!(!stderr.contains("panicked"), "{name}: {stderr}");
+    assert_eq!(stderr.matches("error:").count(), 1, "{name}: {stderr}");
+    assert!(stderr.len() < 2000, "{name}: {stderr}");
+    assert!(stderr.contains("help") || stderr.contains("tip"), "{name} has no remedy: {stderr}");
+    snapshot(&format!("error-{name}"), &stderr);
+}
+
+#[test]
+fn bad_scenes_are_explained() {
+    let folder = folder("scenes");
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).unwrap();
+    let head = "recurrence \"A\"\nperiod 1, local s, time t\nwave f\nequation f[n] = ";
+    write("bad.wave", format!("{head}f[n-1] +\n").as_bytes());
+    write("name.wave", format!("{head}nu*f[n-1]\n").as_bytes());
+    write("parentheses.wave", format!("{head}{}", "(".repeat(100_000)).as_bytes());
+    write("binary.wave", &(0..=255).cycle().take(5000).collect::<Vec<u8>>());
+    write("empty.wave", b"");
+    write("long.wave", &vec![b' '; 3 << 20]);
+    fs::create_dir(folder.join("folder")).unwrap();
+    for scene in ["bad", "name", "parentheses", "binary", "empty", "long", "missing"] {
+        let file = format!("{scene}.wave");
+        assert_fails(&folder, &format!("scene-{scene}"), &["derive", &file], 2);
+    }
+    assert_fails(&folder, "scene-folder", &["check", "folder"], 2);
+    assert_fails(&folder, "scene-misspelt", &["check", "rigid-mas"], 2);
+}
+
+#[test]
+fn bad_arguments_are_explained() {
+    let folder = folder("arguments");
+    let eval = "eval rigid-mass --set mu=1 --quantity f";
+    let at = "eval rigid-mass --quantity f --at 1";
+    for (name, line) in [
+        ("subcommand", "devire rigid-mass".to_owned()),
+        ("no-scene", "derive".to_owned()),
+        ("set-unknown", "derive rigid-mass --set nu=1".to_owned()),
+        ("set-misspelt", "derive rigid-mass --set m=1".to_owned()),
+        ("set-negative", "derive rigid-mass --set mu=-1".to_owned()),
+        ("set-zero", format!("{at} --set mu=0")),
+        ("set-nan", format!("{at} --set mu=nan")),
+        ("set-nothing", format!("{at} --set mu")),
+        ("set-empty", format!("{at} --set mu=")),
+        ("set-nameless", format!("{at} --set =1")),
+        ("set-double", format!("{at} --set mu=1=2")),
+        ("set-twice", format!("{at} --set mu=1 --set μ=1")),
+        ("symbol-without-value", at.to_owned()),
+        ("quantity-missing", "eval rigid-mass --set mu=1 --at 1".to_owned()),
+        ("quantity-unknown", "eval rigid-mass --set mu=1 --quantity h --at 1".to_owned()),
+        ("quantity-misspelt", "eval rigid-mass --set mu=1 --quantity velocty --at 1".to_owned()),
+        ("wave-unknown", "derive rigid-mass --wave velocity".to_owned()),
+        ("observable-unknown", "derive rigid-mass --observable strain".to_owned()),
+        ("time-missing", eval.to_owned()),
+        ("at-nan", format!("{eval} --at nan")),
+        ("at-name", format!("{eval} --at mu")),
+        ("at-negative", format!("{eval} --at -3")),
+        ("at-out-of-range", format!("{eval} --at 1e1001")),
+        ("at-exponential", format!("{eval} --at exp(1)")),
+        ("digits-zero", format!("{eval} --at 1 --digits 0")),
+        ("digits-many", format!("{eval} --at 1 --digits 999999999")),
+        ("digits-negative", format!("{eval} --at 1 --digits=-1")),
+        ("points-zero", format!("{eval} --from 0 --to 1 --points 0")),
+        ("points-many", format!("{eval} --from 0 --to 1 --points 1000000000")),
+        ("points-power", format!("{eval} --from 0 --to 1 --points 10^9")),
+        ("window-empty", format!("{eval} --from 2 --to 1 --points 3")),
+        ("window-before-start", format!("{eval} --from -1 --to 1 --points 3")),
+        ("window-half", format!("{eval} --from 2")),
+        ("local-outside", format!("{eval} --piece 1 --local 2")),
+        ("local-negative", format!("{eval} --piece 1 --local -1/2")),
+        ("local-missing", format!("{eval} --piece 1")),
+        ("through-many", "derive rigid-mass --through 1000000000".to_owned()),
+        ("piece-many", "derive rigid-mass --piece 1000000000".to_owned()),
+        ("echo-many", "derive rigid-mass --form echo --through 1000000000".to_owned()),
+        ("piece-most", "derive two-bars --piece 18446744073709551615".to_owned()),
+        ("piece-and-general", "derive rigid-mass --general --piece 3".to_owned()),
+        ("form-unknown", "derive rigid-mass --form foo".to_owned()),
+    ] {
+        assert_fails(&folder, name, &split(&line), 2);
+    }
+    assert_fails(&folder, "at-empty", &[&split(eval)[..], &["--at", ""]].concat(), 2);
+}
+
+#[test]
+fn what_cannot_be_computed_is_explained() {
+    let folder = folder("computation");
+    let poles = "recurrence \"Two poles\"\nsymbol a > 0\nperiod 1, local s, time t\nwave f, g\n\
+                 equation f[n]' + a*f[n] = g[n-1]\nequation g[n]' + 2*a*g[n] = f[n]\n\
+                 continuous f[n] starts at 1\ncontinuous g[n] starts at 0\n";
+    fs::write(folder.join("poles.wave"), poles).unwrap();
+    // For a = 1 the pole and the forcing meet, and the answer is another.
+    let resonance = "recurrence \"Resonance\"\nsymbol a > 0\nperiod 1, local s, time t\nwave f\n\
+                     equation f[n]' + a*f[n] = exp(-t)\ncontinuous f[n] starts at 1\n";
+    fs::write(folder.join("resonance.wave"), resonance).unwrap();
+    output_in(&folder, "derive resonance.wave --set a=1");
+    let eval = "eval rigid-mass --set mu=1 --quantity f";
+    for (name, code, line) in [
+        ("time-late", 1, format!("{eval} --at 100000")),
+        ("time-far-off", 1, format!("{eval} --at 1e999")),
+        ("piece-late", 1, format!("{eval} --piece 1000000000 --local 0")),
+        ("exponential-large", 1, "eval rigid-mass --set mu=1e300 --quantity f --at 1e299".into()),
+        ("general-unknown", 1, "derive poles.wave --general".into()),
+        ("division", 1, "derive resonance.wave".into()),
+        ("bits-few", 3, format!("{eval} --at 33/10 --max-bits 16")),
+        ("bits-none", 3, format!("{eval} --at 33/10 --max-bits 0")),
+    ] {
+        assert_fails(&folder, name, &split(&line), code);
+    }
+}
+
+#[test]
+fn no_arguments_show_the_help() {
+    let Output { status, stdout, stderr } = run_in(&folder("none"), &[]);
+    assert_eq!(status.code(), Some(2));
+    assert!(stdout.is_empty());
+    assert_eq!(String::from_utf8(stderr).unwrap(), output("--help"));
+}
+
+#[test]
+fn a_reader_that_goes_away_ends_the_command_quietly() {
+    let folder = folder("pipe");
+    for line in [
+        "derive rigid-mass --wave f --piece 30 --format json",
+        "eval constant-force --quantity f --from 0 --to 10 --points 20000",
+    ] {
+        let mut child = command(&folder, &split(line))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let Output { status, stderr, .. } = child.wait_with_output().unwrap();
+        assert_eq!(status.code(), Some(0), "{line}");
+        assert_eq!(String::from_utf8(stderr).unwrap(), "", "{line}");
+    }
+}
+
+/// A piece that `derive` prints and a piece that `eval` addresses are the same function, also where
+/// the observable's periods begin at an offset.
+#[test]
+fn pieces_of_derive_and_eval_are_the_same() {
+    let by_piece =
+        output("eval rigid-mass --set mu=1/4 --quantity strain_fixed --piece 2 --local 1/8");
+    let by_time = output("eval rigid-mass --set mu=1/4 --quantity strain_fixed --at 11/8");
+    assert_eq!(by_piece, by_time);
+    let derived = output("derive rigid-mass --set mu=1/4 --observable strain_fixed --piece 2");
+    assert!(derived.contains("5/4 <= t < 7/4"), "{derived}");
+    let formulas = read_listing(&Source::new("derived", &derived).unwrap()).unwrap();
+    let local = BigRational::new(1.into(), 8.into());
+    let at = |symbol: &Symbol| (*symbol == formulas[0].variable).then(|| local.clone());
+    let value: f64 = formulas[0].expression.evaluate(&at).unwrap().iter().map(term).sum();
+    let printed: f64 = by_time.trim().rsplit(' ').next().unwrap().parse().unwrap();
+    assert!((value - printed).abs() < 1e-12, "{value} {printed}");
+}
+
+/// `r e^λ` in doubles.
+fn term((exponent, value): (&BigRational, &BigRational)) -> f64 {
+    value.to_f64().unwrap() * exponent.to_f64().unwrap().exp()
+}
+
+#[test]
+fn completions_and_the_manual_name_every_subcommand() {
+    const SUBCOMMANDS: [&str; 10] = [
+        "derive", "eval", "find", "export", "chart", "book", "check", "lock", "scenes", "generate",
+    ];
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = output(&format!("generate {shell}"));
+        for name in SUBCOMMANDS {
+            assert!(script.contains(name), "{shell}: {name}");
+        }
+        assert!(script.contains("source-form") && script.contains("locked"), "{shell}");
+    }
+    let manual = output("generate manual");
+    for name in SUBCOMMANDS {
+        let heading = format!(".SH \"WAVESTEP {}\"", name.to_uppercase());
+        assert_eq!(manual.matches(&heading).count(), 1, "{name}");
+        assert!(manual.contains(&format!("wavestep {name}")), "{name}");
+    }
+    assert!(!manual.contains("(1)"), "no page but this one is named");
+    assert_eq!(manual.matches(".nf").count(), manual.matches(".fi").count());
+    assert!(manual.contains("\\-\\-quantity f \\-\\-at 33/10"), "{manual}");
+    assert!(output("--version").starts_with("wavestep "));
+}
+
+#[test]
+fn the_form_of_a_source_that_says_nothing_is_refused() {
+    let folder = folder("source-form");
+    let text =
+        "recurrence \"plain\"\nperiod 1, local s, time t\nwave f\nequation f[n] = f[n-1] + 1\n";
+    fs::write(folder.join("plain.wave"), text).unwrap();
+    for (line, expected) in [
+        ("derive plain.wave --source-form", "does not say how its source writes it"),
+        ("derive rigid-mass --source-form --format json", "for reading, not for programs"),
+        ("derive rigid-mass --source-form --general", "no form for every n"),
+        ("derive rigid-mass --source-form --observable velocity", "cannot be used with"),
+    ] {
+        let Output { status, stdout, stderr } = run_in(&folder, &split(line));
+        let stderr = String::from_utf8(stderr).unwrap();
+        assert_eq!((status.code(), stdout.len()), (Some(2), 0), "{line}: {stderr}");
+        assert!(stderr.contains(expected), "{line}: {stderr}");
+    }
+}
+
+#[test]
+fn from_alone_gives_four_periods() {
+    let formulas = output("derive rigid-mass --wave f --from 4");
+    let heads: Vec<&str> =
+        formulas.lines().filter(|line| line.starts_with('f')).map(|line| &line[..4]).collect();
+    assert_eq!(heads, ["f[4]", "f[5]", "f[6]", "f[7]"]);
+}
+
+#[test]
+fn negative_numbers_are_values_of_options() {
+    for (arguments, reason) in [
+        (["eval", "rigid-mass", "--quantity", "f", "--at", "1", "--tol", "-1"], "-1"),
+        (["eval", "rigid-mass", "--quantity", "f", "--local", "0", "--piece", "-1"], "--piece"),
+    ] {
+        let output = run_in(Path::new("."), &arguments);
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && output.stdout.is_empty(), "{arguments:?}");
+        assert!(errors.contains(reason) && !errors.contains("unexpected argument"), "{errors}");
+    }
+}

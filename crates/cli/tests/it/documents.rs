@@ -1,0 +1,171 @@
+//! What the documents show is what the command does: every `console` block is run, every `wave`
+//! block is read, every `refused` block is refused as the `text` block after it says, and the Rust of
+//! the README is an example that is built.
+//!
+//! With `UPDATE_DOCUMENTS=1` the output in the documents is written anew; read it before you keep it.
+
+use super::ROOT;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
+
+/// The README and all pages of `docs/`.
+fn documents() -> Vec<String> {
+    let pages = fs::read_dir(path("docs")).expect("the documents exist");
+    let names = pages.map(|page| page.expect("a page").file_name().into_string().expect("a name"));
+    let mut pages: Vec<String> =
+        names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}")).collect();
+    pages.sort();
+    pages.insert(0, "README.md".to_owned());
+    pages
+}
+
+fn path(name: &str) -> PathBuf {
+    Path::new(ROOT).join(name)
+}
+
+fn read(name: &str) -> String {
+    fs::read_to_string(path(name)).expect("the document exists")
+}
+
+/// A fenced block: what stands behind its fence, and its lines.
+struct Block<'a> {
+    info: &'a str,
+    lines: Vec<&'a str>,
+}
+
+/// A document as text between blocks, and blocks.
+fn blocks(document: &str) -> Vec<Result<Block<'_>, &str>> {
+    let mut parts = Vec::new();
+    let mut current: Option<Block<'_>> = None;
+    for line in document.lines() {
+        match (&mut current, line.strip_prefix("```")) {
+            (None, Some(info)) => current = Some(Block { info, lines: Vec::new() }),
+            (None, None) => parts.push(Err(line)),
+            (Some(_), Some("")) => parts.extend(current.take().map(Ok)),
+            (Some(block), _) => block.lines.push(line),
+        }
+    }
+    assert!(current.is_none(), "a block is not closed");
+    parts
+}
+
+/// The arguments of a command; single quotes keep blanks.
+fn arguments(line: &str) -> Vec<String> {
+    let quoted = line.split('\'').enumerate();
+    let words = quoted.flat_map(|(i, part)| match i % 2 {
+        0 => part.split_whitespace().map(str::to_owned).collect::<Vec<_>>(),
+        _ => vec![part.to_owned()],
+    });
+    words.collect()
+}
+
+/// A command with what it prints.
+fn run(line: &str, folder: &Path) -> String {
+    let arguments = arguments(line.strip_prefix("$ wavestep ").expect("a command of wavestep"));
+    let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
+        .current_dir(folder)
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the command runs");
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    format!("{line}\n{}{}", text(output.stdout), text(output.stderr))
+}
+
+/// What is wrong with a text that states a recurrence or a scene.
+fn refusals(name: &str, lines: &[&str]) -> Vec<Diagnostic> {
+    let source = Source::new(name, lines.join("\n")).expect("a text");
+    let values = BTreeMap::new();
+    match kind(&source) {
+        Kind::Recurrence => read_recurrence(&source, &values).err().into_iter().collect(),
+        Kind::Scene => read_scene(&source, &values).err().unwrap_or_default(),
+    }
+}
+
+/// The document with the real output of its commands, and how many they are. Files that it names,
+/// as in "```wave mine.wave", are written first.
+fn with_real_output(name: &str) -> (String, usize) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name.replace('/', "-"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    let document = read(name);
+    let (mut real, mut commands) = (String::new(), 0);
+    let mut refused = None;
+    for part in blocks(&document) {
+        let Block { info, lines } = match part {
+            Ok(block) => block,
+            Err(line) => {
+                real.push_str(&format!("{line}\n"));
+                continue;
+            }
+        };
+        if let Some(file) = info.strip_prefix("wave ") {
+            fs::write(folder.join(file), lines.join("\n") + "\n").expect("a file");
+        }
+        let text: String = match info {
+            "console" => {
+                let asked = lines.iter().filter(|line| line.starts_with("$ "));
+                asked.inspect(|_| commands += 1).map(|line| run(line, &folder)).collect()
+            }
+            "text" if refused.is_some() => refused.take().expect("just seen"),
+            _ => lines.iter().map(|line| format!("{line}\n")).collect(),
+        };
+        if info == "refused" {
+            let errors = refusals("scene.wave", &lines);
+            assert!(!errors.is_empty(), "in {name}: not refused:\n{}", lines.join("\n"));
+            let texts: Vec<String> = errors.iter().map(|error| format!("{error}\n")).collect();
+            refused = Some(texts.join("\n"));
+        }
+        real.push_str(&format!("```{info}\n{text}```\n"));
+    }
+    (real, commands)
+}
+
+#[test]
+fn console_blocks_show_the_real_output() {
+    let mut shown = 0;
+    for name in &documents() {
+        let (real, commands) = with_real_output(name);
+        shown += commands;
+        if real != read(name) && std::env::var_os("UPDATE_DOCUMENTS").is_some() {
+            fs::write(path(name), &real).expect("the document can be written");
+        }
+        assert_eq!(real, read(name), "in {name}");
+    }
+    assert!(shown >= 10, "the documents show {shown} commands");
+}
+
+#[test]
+fn wave_blocks_are_read() {
+    let mut read_blocks = 0;
+    for name in &documents() {
+        let document = read(name);
+        for block in blocks(&document).into_iter().flatten() {
+            if block.info.split(' ').next() != Some("wave") {
+                continue;
+            }
+            if let Some(diagnostic) = refusals(name, &block.lines).first() {
+                panic!("in {name}:\n{diagnostic}");
+            }
+            read_blocks += 1;
+        }
+    }
+    assert!(read_blocks >= 12);
+}
+
+#[test]
+fn the_rust_of_the_readme_is_the_example() {
+    let readme = read("README.md");
+    let rust: Vec<String> = blocks(&readme)
+        .into_iter()
+        .flatten()
+        .filter(|block| block.info == "rust")
+        .map(|block| block.lines.join("\n") + "\n")
+        .collect();
+    let example = read("examples/derive.rs");
+    let (_, code) = example.split_once("\n\n").expect("a comment, then the code");
+    assert_eq!(rust, [code]);
+}

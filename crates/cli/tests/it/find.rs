@@ -1,0 +1,141 @@
+//! `wavestep find`: how answers look, that equal extrema meet where they should, and what is refused.
+
+use num_rational::BigRational;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use wavestep::evaluate::{Evaluator, Limit};
+use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep::scenes;
+use wavestep::solution::Solution;
+
+const BITS: u64 = 1 << 12;
+
+fn number(text: &str) -> BigRational {
+    parse_number(text).unwrap()
+}
+
+fn command(line: &str) -> (i32, String, String) {
+    let arguments: Vec<&str> = line.split_whitespace().collect();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
+    command.current_dir(Path::new(env!("CARGO_TARGET_TMPDIR"))).stdin(Stdio::null());
+    let output = command.args(arguments).env("NO_COLOR", "1").output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn snapshot(name: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/find"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
+}
+
+#[test]
+fn answers_look_as_recorded() {
+    for (name, line) in [
+        ("roots", "rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4"),
+        ("silence", "rigid-mass --set mu=1 --zero strain_fixed --from 0 --to 6 --digits 9"),
+        ("level", "hopkinson --level force=10kN --from 0 --to 350us"),
+        ("csv", "rigid-mass --set mu=1 --level velocity=1/2 --from 0 --to 6 --format csv"),
+        ("side", "rigid-mass --set mu=1 --max strain_impact --from 2 --to 4 --digits 8"),
+        ("critical", "cushioned-impact --set mu=1 --max force --from 0 --to 8"),
+        ("plateau", "pushed-bar --max velocity --from 0 --to 9"),
+        (
+            "equal",
+            "rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu --digits 6",
+        ),
+    ] {
+        let (code, text, errors) = command(&format!("find {line}"));
+        // This window reaches beyond the end of what is true of its contact.
+        let note = match name {
+            "critical" => {
+                "note: from t = 3.37156268062 on the contact between striker and cushion would pull; \
+                 with `contacts open` it opens then\n"
+            }
+            _ => "",
+        };
+        assert_eq!((code, errors.as_str()), (0, note), "{line}");
+        snapshot(name, &text);
+    }
+    let line = "find rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4 --format json";
+    let told: serde_json::Value = serde_json::from_str(&command(line).1).unwrap();
+    assert_eq!(told["roots"][0]["time"]["decimal"], "3.06766764161831");
+    assert_eq!(told["roots"][1]["time"]["exact"], "4");
+}
+
+/// `e^{−2μ} = 4μ` where the largest strains at the fixed end in two periods are equal.
+#[test]
+fn equal_extrema_meet_where_the_formula_says() {
+    let line = "find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu \
+                --digits 12 --format json";
+    let (code, text, _) = command(line);
+    assert_eq!(code, 0);
+    let told: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let [low, high] = ["low", "high"].map(|key| number(told[key].as_str().unwrap()));
+    // e^{−2μ} is f(2μ) before the first return.
+    let above = |mu: &BigRational| {
+        let source = Source::new("rigid-mass", scenes::find("rigid-mass").unwrap().text).unwrap();
+        let values = [("mu".to_owned(), mu.clone())].into();
+        let rigid = Solution::new(read_recurrence(&source, &values).unwrap());
+        let evaluator = Evaluator::new(&rigid).unwrap();
+        let f = rigid.recurrence().observation("f").unwrap();
+        let e = evaluator.value(&f, &(mu * number("2")), Limit::Left, 30, BITS).unwrap();
+        e.decimal(30).0.to_rational() > mu * number("4")
+    };
+    assert!(above(&low) && !above(&high));
+    assert!(&high - &low < &low * number("1e-12"));
+}
+
+#[test]
+fn undecided_roots_end_with_code_3_and_a_report() {
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("double.wave");
+    let text = "recurrence \"Double\"\nperiod 2, local s, time t\nwave f\nequation f[n] = f[n-1]\n\
+                observe q = f[n] + (t - 1/3)^2\n";
+    std::fs::write(file, text).unwrap();
+    let (code, text, errors) = command("find double.wave --zero q --from 0 --to 1");
+    assert_eq!(code, 3);
+    assert!(text.contains("undecided; the difference is") && text.contains("0 roots, 1 undecided"));
+    assert!(errors.contains("error: 1 interval stays undecided"));
+}
+
+#[test]
+fn mistakes_are_told_with_a_remedy() {
+    for (line, code, message, remedy) in [
+        ("rigid-mass --set mu=1 --zero f --from 4 --to 2", 2, "window", "--from before --to"),
+        ("rigid-mass --set mu=1 --zero f --from 2 --to 2", 2, "window", "--from before --to"),
+        (
+            "rigid-mass --set mu=1 --zero strain_fix --from 0 --to 2",
+            2,
+            "strain_fix",
+            "strain_fixed",
+        ),
+        ("rigid-mass --zero f --from 0 --to 2", 2, "mu has no value", "--set mu=1"),
+        ("rigid-mass --set mu=1 --level f --from 0 --to 2", 2, "no quantity", "QUANTITY=VALUE"),
+        ("rigid-mass --set mu=1 --level f= --from 0 --to 2", 2, "no quantity", "QUANTITY=VALUE"),
+        ("rigid-mass --set mu=1 --zero f --from 0 --to 1e9", 1, "echoes arrive", "earlier time"),
+        ("rigid-mass --set mu=1 --zero f --from -1 --to 1", 2, "before the start", "from 0 on"),
+        ("rigid-mass --set mu=1 --zero f --from 0 --to 1 --digits 0", 2, "0 significant", "1 to"),
+        ("rigid-mass --set mu=1 --zero f --max g --from 0 --to 1", 2, "cannot be used", "--help"),
+        ("rigid-mass --set mu=1 --from 0 --to 1", 2, "required", "--help"),
+        ("rigid-mass --set mu=1 --zero f", 2, "--from", "--help"),
+        ("pushed-bar --zero energy --from 0 --to 1", 1, "energy", "digits: `eval`"),
+        ("hopkinson --level force=1mm --from 0 --to 1us", 2, "force", "N"),
+        ("rigid-mass --max f --equal mu --between 1,2,3", 2, "no symbol", "LOW..HIGH"),
+        ("rigid-mass --max f --equal mu=2..1 --between 1,2,3", 2, "empty", "lower bound"),
+        ("rigid-mass --max f --equal mu=1..2 --between 1,2", 2, "three times", "T1,T2,T3"),
+        ("rigid-mass --max f --equal mu=1..2 --between 3,2,4", 2, "do not ascend", "T1 before"),
+        ("rigid-mass --max f --equal mu=1..2 --between 1,2,x*mu", 2, "no number", "but mu"),
+        ("rigid-mass --max f --equal mu=1..2 --between 1/9,1/8,1/7", 2, "both ends", "a range in"),
+        (
+            "rigid-mass --max f --equal mu=1..2 --between 1,2,3 --digits 99",
+            2,
+            "too many",
+            "1 to 60",
+        ),
+    ] {
+        let (found, text, errors) = command(&format!("find {line}"));
+        assert_eq!((found, text.as_str()), (code, ""), "{line}: {errors}");
+        assert!(errors.contains(message) && errors.contains(remedy), "{line}: {errors}");
+    }
+}

@@ -1,0 +1,246 @@
+//! The built command on scenes: derivations explained, lattices, units, energies, and what is refused.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use wavestep::scenes::SCENES;
+
+/// A folder of its own for the files of a test, empty.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("scene-command-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
+    command.current_dir(folder).args(arguments).stdin(Stdio::null());
+    command.env("COLUMNS", "100").env("NO_COLOR", "1").output().unwrap()
+}
+
+/// The standard output of a command that does its work.
+fn output(arguments: &[&str]) -> String {
+    let Output { status, stdout, stderr } = run(Path::new(env!("CARGO_TARGET_TMPDIR")), arguments);
+    assert!(status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&stderr));
+    String::from_utf8(stdout).unwrap()
+}
+
+/// The exit code and the message of a command that refuses.
+fn refusal(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    let Output { status, stdout, stderr } = run(folder, arguments);
+    assert!(!status.success() && stdout.is_empty(), "{arguments:?}");
+    (status.code().unwrap(), String::from_utf8(stderr).unwrap())
+}
+
+fn snapshot(name: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings
+        .set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/scene-command"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
+}
+
+/// A mass, a cushion and a bar with a fixed end: complex poles, and a node in the line.
+const CUSHION: &str = "scene \"Mass and cushion\"
+mass hammer { mass = 1, velocity = 1 }
+spring cushion { stiffness = 1 }
+bar rod { impedance = 1, travel = 1 }
+line free - hammer | cushion - rod - fixed
+observe force = force(cushion)
+observe energy = energy(line)
+observe momentum = momentum(line)
+";
+
+// ---- Derivations, as a person reads them --------------------------------------------------------
+
+#[test]
+fn every_scene_on_one_grid_is_explained() {
+    for scene in SCENES.iter().filter(|scene| !scene.text.contains("recurrence \"")) {
+        if scene.name == "incommensurate" || !scene.is_linear() {
+            continue;
+        }
+        let text = output(&["derive", scene.name, "--explain"]);
+        for heading in ["Waves", "Laws at ends and joints", "The recurrence", "The first pieces"] {
+            assert!(text.contains(&format!("{heading}\n---")), "{}: {heading}", scene.name);
+        }
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{}", scene.name);
+    }
+}
+
+#[test]
+fn derivations_look_as_recorded() {
+    for scene in ["mass-on-fixed-bar", "cushioned-impact", "striker-on-long-bar", "hopkinson"] {
+        snapshot(&format!("explain-{scene}"), &output(&["derive", scene, "--explain"]));
+    }
+    let latex = output(&["derive", "mass-on-fixed-bar", "--explain", "--format", "latex"]);
+    snapshot("explain-latex", &latex);
+}
+
+/// The book's equations appear in the derivations of the twins, as the book has them.
+#[test]
+fn the_equations_of_the_source_are_derived() {
+    for (scene, equations) in [
+        // 6.76, 6.77
+        ("mass-on-fixed-bar", &["g[n] = -f[n-1]", "f[n]' + f[n] = f[n-1]' - f[n-1]"][..]),
+        // 6.29, 6.30, 6.31
+        (
+            "striker-on-long-bar",
+            &[
+                "f_striker[n] - g_striker[n-1] = 0",
+                "f_striker[n] + g_striker[n] + 1 = f_long[n]",
+                "r*f_striker[n] - r*g_striker[n] = f_long[n]",
+            ],
+        ),
+        // 6.42
+        ("pushed-bar", &["f[n] = f[n-1] + 1"]),
+        // 6.58, 6.60, 6.61
+        (
+            "cushioned-impact",
+            &[
+                "f_striker[n] - g_striker[n-1] = 0",
+                "f_striker[n] - g_striker[n] = 1/2*cushion[n]",
+                "f_striker[n] - g_striker[n] = f_long[n]",
+            ],
+        ),
+    ] {
+        let text = output(&["derive", scene, "--explain"]);
+        for equation in equations {
+            let stands = text.lines().any(|line| line.trim() == *equation);
+            assert!(stands, "{scene}: {equation}\n{text}");
+        }
+    }
+}
+
+#[test]
+fn forms_look_as_recorded() {
+    let folder = folder("forms");
+    fs::write(folder.join("cushion.wave"), CUSHION).unwrap();
+    let file = folder.join("cushion.wave");
+    let file = file.to_str().unwrap();
+    snapshot("derive-complex-poles", &output(&["derive", file, "--wave", "cushion"]));
+    snapshot("derive-between-arrivals", &output(&["derive", file, "--observable", "momentum"]));
+    snapshot("derive-lattice", &output(&["derive", "incommensurate", "--wave", "g_striker"]));
+    let latex = ["derive", "incommensurate", "--wave", "g_striker", "--format", "latex"];
+    snapshot("derive-lattice-latex", &output(&latex));
+    snapshot(
+        "derive-named-rate",
+        &output(&["derive", "pile", "--wave", "cushion", "--through", "1"]),
+    );
+    let cubic = CUSHION.replace("- rod", "- cap - rod");
+    let cubic = cubic.replace("bar rod", "mass cap { mass = 1 }\nbar rod");
+    fs::write(folder.join("cubic.wave"), cubic).unwrap();
+    let cubic = folder.join("cubic.wave");
+    let cubic = ["derive", cubic.to_str().unwrap(), "--wave", "cushion", "--through", "0"];
+    snapshot("derive-named-cubic", &output(&cubic));
+    snapshot("check-scene", &output(&["check", file]));
+    snapshot("check-lattice", &output(&["check", "incommensurate"]));
+    snapshot("scenes", &output(&["scenes"]));
+}
+
+#[test]
+fn json_is_json() {
+    for arguments in [
+        &["derive", "incommensurate", "--format", "json"][..],
+        &["derive", "mass-on-fixed-bar", "--observable", "momentum", "--format", "json"],
+        &["eval", "hopkinson", "--quantity", "force", "--at", "400us", "--format", "json"],
+    ] {
+        let text = output(arguments);
+        let document: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"));
+        assert!(document["schema_version"].is_number(), "{arguments:?}");
+    }
+    let arguments = ["eval", "hopkinson", "--quantity", "force", "--at", "400us", "--format"];
+    let document: Value =
+        serde_json::from_str(&output(&[&arguments[..], &["json"]].concat())).unwrap();
+    assert_eq!((document["unit"].as_str(), document["time_unit"].as_str()), (Some("N"), Some("s")));
+}
+
+// ---- Numbers ------------------------------------------------------------------------------------
+
+#[test]
+fn values_have_units_and_times_may_have_them() {
+    let at = |time: &str| output(&["eval", "hopkinson", "--quantity", "force", "--at", time]);
+    let (micro, seconds) = (at("400us"), at("4e-4"));
+    assert_eq!(micro, seconds);
+    assert!(micro.starts_with("force(0.0004 s) = ") && micro.ends_with(" N\n"), "{micro}");
+}
+
+#[test]
+fn rational_values_of_scenes_are_told_exactly() {
+    let folder = folder("rational");
+    fs::write(folder.join("cushion.wave"), CUSHION).unwrap();
+    let file = folder.join("cushion.wave");
+    let file = file.to_str().unwrap();
+    // At the start, and before anything arrives.
+    assert_eq!(output(&["eval", file, "--quantity", "force", "--at", "0"]), "force(0) = 0\n");
+    let bars =
+        ["eval", "striker-on-long-bar", "--set", "r=1/3", "--quantity", "force", "--at", "9"];
+    assert_eq!(output(&bars), "force(9) = 0.015625 = 1/64\n");
+    // Left of an arrival, and on a period of the observable.
+    let left = ["eval", "pushed-bar", "--quantity", "velocity", "--at", "2", "--side", "left"];
+    assert_eq!(output(&left), "velocity(2-) = 1\n");
+    let before = ["eval", "stepped-striker", "--quantity", "pulse", "--at", "0", "--side", "left"];
+    assert_eq!(output(&before), "pulse(0-) = 0\n");
+    assert_ne!(output(&before[..6]), "pulse(0) = 0\n");
+    let piece = ["eval", "pushed-bar", "--quantity", "velocity", "--piece", "1", "--local", "1/2"];
+    assert_eq!(output(&piece), "velocity(5/2) = 3\n");
+}
+
+#[test]
+fn statistics_go_to_standard_error() {
+    let arguments = ["eval", "pushed-bar", "--quantity", "velocity", "--at", "9", "--stats"];
+    let Output { status, stdout, stderr } = run(Path::new("."), &arguments);
+    assert!(status.success());
+    assert_eq!(String::from_utf8(stdout).unwrap(), "velocity(9) = 9\n");
+    let stderr = String::from_utf8(stderr).unwrap();
+    assert!(stderr.starts_with("echoes expanded: "), "{stderr}");
+}
+
+// ---- What is refused ----------------------------------------------------------------------------
+
+#[test]
+fn what_scenes_cannot_be_asked_is_refused() {
+    let folder = folder("refused");
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    write("cushion.wave", CUSHION);
+    let symbolic = CUSHION.replace("mass = 1,", "mass = m,");
+    write("symbolic.wave", &symbolic.replace("\nmass", "\nsymbol m > 0\nmass"));
+    write(
+        "cubic.wave",
+        &CUSHION
+            .replace("- rod", "- cap - rod")
+            .replace("bar rod", "mass cap { mass = 1 }\nbar rod"),
+    );
+    write(
+        "two.wave",
+        "scene \"Two mistakes\"\nbar a { impedance = 1, travel = x, velocity = 1 }\n\
+                       mass m { mas = 1 }\nline free - a - m - free\n",
+    );
+    let mut report = String::new();
+    for line in [
+        "derive cushion.wave --observable energy",
+        "derive symbolic.wave",
+        "derive incommensurate --general",
+        "derive incommensurate --piece 2",
+        "derive incommensurate --through 500",
+        "derive rigid-mass --explain",
+        "derive pushed-bar --explain --format json",
+        "derive two.wave",
+        "eval hopkinson --quantity force --at 3mm",
+        "eval pushed-bar --quantity velocity --at 1e9",
+        "eval incommensurate --quantity energy --at 1000",
+        "eval pushed-bar --quantity velocty --at 1",
+        "lock hopkinson --through 1 --at 1",
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let (code, message) = refusal(&folder, &arguments);
+        report.push_str(&format!("$ wavestep {line}\n{message}[exit {code}]\n\n"));
+    }
+    snapshot("refusals", &report);
+    // What the exact form cannot hold is a number all the same.
+    let energy = run(&folder, &["eval", "cubic.wave", "--quantity", "energy", "--at", "7"]);
+    assert_eq!(String::from_utf8(energy.stdout).unwrap(), "energy(7) = 0.500000000000000\n");
+}

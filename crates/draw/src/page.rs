@@ -1,0 +1,298 @@
+//! One page with pictures and their numbers, complete in one file: no script, no other resource.
+
+use super::Chart;
+use super::text::{csv_field, escape};
+use std::fmt::Write;
+
+/// A small table under a chart: what can be read from the chart, in numbers.
+///
+/// ```
+/// use wavestep_draw::Listing;
+///
+/// let listing = Listing {
+///     caption: "Orders at which digits are lost".into(),
+///     heads: vec!["mu".into(), "8 digits".into()],
+///     rows: vec![vec!["1".into(), "30".into()]],
+/// };
+/// assert!(listing.rows.iter().all(|row| row.len() == listing.heads.len()));
+/// assert_eq!(listing.csv(), "mu,8 digits\n1,30\n");
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Listing {
+    /// What it lists.
+    pub caption: String,
+    /// The heads of its columns.
+    pub heads: Vec<String>,
+    /// Its rows, each with one text a column.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Listing {
+    /// The table as comma-separated values, with the heads first.
+    pub fn csv(&self) -> String {
+        let line = |texts: &Vec<String>| {
+            let fields: Vec<String> = texts.iter().map(|text| csv_field(text)).collect();
+            fields.join(",") + "\n"
+        };
+        line(&self.heads) + &self.rows.iter().map(line).collect::<String>()
+    }
+
+    fn markup(&self) -> String {
+        let cells = |tag: &str, texts: &[String]| -> String {
+            let cell = |text: &String| {
+                format!(
+                    "<{tag} class=\"number\">{}</{}>",
+                    escape(text),
+                    tag.split(' ').next().unwrap_or(tag)
+                )
+            };
+            texts.iter().map(cell).collect()
+        };
+        let row = |row: &Vec<String>| format!("<tr>{}</tr>\n", cells("td", row));
+        format!(
+            "<table>\n<caption>{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
+            escape(&self.caption),
+            cells("th scope=\"col\"", &self.heads),
+            self.rows.iter().map(row).collect::<String>()
+        )
+    }
+}
+
+/// A chart on a page, with what the reader should see in it.
+///
+/// ```
+/// use wavestep_draw::{Axis, Caption, Curve, Curves, Section};
+///
+/// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0)] };
+/// let (order, cost) = (Axis::linear("order"), Axis::linear("cost"));
+/// let chart = Curves::new("Cost", order, cost, vec![curve], Caption::default())?;
+/// let section = Section { heading: "Cost", explanation: "It grows.", chart: &chart, listing: None };
+/// assert_eq!(section.chart.title(), "Cost");
+/// # Ok::<(), wavestep_draw::PlotError>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct Section<'a> {
+    /// The heading.
+    pub heading: &'a str,
+    /// A sentence or two on what is to be seen.
+    pub explanation: &'a str,
+    /// The chart.
+    pub chart: &'a dyn Chart,
+    /// A small table under it, if there is one.
+    pub listing: Option<&'a Listing>,
+}
+
+/// A row of the table of a page.
+///
+/// ```
+/// use wavestep_draw::Row;
+///
+/// let row = Row {
+///     method: "exact".into(),
+///     setting: "n = 20".into(),
+///     error: 0.0,
+///     bound: Some(1e-28),
+///     seconds: 4e-9,
+///     speed_up: Some(250.0),
+/// };
+/// assert!((row.points_a_second() / 2.5e8 - 1.0).abs() < 1e-15);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Row {
+    /// The method.
+    pub method: String,
+    /// Its setting.
+    pub setting: String,
+    /// The error measured.
+    pub error: f64,
+    /// A proven bound of it, if there is one.
+    pub bound: Option<f64>,
+    /// Seconds for one point.
+    pub seconds: f64,
+    /// Seconds of the method compared with, over these seconds.
+    pub speed_up: Option<f64>,
+}
+
+impl Row {
+    /// Points in a second, `1/seconds`.
+    pub fn points_a_second(&self) -> f64 {
+        1.0 / self.seconds
+    }
+}
+
+/// The table of a page: rows in an order of the caller's choice.
+///
+/// ```
+/// use wavestep_draw::Table;
+///
+/// let table = Table { compared_with: "modes, N = 10".into(), rows: vec![] };
+/// assert!(table.rows.is_empty());
+/// ```
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Table {
+    /// The method to which speed-ups refer; empty if there are none.
+    pub compared_with: String,
+    /// The rows.
+    pub rows: Vec<Row>,
+}
+
+/// A number of the table: three figures, so that columns can be compared by eye and sorted when
+/// copied.
+fn cell(value: Option<f64>) -> String {
+    let text = match value {
+        None => "–".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(value) => format!("{value:.2e}"),
+    };
+    format!("<td class=\"number\">{text}</td>")
+}
+
+fn table_markup(table: &Table) -> String {
+    let about = match table.compared_with.is_empty() {
+        true => String::new(),
+        false => {
+            format!(" Speed-up is the time of {} over the time of the row.", table.compared_with)
+        }
+    };
+    let mut markup = format!(
+        "<section>\n<h2>Numbers</h2>\n<table>\n<caption>Error, proven bound and speed of every \
+         setting.{}</caption>\n<thead><tr>",
+        escape(&about)
+    );
+    let heads =
+        ["method", "setting", "error", "bound", "seconds a point", "points a second", "speed-up"];
+    for (i, head) in heads.into_iter().enumerate() {
+        let class = if i < 2 { "" } else { " class=\"number\"" };
+        let _ = write!(markup, "<th scope=\"col\"{class}>{head}</th>");
+    }
+    markup.push_str("</tr></thead>\n<tbody>\n");
+    for row in &table.rows {
+        let _ = write!(
+            markup,
+            "<tr><th scope=\"row\">{}</th><td class=\"setting\">{}</td>",
+            escape(&row.method),
+            escape(&row.setting)
+        );
+        let numbers = [Some(row.error), row.bound, Some(row.seconds), Some(row.points_a_second())];
+        numbers.into_iter().for_each(|number| markup.push_str(&cell(number)));
+        let speed_up =
+            row.speed_up.map_or_else(|| "–".to_owned(), |ratio| format!("{}×", ratio_text(ratio)));
+        let _ = writeln!(markup, "<td class=\"number\">{speed_up}</td></tr>");
+    }
+    markup.push_str("</tbody>\n</table>\n</section>\n");
+    markup
+}
+
+/// A ratio in three figures: 0.0123, 1.23, 12.3, 1230.
+fn ratio_text(ratio: f64) -> String {
+    if ratio == 0.0 || !ratio.is_finite() {
+        return format!("{ratio}");
+    }
+    let leading = ratio.abs().log10().floor() as i32;
+    if !(-4..=6).contains(&leading) {
+        return format!("{ratio:.2e}");
+    }
+    match usize::try_from(2 - leading) {
+        Ok(decimals) => format!("{ratio:.decimals$}"),
+        Err(_) => {
+            let step = 10f64.powi(leading - 2);
+            format!("{}", (ratio / step).round() * step)
+        }
+    }
+}
+
+/// A page with a picture and its data for each section, and a table of all numbers after them.
+///
+/// It is one file of HTML 5, complete in itself: pictures stand in the markup, and nothing is run
+/// or loaded. Colours follow the reader's choice of light or dark; in print they are light, and a
+/// picture is not broken between pages. Cost: linear in the size of the result.
+///
+/// ```
+/// use wavestep_draw::{Axis, Caption, Curve, Curves, Section, Table, page};
+///
+/// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0), (2.0, 4.0)] };
+/// let (order, cost) = (Axis::linear("order"), Axis::linear("cost"));
+/// let chart = Curves::new("Cost", order, cost, vec![curve], Caption::default())?;
+/// let (heading, explanation) = ("Cost < price", "It grows.");
+/// let section = Section { heading, explanation, chart: &chart, listing: None };
+/// let page = page("Speed", &[section, section], &Table::default());
+/// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<h2>Cost &lt; price</h2>"));
+/// assert!(!page.contains("<script") && page.contains("id=\"chart-2-title\""));
+/// # Ok::<(), wavestep_draw::PlotError>(())
+/// ```
+pub fn page(title: &str, sections: &[Section<'_>], table: &Table) -> String {
+    let title = escape(title);
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
+         <style>{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
+    );
+    for (number, section) in sections.iter().enumerate() {
+        let svg = section.chart.svg_named(&format!("chart-{}", number + 1));
+        let _ = write!(
+            page,
+            "<section>\n<h2>{}</h2>\n<p>{}</p>\n<figure>\n{svg}</figure>\n<details>\n\
+             <summary>The numbers of this picture</summary>\n<pre>",
+            escape(section.heading),
+            escape(section.explanation)
+        );
+        for line in section.chart.csv().lines() {
+            let _ = writeln!(page, "{}", escape(line));
+        }
+        page.push_str("</pre>\n</details>\n");
+        section.listing.iter().for_each(|listing| page.push_str(&listing.markup()));
+        page.push_str("</section>\n");
+    }
+    if !table.rows.is_empty() {
+        page.push_str(&table_markup(table));
+    }
+    page.push_str("</main>\n</body>\n</html>\n");
+    page
+}
+
+/// How the page looks.
+const STYLE: &str = "\
+:root{color-scheme:light dark}\
+body{margin:0;background:#fff;color:#222;\
+font:16px/1.5 system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif}\
+main{max-width:900px;margin:0 auto;padding:24px 16px 64px}\
+h1{font-size:28px;line-height:1.2;margin:16px 0 8px}\
+h2{font-size:20px;line-height:1.3;margin:44px 0 4px}\
+p{margin:4px 0 12px;max-width:70ch}\
+figure{margin:0;overflow-x:auto}\
+figure svg{display:block;max-width:100%;height:auto;min-width:640px}\
+details{margin:6px 0}summary{cursor:pointer;font-size:14px;color:#555}\
+pre{font-size:12px;line-height:1.4;max-height:320px;overflow:auto;border:1px solid #ddd;\
+padding:8px}\
+table{border-collapse:collapse;font-size:14px;width:100%;margin-top:8px}\
+caption{text-align:left;color:#555;padding-bottom:8px}\
+th,td{text-align:left;font-weight:400;padding:4px 10px 4px 0;border-bottom:1px solid #e4e4e4;\
+vertical-align:top}\
+thead th{font-weight:600;border-bottom:2px solid #888}\
+.setting{white-space:nowrap}\
+.number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}\
+@media screen and (prefers-color-scheme:dark){body{background:#17191d;color:#e8e8e8}\
+summary,caption{color:#b9bcc2}pre{border-color:#3a3f47}th,td{border-color:#2c3036}\
+thead th{border-color:#757b84}}\
+@media print{main{max-width:none;padding:0}section{break-inside:avoid}\
+section:has(table){break-inside:auto}\
+details{display:none}figure svg{min-width:0}}";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ratios_have_three_figures() {
+        for (ratio, text) in [
+            (0.012_345, "0.0123"),
+            (1.0, "1.00"),
+            (12.34, "12.3"),
+            (123_456.0, "123000"),
+            (1e9, "1.00e9"),
+        ] {
+            assert_eq!(ratio_text(ratio), text);
+        }
+    }
+}

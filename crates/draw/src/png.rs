@@ -1,0 +1,55 @@
+//! SVG to PNG, with a font that comes along: pictures look the same on machines without fonts.
+
+use super::PlotError;
+use resvg::{tiny_skia, usvg};
+use std::sync::Arc;
+
+/// The widest picture in pixels.
+const MAX_WIDTH: u32 = 10_000;
+
+/// A picture as PNG, so many pixels wide, on its own paper.
+///
+/// Texts are set in DejaVu Sans, which is part of the program; no font of the machine is looked at.
+/// Colours are those for light paper.
+///
+/// # Errors
+/// [`PlotError::NotDrawn`] for what is no SVG, and for a width of 0 or above 10 000.
+///
+/// # Cost
+/// Linear in the number of pixels and shapes.
+///
+/// ```
+/// use wavestep_draw::png;
+///
+/// let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='3'><text>A</text></svg>";
+/// let picture = png(svg, 90)?;
+/// // The signature of PNG; width and height stand in the first chunk.
+/// assert_eq!(&picture[1..4], b"PNG");
+/// assert_eq!((picture[19], picture[23]), (90, 30));
+/// assert!(png("<p>", 90).is_err());
+/// # Ok::<(), wavestep_draw::PlotError>(())
+/// ```
+pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, PlotError> {
+    let refuse = |reason: String| PlotError::NotDrawn { reason };
+    if width == 0 || width > MAX_WIDTH {
+        return Err(refuse(format!("{width} pixels are not from 1 to {MAX_WIDTH}")));
+    }
+    let mut fonts = usvg::fontdb::Database::new();
+    for font in [dejavu::sans::regular(), dejavu::sans::bold()] {
+        fonts.load_font_source(usvg::fontdb::Source::Binary(Arc::new(font)));
+    }
+    fonts.set_sans_serif_family("DejaVu Sans");
+    let options = usvg::Options {
+        font_family: "DejaVu Sans".to_owned(),
+        fontdb: Arc::new(fonts),
+        ..usvg::Options::default()
+    };
+    let tree = usvg::Tree::from_str(svg, &options).map_err(|error| refuse(error.to_string()))?;
+    let scale = width as f32 / tree.size().width();
+    let height = (tree.size().height() * scale).round().max(1.0);
+    let pixels = tiny_skia::Pixmap::new(width, height as u32);
+    let mut pixels = pixels.ok_or_else(|| refuse(format!("it would be {height} pixels high")))?;
+    let transform = tiny_skia::Transform::from_scale(scale, scale);
+    resvg::render(&tree, transform, &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| refuse(error.to_string()))
+}

@@ -1,0 +1,4 @@
+//! Charts, figures and diagrams.
+
+mod marks;
+mod plot;

@@ -1,0 +1,101 @@
+//! Checks of what no scene of bars derives: words, estimates, local contact, dispersion.
+//!
+//! An entry asks for one by its name, with `check NAME`. A check is one more name in [`CHECKS`] with its
+//! arm in `run`.
+
+mod contact;
+mod dispersion;
+mod estimates;
+
+use crate::book::refusal::Refusal;
+use crate::book::verdict::{Ground, Verdict};
+use wavestep::export::Formula;
+use wavestep::expression::Expression;
+use wavestep::language::{Source, read_expression};
+
+/// What a check found: its verdict, what is derived, and what was done, in sentences.
+pub(super) struct Checked {
+    pub(super) verdict: Verdict,
+    pub(super) derived: Vec<Formula>,
+    pub(super) steps: Vec<String>,
+}
+
+impl Checked {
+    /// Both sides are the same expression.
+    fn proved(steps: Vec<String>) -> Checked {
+        let verdict = Verdict::Proved(vec![Ground::SameExpression]);
+        Checked { verdict, derived: Vec::new(), steps }
+    }
+}
+
+/// The names of all checks that entries may ask for.
+///
+/// ```
+/// assert!(wavestep_studies::book::CHECKS.contains(&"energy-estimate"));
+/// ```
+pub const CHECKS: [&str; 13] = [
+    "equal-bars",
+    "energy-estimate",
+    "better-estimate",
+    "hertz-stiffness",
+    "hertz-integral",
+    "hertz-time",
+    "hertz-constant",
+    "two-waves",
+    "narrow-band",
+    "beat",
+    "slope-of-pulse",
+    "peak-of-sum",
+    "peak-of-spectrum",
+];
+
+/// Runs a check by its name.
+pub(super) fn run(name: &str) -> Result<Checked, Refusal> {
+    match name {
+        "equal-bars" => estimates::equal_bars(),
+        "energy-estimate" => estimates::energy_estimate(),
+        "better-estimate" => estimates::better_estimate(),
+        "hertz-stiffness" => contact::stiffness(),
+        "hertz-integral" => contact::integral(),
+        "hertz-time" => contact::time(),
+        "hertz-constant" => contact::constant(),
+        "two-waves" => dispersion::two_waves(),
+        "narrow-band" => dispersion::narrow_band(),
+        "beat" => dispersion::beat(),
+        "slope-of-pulse" => dispersion::slope_of_pulse(),
+        "peak-of-sum" => dispersion::peak_of_sum(),
+        "peak-of-spectrum" => dispersion::peak_of_spectrum(),
+        _ => Err(Refusal::UnknownName(name.to_owned())),
+    }
+}
+
+fn read(text: &str) -> Result<Expression, Refusal> {
+    Ok(read_expression(&Source::new("identity", text)?)?)
+}
+
+/// An identity of two expressions: the step that states it, where they have one normal form.
+fn identity(left: &str, right: &str) -> Result<String, Refusal> {
+    match read(left)? == read(right)? {
+        true => Ok(format!("{left} = {right}: the same expression in normal form")),
+        false => Err(Refusal::Underivable(format!("{left} differs from {right}"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identities_hold_or_are_refused() {
+        assert!(identity("(a + b)^2", "a^2 + 2*a*b + b^2").is_ok());
+        assert!(identity("(a + b)^2", "a^2 + a*b + b^2").is_err());
+    }
+
+    #[test]
+    fn every_name_has_its_check() {
+        for name in CHECKS {
+            assert!(run(name).is_ok(), "{name}");
+        }
+        assert!(run("nothing").is_err());
+    }
+}

@@ -1,0 +1,407 @@
+//! Numbered equations as data: what is read, how surely, and what it is about.
+
+use crate::book::refusal::Refusal;
+use crate::book::stage::Stage;
+use std::fmt;
+use wavestep::language::syntax::Expression as Tree;
+use wavestep::language::{Source, normalise_name, parse_expression};
+use wavestep_polynomial::Rational;
+
+/// How the two parts of an equation are related.
+///
+/// ```
+/// use wavestep_studies::book::{Equation, Relation};
+///
+/// let read = |text| Equation::read(text).unwrap().relation();
+/// assert_eq!(read("g[n] = -f[n-1]"), Relation::Equals);
+/// assert_eq!(read("alpha[n] starts at 0"), Relation::Starts);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Relation {
+    /// Both sides are equal, on every period that they name.
+    Equals,
+    /// The left side is continuous from period to period, and starts at the right side.
+    Starts,
+}
+
+/// An equation of the source, as trees of the language.
+///
+/// ```
+/// use wavestep_studies::book::Equation;
+///
+/// let equation = Equation::read("v[0] = V/2 when r = 1").unwrap();
+/// assert_eq!(equation.left().to_string(), "v[0]");
+/// assert_eq!(equation.right().to_string(), "V/2");
+/// assert_eq!(equation.to_string(), "v[0] = V/2 when r = 1");
+/// let (name, value) = equation.condition().unwrap();
+/// assert_eq!((name, value.to_string().as_str()), ("r", "1"));
+/// let other = equation.with_right(equation.left().clone());
+/// assert_eq!(other.to_string(), "v[0] = v[0] when r = 1");
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Equation {
+    left: Tree,
+    right: Tree,
+    relation: Relation,
+    condition: Option<(String, Tree)>,
+}
+
+fn tree(text: &str) -> Result<Tree, Refusal> {
+    Ok(parse_expression(&Source::new("formula", text)?)?)
+}
+
+/// The parts of a text before and after a mark.
+fn split<'a>(text: &'a str, mark: &str) -> Result<(&'a str, &'a str), Refusal> {
+    let lacks = || Refusal::Text(format!("`{text}` lacks `{}`", mark.trim()));
+    text.split_once(mark).map(|(left, right)| (left.trim(), right.trim())).ok_or_else(lacks)
+}
+
+impl Equation {
+    /// Reads `left = right`, `left = right when name = value`, or `form starts at value`.
+    ///
+    /// # Errors
+    /// [`Refusal::Text`] where the language cannot read a part of it.
+    pub fn read(text: &str) -> Result<Equation, Refusal> {
+        if let Ok((form, start)) = split(text, " starts at ") {
+            let (left, right) = (tree(form)?, tree(start)?);
+            return Ok(Equation { left, right, relation: Relation::Starts, condition: None });
+        }
+        let (text, condition) = match split(text, " when ") {
+            Err(_) => (text, None),
+            Ok((text, condition)) => {
+                let (name, value) = split(condition, "=")?;
+                (text, Some((normalise_name(name), tree(value)?)))
+            }
+        };
+        let (left, right) = split(text, "=")?;
+        let (left, right) = (tree(left)?, tree(right)?);
+        Ok(Equation { left, right, relation: Relation::Equals, condition })
+    }
+
+    /// The left side.
+    #[must_use]
+    pub fn left(&self) -> &Tree {
+        &self.left
+    }
+
+    /// The right side.
+    #[must_use]
+    pub fn right(&self) -> &Tree {
+        &self.right
+    }
+
+    /// How they are related.
+    #[must_use]
+    pub fn relation(&self) -> Relation {
+        self.relation
+    }
+
+    /// The symbol that has a value, where the equation holds only then.
+    #[must_use]
+    pub fn condition(&self) -> Option<(&str, &Tree)> {
+        self.condition.as_ref().map(|(name, value)| (name.as_str(), value))
+    }
+
+    /// The same equation with another right side.
+    #[must_use]
+    pub fn with_right(&self, right: Tree) -> Equation {
+        Equation { right, ..self.clone() }
+    }
+}
+
+impl fmt::Display for Equation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.relation {
+            Relation::Equals => write!(f, "{} = {}", self.left, self.right)?,
+            Relation::Starts => write!(f, "{} starts at {}", self.left, self.right)?,
+        }
+        match &self.condition {
+            Some((name, value)) => write!(f, " when {name} = {value}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What is to be done with an equation.
+///
+/// ```
+/// use wavestep_studies::book::{Content, find};
+///
+/// let content = |number| find(number).unwrap().1.content.clone();
+/// assert!(matches!(content("6.80"), Content::Claim(equations) if equations.len() == 1));
+/// assert!(matches!(content("6.31"), Content::Readings(readings) if readings.len() == 2));
+/// assert!(matches!(content("6.93"), Content::Definition(_)));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Content {
+    /// Equations that the source derives.
+    Claim(Vec<Equation>),
+    /// Different readings of one equation, of which the derivation supports one at most.
+    Readings(Vec<Equation>),
+    /// Names that are introduced, where the language has a formula for them.
+    Definition(Vec<Equation>),
+    /// What has a check of its own, by its name in [`checks`](crate::book::CHECKS).
+    Check(String),
+}
+
+/// A numbered equation of the source, or a limit that it states in words.
+///
+/// ```
+/// let (section, entry) = wavestep_studies::book::find("6.80").unwrap();
+/// assert_eq!((section.number.as_str(), entry.number.as_str()), ("6.10", "6.80"));
+/// assert_eq!(entry.unsure, None);
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Entry {
+    /// Its number, or that of its section with a word: `6.7-acceleration`.
+    pub number: String,
+    /// What it says, in words.
+    pub states: String,
+    /// What is read, and what is done with it.
+    pub content: Content,
+    /// Why the reading is not sure, where it is not.
+    pub unsure: Option<String>,
+    /// How it looks on the page, where the language has no way to say it.
+    pub latex: Option<String>,
+    /// What is to be known about it.
+    pub note: Option<String>,
+}
+
+/// The scene of a section and the source's names for what is in it, not yet derived.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Setting {
+    pub(super) scene: String,
+    pub(super) observed: Vec<String>,
+    pub(super) like: Option<(String, Vec<(String, String)>)>,
+    pub(super) quantities: Vec<(String, Tree, Option<Tree>)>,
+    pub(super) definitions: Vec<(String, Tree)>,
+    pub(super) values: Vec<(String, Rational)>,
+}
+
+/// A section of the source with its equations.
+///
+/// ```
+/// let sections = wavestep_studies::book::sections();
+/// let numbers: Vec<&str> = sections.iter().map(|section| section.number.as_str()).collect();
+/// assert_eq!(numbers, ["6.6", "6.7", "6.8", "6.9", "6.10", "6.11"]);
+/// assert!(sections[5].stage().is_none()); // waves of dispersion run in no scene of bars
+/// // The source's names for what is in the scene.
+/// let section = &sections[4];
+/// assert_eq!(section.scene(), Some("mass-on-fixed-bar"));
+/// assert!(section.dictionary().contains(&"v_0 = V*velocity".to_owned()));
+/// let equation = wavestep_studies::book::Equation::read("v_0[n] = 0").unwrap();
+/// assert_eq!(section.dictionary_of(&[equation]), ["v_0 = V*velocity"]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// Its number.
+    pub number: String,
+    /// Its title.
+    pub title: String,
+    /// Its equations, in the order of the source.
+    pub entries: Vec<Entry>,
+    setting: Setting,
+}
+
+impl Section {
+    /// The scene of the section, derived from its parts; `None` where it has none.
+    ///
+    /// # Panics
+    /// Where the section names what is not there; a test opens all of them.
+    #[must_use]
+    pub fn stage(&self) -> Option<Stage> {
+        if self.setting.scene.is_empty() {
+            return None;
+        }
+        let stage = Stage::new(&self.setting);
+        Some(stage.unwrap_or_else(|error| panic!("section {}: {error}", self.number)))
+    }
+
+    /// The name of the scene, where there is one.
+    #[must_use]
+    pub fn scene(&self) -> Option<&str> {
+        Some(self.setting.scene.as_str()).filter(|scene| !scene.is_empty())
+    }
+
+    /// How the source's names are tied to the scene, as lines of text.
+    #[must_use]
+    pub fn dictionary(&self) -> Vec<String> {
+        let quantities = self.setting.quantities.iter();
+        let quantities = quantities.map(|(name, tree, _)| format!("{name} = {tree}"));
+        let definitions = self.setting.definitions.iter();
+        quantities.chain(definitions.map(|(name, tree)| format!("{name} = {tree}"))).collect()
+    }
+
+    /// The lines of the [`dictionary`](Section::dictionary) that an equation makes use of, itself or by
+    /// other lines.
+    #[must_use]
+    pub fn dictionary_of(&self, equations: &[Equation]) -> Vec<String> {
+        let mut words: Vec<String> = Vec::new();
+        for equation in equations {
+            words.extend(names(&equation.left().to_string()));
+            words.extend(names(&equation.right().to_string()));
+        }
+        let definitions = &self.setting.definitions;
+        for (name, tree) in definitions.iter().rev().chain(definitions) {
+            if words.contains(name) {
+                words.extend(names(&tree.to_string()));
+            }
+        }
+        let used = |line: &String| words.iter().any(|word| line.starts_with(&format!("{word} = ")));
+        self.dictionary().into_iter().filter(used).collect()
+    }
+
+    /// Reads a section.
+    ///
+    /// # Errors
+    /// The first line that is not of the form of `src/book/sections/`.
+    pub(super) fn read(text: &str) -> Result<Section, Refusal> {
+        let mut section = Section {
+            number: String::new(),
+            title: String::new(),
+            entries: Vec::new(),
+            setting: Setting::default(),
+        };
+        for line in logical_lines(text) {
+            match line.strip_prefix("  ") {
+                Some(item) => {
+                    let entry = section.entries.last_mut();
+                    let stray = || Refusal::Text(format!("`{item}` belongs to no equation"));
+                    entry.ok_or_else(stray)?.read_item(item)?;
+                }
+                None if line.starts_with(|c: char| c.is_ascii_digit()) => {
+                    let (number, states) = split(&line, " ")?;
+                    section.entries.push(Entry {
+                        number: number.to_owned(),
+                        states: states.to_owned(),
+                        content: Content::Claim(Vec::new()),
+                        unsure: None,
+                        latex: None,
+                        note: None,
+                    });
+                }
+                None => section.read_setting(&line)?,
+            }
+        }
+        Ok(section)
+    }
+
+    fn read_setting(&mut self, line: &str) -> Result<(), Refusal> {
+        let (word, rest) = split(line, " ")?;
+        let setting = &mut self.setting;
+        match word {
+            "section" => {
+                let (number, title) = split(rest, " ")?;
+                (self.number, self.title) = (number.to_owned(), title.to_owned());
+            }
+            "scene" => setting.scene = rest.to_owned(),
+            "observe" => setting.observed = listed(rest).map(str::to_owned).collect(),
+            "like" => {
+                let (like, waves) = split(rest, ":")?;
+                let pair = |text| split(text, "=").map(|(a, b)| (a.to_owned(), b.to_owned()));
+                let waves = listed(waves).map(pair).collect::<Result<_, _>>()?;
+                setting.like = Some((like.to_owned(), waves));
+            }
+            "wave" => {
+                let (name, value) = split(rest, "=")?;
+                let (value, rate) = match split(value, " prime ") {
+                    Ok((value, rate)) => (value, Some(tree(rate)?)),
+                    Err(_) => (value, None),
+                };
+                setting.quantities.push((name.to_owned(), tree(value)?, rate));
+            }
+            "let" => {
+                let (name, value) = split(rest, "=")?;
+                setting.definitions.push((normalise_name(name), tree(value)?));
+            }
+            "values" => {
+                for value in listed(rest) {
+                    let (name, value) = split(value, "=")?;
+                    let value = wavestep::language::parse_number(value)?;
+                    setting.values.push((normalise_name(name), value));
+                }
+            }
+            _ => return Err(Refusal::Text(format!("`{word}` begins no line of a section"))),
+        }
+        Ok(())
+    }
+}
+
+impl Entry {
+    fn read_item(&mut self, item: &str) -> Result<(), Refusal> {
+        let (word, rest) = item.split_once(' ').unwrap_or((item, ""));
+        let rest = rest.trim();
+        match (word, &mut self.content) {
+            ("reads", Content::Claim(equations)) => equations.push(Equation::read(rest)?),
+            ("either", content) => *content = Content::Readings(vec![Equation::read(rest)?]),
+            ("or", Content::Readings(readings)) => readings.push(Equation::read(rest)?),
+            ("defines", content @ Content::Claim(_)) => {
+                *content = Content::Definition(Vec::new());
+                return if rest.is_empty() { Ok(()) } else { self.read_item(item) };
+            }
+            ("defines", Content::Definition(equations)) => equations.push(Equation::read(rest)?),
+            ("check", content) => *content = Content::Check(rest.to_owned()),
+            ("unsure", _) => self.unsure = Some(rest.to_owned()),
+            ("latex", _) => self.latex = Some(rest.to_owned()),
+            ("note", _) => self.note = Some(rest.to_owned()),
+            _ => return Err(Refusal::Text(format!("`{word}` is no item of an equation"))),
+        }
+        Ok(())
+    }
+}
+
+/// The names in a formula; `f_2` may be a name, or the wave f on period 2.
+fn names(text: &str) -> Vec<String> {
+    let words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+    let wave = |word: &str| {
+        let (wave, n) = word.rsplit_once('_')?;
+        n.chars().all(|c| c.is_ascii_digit()).then(|| wave.to_owned())
+    };
+    words.flat_map(|word| std::iter::once(word.to_owned()).chain(wave(word))).collect()
+}
+
+fn listed(text: &str) -> impl Iterator<Item = &str> {
+    text.split(',').map(str::trim)
+}
+
+/// Lines with what goes on in deeper lines joined to them, without comments and empty lines.
+fn logical_lines(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for line in text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')) {
+        match (line.starts_with("    "), lines.last_mut()) {
+            (true, Some(last)) => {
+                last.push(' ');
+                last.push_str(line.trim());
+            }
+            _ => lines.push(line.trim_end().to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mistakes_in_sections_are_refused() {
+        for text in [
+            "  reads f[n] = 1",
+            "chapter 6",
+            "6.1 One.\n  proves f[n] = 1",
+            "6.1 One.\n  reads f[n]",
+            "6.1 One.\n  reads f[n] = 1 +",
+            "6.1 One.\n  or f[n] = 1",
+            "values mu = x",
+        ] {
+            assert!(Section::read(text).is_err(), "{text}");
+        }
+        let section = Section::read("section 6.0 None\n6.1 One\n    thing.\n  note It is\n    so.");
+        let section = section.expect("a section");
+        let entry = &section.entries[0];
+        assert_eq!(
+            (entry.states.as_str(), entry.note.as_deref()),
+            ("One thing.", Some("It is so."))
+        );
+    }
+}

@@ -1,0 +1,130 @@
+//! Sequences in general n: sums of `c(n) λ^n` with rational functions of n as coefficients.
+
+use wavestep::expression::Expression;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// `Σ_i c_i(n) λ_i^n`.
+///
+/// # Invariants
+/// - the ratios `λ_i` are different, the coefficients not zero. Powers of different ratios are linearly
+///   independent over the rational functions of n, so equal sequences have the same terms.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sequence {
+    terms: Vec<(Expression, Expression)>,
+}
+
+/// The number of the period, as a value.
+pub(super) fn period_number() -> Symbol {
+    Symbol::new("n").expect("a name")
+}
+
+impl Sequence {
+    pub(super) fn constant(value: Expression) -> Sequence {
+        Sequence::term(Expression::one(), value)
+    }
+
+    /// `coefficient · ratio^n`.
+    pub(super) fn term(ratio: Expression, coefficient: Expression) -> Sequence {
+        let mut sequence = Sequence::default();
+        sequence.add(ratio, &coefficient);
+        sequence
+    }
+
+    fn add(&mut self, ratio: Expression, coefficient: &Expression) {
+        match self.terms.iter_mut().find(|(own, _)| *own == ratio) {
+            Some((_, own)) => *own += coefficient,
+            None => self.terms.push((ratio, coefficient.clone())),
+        }
+        self.terms.retain(|(_, coefficient)| !coefficient.is_zero());
+    }
+
+    pub(super) fn plus(&self, other: &Sequence) -> Sequence {
+        let mut sum = self.clone();
+        other.terms.iter().for_each(|(ratio, value)| sum.add(ratio.clone(), value));
+        sum
+    }
+
+    pub(super) fn times(&self, other: &Sequence) -> Sequence {
+        let mut product = Sequence::default();
+        for (left, a) in &self.terms {
+            for (right, b) in &other.terms {
+                product.add(left * right, &(a * b));
+            }
+        }
+        product
+    }
+
+    pub(super) fn negated(&self) -> Sequence {
+        self.times(&Sequence::constant(Expression::integer(-1)))
+    }
+
+    /// The sequence one period late; `None` where a ratio has no inverse.
+    pub(super) fn delayed(
+        &self,
+        inverse: impl Fn(&Expression) -> Option<Expression>,
+    ) -> Option<Sequence> {
+        let n = period_number();
+        let before = wavestep::expression::Fraction::symbol(&n);
+        let before = &before - &wavestep::expression::Fraction::one();
+        let mut late = Sequence::default();
+        for (ratio, coefficient) in &self.terms {
+            let coefficient = coefficient.substitute(&n, &before).ok()?;
+            late.add(ratio.clone(), &(&coefficient * &inverse(ratio)?));
+        }
+        Some(late)
+    }
+
+    pub(super) fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// The value, where no power of n occurs and n neither.
+    pub(super) fn as_constant(&self) -> Option<Expression> {
+        match &self.terms[..] {
+            [] => Some(Expression::zero()),
+            [(ratio, value)] if ratio.is_one() && !value.contains(&period_number()) => {
+                Some(value.clone())
+            }
+            _ => None,
+        }
+    }
+
+    /// The coefficient, where n stands in no exponent.
+    pub(super) fn as_rational(&self) -> Option<Expression> {
+        match &self.terms[..] {
+            [] => Some(Expression::zero()),
+            [(ratio, value)] if ratio.is_one() => Some(value.clone()),
+            _ => None,
+        }
+    }
+
+    /// The value at n; `None` where a denominator vanishes there.
+    pub(super) fn value(&self, n: u32) -> Option<Expression> {
+        let number = Rational::from_integer(n.into());
+        let fraction = wavestep::expression::Fraction::constant(&number);
+        self.terms.iter().try_fold(Expression::zero(), |sum, (ratio, coefficient)| {
+            let coefficient = coefficient.substitute(&period_number(), &fraction).ok()?;
+            Some(&sum + &(&coefficient * &ratio.pow(n)))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sequences_are_equal_when_their_terms_are() {
+        let [n, x] = ["n", "x"].map(|name| Expression::symbol(&Symbol::new(name).expect("a name")));
+        let one = Sequence::term(x.clone(), n.clone());
+        let two = Sequence::term(x.clone(), &n + &Expression::one());
+        let difference = one.plus(&two.negated());
+        assert!(!difference.is_zero());
+        assert!(difference.plus(&Sequence::term(x.clone(), Expression::one())).is_zero());
+        assert_eq!(two.value(3), Some(x.pow(3).scale(&Rational::from_integer(4.into()))));
+        assert_eq!(
+            one.times(&two).value(2),
+            Some(x.pow(4).scale(&Rational::from_integer(6.into())))
+        );
+    }
+}

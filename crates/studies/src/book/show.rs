@@ -1,0 +1,298 @@
+//! One examined equation for reading: as text, LaTeX and JSON.
+
+use crate::book::entry::{Content, Entry, Equation};
+use crate::book::examine::Examination;
+use crate::book::latex::{escaped, of_equation};
+use crate::book::verdict::{Finding, Verdict};
+use serde_json::{Value, json};
+use wavestep::export::{self, Formula, LATEX_WIDTH};
+
+/// The equations that are read, whatever is done with them.
+fn equations(entry: &Entry) -> &[Equation] {
+    match &entry.content {
+        Content::Claim(equations) | Content::Readings(equations) => equations,
+        Content::Definition(equations) => equations,
+        Content::Check(_) => &[],
+    }
+}
+
+/// The heading for what no formula states.
+const IN_WORDS: &str = "Stated in words";
+
+/// A heading for what is read.
+fn heading(entry: &Entry) -> &'static str {
+    match (&entry.content, &entry.latex) {
+        (Content::Check(_), None) => IN_WORDS,
+        (Content::Readings(readings), _) if readings.len() > 1 => "As it may be read",
+        (Content::Claim(_), Some(_)) => "As read, and what of it is compared",
+        _ => "As read",
+    }
+}
+
+/// Lines no longer than a width, indented.
+fn wrapped(text: &str, width: usize, indent: &str) -> String {
+    let mut out = String::new();
+    let mut line = indent.to_owned();
+    for word in text.split_whitespace() {
+        let full = line.chars().count() + 1 + word.chars().count() > width;
+        if full && line.len() > indent.len() {
+            out.push_str(line.trim_end());
+            out.push('\n');
+            line = indent.to_owned();
+        }
+        if line.len() > indent.len() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    out + line.trim_end() + "\n"
+}
+
+fn capitalised(text: &str) -> String {
+    let mut characters = text.chars();
+    characters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().collect::<String>() + characters.as_str()
+    })
+}
+
+/// A step as a sentence, unless it begins with a formula.
+fn told(step: &str) -> String {
+    match step.split(' ').next() {
+        Some(word)
+            if word.trim_end_matches(':').chars().all(char::is_alphabetic) && word.len() > 1 =>
+        {
+            capitalised(step)
+        }
+        _ => step.to_owned(),
+    }
+}
+
+fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("    {line}\n")).collect()
+}
+
+impl Examination {
+    /// The verdict in a line: with the value that was found wrong, or the reading that is supported.
+    ///
+    /// ```
+    /// let found = wavestep_studies::book::examine("6.71-constant").unwrap();
+    /// let supported = "exp(t_tilde)*alpha_tilde[0] - exp(t_tilde) = -1";
+    /// assert_eq!(found.summary(), format!("reading unsure: {supported} is supported"));
+    /// ```
+    #[must_use]
+    pub fn summary(&self) -> String {
+        match &self.verdict {
+            Verdict::Unsure(readings) => {
+                let supported = readings.iter().find(|(_, finding)| finding.holds());
+                let supported = supported.map(|(reading, _)| format!(": {reading} is supported"));
+                format!("{}{}", self.verdict, supported.unwrap_or_default())
+            }
+            Verdict::Refuted(slip) => {
+                format!("{}: derived against read {}", self.verdict, slip.1)
+            }
+            verdict => verdict.to_string(),
+        }
+    }
+
+    /// The equations that are read, as text.
+    pub(super) fn read(&self) -> Vec<String> {
+        equations(self.entry).iter().map(ToString::to_string).collect()
+    }
+
+    /// The verdict for a cell of a table.
+    pub(super) fn verdict_markdown(&self) -> String {
+        match &self.verdict {
+            Verdict::Refuted(_) => "**refuted as read**".to_owned(),
+            Verdict::Unsure(readings) => {
+                let supported = readings.iter().find(|(_, finding)| finding.holds());
+                let supported = supported.map(|(reading, _)| format!("; `{reading}` is supported"));
+                let why = self.entry.unsure.as_ref().map(|why| format!(" ({why})"));
+                let [why, supported] = [why, supported].map(Option::unwrap_or_default);
+                format!("reading unsure{why}{supported}")
+            }
+            verdict => verdict.to_string(),
+        }
+    }
+
+    /// For reading in a terminal: as read, derived, verdict with its steps.
+    ///
+    /// ```
+    /// let text = wavestep_studies::book::examine("6.78").unwrap().to_text(100);
+    /// assert!(text.starts_with("6.78 The wave during the first period.\n"), "{text}");
+    /// assert!(text.contains("As read\n    f[0] = V/c*exp(-mu*z/L)\n"), "{text}");
+    /// assert!(text.contains("Verdict: proved\n"), "{text}");
+    /// ```
+    #[must_use]
+    pub fn to_text(&self, width: usize) -> String {
+        let Examination { section, entry, derived, .. } = self;
+        let mut out = wrapped(&format!("{}  {}", entry.number, entry.states), width, "");
+        out.push_str(&format!("Section {}, {}\n\n", section.number, section.title));
+        out.push_str(&format!("{}\n", heading(entry)));
+        if let Some(latex) = &entry.latex {
+            out.push_str(&wrapped(latex, width, "    "));
+        }
+        for equation in equations(entry) {
+            out.push_str(&wrapped(&equation.to_string(), width, "    "));
+        }
+        if let Some(why) = &entry.unsure {
+            out.push_str(&wrapped(&format!("The reading is not sure: {why}."), width, "    "));
+        }
+        if !derived.is_empty() {
+            out.push_str(&format!("\n{}\n", self.derived_heading()));
+            out.push_str(&indented(&export::text(derived, width.saturating_sub(4))));
+        }
+        let dictionary = section.dictionary_of(equations(entry));
+        if !dictionary.is_empty() {
+            let names: Vec<String> =
+                dictionary.iter().map(|line| line.replacen(" = ", " is ", 1)).collect();
+            let here = format!("In the scene the source's {}.", names.join(", its "));
+            out.push_str(&wrapped(&here, width, "    "));
+        }
+        out.push('\n');
+        out.push_str(&wrapped(&format!("Verdict: {}", self.verdict), width, ""));
+        for step in &self.steps {
+            let stop =
+                if step.ends_with(['.', ':', ')']) || step.contains(" = ") { "" } else { "." };
+            out.push_str(&wrapped(&format!("{}{stop}", told(step)), width, "    "));
+        }
+        if let Some(note) = &entry.note {
+            out.push('\n');
+            out.push_str(&wrapped(note, width, ""));
+        }
+        out
+    }
+
+    /// The scene that was derived; a check of its own needs none.
+    fn scene_of_derived(&self) -> Option<&str> {
+        match self.entry.content {
+            Content::Check(_) => None,
+            _ => self.section.scene(),
+        }
+    }
+
+    fn derived_heading(&self) -> String {
+        match self.scene_of_derived() {
+            Some(scene) => format!("Derived from the parts of the scene `{scene}`"),
+            None => "Derived".to_owned(),
+        }
+    }
+
+    /// For a page of LaTeX with amsmath.
+    ///
+    /// ```
+    /// let latex = wavestep_studies::book::examine("6.78").unwrap().to_latex();
+    /// assert!(latex.contains("\\[ f_{0} = \\frac{V}{c} e^{-\\mu z/L} \\]"), "{latex}");
+    /// ```
+    #[must_use]
+    pub fn to_latex(&self) -> String {
+        let Examination { section, entry, derived, .. } = self;
+        let mut out = format!(
+            "\\paragraph{{{}}} {} (Section {}, {}.)\n\n{}{}\n",
+            entry.number,
+            escaped(&entry.states),
+            section.number,
+            escaped(&section.title),
+            heading(entry),
+            if heading(entry) == IN_WORDS { "." } else { ":" },
+        );
+        let mut rows: Vec<String> = entry.latex.iter().cloned().collect();
+        rows.extend(equations(entry).iter().map(of_equation));
+        for row in rows {
+            out.push_str(&format!("\\[ {row} \\]\n"));
+        }
+        if let Some(why) = &entry.unsure {
+            out.push_str(&format!("The reading is not sure: {}.\n", escaped(why)));
+        }
+        if !derived.is_empty() {
+            out.push_str(&match self.scene_of_derived() {
+                Some(scene) => {
+                    format!("\nDerived from the parts of the scene \\texttt{{{scene}}}:\n")
+                }
+                None => "\nDerived:\n".to_owned(),
+            });
+            out.push_str(&export::latex(derived, LATEX_WIDTH));
+        }
+        let dictionary = section.dictionary_of(equations(entry));
+        if !dictionary.is_empty() {
+            let rows = dictionary.iter().filter_map(|line| Equation::read(line).ok());
+            let rows: Vec<String> = rows.map(|row| of_equation(&row)).collect();
+            out.push_str(&format!(
+                "Names of the source on the left, of the scene on the right:\n\\[ {} \\]\n",
+                rows.join(", \\quad ")
+            ));
+        }
+        out.push_str(&format!("\n\\emph{{Verdict: {}.}}\n", escaped(&self.verdict.to_string())));
+        for step in &self.steps {
+            let stop = if step.ends_with(['.', ':']) { "" } else { "." };
+            out.push_str(&format!("{}{stop}\n", escaped(&told(step))));
+        }
+        if let Some(note) = &entry.note {
+            out.push_str(&format!("\n{}\n", escaped(note)));
+        }
+        out
+    }
+
+    /// For programs.
+    ///
+    /// ```
+    /// let json = wavestep_studies::book::examine("6.78").unwrap().to_json();
+    /// assert_eq!(json["read"][0]["text"], "f[0] = V/c*exp(-mu*z/L)");
+    /// assert_eq!((&json["verdict"], &json["reading"]), (&"proved".into(), &"clear".into()));
+    /// ```
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let Examination { section, entry, derived, .. } = self;
+        let read: Vec<Value> = equations(entry)
+            .iter()
+            .map(|equation| json!({"text": equation.to_string(), "latex": of_equation(equation)}))
+            .collect();
+        let formula = |formula: &Formula| {
+            let latex = export::latex(std::slice::from_ref(formula), LATEX_WIDTH);
+            json!({"text": formula.to_line(), "latex": latex})
+        };
+        let mut document = json!({
+            "number": entry.number,
+            "section": section.number,
+            "states": entry.states,
+            "reading": if entry.unsure.is_some() { "unsure" } else { "clear" },
+            "read": read,
+            "verdict": kind(&self.verdict),
+            "derived": derived.iter().map(formula).collect::<Vec<_>>(),
+            "steps": self.steps,
+        });
+        for (name, text) in
+            [("latex", &entry.latex), ("unsure", &entry.unsure), ("note", &entry.note)]
+        {
+            if let Some(text) = text {
+                document[name] = json!(text);
+            }
+        }
+        match &self.verdict {
+            Verdict::Refuted(slip) => {
+                let (equation, witness) = &**slip;
+                document["refuted"] = json!({
+                    "equation": equation.to_string(),
+                    "witness": witness.to_string(),
+                });
+            }
+            Verdict::Unsure(readings) => {
+                let supported = |(reading, finding): &(Equation, Finding)| json!({"reading": reading.to_string(), "supported": finding.holds()});
+                document["readings"] = readings.iter().map(supported).collect();
+            }
+            Verdict::Checked(bound) => document["bound"] = json!(bound),
+            Verdict::Proved(_) | Verdict::Definition => {}
+        }
+        document
+    }
+}
+
+/// The verdict in a word or two, for programs.
+fn kind(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Proved(_) => "proved",
+        Verdict::Refuted(_) => "refuted",
+        Verdict::Unsure(_) => "unsure",
+        Verdict::Checked(_) => "checked",
+        Verdict::Definition => "definition",
+    }
+}

@@ -1,0 +1,190 @@
+//! The cut-off of a pulse given in time: the least root of `ω(k) τ = 2π`, certified.
+//!
+//! From zero on, cells are excluded where an enclosure of `ω − 2π/τ` is negative, or where it is
+//! monotone without a change of sign. The first cell with a change of sign and a positive derivative
+//! holds the root, which the interval method of Newton narrows. Next to zero cells shrink in proportion
+//! to their distance from it, so that roots far below `2π/τ` are found as well.
+
+use num_traits::{One, Zero};
+use wavestep_polynomial::Rational;
+
+use super::error::{DispersionError, place};
+use super::relation::{Relation, value};
+use super::series::{Fault, Series};
+use wavestep::ball::Ball;
+
+/// Bits of the search.
+const SEARCH_BITS: u64 = 64;
+/// The search goes to `2^DOUBLINGS` times the larger of 1 and `2π/τ`, or through so many cells.
+const DOUBLINGS: u32 = 64;
+const MAX_CELLS: usize = 40_000;
+/// A cell is as narrow as `2^{−NARROW}` of its wavenumbers at least.
+const NARROW: usize = 40;
+/// How often the first cell is halved, which begins at zero.
+const MAX_DEPTH: u32 = 1200;
+/// The most steps of Newton's method; each halves the interval at least, and soon doubles the digits.
+const MAX_STEPS: usize = 400;
+
+/// What is known of a cell.
+enum Cell {
+    /// No root.
+    Excluded,
+    /// One root, where ω grows.
+    Root,
+    /// ω is negative in all of it.
+    Negative,
+    /// Not decided.
+    Open,
+}
+
+struct Search<'a> {
+    relation: &'a Relation,
+    /// `2π/τ`.
+    level: Ball,
+}
+
+fn sign(ball: &Ball) -> Option<bool> {
+    (!ball.contains_zero()).then(|| !ball.midpoint().is_negative())
+}
+
+impl Search<'_> {
+    /// The sign of `ω − 2π/τ` at a point; `None` where it is not decided.
+    fn sign_at(&self, k: &Rational) -> Option<bool> {
+        let k = Ball::from_rational(k, SEARCH_BITS);
+        let omega = value(self.relation.frequency(), &k, SEARCH_BITS).ok()?;
+        sign(&omega.subtract(&self.level, SEARCH_BITS))
+    }
+
+    fn cell(&self, low: &Rational, high: &Rational) -> Result<Cell, Fault> {
+        let bits = SEARCH_BITS;
+        let k = Ball::between(low, high, bits);
+        let one = Series::wave_number(&k, &Ball::zero(), 1);
+        let omega = match self.relation.frequency().series(&one, bits) {
+            Ok(series) => series.coefficients()[0].clone(),
+            Err(Fault::MissingValue(symbol)) => return Err(Fault::MissingValue(symbol)),
+            // At the first wavenumber of all, a root may have no enclosure.
+            Err(fault) if low.is_zero() => return Err(fault),
+            Err(_) => return Ok(Cell::Open),
+        };
+        if sign(&omega) == Some(false) {
+            return Ok(Cell::Negative);
+        }
+        if sign(&omega.subtract(&self.level, bits)) == Some(false) {
+            return Ok(Cell::Excluded);
+        }
+        let unit = Ball::from_integer(&1.into());
+        let both = Series::wave_number(&k, &unit, 2);
+        let Ok(series) = self.relation.frequency().series(&both, bits) else {
+            return Ok(Cell::Open);
+        };
+        let slope = sign(&series.coefficients()[1]);
+        Ok(match (slope, self.sign_at(low), self.sign_at(high)) {
+            (Some(true), Some(false), Some(true)) => Cell::Root,
+            (Some(_), Some(false), Some(false)) => Cell::Excluded,
+            _ => Cell::Open,
+        })
+    }
+}
+
+/// The least positive root of `ω(k) τ = 2π`, with a radius of about `2^{−bits}` of it.
+///
+/// # Errors
+/// [`DispersionError::NoCutOff`] where there is none before ω is negative, or before the search ends;
+/// [`DispersionError::UndecidedCutOff`] where 64 bits do not tell.
+pub(super) fn cut_off_of_duration(
+    relation: &Relation,
+    duration: &Rational,
+    bits: u64,
+) -> Result<Ball, DispersionError> {
+    let level = |bits: u64| {
+        let twice = Rational::from_integer(2.into()) / duration;
+        Ball::pi(bits).multiply_rational(&twice, bits)
+    };
+    let search = Search { relation, level: level(SEARCH_BITS) };
+    // 2π/τ < 7/τ, and of few bits.
+    let start = (Rational::from_integer(7.into()) / duration).ceil().max(Rational::one());
+    let two = Rational::from_integer(2.into());
+    let (mut low, mut high) = (Rational::zero(), start);
+    let mut looked_at = 0;
+    let narrowest = Rational::new(1.into(), num_bigint::BigInt::from(1) << NARROW);
+    for _ in 0..=DOUBLINGS {
+        let mut cells = vec![(low.clone(), high.clone(), 0)];
+        while let Some((from, to, depth)) = cells.pop() {
+            looked_at += 1;
+            if looked_at > MAX_CELLS {
+                let through = place(&Ball::from_rational(&from, SEARCH_BITS));
+                return Err(DispersionError::NoCutOff { through });
+            }
+            let near = Ball::between(&from, &to, SEARCH_BITS);
+            let is_narrow = depth >= MAX_DEPTH || &to - &from <= &to * &narrowest;
+            let cell = match search.cell(&from, &to) {
+                Ok(cell) => cell,
+                Err(fault @ Fault::MissingValue(_)) => {
+                    return Err(DispersionError::at(fault, &near));
+                }
+                Err(fault) if is_narrow => return Err(DispersionError::at(fault, &near)),
+                Err(_) => Cell::Open,
+            };
+            match cell {
+                Cell::Excluded => {}
+                Cell::Negative => {
+                    let through = place(&Ball::from_rational(&from, SEARCH_BITS));
+                    return Err(DispersionError::NoCutOff { through });
+                }
+                Cell::Root => return narrowed(relation, &level, (from, to), bits),
+                Cell::Open if is_narrow => {
+                    return Err(DispersionError::UndecidedCutOff(place(&near)));
+                }
+                Cell::Open => {
+                    let middle = (&from + &to) / &two;
+                    cells.push((middle.clone(), to, depth + 1));
+                    cells.push((from, middle, depth + 1));
+                }
+            }
+        }
+        (low, high) = (high.clone(), high * &two);
+    }
+    Err(DispersionError::NoCutOff { through: place(&Ball::from_rational(&low, SEARCH_BITS)) })
+}
+
+/// Newton's method on an interval with one root and a positive derivative: the root lies in
+/// `m − g(m)/g'([a, b])`.
+fn narrowed(
+    relation: &Relation,
+    level: &dyn Fn(u64) -> Ball,
+    (mut low, mut high): (Rational, Rational),
+    bits: u64,
+) -> Result<Ball, DispersionError> {
+    let working = bits + 16;
+    let two = Rational::from_integer(2.into());
+    let level = level(working);
+    for _ in 0..MAX_STEPS {
+        let width = &high - &low;
+        if &width * (Rational::from_integer(num_bigint::BigInt::one() << bits)) <= high {
+            break;
+        }
+        let whole = Ball::between(&low, &high, working);
+        let middle =
+            Rational::from(Ball::from_rational(&((&low + &high) / &two), working).midpoint());
+        let at = Ball::from_rational(&middle, working);
+        let g = value(relation.frequency(), &at, working)?.subtract(&level, working);
+        let (mut from, mut to) = (low.clone(), high.clone());
+        match sign(&g) {
+            Some(true) => to = middle.clone(),
+            Some(false) => from = middle.clone(),
+            None => {}
+        }
+        if let Ok(slope) = value(relation.group_velocity(), &whole, working)
+            && let Ok(inverse) = slope.reciprocal(working)
+        {
+            let (left, right) = at.subtract(&g.multiply(&inverse, working), working).endpoints();
+            from = from.max(Rational::from(&left));
+            to = to.min(Rational::from(&right));
+        }
+        if from == low && to == high || from > to {
+            break;
+        }
+        (low, high) = (from, to);
+    }
+    Ok(Ball::between(&low, &high, working))
+}

@@ -1,0 +1,368 @@
+//! How fast the peak of a pulse travels at first: the mean of `ω/k` over the spectrum with the weight
+//! `U k²`.
+//!
+//! Near its peak a pulse `Σ U_i cos(ω_i t − k_i x)` has the slope `Σ U_i k_i sin(ω_i t − k_i x)`, and as
+//! long as the angles are small, sines are angles: the slope vanishes at `x/t = Σ U_i k_i ω_i/Σ U_i k_i²`.
+
+use std::fmt;
+
+use num_traits::Zero as _;
+use wavestep_polynomial::{Rational, Symbol};
+
+use super::error::{DispersionError, place};
+use super::formula::{Formula, wave_number};
+use super::pulse::{Pulse, Shape};
+use super::quadrature::integrate;
+use super::relation::{Relation, Sample, settled, value};
+use wavestep::ball::{Ball, Certified, certify};
+
+/// How often the range of wavenumbers is halved in looking for negative frequencies.
+const NEGATIVE_DEPTH: u32 = 12;
+/// The precision of that.
+const BOUND_BITS: u64 = 64;
+/// The digits of samples in doubles.
+const SAMPLE_BITS: u64 = 60;
+
+/// A value that is rational, or enclosed.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, PeakValue, Pulse, Shape, peak_velocity};
+/// use wavestep_polynomial::Rational;
+///
+/// // Without dispersion every pulse has the velocity of all waves.
+/// let pulse = Pulse::in_space(Shape::Gaussian, &Rational::from_integer(3.into()))?;
+/// let peak = peak_velocity(&Builtin::String.relation(), &pulse, 15, 1000)?;
+/// assert_eq!(peak.value, PeakValue::Rational(Rational::from_integer(1.into())));
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PeakValue {
+    /// This number.
+    Rational(Rational),
+    /// A correctly rounded decimal with its proof.
+    Certified(Box<Certified>),
+}
+
+impl fmt::Display for PeakValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rational(value) => value.fmt(f),
+            Self::Certified(certified) => certified.decimal.fmt(f),
+        }
+    }
+}
+
+/// The velocity of a pulse's peak.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Formula, Pulse, Shape, peak_velocity};
+/// use wavestep_polynomial::Rational;
+///
+/// let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(10.into()))?;
+/// let peak = peak_velocity(&Builtin::Cubic.relation(), &pulse, 12, 1000)?;
+/// // 1 − (π² − 6)/(3b²)
+/// assert_eq!(peak.value.to_string(), "0.987101318663");
+/// let number = |a: i64, b: i64| Formula::number(&Rational::new(a.into(), b.into()));
+/// let square = Formula::symbol(&wavestep_polynomial::Symbol::new("pi").unwrap());
+/// let square = square.multiply(&square);
+/// let expected = number(51, 50).subtract(&number(1, 300).multiply(&square));
+/// assert_eq!(peak.exact, Some(expected));
+/// assert_eq!(peak.cut_off.to_string(), "0.628318530718");
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PeakVelocity {
+    /// In closed form, where there is one: a number that may hold π.
+    pub exact: Option<Formula>,
+    /// Its value.
+    pub value: PeakValue,
+    /// The cut-off `k_co`.
+    pub cut_off: PeakValue,
+}
+
+/// `S_m = ∫_0^π θ^m sin θ dθ`: `S_0 = 2`, `S_1 = π`, `S_m = π^m − m(m − 1) S_{m−2}`.
+fn sine_moment(m: u32) -> Formula {
+    match m {
+        0 => Formula::integer(2),
+        1 => Formula::pi(),
+        _ => {
+            let factor = Formula::integer(-(i64::from(m) * i64::from(m - 1)));
+            power(&Formula::pi(), m.into()).add(&factor.multiply(&sine_moment(m - 2)))
+        }
+    }
+}
+
+fn power(base: &Formula, exponent: i64) -> Formula {
+    base.power(&Rational::from_integer(exponent.into())).expect("a power of a symbol")
+}
+
+/// The peak velocity in closed form, with the symbol `b` for the length: for polynomial `ω(k)` and the
+/// square pulse; for the triangular one where `ω(0) = 0`. `None` for others, where a power of `k`
+/// exceeds 64, and where a parameter is called `b` itself.
+///
+/// With `θ = kb/2` the integral of a square pulse is `∫ sin θ Σ a_m (2θ/b)^m dθ` but for a factor, hence
+///
+/// ```text
+/// c_pp = Σ_m a_m (2/b)^(m−1) S_m/S_1,   S_m = ∫_0^π θ^m sin θ dθ.
+/// ```
+///
+/// For the triangle `sin²(θ/2) = (1 − cos θ)/2`, and `T_m = ½ ∫_0^π (1 − cos θ) θ^(m−1) dθ = ½(π^m/m +
+/// (m − 1) S_(m−2))` stands for `S_m`; `T_1 = π/2`.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Shape, exact_peak_velocity};
+/// use wavestep_studies::dispersion::formula_text;
+///
+/// let cubic = Builtin::Cubic.relation();
+/// let exact = |shape| exact_peak_velocity(&cubic, shape).map(|c| formula_text(&c));
+/// assert_eq!(exact(Shape::Square).unwrap(), "1 + 2/b^2 - pi^2/(3*b^2)");
+/// assert_eq!(exact(Shape::Triangle).unwrap(), "1 - 2/(3*b^2) - pi^2/(9*b^2)");
+/// assert_eq!(exact(Shape::Gaussian), None);
+/// ```
+#[must_use]
+pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula> {
+    // Where all waves are equally fast, so is every sum of them.
+    if !relation.phase_velocity().symbols().contains(&wave_number()) {
+        return Some(relation.phase_velocity().clone());
+    }
+    let length = Symbol::new("b").expect("a name");
+    if relation.parameters().contains(&length) {
+        return None;
+    }
+    let length = Formula::symbol(&length);
+    let coefficients = relation.frequency().polynomial()?;
+    let (lowest, highest) = (*coefficients.keys().next()?, *coefficients.keys().next_back()?);
+    if highest > 64 {
+        return None;
+    }
+    let half = Formula::number(&Rational::new(1.into(), 2.into()));
+    let moment = |m: u32| match shape {
+        Shape::Square => Some(sine_moment(m)),
+        Shape::Triangle if lowest > 0 => {
+            let first = power(&Formula::pi(), m.into())
+                .multiply(&Formula::number(&Rational::new(1.into(), m.into())));
+            let second = match m {
+                1 => Formula::zero(),
+                _ => Formula::integer(i64::from(m) - 1).multiply(&sine_moment(m - 2)),
+            };
+            Some(half.multiply(&first.add(&second)))
+        }
+        _ => None,
+    };
+    let scale = Formula::integer(2).divide(&length).expect("a symbol");
+    let mut sum = Formula::zero();
+    for (m, coefficient) in coefficients {
+        let part = coefficient.multiply(&power(&scale, i64::from(m) - 1)).multiply(&moment(m)?);
+        sum = sum.add(&part);
+    }
+    sum.divide(&moment(1)?).ok()
+}
+
+/// The peak velocity of a pulse, `∫_0^{k_co} U k ω dk/∫_0^{k_co} U k² dk`: in closed form where there is
+/// one, else by certified quadrature; rounded correctly to so many digits.
+///
+/// # Errors
+/// - [`DispersionError::NegativeFrequency`] where ω is negative below the cut-off; a dip narrower than
+///   `2^{−12}` of the range may stay unseen;
+/// - [`DispersionError::NotReal`], [`DispersionError::NotDifferentiable`],
+///   [`DispersionError::DivisionByZero`] with the place;
+/// - [`DispersionError::NoPeak`] where the second integral may be zero;
+/// - those of [`Pulse::cut_off`], and of too few bits.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, DispersionError, Pulse, Shape, peak_velocity};
+/// use wavestep_polynomial::Rational;
+///
+/// // With b = 2π/k_co, a short pulse of the beam is a fast one: c_pp = k_co (1 − 4/π²).
+/// let beam = Builtin::Beam.relation();
+/// let pulse = Pulse::with_cut_off(Shape::Square, &Rational::from_integer(2.into()))?;
+/// assert_eq!(peak_velocity(&beam, &pulse, 10, 1000)?.value.to_string(), "1.189430531");
+/// // Beyond √12 the cubic relation has negative frequencies.
+/// let pulse = Pulse::with_cut_off(Shape::Square, &Rational::from_integer(4.into()))?;
+/// let error = peak_velocity(&Builtin::Cubic.relation(), &pulse, 10, 1000).unwrap_err();
+/// assert!(matches!(error, DispersionError::NegativeFrequency(_)));
+/// # Ok::<(), DispersionError>(())
+/// ```
+pub fn peak_velocity(
+    relation: &Relation,
+    pulse: &Pulse,
+    digits: usize,
+    limit_bits: u64,
+) -> Result<PeakVelocity, DispersionError> {
+    if let Some(symbol) = relation.parameters().into_iter().next() {
+        return Err(DispersionError::MissingValue(symbol));
+    }
+    refuse_negative(relation, &pulse.cut_off(relation, BOUND_BITS)?)?;
+    let exact = match pulse.shape_and_length() {
+        Some((shape, length)) => match exact_peak_velocity(relation, shape) {
+            Some(formula) => {
+                let symbol = Symbol::new("b").expect("a name");
+                Some(formula.substitute(&[(symbol, length.clone())].into())?)
+            }
+            None => None,
+        },
+        None if !relation.phase_velocity().symbols().contains(&wave_number()) => {
+            Some(relation.phase_velocity().clone())
+        }
+        None => None,
+    };
+    let certified = |enclosure: &dyn Fn(u64) -> Result<Ball, DispersionError>| {
+        settled(certify(digits, limit_bits, enclosure)).map(Box::new).map(PeakValue::Certified)
+    };
+    let value = match &exact {
+        Some(formula) => match formula.as_number() {
+            Some(number) => PeakValue::Rational(number.clone()),
+            None => certified(&|bits| value(formula, &Ball::zero(), bits))?,
+        },
+        None => certified(&|bits| quotient(relation, pulse, bits))?,
+    };
+    let cut_off = match pulse.exact_cut_off()?.as_ref().and_then(Formula::as_number) {
+        Some(number) => PeakValue::Rational(number.clone()),
+        None => certified(&|bits| pulse.cut_off(relation, bits))?,
+    };
+    Ok(PeakVelocity { exact, value, cut_off })
+}
+
+/// The peak velocity by certified quadrature alone.
+///
+/// # Errors
+/// As [`peak_velocity`], without those of negative frequencies.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Pulse, Shape, peak_velocity, peak_velocity_by_quadrature};
+/// use wavestep_polynomial::Rational;
+///
+/// let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(7.into()))?;
+/// let cubic = Builtin::Cubic.relation();
+/// let quadrature = peak_velocity_by_quadrature(&cubic, &pulse, 12, 1000)?;
+/// let exact = peak_velocity(&cubic, &pulse, 12, 1000)?;
+/// assert_eq!(quadrature.decimal.to_string(), exact.value.to_string());
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+pub fn peak_velocity_by_quadrature(
+    relation: &Relation,
+    pulse: &Pulse,
+    digits: usize,
+    limit_bits: u64,
+) -> Result<Certified, DispersionError> {
+    settled(certify(digits, limit_bits, |bits| quotient(relation, pulse, bits)))
+}
+
+fn quotient(relation: &Relation, pulse: &Pulse, bits: u64) -> Result<Ball, DispersionError> {
+    let upper = pulse.cut_off(relation, bits + 16)?;
+    let weight = pulse.spectrum(relation).multiply(&Formula::wave_number());
+    let above = integrate(&weight.multiply(relation.frequency()), &upper, bits)?;
+    let below = integrate(&weight.multiply(&Formula::wave_number()), &upper, bits)?;
+    let inverse = below.reciprocal(bits).map_err(|_| DispersionError::NoPeak)?;
+    Ok(above.multiply(&inverse, bits))
+}
+
+/// The peak velocity against its cut-off, as a double with a bound: the pulse has the length `2π/k_co`.
+///
+/// # Errors
+/// As [`peak_velocity`].
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Shape, peak_velocity_at};
+///
+/// // Of long pulses the peak has the velocity of long waves.
+/// let lattice = Builtin::Lattice.relation();
+/// let [long, short] = [0.01, 3.0].map(|k| peak_velocity_at(&lattice, Shape::Square, k).unwrap());
+/// assert!((long.value - 1.0).abs() < 1e-5);
+/// assert!(short.value < lattice.phase_velocity_at(1.0)?.value);
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+pub fn peak_velocity_at(
+    relation: &Relation,
+    shape: Shape,
+    cut_off: f64,
+) -> Result<Sample, DispersionError> {
+    let exact = num_traits::FromPrimitive::from_f64(cut_off);
+    let Some(exact): Option<Rational> = exact else {
+        return Err(DispersionError::Grid("the wavenumber is no finite number"));
+    };
+    let pulse = Pulse::with_cut_off(shape, &exact)?;
+    refuse_negative(relation, &Ball::from_rational(&exact, BOUND_BITS))?;
+    let (value, bound) = quotient(relation, &pulse, SAMPLE_BITS)?.to_double();
+    Ok(Sample { value, bound: bound.to_double() })
+}
+
+/// One wave of a finite sum.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Component, peak_velocity_of_sum};
+/// use wavestep_polynomial::Rational;
+///
+/// // ω = k²: (1·1·1 + 1·2·4)/(1 + 4) = 9/5.
+/// let wave = |k: i64| Component {
+///     amplitude: Rational::from_integer(1.into()),
+///     wave_number: Rational::from_integer(k.into()),
+/// };
+/// let velocity = peak_velocity_of_sum(&Builtin::Beam.relation(), &[wave(1), wave(2)], 60)?;
+/// assert!(velocity.contains(&Rational::new(9.into(), 5.into())));
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Component {
+    /// `U_i`.
+    pub amplitude: Rational,
+    /// `k_i`.
+    pub wave_number: Rational,
+}
+
+/// The peak velocity of a finite sum of waves, `Σ U_i k_i ω_i/Σ U_i k_i²`, enclosed.
+///
+/// # Errors
+/// [`DispersionError::NoPeak`] where the second sum is zero, and those of [`Relation::enclose`].
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, DispersionError, peak_velocity_of_sum};
+///
+/// let nothing = peak_velocity_of_sum(&Builtin::Beam.relation(), &[], 60);
+/// assert_eq!(nothing, Err(DispersionError::NoPeak));
+/// ```
+pub fn peak_velocity_of_sum(
+    relation: &Relation,
+    components: &[Component],
+    bits: u64,
+) -> Result<Ball, DispersionError> {
+    let (mut above, mut below) = (Ball::zero(), Rational::zero());
+    for Component { amplitude, wave_number: k } in components {
+        let omega = value(relation.frequency(), &Ball::from_rational(k, bits), bits)?;
+        above = above.add(&omega.multiply_rational(&(amplitude * k), bits), bits);
+        below += amplitude * k * k;
+    }
+    if below.is_zero() {
+        return Err(DispersionError::NoPeak);
+    }
+    Ok(above.multiply_rational(&below.recip(), bits))
+}
+
+/// An error where ω is negative on a part of the range, at least `2^{−12}` of it wide, or at its end.
+fn refuse_negative(relation: &Relation, upper: &Ball) -> Result<(), DispersionError> {
+    let frequency = relation.frequency();
+    let negative = |ball: &Ball| !ball.contains_zero() && ball.midpoint().is_negative();
+    if negative(&value(frequency, upper, BOUND_BITS)?) {
+        return Err(DispersionError::NegativeFrequency(place(upper)));
+    }
+    let two = Rational::from_integer(2.into());
+    let mut cells = vec![(Rational::zero(), Rational::from_integer(1.into()), 0)];
+    while let Some((low, high, depth)) = cells.pop() {
+        let k = upper.multiply(&Ball::between(&low, &high, BOUND_BITS), BOUND_BITS);
+        let ball = value(frequency, &k, BOUND_BITS);
+        match ball {
+            Ok(ball) if negative(&ball) => {
+                return Err(DispersionError::NegativeFrequency(place(&k)));
+            }
+            Ok(ball) if !ball.contains_zero() => {}
+            Err(error @ DispersionError::NotReal(_)) => return Err(error),
+            _ if depth < NEGATIVE_DEPTH => {
+                let middle = (&low + &high) / &two;
+                cells.push((middle.clone(), high, depth + 1));
+                cells.push((low, middle, depth + 1));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,238 @@
+//! A pulse on its way, on a periodic grid: its Fourier components are turned by their own `e^{−iωt}`, and
+//! the peak is looked for. In doubles, tested and not proven: it shows how long the predicted velocity
+//! of the peak holds.
+
+use std::f64::consts::PI;
+
+use num_traits::FromPrimitive as _;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex64;
+use wavestep_polynomial::Rational;
+
+use super::error::DispersionError;
+use super::pulse::Pulse;
+use super::relation::{Relation, value};
+use wavestep::ball::Ball;
+
+/// The precision in which frequencies and amplitudes are enclosed before they are rounded.
+const BITS: u64 = 64;
+/// Points to the shortest wavelength.
+const POINTS_A_WAVE: f64 = 16.0;
+/// The least length of a grid, in shortest wavelengths.
+const LEAST_WAVES: f64 = 256.0;
+/// Gregory's weights of the first and last terms of a sum that stands for an integral; the error is of
+/// the fourth order in the step.
+const END_WEIGHTS: [f64; 3] = [3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0];
+/// The most points.
+const MAX_POINTS: usize = 1 << 20;
+/// How near the cut-off a component counts as being there, relatively.
+const ON_GRID: f64 = 1e-9;
+/// Steps of Newton's method for the place of the peak.
+const NEWTON_STEPS: usize = 8;
+
+/// Until when a pulse travels, and on which grid.
+///
+/// ```
+/// use wavestep_studies::dispersion::Travel;
+///
+/// let travel = Travel::until(10.0);
+/// assert_eq!((travel.length, travel.points), (None, None));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Travel {
+    /// The time `T > 0`.
+    pub time: f64,
+    /// The length of the period of the grid; without one, the next multiple of `2π/k_co`, at least
+    /// 256 of them, that holds four times the way of the fastest component.
+    pub length: Option<f64>,
+    /// How many points; without a number, the next power of two that gives the shortest wave sixteen.
+    pub points: Option<usize>,
+}
+
+impl Travel {
+    /// A journey until this time, on a grid that fits.
+    #[must_use]
+    pub const fn until(time: f64) -> Travel {
+        Travel { time, length: None, points: None }
+    }
+}
+
+/// What is seen of a pulse at the end of its way.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Pulse, Shape, Travel, propagate};
+/// use wavestep_polynomial::Rational;
+///
+/// // Without dispersion the pulse keeps its form.
+/// let pulse = Pulse::in_space(Shape::Triangle, &Rational::from_integer(4.into()))?;
+/// let seen = propagate(&Builtin::String.relation(), &pulse, Travel::until(9.0))?;
+/// assert!((seen.velocity - 1.0).abs() < 1e-9);
+/// assert!((seen.height / seen.first_height - 1.0).abs() < 1e-9);
+/// assert!(seen.points.is_power_of_two() && seen.displacement.len() == seen.points);
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seen {
+    /// Where the highest point is at the end; the pulse is centred at 0 at first.
+    pub position: f64,
+    /// `position/T`, the mean velocity of the peak.
+    pub velocity: f64,
+    /// How high it is.
+    pub height: f64,
+    /// How high it was.
+    pub first_height: f64,
+    /// The period of the grid.
+    pub length: f64,
+    /// How many points the grid has.
+    pub points: usize,
+    /// The displacements at `x = −length/2 + i length/points`.
+    pub displacement: Vec<f64>,
+}
+
+/// A component: wavenumber, amplitude, frequency.
+struct Wave {
+    k: f64,
+    amplitude: f64,
+    omega: f64,
+}
+
+/// Sends a pulse, made of the components up to its cut-off, on its way.
+///
+/// The period of the grid stands for endless space as long as nothing that matters has gone half a
+/// period; the step of wavenumbers is `2π/length`. Where the cut-off is a component of the grid, as it
+/// is without a length of one's own, the sum stands for the integral over wavenumbers, with Gregory's
+/// weights at both ends. Not proven: rank *tested*.
+///
+/// # Errors
+/// - [`DispersionError::Grid`] for times, lengths and counts that make no grid;
+/// - those of [`Pulse::cut_off`] and of [`Relation::enclose`].
+///
+/// # Cost
+/// A ball evaluation for each component, and a transform of `points` numbers.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Pulse, Shape, Travel, peak_velocity, propagate};
+/// use wavestep_polynomial::Rational;
+///
+/// let cubic = Builtin::Cubic.relation();
+/// let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(20.into()))?;
+/// let seen = propagate(&cubic, &pulse, Travel::until(5.0))?;
+/// let predicted: f64 = peak_velocity(&cubic, &pulse, 10, 1000)?.value.to_string().parse().unwrap();
+/// assert!((seen.velocity - predicted).abs() < 1e-6);
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+pub fn propagate(
+    relation: &Relation,
+    pulse: &Pulse,
+    travel: Travel,
+) -> Result<Seen, DispersionError> {
+    let Travel { time, length, points } = travel;
+    if !(time > 0.0 && time.is_finite()) {
+        return Err(DispersionError::Grid("the time of travel is not positive"));
+    }
+    let (cut_off, _) = pulse.cut_off(relation, BITS)?.to_double();
+    let length = match length {
+        Some(length) if length > 0.0 && length.is_finite() => length,
+        Some(_) => return Err(DispersionError::Grid("the length of the grid is not positive")),
+        None => {
+            let wave = 2.0 * PI / cut_off;
+            let way = 4.0 * fastest(relation, cut_off)? * time;
+            (LEAST_WAVES + way / wave).ceil() * wave
+        }
+    };
+    let step = 2.0 * PI / length;
+    let last = (cut_off / step * (1.0 + ON_GRID)).floor();
+    let on_grid = (last * step / cut_off - 1.0).abs() <= ON_GRID && last >= 8.0;
+    if last < 4.0 {
+        return Err(DispersionError::Grid(
+            "the grid is too short: it holds fewer than four components",
+        ));
+    }
+    let wanted = length * cut_off / (2.0 * PI) * POINTS_A_WAVE;
+    let points = match points {
+        Some(points) => points,
+        None if wanted <= MAX_POINTS as f64 => (wanted.ceil() as usize).next_power_of_two(),
+        None => {
+            return Err(DispersionError::Grid(
+                "the grid would need more than 1048576 points: take a shorter time of travel, or a longer pulse",
+            ));
+        }
+    };
+    if points > MAX_POINTS || (points as f64) <= 2.0 * last {
+        return Err(DispersionError::Grid(
+            "the grid needs more than two points to the shortest wave, and at most 1048576 in all",
+        ));
+    }
+    let spectrum = pulse.spectrum(relation);
+    let mut waves = Vec::new();
+    for j in 0..=last as usize {
+        let k = step * j as f64;
+        let ball = Ball::from_rational(&Rational::from_f64(k).expect("a finite number"), BITS);
+        let double = |formula| value(formula, &ball, BITS).map(|ball| ball.to_double().0);
+        let weight = match (on_grid, END_WEIGHTS.get(j.min(last as usize - j))) {
+            (true, Some(weight)) => *weight,
+            (false, _) if j == 0 => 0.5,
+            _ => 1.0,
+        };
+        let amplitude = weight * double(&spectrum)?;
+        waves.push(Wave { k, amplitude, omega: double(relation.frequency())? });
+    }
+    let displacement = displacements(&waves, time, points);
+    let highest = (0..points).max_by(|a, b| displacement[*a].total_cmp(&displacement[*b]));
+    let coarse = length * (highest.expect("points") as f64 / points as f64 - 0.5);
+    let position = refined(&waves, time, coarse, length / points as f64);
+    Ok(Seen {
+        position,
+        velocity: position / time,
+        height: at(&waves, time, position),
+        first_height: waves.iter().map(|wave| wave.amplitude).sum(),
+        length,
+        points,
+        displacement,
+    })
+}
+
+/// The largest `|c_g|` among some components.
+fn fastest(relation: &Relation, cut_off: f64) -> Result<f64, DispersionError> {
+    let mut largest: f64 = 0.0;
+    for i in 1..=64 {
+        let sample = relation.group_velocity_at(cut_off * f64::from(i) / 64.0)?;
+        largest = largest.max(sample.value.abs());
+    }
+    Ok(largest)
+}
+
+/// `Σ U_j cos(k_j x − ω_j t)` at all points, from `x = −length/2` on.
+fn displacements(waves: &[Wave], time: f64, points: usize) -> Vec<f64> {
+    let mut buffer = vec![Complex64::default(); points];
+    for (j, (slot, wave)) in buffer.iter_mut().zip(waves).enumerate() {
+        // Half a period to the left: e^{−ik length/2} = (−1)^j.
+        let sign = if j % 2 == 0 { 1.0 } else { -1.0 };
+        *slot = Complex64::from_polar(1.0, -wave.omega * time) * (sign * wave.amplitude);
+    }
+    FftPlanner::new().plan_fft_inverse(points).process(&mut buffer);
+    buffer.into_iter().map(|value| value.re).collect()
+}
+
+fn at(waves: &[Wave], time: f64, x: f64) -> f64 {
+    waves.iter().map(|wave| wave.amplitude * (wave.k * x - wave.omega * time).cos()).sum()
+}
+
+/// The zero of the slope next to a grid point, by Newton's method on the Fourier sum; the grid point
+/// itself where the steps lead more than one point away.
+fn refined(waves: &[Wave], time: f64, coarse: f64, step: f64) -> f64 {
+    let mut x = coarse;
+    for _ in 0..NEWTON_STEPS {
+        let (mut slope, mut curvature) = (0.0, 0.0);
+        for Wave { k, amplitude, omega } in waves {
+            let (sin, cos) = (k * x - omega * time).sin_cos();
+            slope -= amplitude * k * sin;
+            curvature -= amplitude * k * k * cos;
+        }
+        x -= slope / curvature;
+        if x.is_nan() || (x - coarse).abs() > step {
+            return coarse;
+        }
+    }
+    x
+}

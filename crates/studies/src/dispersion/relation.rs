@@ -1,0 +1,372 @@
+//! The dispersion relation `ω(k)`: which frequency a wave of wavenumber `k` has, and so how fast its
+//! crests and its envelope travel.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use num_traits::{FromPrimitive as _, Signed as _};
+use wavestep_polynomial::{Rational, Symbol};
+
+use super::error::{DispersionError, place};
+use super::formula::{Formula, Function, pi, wave_number};
+use super::series::Series;
+use wavestep::ball::{Ball, Certified, CertifyError, certify};
+
+/// The precision of samples in doubles.
+const SAMPLE_BITS: u64 = 80;
+
+/// What is known of a wave from its wavenumber.
+///
+/// ```
+/// use wavestep::ball::Ball;
+/// use wavestep_studies::dispersion::{Builtin, Quantity};
+/// use wavestep_polynomial::Rational;
+///
+/// // A flexural wave: the envelope is twice as fast as its crests.
+/// let beam = Builtin::Beam.relation();
+/// let k = Ball::from_rational(&Rational::new(3.into(), 2.into()), 60);
+/// let at = |quantity| beam.enclose(quantity, &k, 60).unwrap();
+/// assert!(at(Quantity::Frequency).contains(&Rational::new(9.into(), 4.into())));
+/// assert!(at(Quantity::PhaseVelocity).contains(&Rational::new(3.into(), 2.into())));
+/// assert!(at(Quantity::GroupVelocity).contains(&Rational::from_integer(3.into())));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// `ω`.
+    Frequency,
+    /// `c_p = ω/k`; at `k = 0` its limit, where `ω(0) = 0`.
+    PhaseVelocity,
+    /// `c_g = dω/dk`.
+    GroupVelocity,
+}
+
+/// A double with a bound: the true value is at most `bound` away.
+///
+/// ```
+/// use wavestep_studies::dispersion::Builtin;
+///
+/// let sample = Builtin::Lattice.relation().phase_velocity_at(1.0)?;
+/// assert!((sample.value - 2.0 * 0.5f64.sin()).abs() <= sample.bound + 1e-15);
+/// assert!(sample.bound < 1e-15);
+/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The double.
+    pub value: f64,
+    /// How far it is off at most.
+    pub bound: f64,
+}
+
+/// A dispersion relation with its two velocities, derived once.
+///
+/// # Invariants
+/// - The frequency depends on `k`; the velocities are `ω/k` and `dω/dk`.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Formula, Quantity, Relation};
+/// use wavestep_polynomial::Rational;
+///
+/// // Waves in deep water, ω = √k: groups are half as fast as crests.
+/// let half = Rational::new(1.into(), 2.into());
+/// let water = Relation::new(Formula::wave_number().power(&half)?)?;
+/// let half = Formula::number(&half);
+/// assert_eq!(water.group_velocity(), &half.multiply(water.phase_velocity()));
+/// assert_eq!(water.formula(Quantity::Frequency), water.frequency());
+/// let (four, two) = (Rational::from_integer(4.into()), Rational::from_integer(2.into()));
+/// assert_eq!(water.exact(Quantity::Frequency, &four), Some(two.clone()));
+/// let root = water.digits(Quantity::Frequency, &two, 10, 1000)?;
+/// assert_eq!(root.decimal.to_string(), "1.414213562");
+/// let (omega, group) = (water.frequency_at(2.0)?, water.group_velocity_at(2.0)?);
+/// assert!((omega.value - 4.0 * group.value).abs() <= omega.bound + 4.0 * group.bound + 1e-15);
+/// assert!(Relation::new(half).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Relation {
+    frequency: Formula,
+    phase_velocity: Formula,
+    group_velocity: Formula,
+}
+
+impl Relation {
+    /// The relation `ω = frequency`.
+    ///
+    /// # Errors
+    /// [`DispersionError::NoWaveNumber`] where the formula does not depend on `k`.
+    pub fn new(frequency: Formula) -> Result<Relation, DispersionError> {
+        if !frequency.symbols().contains(&wave_number()) {
+            return Err(DispersionError::NoWaveNumber);
+        }
+        let phase_velocity = frequency.divide(&Formula::wave_number())?;
+        let group_velocity = frequency.derivative();
+        Ok(Relation { frequency, phase_velocity, group_velocity })
+    }
+
+    /// `ω`.
+    #[must_use]
+    pub fn frequency(&self) -> &Formula {
+        &self.frequency
+    }
+
+    /// `c_p = ω/k`.
+    #[must_use]
+    pub fn phase_velocity(&self) -> &Formula {
+        &self.phase_velocity
+    }
+
+    /// `c_g = dω/dk`.
+    #[must_use]
+    pub fn group_velocity(&self) -> &Formula {
+        &self.group_velocity
+    }
+
+    /// One of the three formulas.
+    #[must_use]
+    pub fn formula(&self, quantity: Quantity) -> &Formula {
+        match quantity {
+            Quantity::Frequency => &self.frequency,
+            Quantity::PhaseVelocity => &self.phase_velocity,
+            Quantity::GroupVelocity => &self.group_velocity,
+        }
+    }
+
+    /// The parameters that have no value yet.
+    #[must_use]
+    pub fn parameters(&self) -> BTreeSet<Symbol> {
+        let mut symbols = self.frequency.symbols();
+        symbols.remove(&wave_number());
+        symbols.remove(&pi());
+        symbols
+    }
+
+    /// The relation with values in place of parameters.
+    ///
+    /// # Errors
+    /// For names that are no parameters, values that are not positive, and values for which the
+    /// formula makes no sense.
+    ///
+    /// ```
+    /// use wavestep_studies::dispersion::{Builtin, Formula};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let love = Builtin::Love.relation();
+    /// assert_eq!(love.parameters().len(), 1);
+    /// let set = |value: i64| {
+    ///     love.with_values(&[("kappa".to_owned(), Rational::from_integer(value.into()))].into())
+    /// };
+    /// assert!(set(2)?.parameters().is_empty());
+    /// assert_eq!(set(-2).unwrap_err().to_string(), "`kappa` is -2, which is not positive");
+    /// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
+    /// ```
+    pub fn with_values(
+        &self,
+        values: &BTreeMap<String, Rational>,
+    ) -> Result<Relation, DispersionError> {
+        let parameters = self.parameters();
+        let mut formulas = BTreeMap::new();
+        for (name, value) in values {
+            let Some(symbol) = parameters.iter().find(|symbol| symbol.name() == name) else {
+                return Err(DispersionError::UnknownParameter(name.clone()));
+            };
+            if !value.is_positive() {
+                return Err(DispersionError::ParameterNotPositive(name.clone(), value.clone()));
+            }
+            formulas.insert(symbol.clone(), Formula::number(value));
+        }
+        Relation::new(self.frequency.substitute(&formulas)?)
+    }
+
+    /// An enclosure for all `k` of a ball.
+    ///
+    /// # Errors
+    /// [`DispersionError`] where the formula has no real value, or a parameter none.
+    pub fn enclose(&self, what: Quantity, k: &Ball, bits: u64) -> Result<Ball, DispersionError> {
+        let formula = match what {
+            // With ω(0) = 0, the limit of ω/k is the derivative.
+            Quantity::PhaseVelocity if k.is_exact() && k.midpoint().is_zero() => {
+                let at_zero = value(&self.frequency, k, bits)?;
+                if !at_zero.contains_zero() {
+                    return Err(DispersionError::DivisionByZero(place(k)));
+                }
+                &self.group_velocity
+            }
+            other => self.formula(other),
+        };
+        value(formula, k, bits)
+    }
+
+    /// The value at an exact wavenumber, rounded correctly to so many significant digits. A value that
+    /// lies midway between two decimals is never decided: ask [`Relation::exact`] first.
+    ///
+    /// # Errors
+    /// As [`Relation::enclose`]; [`DispersionError::AccuracyNotReached`] where `limit_bits` do not do.
+    pub fn digits(
+        &self,
+        what: Quantity,
+        k: &Rational,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Certified, DispersionError> {
+        let enclosure = |bits| self.enclose(what, &Ball::from_rational(k, bits), bits);
+        settled(certify(digits, limit_bits, enclosure))
+    }
+
+    /// The value at an exact wavenumber where it is a rational number by the rules of formulas.
+    #[must_use]
+    pub fn exact(&self, what: Quantity, k: &Rational) -> Option<Rational> {
+        let at = [(wave_number(), Formula::number(k))].into();
+        self.formula(what).substitute(&at).ok()?.as_number().cloned()
+    }
+
+    fn sample(&self, what: Quantity, k: f64) -> Result<Sample, DispersionError> {
+        let Some(exact) = Rational::from_f64(k) else {
+            return Err(DispersionError::Grid("the wavenumber is no finite number"));
+        };
+        let ball = self.enclose(what, &Ball::from_rational(&exact, SAMPLE_BITS), SAMPLE_BITS)?;
+        let (value, bound) = ball.to_double();
+        Ok(Sample { value, bound: bound.to_double() })
+    }
+
+    /// `ω(k)` with a bound, for a double taken as it is.
+    ///
+    /// # Errors
+    /// As [`Relation::enclose`].
+    pub fn frequency_at(&self, k: f64) -> Result<Sample, DispersionError> {
+        self.sample(Quantity::Frequency, k)
+    }
+
+    /// `c_p(k)` with a bound.
+    ///
+    /// # Errors
+    /// As [`Relation::enclose`].
+    pub fn phase_velocity_at(&self, k: f64) -> Result<Sample, DispersionError> {
+        self.sample(Quantity::PhaseVelocity, k)
+    }
+
+    /// `c_g(k)` with a bound.
+    ///
+    /// # Errors
+    /// As [`Relation::enclose`].
+    pub fn group_velocity_at(&self, k: f64) -> Result<Sample, DispersionError> {
+        self.sample(Quantity::GroupVelocity, k)
+    }
+}
+
+/// A formula for all `k` of a ball.
+pub(super) fn value(formula: &Formula, k: &Ball, bits: u64) -> Result<Ball, DispersionError> {
+    let series = Series::wave_number(k, &Ball::zero(), 1);
+    let value = formula.series(&series, bits).map_err(|fault| DispersionError::at(fault, k))?;
+    Ok(value.coefficients()[0].clone())
+}
+
+/// Proven digits, or why there are none.
+pub(super) fn settled(
+    result: Result<Certified, CertifyError<DispersionError>>,
+) -> Result<Certified, DispersionError> {
+    result.map_err(|error| match error {
+        CertifyError::Enclosure(error) => error,
+        CertifyError::AccuracyNotReached { best, bits } => {
+            DispersionError::AccuracyNotReached { best: Some(Box::new(best)), bits }
+        }
+    })
+}
+
+/// Relations that have names. Lengths and times are in units in which long waves of the string have
+/// velocity 1, unless another is said.
+///
+/// ```
+/// use wavestep_studies::dispersion::{Builtin, Formula};
+///
+/// assert_eq!(Builtin::find("beam"), Some(Builtin::Beam));
+/// assert_eq!(Builtin::Beam.name(), "beam");
+/// // The string is the only one without dispersion: crests and groups have one velocity.
+/// let same = Builtin::ALL.iter().filter(|one| {
+///     let relation = one.relation();
+///     relation.phase_velocity() == relation.group_velocity()
+/// });
+/// assert!(same.eq(&[Builtin::String]));
+/// assert!(Builtin::Love.title().contains("Poisson"));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Builtin {
+    /// `ω = k`.
+    String,
+    /// `ω = 2 sin(k/2)`: masses on springs, at unit distances.
+    Lattice,
+    /// `ω = k − k³/12`: two terms of a relation that is concave downwards.
+    Cubic,
+    /// `ω = k √(1 + k²/12)`: a string with bending stiffness, concave upwards.
+    StiffString,
+    /// `ω = k²`: Euler's and Bernoulli's beam in units of its own, `EI/(ρA) = 1`.
+    Beam,
+    /// `ω = k/√(1 + κk²)`, `κ = ν² r²`: a bar with the inertia of its lateral motion, `ν` Poisson's
+    /// ratio, `r` the polar radius of gyration.
+    Love,
+}
+
+impl Builtin {
+    /// All of them.
+    pub const ALL: [Builtin; 6] =
+        [Self::String, Self::Lattice, Self::Cubic, Self::StiffString, Self::Beam, Self::Love];
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::String => "string",
+            Self::Lattice => "lattice",
+            Self::Cubic => "cubic",
+            Self::StiffString => "stiff-string",
+            Self::Beam => "beam",
+            Self::Love => "love",
+        }
+    }
+
+    /// What it describes.
+    #[must_use]
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::String => "a string, or a bar of long waves: no dispersion",
+            Self::Lattice => "a chain of masses and springs at unit distances",
+            Self::Cubic => "two terms of a relation that is concave downwards",
+            Self::StiffString => "a string with bending stiffness, concave upwards",
+            Self::Beam => "bending waves of a thin beam",
+            Self::Love => {
+                "a bar with lateral inertia, kappa = (Poisson's ratio · polar radius of gyration)^2"
+            }
+        }
+    }
+
+    /// The relation of this name.
+    #[must_use]
+    pub fn find(name: &str) -> Option<Builtin> {
+        Self::ALL.into_iter().find(|one| one.name() == name)
+    }
+
+    /// The relation.
+    #[must_use]
+    pub fn relation(self) -> Relation {
+        let k = Formula::wave_number();
+        let number = |a: i64, b: i64| Formula::number(&Rational::new(a.into(), b.into()));
+        let power = |base: &Formula, a: i64, b: i64| {
+            base.power(&Rational::new(a.into(), b.into())).expect("no power of zero")
+        };
+        let square = k.multiply(&k);
+        let frequency = match self {
+            Self::String => k,
+            Self::Lattice => {
+                number(2, 1).multiply(&k.multiply(&number(1, 2)).apply(Function::Sine))
+            }
+            Self::Cubic => k.subtract(&number(1, 12).multiply(&power(&k, 3, 1))),
+            Self::StiffString => {
+                k.multiply(&power(&number(1, 1).add(&number(1, 12).multiply(&square)), 1, 2))
+            }
+            Self::Beam => square,
+            Self::Love => {
+                let kappa = Formula::symbol(&Symbol::new("kappa").expect("a name"));
+                k.multiply(&power(&number(1, 1).add(&kappa.multiply(&square)), -1, 2))
+            }
+        };
+        Relation::new(frequency).expect("a formula in k")
+    }
+}

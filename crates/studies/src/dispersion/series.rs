@@ -1,0 +1,336 @@
+//! Taylor series in balls: a value with its derivatives, `f(k₀ + hu) = Σ c_n uⁿ`, by the recurrences
+//! that functions satisfy as solutions of differential equations.
+//!
+//! Where `k₀` is a point, the coefficients are those at the point; where it is an interval, each `c_n`
+//! contains `f⁽ⁿ⁾(ξ) hⁿ/n!` for all its points `ξ`, which bounds remainders.
+
+use num_traits::{One, Signed, ToPrimitive as _, Zero};
+use wavestep_polynomial::{Integer, Rational, Symbol};
+
+use super::formula::{Formula, Function, Node, pi, wave_number};
+use wavestep::ball::{Ball, BallError, Magnitude};
+
+/// Arguments of `sinc` below this are summed as a power series.
+const SINC_NEAR: i64 = 8;
+
+/// Why a formula has no series at a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Fault {
+    MissingValue(Symbol),
+    /// A divisor may be zero.
+    Divisor,
+    /// What is under a root is negative.
+    NotReal,
+    /// What is under a root may be zero, so it may have no derivative.
+    RootOfZero,
+    Ball(BallError),
+}
+
+impl From<BallError> for Fault {
+    fn from(error: BallError) -> Fault {
+        match error {
+            BallError::DivisorMayBeZero => Fault::Divisor,
+            other => Fault::Ball(other),
+        }
+    }
+}
+
+/// The coefficients `c_0 … c_{N−1}`.
+///
+/// # Invariants
+/// - At least one; operands of one operation have as many as each other.
+#[derive(Clone, Debug)]
+pub(super) struct Series(Vec<Ball>);
+
+fn rational(value: i64) -> Rational {
+    Rational::from_integer(value.into())
+}
+
+impl Series {
+    fn constant(value: Ball, count: usize) -> Series {
+        let mut coefficients = vec![Ball::zero(); count];
+        coefficients[0] = value;
+        Series(coefficients)
+    }
+
+    /// `k₀ + hu` with `count` coefficients.
+    pub(super) fn wave_number(at: &Ball, half_width: &Ball, count: usize) -> Series {
+        let mut series = Series::constant(at.clone(), count);
+        if count > 1 {
+            series.0[1] = half_width.clone();
+        }
+        series
+    }
+
+    pub(super) fn coefficients(&self) -> &[Ball] {
+        &self.0
+    }
+
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn add(&self, other: &Series, bits: u64) -> Series {
+        Series(self.0.iter().zip(&other.0).map(|(a, b)| a.add(b, bits)).collect())
+    }
+
+    fn scale(&self, factor: &Rational, bits: u64) -> Series {
+        Series(self.0.iter().map(|a| a.multiply_rational(factor, bits)).collect())
+    }
+
+    /// `(fg)_n = Σ_j f_j g_{n−j}`.
+    pub(super) fn multiply(&self, other: &Series, bits: u64) -> Series {
+        let coefficient = |n| dot(&self.0[..=n], &other.0[..=n], bits);
+        Series((0..self.len()).map(coefficient).collect())
+    }
+
+    /// `y = f^r` from `f y' = r f' y`: `n f_0 y_n = Σ_{j=1}^n (rj − (n − j)) f_j y_{n−j}`.
+    fn power_by_recurrence(&self, r: &Rational, first: Ball, bits: u64) -> Result<Series, Fault> {
+        let mut y = vec![first];
+        if self.len() > 1 {
+            let inverse = self.0[0].reciprocal(bits)?;
+            for n in 1..self.len() {
+                let mut sum = Ball::zero();
+                for j in 1..=n {
+                    let factor = r * rational(j as i64) - rational((n - j) as i64);
+                    let product = self.0[j].multiply(&y[n - j], bits);
+                    sum = sum.add(&product.multiply_rational(&factor, bits), bits);
+                }
+                let part = Rational::new(1.into(), (n as i64).into());
+                y.push(sum.multiply(&inverse, bits).multiply_rational(&part, bits));
+            }
+        }
+        Ok(Series(y))
+    }
+
+    fn power(&self, exponent: &Rational, nonnegative: bool, bits: u64) -> Result<Series, Fault> {
+        if exponent.is_integer() {
+            let count = exponent.to_integer().abs().to_u64().expect("an exponent within limits");
+            let power = self.whole_power(count, bits);
+            if !exponent.is_negative() {
+                return Ok(power);
+            }
+            let first = power.0[0].reciprocal(bits)?;
+            return power.power_by_recurrence(&-Rational::one(), first, bits);
+        }
+        let base = &self.0[0];
+        if base.contains_zero() {
+            return match nonnegative && self.len() == 1 && exponent.is_positive() {
+                // All values are between 0 and the largest one.
+                true => {
+                    let top = upper(base);
+                    let (_, largest) = root_bounds(&top, exponent, bits);
+                    Ok(Series(vec![Ball::between(&Rational::zero(), &largest, bits)]))
+                }
+                false => Err(Fault::RootOfZero),
+            };
+        }
+        if base.midpoint().is_negative() {
+            return Err(Fault::NotReal);
+        }
+        let first = match exponent.denom() == &Integer::from(2) {
+            true => {
+                let root = base.sqrt(bits).ok_or(Fault::RootOfZero)?;
+                let count = exponent.numer().abs().to_u64().expect("an exponent within limits");
+                let power = Series(vec![root]).whole_power(count, bits).0.remove(0);
+                if exponent.is_negative() { power.reciprocal(bits)? } else { power }
+            }
+            false => {
+                let (low, high) = base.endpoints();
+                let [low, high] = [low, high].map(|end| Rational::from(&end));
+                let (low, _) = root_bounds(&low, &exponent.abs(), bits);
+                let (_, high) = root_bounds(&high, &exponent.abs(), bits);
+                let power = Ball::between(&low, &high, bits);
+                if exponent.is_negative() { power.reciprocal(bits)? } else { power }
+            }
+        };
+        self.power_by_recurrence(exponent, first, bits)
+    }
+
+    fn whole_power(&self, mut count: u64, bits: u64) -> Series {
+        let mut power = Series::constant(Ball::from_integer(&1.into()), self.len());
+        let mut square = self.clone();
+        while count > 0 {
+            if count & 1 == 1 {
+                power = power.multiply(&square, bits);
+            }
+            count >>= 1;
+            if count > 0 {
+                square = square.multiply(&square, bits);
+            }
+        }
+        power
+    }
+
+    /// `n y_n = Σ_{j=1}^n j z_j w_{n−j}`, of `y' = z' w`.
+    fn integrated(&self, n: usize, w: &[Ball], bits: u64) -> Ball {
+        let mut sum = Ball::zero();
+        for j in 1..=n {
+            let product = self.0[j].multiply(&w[n - j], bits);
+            sum = sum.add(&product.multiply_rational(&rational(j as i64), bits), bits);
+        }
+        sum.multiply_rational(&Rational::new(1.into(), (n as i64).into()), bits)
+    }
+
+    /// `y' = z' y`.
+    fn exp(&self, bits: u64) -> Result<Series, Fault> {
+        let first = &self.0[0];
+        let exactly_zero = first.is_exact() && first.midpoint().is_zero();
+        let one = || Ball::from_integer(&1.into());
+        let mut y = vec![if exactly_zero { one() } else { first.exp(bits)? }];
+        for n in 1..self.len() {
+            y.push(self.integrated(n, &y, bits));
+        }
+        Ok(Series(y))
+    }
+
+    /// `c' = −z' s`, `s' = z' c`.
+    fn cos_sin(&self, bits: u64) -> Result<(Series, Series), Fault> {
+        let (cos, sin) = self.0[0].cos_sin(bits)?;
+        let (mut cos, mut sin) = (vec![cos], vec![sin]);
+        for n in 1..self.len() {
+            let (next_cos, next_sin) =
+                (self.integrated(n, &sin, bits).negate(), self.integrated(n, &cos, bits));
+            cos.push(next_cos);
+            sin.push(next_sin);
+        }
+        Ok((Series(cos), Series(sin)))
+    }
+
+    /// `y' = z' (1 − y²)`, from `tanh z = 1 − 2/(e^{2z} + 1)`.
+    fn tanh(&self, bits: u64) -> Result<Series, Fault> {
+        let one = Ball::from_integer(&1.into());
+        let first = &self.0[0];
+        let value = if first.is_exact() && first.midpoint().is_zero() {
+            Ball::zero()
+        } else {
+            let power = first.multiply_rational(&rational(2), bits).exp(bits)?;
+            let inverse = power.add(&one, bits).reciprocal(bits)?;
+            one.subtract(&inverse.multiply_rational(&rational(2), bits), bits)
+        };
+        let (mut y, mut w) = (vec![value], Vec::new());
+        for n in 1..self.len() {
+            // w = 1 − y², one coefficient behind.
+            let square = dot(&y, &y, bits).negate();
+            w.push(if n == 1 { one.add(&square, bits) } else { square });
+            y.push(self.integrated(n, &w, bits));
+        }
+        Ok(Series(y))
+    }
+
+    /// `sin(z)/z`. Near zero as `Σ_m (−w)^m/(2m+1)!`, `w = z²`.
+    ///
+    /// With `W = Σ_n |w_n|`, no coefficient of `w^m` exceeds `W^m`. The terms from `m = M` on add up to
+    /// at most `2 W^M/(2M+1)!` in each coefficient where `W ≤ (2M+2)(2M+3)/2`, since each is then at
+    /// most half the one before.
+    fn sinc(&self, bits: u64) -> Result<Series, Fault> {
+        let near = self.0[0].magnitude() < Magnitude::from_u64(SINC_NEAR as u64);
+        if !near {
+            let (_, sin) = self.cos_sin(bits)?;
+            let inverse = self.power(&-Rational::one(), false, bits)?;
+            return Ok(sin.multiply(&inverse, bits));
+        }
+        let w = self.multiply(self, bits);
+        let total = w.0.iter().fold(Magnitude::ZERO, |sum, c| sum.add(&c.magnitude()));
+        let (mut count, mut tail) = (1_u64, total);
+        let mut factorial = Integer::from(6);
+        let term = |tail: &Magnitude, factorial: &Integer| {
+            tail.multiply(&Magnitude::from_rational(&Rational::new(2.into(), factorial.clone())))
+        };
+        let small = Magnitude::power_of_two(-(bits as i64) - 8);
+        while term(&tail, &factorial) > small
+            || total > Magnitude::from_u64((count + 1) * (2 * count + 3))
+        {
+            count += 1;
+            tail = tail.multiply(&total);
+            factorial *= Integer::from(2 * count * (2 * count + 1));
+        }
+        let mut sum = Series::constant(Ball::zero(), self.len());
+        // Horner: 1 − w/(2·3) (1 − w/(4·5) (1 − …)).
+        for m in (0..count).rev() {
+            if m + 1 < count {
+                let divisor = ((2 * m + 2) * (2 * m + 3)) as i64;
+                let part = Rational::new((-1).into(), divisor.into());
+                sum = sum.multiply(&w, bits).scale(&part, bits);
+            }
+            sum.0[0] = sum.0[0].add(&Ball::from_integer(&1.into()), bits);
+        }
+        let left_out = term(&tail, &factorial);
+        Ok(Series(sum.0.iter().map(|c| c.widened(&left_out)).collect()))
+    }
+}
+
+fn dot(left: &[Ball], right: &[Ball], bits: u64) -> Ball {
+    let products = left.iter().zip(right.iter().rev()).map(|(a, b)| a.multiply(b, bits));
+    products.fold(Ball::zero(), |sum, product| sum.add(&product, bits))
+}
+
+/// The largest point of a ball.
+fn upper(ball: &Ball) -> Rational {
+    Rational::from(ball.midpoint()) + Rational::from(&ball.radius().to_binary())
+}
+
+/// Rationals `a ≤ x^r ≤ b` for `x ≥ 0`, `r > 0`, about `2^{−bits}` apart, from the integer root of
+/// `x^p 2^{qn}`, `r = p/q`.
+fn root_bounds(x: &Rational, r: &Rational, bits: u64) -> (Rational, Rational) {
+    if !x.is_positive() {
+        return (Rational::zero(), Rational::zero());
+    }
+    let degree = r.denom().to_u32().expect("an exponent within limits");
+    let power = x.pow(r.numer().to_i32().expect("an exponent within limits"));
+    // Enough places that small roots have their digits as well.
+    let small = (power.denom().bits() - power.numer().bits().min(power.denom().bits()))
+        .div_ceil(u64::from(degree));
+    let places = bits + small + 8;
+    let scaled = (power.numer() << (places * u64::from(degree))) / power.denom();
+    let root = scaled.nth_root(degree);
+    let unit = Integer::one() << places;
+    (Rational::new(root.clone(), unit.clone()), Rational::new(root + 1, unit))
+}
+
+impl Formula {
+    /// Its series for that of `k`.
+    pub(super) fn series(&self, k: &Series, bits: u64) -> Result<Series, Fault> {
+        let count = k.len();
+        Ok(match self.node() {
+            Node::Number(value) => Series::constant(Ball::from_rational(value, bits), count),
+            Node::Symbol(symbol) if *symbol == wave_number() => k.clone(),
+            Node::Symbol(symbol) if *symbol == pi() => Series::constant(Ball::pi(bits), count),
+            Node::Symbol(symbol) => return Err(Fault::MissingValue(symbol.clone())),
+            Node::Power(base, exponent) => {
+                let nonnegative = base.is_structurally_nonnegative();
+                base.series(k, bits)?.power(exponent, nonnegative, bits)?
+            }
+            Node::Product(factors) => {
+                let mut product = factors[0].series(k, bits)?;
+                for factor in &factors[1..] {
+                    product = match factors[0].as_number() {
+                        // Only the first factor is a number.
+                        Some(value) if std::ptr::eq(factor, &factors[1]) => {
+                            factor.series(k, bits)?.scale(value, bits)
+                        }
+                        _ => product.multiply(&factor.series(k, bits)?, bits),
+                    };
+                }
+                product
+            }
+            Node::Sum(terms) => {
+                let mut sum = terms[0].series(k, bits)?;
+                for term in &terms[1..] {
+                    sum = sum.add(&term.series(k, bits)?, bits);
+                }
+                sum
+            }
+            Node::Function(function, argument) => {
+                let z = argument.series(k, bits)?;
+                match function {
+                    Function::Sine => z.cos_sin(bits)?.1,
+                    Function::Cosine => z.cos_sin(bits)?.0,
+                    Function::Exponential => z.exp(bits)?,
+                    Function::HyperbolicTangent => z.tanh(bits)?,
+                    Function::Sinc => z.sinc(bits)?,
+                }
+            }
+        })
+    }
+}

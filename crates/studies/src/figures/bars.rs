@@ -1,0 +1,106 @@
+//! Two bars, and a bar that is pushed: figures 6.10 to 6.13.
+
+use super::Listed;
+use super::error::FigureError;
+use super::scene::{caption, network, ratio};
+use crate::picture::{along_the_line, lagrange};
+use wavestep::field::{FieldEvaluator, Quantity};
+use wavestep::history::field_evaluator;
+use wavestep_draw::{Axis, Caption, Chart, Figure, Panel, Series};
+use wavestep_polynomial::Rational;
+
+/// How many lengths of the striker the long bar is looked at.
+const LONG: (i64, i64) = (4, 1);
+
+/// 6.10.
+pub(super) fn diagram_of_impact(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+    let network = network("bars-that-part", &[("r", ratio(1, 2))]);
+    let remarks = [
+        "x from the free end of the striker; its length is L, and c the velocity of waves in both bars.",
+        "The striker is thrown back at 2L/c with V/3, and leaves a pulse of 2L; places are those at the \
+         start, so that the gap is not seen.",
+    ];
+    let window = [&ratio(0, 1), &ratio(5, 1)];
+    let evaluator = field_evaluator(&network, window[1])?.looking(&ratio(LONG.0, LONG.1))?;
+    let caption = caption(listed.number, &remarks);
+    let diagram = lagrange(&evaluator, Quantity::Velocity, window, caption)?;
+    let diagram = diagram.level(2.0, "the bars part")?.titled(listed.title);
+    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "v/V"])))
+}
+
+/// A panel for each time and each quantity, so that no line lies on another.
+fn snapshots(
+    listed: &Listed,
+    evaluator: &FieldEvaluator,
+    times: &[(Rational, &str)],
+    quantities: &[(Quantity, &str)],
+    remarks: &[&str],
+) -> Result<Box<dyn Chart>, FigureError> {
+    let fields: Vec<Quantity> = quantities.iter().map(|(quantity, _)| *quantity).collect();
+    let mut found = Vec::new();
+    for (time, name) in times {
+        let figure =
+            along_the_line(evaluator, &fields, std::slice::from_ref(time), Caption::default())?;
+        let own: Vec<Series> =
+            figure.panels().iter().map(|panel| panel.series()[0].clone()).collect();
+        found.push((*name, own, figure.extent()));
+    }
+    let mut panels = Vec::new();
+    for (place, (_, quantity)) in quantities.iter().enumerate() {
+        let values = found.iter().flat_map(|(_, own, _)| &own[place].points);
+        let values: Vec<f64> = values.map(|point| point.1).filter(|y| y.is_finite()).collect();
+        let low = values.iter().copied().fold(0.0, f64::min);
+        let high = values.iter().copied().fold(0.0, f64::max);
+        for (name, own, _) in &found {
+            let series = Series { name: (*name).to_owned(), ..own[place].clone() }.styled(0);
+            let axis = Axis::linear(quantity);
+            let panel = Panel::new(axis, vec![series]).reaching(low, high);
+            panels.push(panel.named_at_ends());
+        }
+    }
+    let (left, right) = found[0].2;
+    let caption = caption(listed.number, remarks);
+    let figure = Figure::new(listed.title, Axis::linear("place x/L"), panels, caption)?;
+    Ok(Box::new(figure.window(left, right)?))
+}
+
+/// 6.11.
+pub(super) fn progress(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+    let network = network("striker-on-long-bar", &[("r", ratio(1, 1))]);
+    let times =
+        [(ratio(1, 2), "ct/L = 1/2"), (ratio(3, 2), "ct/L = 3/2"), (ratio(5, 2), "ct/L = 5/2")];
+    let remarks = [
+        "x from the free end of the striker, which meets the long bar at x = L; c is the velocity of waves, \
+         Z the impedance of the bars.",
+        "The pulse is 2L long; from 2L/c on the striker is at rest, and the contact free of force.",
+    ];
+    let fields = [(Quantity::Velocity, "v/V"), (Quantity::Force, "X/(ZV)")];
+    let evaluator = FieldEvaluator::new(&network, &times[times.len() - 1].0)?;
+    let evaluator = evaluator.looking(&ratio(3, 1))?;
+    snapshots(listed, &evaluator, &times, &fields, &remarks)
+}
+
+/// 6.12.
+pub(super) fn pushed_fields(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+    let network = network("pushed-bar", &[]);
+    let times = [(ratio(1, 2), "ct/L = 1/2"), (ratio(7, 4), "ct/L = 7/4")];
+    let remarks = [
+        "The force X acts at x = 0 from t = 0 on; F is the compressive force in the bar. What the \
+                    front has passed once more moves faster by cX/(EA).",
+    ];
+    let fields = [(Quantity::Velocity, "v EA/(cX)"), (Quantity::Force, "F/X")];
+    let evaluator = FieldEvaluator::new(&network, &times[times.len() - 1].0)?;
+    snapshots(listed, &evaluator, &times, &fields, &remarks)
+}
+
+/// 6.13.
+pub(super) fn pushed_diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+    let network = network("pushed-bar", &[]);
+    let window = [&ratio(0, 1), &ratio(6, 1)];
+    let remarks = ["The force X acts at x = 0 from t = 0 on; the other end is free."];
+    let evaluator = FieldEvaluator::new(&network, window[1])?;
+    let caption = caption(listed.number, &remarks);
+    let diagram = lagrange(&evaluator, Quantity::Velocity, window, caption)?;
+    let diagram = diagram.titled(listed.title);
+    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "v EA/(cX)"])))
+}

@@ -1,0 +1,220 @@
+//! The period in which the strain at the fixed end is largest, when a rigid mass strikes a bar
+//! (figure 6.22).
+//!
+//! A front leaves the struck end at the beginning of each period and doubles at the fixed end: the
+//! strain is there largest in that period, `2 f_n(0) V/c`, as long as the contact pushes. The larger the
+//! striking mass, the later the period in which that is largest of all.
+
+use num_traits::One as _;
+use wavestep::ball::Ball;
+use wavestep::enclosure::{enclose_expression, enclose_zero};
+use wavestep::expression::{Expression, Fraction};
+use wavestep::language::{self, Source};
+use wavestep::solution::Solution;
+use wavestep_polynomial::{Rational, Symbol};
+
+/// The most periods: each needs a longer expression.
+const MAX_PERIODS: usize = 60;
+
+/// The strains at the fixed end at the beginnings of periods, as exact functions of the mass ratio.
+///
+/// ```
+/// use wavestep_studies::figures::LargestStrain;
+/// use wavestep_polynomial::Rational;
+///
+/// let strains = LargestStrain::new(3).unwrap();
+/// // Equal masses, μ = 1: 2 V/c, then 2 (1 + e^(−2)) V/c, twice 1.1353….
+/// let one = Rational::from_integer(1.into());
+/// assert!(strains.strain(0, &one, 60).contains(&Rational::from_integer(2.into())));
+/// assert!(strains.strain(1, &one, 60).to_string().starts_with("2.27067056647322"));
+/// // A mass of 5.686 bars strains the bar most in the third period, no longer in the second.
+/// let ratio = strains.overtaking(1, 60).unwrap();
+/// assert!(ratio.to_string().starts_with("5.68611974353"));
+/// ```
+pub struct LargestStrain {
+    mu: Symbol,
+    /// The wave functions f_n, in s and mu.
+    pieces: Vec<Expression>,
+    strains: Vec<Expression>,
+    /// The force at the ends of periods, over that at the start.
+    forces: Vec<Expression>,
+}
+
+impl LargestStrain {
+    /// The strains of the periods 0 … `last`, from the derived wave functions.
+    ///
+    /// # Panics
+    /// Never: the scene is built in.
+    pub fn new(last: usize) -> Option<LargestStrain> {
+        if last > MAX_PERIODS {
+            return None;
+        }
+        let text = wavestep::scenes::find("rigid-mass").expect("a built-in scene").text;
+        let source = Source::new("rigid-mass", text).expect("a short text");
+        let recurrence = language::read_recurrence(&source, &Default::default());
+        let recurrence = recurrence.expect("a built-in scene");
+        let local = recurrence.statement().local.clone();
+        let wave = 0;
+        let solution = Solution::new(recurrence);
+        let pieces = solution.pieces(wave, 0, last).expect("a wave with pieces");
+        let two = Rational::from_integer(2.into());
+        let strains = pieces.iter().map(|f| f.at_zero(&local).scale(&two)).collect();
+        let mu = Symbol::new("mu").expect("a name");
+        let period = Fraction::symbol(&mu).scale(&two);
+        let at_end = |f: &Expression| f.substitute(&local, &period).expect("a polynomial in s");
+        let ends: Vec<Expression> = pieces.iter().map(at_end).collect();
+        let force = |n: usize| match n {
+            0 => ends[0].clone(),
+            _ => &ends[n] + &ends[n - 1],
+        };
+        let forces = (0..ends.len()).map(force).collect();
+        Some(LargestStrain { mu, pieces, strains, forces })
+    }
+
+    /// `2 f_n(0)`, the strain over `V/c` at the beginning of a period, where the bar has a share μ of the
+    /// striking mass.
+    ///
+    /// # Panics
+    /// If there is no such period.
+    pub fn strain(&self, period: usize, mu: &Rational, bits: u64) -> Ball {
+        self.enclose(&self.strains[period], mu, bits)
+    }
+
+    /// Whether the contact certainly pushes at the end of each period before this one. The force falls
+    /// within a period, so that it then pushed all the time, and the front of this period is as in
+    /// [`strain`](Self::strain).
+    ///
+    /// # Panics
+    /// If there is no such period.
+    ///
+    /// ```
+    /// use wavestep_studies::figures::LargestStrain;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let strains = LargestStrain::new(3).unwrap();
+    /// // With equal masses the contact opens in the second period, at (3 + e^(−2)/2) L/c.
+    /// let one = Rational::from_integer(1.into());
+    /// assert!(strains.is_pushed(1, &one) && !strains.is_pushed(2, &one));
+    /// ```
+    pub fn is_pushed(&self, period: usize, mu: &Rational) -> bool {
+        let zero = Ball::from_rational(&Rational::default(), 8);
+        self.forces[..period].iter().all(|force| zero.is_below(&self.enclose(force, mu, 64)))
+    }
+
+    fn enclose(&self, expression: &Expression, mu: &Rational, bits: u64) -> Ball {
+        // Terms of size e^{2√(2nx)} cancel: so many bits more are enough for 60 periods.
+        let working = bits + 256;
+        let at =
+            |symbol: &Symbol, bits| (*symbol == self.mu).then(|| Ball::from_rational(mu, bits));
+        let value = enclose_expression(expression, &at, working).expect("a value for the symbol");
+        value.real().clone()
+    }
+
+    /// The largest ratio `1/μ` of the striking mass to that of the bar at which the strains of a period
+    /// and the next one are equal: for larger masses the next one is larger. `None` where there is no
+    /// such ratio up to `4 (n + 2)²`, or no such period.
+    ///
+    /// A change of sign is looked for from large masses downwards; the zero is enclosed with proof, that
+    /// there is no larger one is not proven.
+    pub fn overtaking(&self, period: usize, bits: u64) -> Option<Ball> {
+        let next = self.strains.get(period + 1)?;
+        self.last_change(&(next - &self.strains[period]), period, bits)
+    }
+
+    /// The largest ratio `1/μ` of the striking mass to that of the bar at which the force is zero at the end
+    /// of a period, `2(n + 1) L/c`: with larger masses the contact lasts longer. Found as in
+    /// [`overtaking`](Self::overtaking).
+    ///
+    /// ```
+    /// use wavestep_studies::figures::LargestStrain;
+    ///
+    /// // Masses of up to 1.728 bars leave before 4 L/c.
+    /// let ratio = LargestStrain::new(1).unwrap().outlasting(1, 60).unwrap();
+    /// assert!(ratio.to_string().starts_with("1.72833218876"));
+    /// ```
+    pub fn outlasting(&self, period: usize, bits: u64) -> Option<Ball> {
+        self.last_change(self.forces.get(period)?, period, bits)
+    }
+
+    /// The inverse of the smallest zero, as far as is looked, of an expression that is positive before it.
+    fn last_change(&self, expression: &Expression, period: usize, bits: u64) -> Option<Ball> {
+        let zero = Ball::from_rational(&Rational::default(), 8);
+        let is_positive =
+            |ratio: &Rational| zero.is_below(&self.enclose(expression, &ratio.recip(), 64));
+        let count = i64::try_from(period + 2).ok()?;
+        let mut high = Rational::from_integer((4 * count * count).into());
+        if !is_positive(&high) {
+            return None;
+        }
+        let shrink = Rational::new(15.into(), 16.into());
+        loop {
+            let low = &high * &shrink;
+            if low < Rational::new(1.into(), 8.into()) {
+                return None;
+            }
+            if !is_positive(&low) {
+                let bounds = [high.recip(), low.recip()];
+                let mu = enclose_zero(expression, &self.mu, &bounds, bits + 8).ok()?;
+                return mu.reciprocal(bits + 8).ok();
+            }
+            high = low;
+        }
+    }
+
+    /// When the mass leaves the bar, in `L/c`: the first zero of the force, halved in doubles to about ten
+    /// digits; `None` where it stays beyond the periods that are known.
+    ///
+    /// For certified digits there is [`History`](wavestep::history::History); this is for pictures.
+    ///
+    /// ```
+    /// use wavestep_studies::figures::LargestStrain;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let strains = LargestStrain::new(2).unwrap();
+    /// let equal = strains.release(&Rational::from_integer(1.into())).unwrap();
+    /// assert!((equal - 3.0 - (-2.0_f64).exp() / 2.0).abs() < 1e-9);
+    /// assert!(strains.release(&Rational::new(1.into(), 50.into())).is_none());
+    /// ```
+    pub fn release(&self, mu: &Rational) -> Option<f64> {
+        let period = (0..self.forces.len()).find(|n| !self.is_pushed(n + 1, mu))?;
+        let length = mu + mu;
+        let force = |share: &Rational| {
+            let s = &length * share;
+            let at = |symbol: &Symbol, bits| match symbol {
+                known if *known == self.mu => Some(Ball::from_rational(mu, bits)),
+                _ => Some(Ball::from_rational(&s, bits)),
+            };
+            let value = |f: &Expression| enclose_expression(f, &at, 320).expect("known symbols");
+            let mut sum = value(&self.pieces[period]).real().clone();
+            if let Some(before) = period.checked_sub(1) {
+                sum = sum.add(value(&self.pieces[before]).real(), 320);
+            }
+            sum
+        };
+        let zero = Ball::from_rational(&Rational::default(), 8);
+        let (mut low, mut high) = (Rational::default(), Rational::one());
+        let half = Rational::new(1.into(), 2.into());
+        for _ in 0..34 {
+            let middle = (&low + &high) * &half;
+            if zero.is_below(&force(&middle)) { low = middle } else { high = middle }
+        }
+        let within = num_traits::ToPrimitive::to_f64(&low)?;
+        Some(2.0 * (period as f64 + within))
+    }
+
+    /// `[1 + (1/μ + 1/3)^{1/2}]`, the estimate 6.86 in `V/c`.
+    ///
+    /// ```
+    /// use wavestep_studies::figures::LargestStrain;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// // 1/μ = 2/3: twice V/c.
+    /// let estimate = LargestStrain::estimate(&Rational::new(2.into(), 3.into()), 60);
+    /// assert!(estimate.contains(&Rational::from_integer(2.into())));
+    /// ```
+    pub fn estimate(ratio: &Rational, bits: u64) -> Ball {
+        let third = Rational::new(1.into(), 3.into());
+        let root = Ball::square_root(&(ratio + third), bits).expect("a positive number");
+        root.add(&Ball::from_rational(&Rational::one(), bits), bits)
+    }
+}

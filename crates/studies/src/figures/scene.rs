@@ -1,0 +1,72 @@
+//! Built-in scenes and recurrences with numbers put in.
+
+use super::FigureError;
+use crate::picture::{Sampled, sampled, sampled_search};
+use std::collections::BTreeMap;
+use wavestep::evaluate::{EvaluateError, Signal};
+use wavestep::history::History;
+use wavestep::language::{self, Source};
+use wavestep::network::Network;
+use wavestep::recurrence::Recurrence;
+use wavestep_draw::Caption;
+use wavestep_polynomial::Rational;
+
+/// A fraction of integers.
+pub(super) fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn source(name: &str) -> Source {
+    let text = wavestep::scenes::find(name).expect("a built-in scene").text;
+    Source::new(name, text).expect("a short text")
+}
+
+fn values(given: &[(&str, Rational)]) -> BTreeMap<String, Rational> {
+    given.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect()
+}
+
+/// A built-in scene.
+pub(super) fn network(name: &str, given: &[(&str, Rational)]) -> Network {
+    let scene = language::read_scene(&source(name), &values(given)).expect("a built-in scene");
+    Network::new(&scene).expect("a built-in scene")
+}
+
+/// A built-in recurrence.
+pub(super) fn recurrence(name: &str, given: &[(&str, Rational)]) -> Recurrence {
+    language::read_recurrence(&source(name), &values(given)).expect("a built-in recurrence")
+}
+
+/// An observable of a recurrence as a signal.
+pub(super) fn signal(recurrence: &Recurrence, name: &str) -> Result<Signal, EvaluateError> {
+    let observation = recurrence.observation(name).expect("a built-in observable");
+    Signal::of_recurrence(recurrence, &observation)
+}
+
+/// Its values on a window from 0.
+pub(super) fn course(
+    recurrence: &Recurrence,
+    name: &str,
+    last: &Rational,
+) -> Result<Sampled, EvaluateError> {
+    sampled(signal(recurrence, name)?, &Rational::default(), last)
+}
+
+/// An observable of a scene whose contacts open, on a window from 0.
+pub(super) fn followed(
+    network: &Network,
+    name: &str,
+    last: &Rational,
+) -> Result<Sampled, FigureError> {
+    let search = History::search(network, name, [&Rational::default(), last])?;
+    Ok(sampled_search(&search)?)
+}
+
+/// A caption with the command that draws the figure again, and remarks.
+pub(super) fn caption(number: &str, remarks: &[&str]) -> Caption {
+    Caption {
+        versions: vec![("wavestep".to_owned(), env!("CARGO_PKG_VERSION").to_owned())],
+        command: format!("wavestep figure {number} -o figure.svg"),
+        remarks: remarks.iter().map(|remark| (*remark).to_owned()).collect(),
+        ..Caption::default()
+    }
+}

@@ -1,0 +1,267 @@
+//! Two long bars that meet at a contact `X = k α^m`, with units.
+
+use super::error::HertzError;
+use super::law::{PowerLaw, Share};
+use wavestep::ball::Ball;
+use wavestep_polynomial::Rational;
+
+/// Two long bars, the velocity at which they meet, and the law of their contact, as enclosures in any
+/// consistent units.
+///
+/// With the force `F₀` at a compression `α₀` the law is `X = F₀ (α/α₀)^m`, and k need not have a unit
+/// of its own. From `α̇ + X (1/Z₁ + 1/Z₂) = V` (6.46) follow the largest force `X_max = V/(1/Z₁ + 1/Z₂)`
+/// (6.52), the largest compression `α_max = α₀ (X_max/F₀)^{1/m}`, and the unit of time
+/// `h^{−1/m} V^{1/m−1} = α_max/V` (6.53). Valid until a wave returns from a far end.
+///
+/// # Invariants
+/// All enclosures are of positive numbers.
+///
+/// ```
+/// use wavestep::ball::Ball;
+/// use wavestep_studies::hertz::{LongBars, PowerLaw};
+/// use wavestep_polynomial::Rational;
+///
+/// let number = |a: i64, b: i64| Ball::from_rational(&Rational::new(a.into(), b.into()), 100);
+/// // Z = 1 and 3 meet at V = 4; 8 units of force at 4 of compression, and no more at once.
+/// let bars = LongBars::new(
+///     PowerLaw::hertz(),
+///     (number(8, 1), number(4, 1)),
+///     [number(1, 1), number(3, 1)],
+///     number(4, 1),
+///     100,
+/// ).unwrap();
+/// assert!(bars.largest_force().contains(&Rational::from_integer(3.into())));
+/// // The spring that needs the same unit of time has the secant of the contact at its limit.
+/// let spring = bars.equivalent_spring();
+/// let compression = bars.largest_compression();
+/// assert!(spring.stiffness().multiply(compression, 100).contains(&Rational::from_integer(3.into())));
+/// // A spring has half of its force after ln 2 units of time, the contact a little later.
+/// let half = Rational::new(1.into(), 2.into());
+/// assert!(spring.rise_time(&half).unwrap().is_below(&bars.rise_time(&half).unwrap()));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct LongBars {
+    law: PowerLaw,
+    largest_force: Ball,
+    largest_compression: Ball,
+    stiffness: Ball,
+    time_unit: Ball,
+    precision: u64,
+}
+
+/// The spring `X = k₁ α` with the unit of time of a contact: `k₁ = X_max/α_max`, the same as 6.57,
+/// `k₁ (1/Z₁ + 1/Z₂) = [k (1/Z₁ + 1/Z₂)]^{1/m} V^{1−1/m}`.
+///
+/// ```
+/// use wavestep::ball::Ball;
+/// use wavestep_studies::hertz::{LongBars, PowerLaw};
+/// use wavestep_polynomial::Rational;
+///
+/// let one = || Ball::from_rational(&Rational::from_integer(1.into()), 60);
+/// let law = PowerLaw::new(Rational::from_integer(1.into())).unwrap();
+/// let bars = LongBars::new(law, (one(), one()), [one(), one()], one(), 60).unwrap();
+/// // A contact with m = 1 is its own equivalent.
+/// assert!(bars.equivalent_spring().stiffness().contains(&Rational::from_integer(1.into())));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EquivalentSpring {
+    stiffness: Ball,
+    time_unit: Ball,
+    precision: u64,
+}
+
+impl EquivalentSpring {
+    /// `k₁`.
+    #[must_use]
+    pub fn stiffness(&self) -> &Ball {
+        &self.stiffness
+    }
+
+    /// The time at which its force has a share φ of the largest one, `−ln(1 − φ)` units of time (6.55).
+    ///
+    /// # Errors
+    /// [`HertzError::Share`] where the share is not from 0 to below 1.
+    pub fn rise_time(&self, share: &Rational) -> Result<Ball, HertzError> {
+        let spring = PowerLaw::new(Rational::from_integer(1.into()))?;
+        let time = spring.time(share, self.precision)?;
+        Ok(time.multiply(&self.time_unit, self.precision))
+    }
+}
+
+impl LongBars {
+    /// Of the law, a force with the compression it belongs to, the impedances, and the velocity at which
+    /// the bars approach each other.
+    ///
+    /// # Errors
+    /// [`HertzError::NotPositive`] where one of them is not certainly positive.
+    pub fn new(
+        law: PowerLaw,
+        (force, compression): (Ball, Ball),
+        [first, second]: [Ball; 2],
+        velocity: Ball,
+        precision: u64,
+    ) -> Result<LongBars, HertzError> {
+        let given = [
+            ("the force of the contact", &force),
+            ("the compression of the contact", &compression),
+            ("the impedance of the first bar", &first),
+            ("the impedance of the second bar", &second),
+            ("the velocity at which the bars meet", &velocity),
+        ];
+        let zero = Ball::zero();
+        if let Some((name, value)) = given.iter().find(|(_, value)| !zero.is_below(value)) {
+            return Err(HertzError::NotPositive(name, value.to_string()));
+        }
+        let yielding = first.reciprocal(precision)?.add(&second.reciprocal(precision)?, precision);
+        let largest_force = velocity.multiply(&yielding.reciprocal(precision)?, precision);
+        let share = largest_force.multiply(&force.reciprocal(precision)?, precision);
+        let share = share.power(&law.exponent().recip(), precision)?;
+        let largest_compression = compression.multiply(&share, precision);
+        let stiffness = compression.power(&-law.exponent(), precision)?.multiply(&force, precision);
+        let time_unit = largest_compression.multiply(&velocity.reciprocal(precision)?, precision);
+        Ok(LongBars { law, largest_force, largest_compression, stiffness, time_unit, precision })
+    }
+
+    /// `X_max` (6.52).
+    #[must_use]
+    pub fn largest_force(&self) -> &Ball {
+        &self.largest_force
+    }
+
+    /// `α_max`, where the contact carries `X_max`.
+    #[must_use]
+    pub fn largest_compression(&self) -> &Ball {
+        &self.largest_compression
+    }
+
+    /// `k = F₀/α₀^m` of `X = k α^m` (6.49), in units of force by the m-th power of those of length.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// // 8 = k 4^(3/2)
+    /// assert!(bars.unwrap().stiffness().contains(&Rational::from_integer(1.into())));
+    /// ```
+    #[must_use]
+    pub fn stiffness(&self) -> &Ball {
+        &self.stiffness
+    }
+
+    /// The law of the contact.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let one = || Ball::from_rational(&Rational::from_integer(1.into()), 60);
+    /// let bars = LongBars::new(PowerLaw::hertz(), (one(), one()), [one(), one()], one(), 60);
+    /// assert_eq!(bars.unwrap().law(), &PowerLaw::hertz());
+    /// ```
+    #[must_use]
+    pub fn law(&self) -> &PowerLaw {
+        &self.law
+    }
+
+    /// `t/t̄ = α_max/V`.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// let bars = bars.unwrap();
+    /// // α_max = V times it.
+    /// let four = bars.time_unit().multiply(&number(4), 80);
+    /// assert!(four.subtract(bars.largest_compression(), 80).contains(&Rational::from_integer(0.into())));
+    /// ```
+    #[must_use]
+    pub fn time_unit(&self) -> &Ball {
+        &self.time_unit
+    }
+
+    /// The time at which the force has a share of the largest one.
+    ///
+    /// # Errors
+    /// [`HertzError::Share`] where the share is not from 0 to below 1.
+    pub fn rise_time(&self, share: &Rational) -> Result<Ball, HertzError> {
+        let time = self.law.time(share, self.precision)?;
+        Ok(time.multiply(&self.time_unit, self.precision))
+    }
+
+    /// The force at a time.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// let bars = bars.unwrap();
+    /// // After five units of time it is nearly V/(1/Z₁ + 1/Z₂) = 3.
+    /// let late = bars.time_unit().multiply(&number(5), 80);
+    /// assert!(bars.force(&late).unwrap().to_string().starts_with("2.99"));
+    /// ```
+    ///
+    /// # Errors
+    /// [`HertzError::Time`] where the time may be negative.
+    pub fn force(&self, time: &Ball) -> Result<Ball, HertzError> {
+        Ok(self.share(time)?.force().multiply(&self.largest_force, self.precision))
+    }
+
+    /// How far the force has risen at a time.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
+    /// let [force, compression, velocity] = [8, 4, 4].map(number);
+    /// let impedances = [number(1), number(3)];
+    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
+    /// let bars = bars.unwrap();
+    /// let half = Rational::new(1.into(), 2.into());
+    /// let time = bars.rise_time(&half).unwrap();
+    /// assert!(bars.share(&time).unwrap().force().contains(&half));
+    /// ```
+    ///
+    /// # Errors
+    /// [`HertzError::Time`] where the time may be negative.
+    pub fn share(&self, time: &Ball) -> Result<Share, HertzError> {
+        let is_start = time == &Ball::zero();
+        if !is_start && !Ball::zero().is_below(time) {
+            return Err(HertzError::Time(time.to_string()));
+        }
+        let time = time.multiply(&self.time_unit.reciprocal(self.precision)?, self.precision);
+        self.law.share_at(&time, self.precision)
+    }
+
+    /// The spring with the same unit of time (6.56, 6.57).
+    ///
+    /// # Panics
+    /// Never: a positive compression has an inverse.
+    #[must_use]
+    pub fn equivalent_spring(&self) -> EquivalentSpring {
+        let inverse = self.largest_compression.reciprocal(self.precision);
+        let inverse = inverse.expect("a compression is positive");
+        EquivalentSpring {
+            stiffness: self.largest_force.multiply(&inverse, self.precision),
+            time_unit: self.time_unit.clone(),
+            precision: self.precision,
+        }
+    }
+}

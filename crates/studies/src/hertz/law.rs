@@ -1,0 +1,493 @@
+//! The rise of the force in a contact `X = k α^m`, without units.
+//!
+//! Between long bars `α̇ + h α^m = V`, `h = k (1/Z₁ + 1/Z₂)` (6.47). With the compression in units of
+//! its limit `(V/h)^{1/m}` and the time in units of `h^{−1/m} V^{1/m−1}` it is
+//!
+//! ```text
+//! β' = 1 − β^m,   β(0) = 0,   φ = X/X_max = β^m.
+//! ```
+//!
+//! So the time at which the force has the share φ of its limit is
+//!
+//! ```text
+//! t̄(φ) = ∫₀^{φ^{1/m}} dβ/(1 − β^m) = (1/m) ∫₀^φ s^{1/m−1}/(1 − s) ds,
+//! ```
+//!
+//! `−ln(1 − φ)` for m = 1, and an expression in logarithm and arctangent for Hertz's m = 3/2 (6.51).
+//! For other m there are two series. Up to the middle, `φ ≤ 1/2`,
+//!
+//! ```text
+//! t̄ = β Σ_j φ^j/(1 + jm),                       what is left out ≤ β φ^J/(1 − φ);
+//! ```
+//!
+//! beyond it, with the deficit `y = 1 − φ ≤ 1/2`, `a = 1/m − 1` and `s^a = Σ_j c_j y^j`,
+//! `c_j = Π_{i≤j} (i − 1 − a)/i`,
+//!
+//! ```text
+//! t̄(y) = t̄(1/2) + (1/m) [ln(1/2) − ln y + S(1/2) − S(y)],   S(y) = Σ_{j≥1} c_j y^j/j.
+//! ```
+//!
+//! From `j ≥ (1 + a)/2` on `|c_j|` does not grow, so that what S leaves out is at most `2 |c_J| y^J`.
+
+use super::error::HertzError;
+use num_traits::{One, Signed, ToPrimitive};
+use wavestep::ball::Ball;
+use wavestep::ball::Magnitude;
+use wavestep_polynomial::Rational;
+
+/// The exponent of a contact.
+///
+/// # Invariants
+/// It is from 1/10 to 100.
+///
+/// ```
+/// use wavestep_studies::hertz::PowerLaw;
+/// use wavestep_polynomial::Rational;
+///
+/// let ratio = |a: i64, b: i64| Rational::new(a.into(), b.into());
+/// // A spring: t = −ln(1 − 1/2) = ln 2.
+/// let spring = PowerLaw::new(ratio(1, 1)).unwrap();
+/// assert!(spring.time(&ratio(1, 2), 80).unwrap().to_string().starts_with("0.69314718055994530941"));
+/// // Hertz' contact rises later, and then faster.
+/// let hertz = PowerLaw::hertz();
+/// assert!(hertz.time(&ratio(1, 2), 80).unwrap().to_string().starts_with("0.8193407155080904803"));
+/// // And back: the share of the largest force at that time.
+/// let share = hertz.share(&ratio(81_934, 100_000), 80).unwrap();
+/// assert!(share.force().to_string().starts_with("0.49999"));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct PowerLaw {
+    exponent: Rational,
+}
+
+/// How far the force has risen at a time.
+///
+/// ```
+/// use wavestep_studies::hertz::PowerLaw;
+/// use wavestep_polynomial::Rational;
+///
+/// // After a hundred units of time a spring lacks e^(−100) of its largest force.
+/// let hundred = Rational::from_integer(100.into());
+/// let share = PowerLaw::new(Rational::from_integer(1.into())).unwrap().share(&hundred, 60).unwrap();
+/// assert!(share.deficit().to_string().starts_with("3.7200759760208359"));
+/// // Its enclosure is relative to the deficit itself.
+/// assert!(!share.deficit().contains(&Rational::from_integer(0.into())));
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Share {
+    force: Ball,
+    deficit: Ball,
+    compression: Ball,
+}
+
+impl Share {
+    /// `X/X_max = φ`.
+    #[must_use]
+    pub fn force(&self) -> &Ball {
+        &self.force
+    }
+
+    /// `1 − X/X_max`, with a small relative error however close the force is to its limit.
+    #[must_use]
+    pub fn deficit(&self) -> &Ball {
+        &self.deficit
+    }
+
+    /// `α/α_max = φ^{1/m}`.
+    ///
+    /// ```
+    /// use wavestep_studies::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// // In the beginning nothing resists: the compression is that of the time.
+    /// let early = Rational::new(1.into(), 1_000_000.into());
+    /// let share = PowerLaw::hertz().share(&early, 60).unwrap();
+    /// assert!(share.compression().to_string().starts_with("9.99999999"));
+    /// ```
+    #[must_use]
+    pub fn compression(&self) -> &Ball {
+        &self.compression
+    }
+}
+
+fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn exact(value: &Rational, precision: u64) -> Ball {
+    Ball::from_rational(value, precision)
+}
+
+fn one() -> Ball {
+    Ball::from_integer(&1.into())
+}
+
+/// Units of time after which the largest force is as good as reached.
+const VERY_LATE: i64 = 1 << 20;
+
+/// What a sum leaves out, before it is known: it shall be below this part of the first term.
+fn negligible(precision: u64) -> Magnitude {
+    Magnitude::power_of_two(-(precision as i64) - 8)
+}
+
+impl PowerLaw {
+    /// The largest exponent.
+    ///
+    /// ```
+    /// use wavestep_studies::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let most = Rational::from_integer(PowerLaw::MOST.into());
+    /// assert!(PowerLaw::new(most.clone()).is_ok() && PowerLaw::new(&most + &most).is_err());
+    /// ```
+    pub const MOST: i64 = 100;
+
+    /// The inverse of the smallest exponent: below it the second series cancels.
+    ///
+    /// ```
+    /// use wavestep_studies::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let least = Rational::new(1.into(), PowerLaw::LEAST_INVERSE.into());
+    /// assert!(PowerLaw::new(least.clone()).is_ok() && PowerLaw::new(least.pow(2)).is_err());
+    /// ```
+    pub const LEAST_INVERSE: i64 = 10;
+
+    /// The law `X = k α^m`.
+    ///
+    /// # Errors
+    /// [`HertzError::Exponent`] where m is not from 1/10 to 100.
+    pub fn new(exponent: Rational) -> Result<PowerLaw, HertzError> {
+        match exponent >= ratio(1, Self::LEAST_INVERSE) && exponent <= ratio(Self::MOST, 1) {
+            true => Ok(PowerLaw { exponent }),
+            false => Err(HertzError::Exponent(exponent.to_string())),
+        }
+    }
+
+    /// Hertz' law, `m = 3/2` (6.49).
+    #[must_use]
+    pub fn hertz() -> PowerLaw {
+        PowerLaw { exponent: ratio(3, 2) }
+    }
+
+    /// m.
+    ///
+    /// ```
+    /// use wavestep_studies::hertz::PowerLaw;
+    ///
+    /// assert_eq!(PowerLaw::hertz().exponent().to_string(), "3/2");
+    /// ```
+    #[must_use]
+    pub fn exponent(&self) -> &Rational {
+        &self.exponent
+    }
+
+    /// The time `t̄ = t h^{1/m} V^{1−1/m}` at which the force has a share of its largest value.
+    ///
+    /// # Errors
+    /// [`HertzError::Share`] where the share is not from 0 to below 1.
+    ///
+    /// # Cost
+    /// A few logarithms, or for exponents other than 1 and 3/2 as many products as bits.
+    pub fn time(&self, share: &Rational, precision: u64) -> Result<Ball, HertzError> {
+        if share.is_negative() || *share >= Rational::one() {
+            return Err(HertzError::Share(share.to_string()));
+        }
+        if *share.numer() == 0.into() {
+            return Ok(Ball::zero());
+        }
+        let deficit = Rational::one() - share;
+        // How far the deficit, or the share, is below 1: closed forms take it from the deficit.
+        let below_one = |x: &Rational| x.denom().bits().saturating_sub(x.numer().bits());
+        let working = precision + below_one(&deficit) + below_one(share) + 16;
+        let force = exact(share, working);
+        let deficit = exact(&deficit, working);
+        if self.exponent.is_one() {
+            return Ok(deficit.ln(working)?.negate());
+        }
+        if self.exponent == ratio(3, 2) {
+            return hertz_time(&force.power(&ratio(1, 3), working)?, &deficit, working);
+        }
+        self.time_by_series(&force, &deficit, working)
+    }
+
+    /// The same for every m by the two series: the second derivation for m = 1 and 3/2, where tests
+    /// hold it against the closed forms.
+    ///
+    /// ```
+    /// use wavestep::ball::Ball;
+    /// use wavestep_studies::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// let half = Rational::new(1.into(), 2.into());
+    /// let ball = Ball::from_rational(&half, 100);
+    /// let law = PowerLaw::hertz();
+    /// let series = law.time_by_series(&ball, &ball, 100).unwrap();
+    /// let closed = law.time(&half, 100).unwrap();
+    /// assert!(series.subtract(&closed, 100).contains(&Rational::from_integer(0.into())));
+    /// ```
+    ///
+    /// # Errors
+    /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
+    pub fn time_by_series(
+        &self,
+        force: &Ball,
+        deficit: &Ball,
+        precision: u64,
+    ) -> Result<Ball, HertzError> {
+        let half = exact(&ratio(1, 2), 4);
+        if !half.is_below(force) {
+            let compression = force.power(&self.exponent.recip(), precision)?;
+            return Ok(self.first_series(&compression, force, precision));
+        }
+        let late = self.late_constant(precision)?;
+        let spent = deficit.ln(precision)?.add(&self.second_series(deficit, precision), precision);
+        let spent = spent.multiply_rational(&self.exponent.recip(), precision);
+        Ok(late.subtract(&spent, precision))
+    }
+
+    /// `β Σ_j φ^j/(1 + jm)` for `φ = β^m` not above 1/2 by much.
+    fn first_series(&self, compression: &Ball, force: &Ball, precision: u64) -> Ball {
+        let (mut power, mut sum) = (one(), one());
+        let mut divisor = Rational::one();
+        loop {
+            power = power.multiply(force, precision);
+            divisor += &self.exponent;
+            sum = sum.add(&power.multiply_rational(&divisor.recip(), precision), precision);
+            if power.magnitude() <= negligible(precision) {
+                // φ^J/(1 − φ) ≤ 4 φ^J while φ ≤ 3/4.
+                let rest = power.magnitude().scale(2);
+                return sum.widened(&rest).multiply(compression, precision);
+            }
+        }
+    }
+
+    /// `S(y) = Σ_{j≥1} c_j y^j/j`, `0 ≤ y ≤ 1/2`.
+    fn second_series(&self, deficit: &Ball, precision: u64) -> Ball {
+        let a = self.exponent.recip() - Rational::one();
+        let steady = ((Rational::one() + &a) / ratio(2, 1)).ceil().to_integer().to_u64();
+        let steady = steady.unwrap_or(u64::MAX);
+        // c_j y^j
+        let (mut power, mut sum) = (one(), Ball::zero());
+        let mut j = 0_u64;
+        loop {
+            j += 1;
+            let count = Rational::from_integer(j.into());
+            let factor = (&count - Rational::one() - &a) / &count;
+            power = power.multiply(deficit, precision).multiply_rational(&factor, precision);
+            sum = sum.add(&power.multiply_rational(&count.recip(), precision), precision);
+            if j >= steady && power.magnitude() <= negligible(precision) {
+                return sum.widened(&power.magnitude().scale(1));
+            }
+        }
+    }
+
+    /// `t̄(1/2) + (ln(1/2) + S(1/2))/m`.
+    fn late_constant(&self, precision: u64) -> Result<Ball, HertzError> {
+        let half = exact(&ratio(1, 2), 4);
+        let compression = half.power(&self.exponent.recip(), precision)?;
+        let middle = self.first_series(&compression, &half, precision);
+        let rest = half.ln(precision)?.add(&self.second_series(&half, precision), precision);
+        Ok(middle.add(&rest.multiply_rational(&self.exponent.recip(), precision), precision))
+    }
+
+    /// How far the force has risen at a time `t̄`.
+    ///
+    /// Newton's method finds a number near β, or beyond the middle near `λ = −ln(1 − φ)`; the mean
+    /// value theorem encloses: `β* = β + (t̄ − t̄(β)) (1 − ξ^m)` and `λ* = λ + (t̄ − t̄(λ)) m (1 − η)^{−a}`, with
+    /// factors from 0 to 1, and to `m max(1, 2^a)`.
+    ///
+    /// # Errors
+    /// [`HertzError::Time`] where the time is negative.
+    ///
+    /// # Cost
+    /// Some `log₂` of the precision evaluations of [`time`](Self::time).
+    pub fn share(&self, time: &Rational, precision: u64) -> Result<Share, HertzError> {
+        if time.is_negative() {
+            return Err(HertzError::Time(time.to_string()));
+        }
+        self.share_at(&exact(time, precision + 64), precision)
+    }
+
+    /// The same for an enclosed time, which must not be negative.
+    ///
+    /// ```
+    /// use wavestep_studies::hertz::PowerLaw;
+    /// use wavestep_polynomial::Rational;
+    ///
+    /// // Back from the time of nine tenths.
+    /// let share = Rational::new(9.into(), 10.into());
+    /// let law = PowerLaw::hertz();
+    /// let time = law.time(&share, 80).unwrap();
+    /// assert!(law.share_at(&time, 60).unwrap().force().contains(&share));
+    /// ```
+    ///
+    /// # Errors
+    /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
+    pub fn share_at(&self, time: &Ball, precision: u64) -> Result<Share, HertzError> {
+        let working = precision + 32;
+        if time.magnitude() == Magnitude::ZERO {
+            return Ok(Share { force: Ball::zero(), deficit: one(), compression: Ball::zero() });
+        }
+        if exact(&ratio(VERY_LATE, 1), 4).is_below(time) {
+            // 1 − φ ≤ max(1, m) e^{−t̄ min(1, m)} ≤ 100 e^{−t̄/10}: from 1 − β^m ≥ 1 − β where m ≥ 1, else
+            // from t̄ ≤ −ln(1 − φ)/m.
+            let deficit = Ball::zero().widened(&Magnitude::power_of_two(-VERY_LATE / 8));
+            let share = one().subtract(&deficit, working);
+            return Ok(Share { force: share.clone(), compression: share, deficit });
+        }
+        if self.exponent.is_one() {
+            let early = time.magnitude().top().map_or(0, |top| (-top).max(0) as u64);
+            let working = working + early;
+            let deficit = time.clone().negate().exp(working)?;
+            let force = one().subtract(&deficit, working);
+            return Ok(Share { compression: force.clone(), force, deficit });
+        }
+        let half = exact(&ratio(1, 2), 4);
+        let compression = half.power(&self.exponent.recip(), working)?;
+        let middle = self.first_series(&compression, &half, working);
+        match time.is_below(&middle) {
+            true => self.early(time, working),
+            false => self.late(time, working),
+        }
+    }
+
+    /// In the first half of the rise.
+    fn early(&self, time: &Ball, working: u64) -> Result<Share, HertzError> {
+        let (target, m) = (time.midpoint().to_double(), self.exponent.to_f64().unwrap_or(1.0));
+        // In doubles: t̄ is convex and at least β, so that Newton's method falls to the root from above.
+        let of = |beta: f64| {
+            let force = beta.powf(m);
+            let terms = (0..200).map(|j| force.powi(j) / f64::from(j).mul_add(m, 1.0));
+            beta * terms.sum::<f64>()
+        };
+        let mut guess = target.min(0.5_f64.powf(1.0 / m));
+        for _ in 0..60 {
+            guess += (target - of(guess)) * (1.0 - guess.powf(m));
+        }
+        let mut near = rational(guess);
+        let mut good = 40;
+        loop {
+            good = (2 * good).min(working);
+            let compression = exact(&near, good + 16);
+            let force = compression.power(&self.exponent, good + 16)?;
+            let there = self.first_series(&compression, &force, good + 16);
+            let residual = time.subtract(&there, good + 16);
+            let slope = one().subtract(&force, good + 16);
+            let next = compression.add(&residual.multiply(&slope, good + 16), good + 16);
+            if good == working {
+                let compression = compression.widened(&residual.magnitude());
+                let force = compression.power(&self.exponent, working)?;
+                let deficit = one().subtract(&force, working);
+                return Ok(Share { force, deficit, compression });
+            }
+            near = Rational::from(next.midpoint());
+        }
+    }
+
+    /// Beyond it.
+    fn late(&self, time: &Ball, working: u64) -> Result<Share, HertzError> {
+        let m = self.exponent.to_f64().unwrap_or(1.0);
+        let a = 1.0 / m - 1.0;
+        let constant = self.late_constant(working)?;
+        // λ = m (t̄ − constant) + S(e^{−λ}), whose right-hand side moves less than λ does.
+        let target = time.subtract(&constant, working).multiply_rational(&self.exponent, working);
+        let series = |y: f64| {
+            let (mut power, mut sum) = (1.0, 0.0);
+            for j in 1..400 {
+                power *= y * (f64::from(j - 1) - a) / f64::from(j);
+                sum += power / f64::from(j);
+            }
+            sum
+        };
+        let wanted = target.midpoint().to_double();
+        let (mut low, mut high) = (2.0_f64.ln() * 0.999, wanted.abs() + 2.0 + series(0.5).abs());
+        for _ in 0..80 {
+            let middle = (low + high) / 2.0;
+            let is_early = middle - series((-middle).exp()) < wanted;
+            if is_early { low = middle } else { high = middle }
+        }
+        let mut near = rational(low.max(2.0_f64.ln()));
+        let mut good = 40;
+        loop {
+            good = (2 * good).min(working);
+            let bits = good + 16;
+            let exponent = exact(&near, bits);
+            let deficit = exponent.clone().negate().exp(bits)?;
+            // m (t̄ − t̄(λ))
+            let there = exponent.subtract(&self.second_series(&deficit, bits), bits);
+            let residual = target.subtract(&there, bits);
+            // dλ/d(m t̄) = (1 − y)^{−a}
+            let rising = one().subtract(&deficit, bits);
+            let slope = rising.power(&(Rational::one() - self.exponent.recip()), bits)?;
+            let next = exponent.add(&residual.multiply(&slope, bits), bits);
+            if good == working {
+                // All numbers between λ and λ* are those of deficits up to 1/2 and hardly beyond.
+                let most = if a > 0.0 {
+                    Magnitude::power_of_two(a.ceil() as i64 + 1)
+                } else {
+                    Magnitude::from_u64(1)
+                };
+                let exponent = exponent.widened(&residual.magnitude().multiply(&most));
+                let deficit = exponent.negate().exp(working)?;
+                let force = one().subtract(&deficit, working);
+                let compression = force.power(&self.exponent.recip(), working)?;
+                return Ok(Share { force, deficit, compression });
+            }
+            near = Rational::from(next.midpoint());
+        }
+    }
+}
+
+/// A double as a fraction.
+fn rational(value: f64) -> Rational {
+    let ball = wavestep::ball::Binary::from_double(value).expect("a finite number");
+    Rational::from(&ball)
+}
+
+/// 6.51 with `p = φ^{1/3}` and `1 − φ = 1 − p³`:
+/// `t̄ = (2/3) {½ ln[(p² + p + 1)/(1 − p)²] − √3 arctan[(2p + 1)/√3] + √3 π/6}`.
+///
+/// `(1 − p)(p² + p + 1) = 1 − p³`, so the logarithm is `½ ln[(p² + p + 1)³/(1 − φ)²]`, without a difference
+/// of near numbers. For small p the terms cancel to `t̄ ≈ p²`, so it takes more bits.
+fn hertz_time(p: &Ball, deficit: &Ball, precision: u64) -> Result<Ball, HertzError> {
+    let lost = 2 * p.magnitude().top().map_or(0, |top| (-top).max(0) as u64);
+    let bits = precision + lost + 8;
+    let third = ratio(1, 3);
+    let sum = p.multiply(p, bits).add(p, bits).add(&one(), bits);
+    let logarithm = sum.ln(bits)?.multiply_rational(&ratio(3, 2), bits);
+    let logarithm = logarithm.subtract(&deficit.ln(bits)?, bits);
+    let root = Ball::square_root(&ratio(3, 1), bits).expect("three is positive");
+    let argument = p.multiply_rational(&ratio(2, 1), bits).add(&one(), bits);
+    let argument = argument.multiply(&root, bits).multiply_rational(&third, bits);
+    let angle = Ball::pi(bits).multiply_rational(&ratio(1, 6), bits);
+    let angle = argument.arctan(bits)?.subtract(&angle, bits).multiply(&root, bits);
+    Ok(logarithm.subtract(&angle, bits).multiply_rational(&ratio(2, 3), bits))
+}
+
+/// The constant of 6.54, `[2√2/(3π (1 − ν²))]^{2/3}`: two equal bars of radius r with noses of radius R
+/// have `t̄ = constant · (V/c)^{1/3} (R/r)^{1/3} (c t/r)`.
+///
+/// It follows from `k = (4/3) E/(2(1 − ν²)) √(R/2)`, `Z = π r² E/c` and `t̄ = t h^{2/3} V^{1/3}`.
+///
+/// # Errors
+/// [`HertzError::Poisson`] where ν is not above −1 and at most 1/2.
+///
+/// ```
+/// use wavestep_studies::hertz::equal_bars_constant;
+/// use wavestep_polynomial::Rational;
+///
+/// let constant = equal_bars_constant(&Rational::new(3.into(), 10.into()), 80).unwrap();
+/// assert!(constant.to_string().starts_with("0.47733"));
+/// ```
+pub fn equal_bars_constant(poisson: &Rational, precision: u64) -> Result<Ball, HertzError> {
+    if *poisson <= ratio(-1, 1) || *poisson > ratio(1, 2) {
+        return Err(HertzError::Poisson(poisson.to_string()));
+    }
+    let bits = precision + 8;
+    // 2√2/(3π(1 − ν²)) = √(8/9)/(π (1 − ν²))
+    let root = Ball::square_root(&ratio(8, 9), bits).expect("a positive number");
+    let loss = (Rational::one() - poisson * poisson).recip();
+    let inside = root.multiply(&Ball::pi(bits).reciprocal(bits)?, bits);
+    Ok(inside.multiply_rational(&loss, bits).power(&ratio(2, 3), bits)?)
+}

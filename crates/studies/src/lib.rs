@@ -1,0 +1,10 @@
+//! What stands on wavestep and that nothing in it needs: the equations of the book with their verdicts,
+//! its figures, pictures of scenes, charts of accuracy and speed, dispersion, and the closed forms of
+//! local contact.
+
+pub mod book;
+pub mod dispersion;
+pub mod figures;
+pub mod hertz;
+pub mod picture;
+pub mod study;

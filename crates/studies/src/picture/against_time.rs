@@ -1,0 +1,118 @@
+//! Observables against time.
+
+use super::{PictureError, Prefixed, Sampled};
+use wavestep::language::unit_of;
+use wavestep::scene::{Dimension, Measure};
+use wavestep_draw::{Caption, Figure, Panel, Series};
+
+/// A quantity with its values on a window of time.
+///
+/// ```
+/// use wavestep_studies::picture::{Course, Sampled};
+/// use wavestep::scene::Dimension;
+///
+/// let values = Sampled { points: vec![(0.0, 1.0), (1.0, 2.0)], jumps: vec![] };
+/// let course = Course { name: "F".into(), dimension: Dimension::FORCE, measure: None, values };
+/// assert_eq!(course.values.points.len(), 2);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Course {
+    /// What it is called.
+    pub name: String,
+    /// Its dimension; none for plain numbers.
+    pub dimension: Dimension,
+    /// What is measured, where that is known and the same in all its terms.
+    pub measure: Option<Measure>,
+    /// Its values in SI units.
+    pub values: Sampled,
+}
+
+/// A figure of quantities against time, those of one dimension in one panel; without units, those of one
+/// kind.
+///
+/// # Errors
+/// [`PictureError::Plot`] where there is nothing finite to draw.
+///
+/// ```
+/// use wavestep_studies::picture::{Course, Sampled, against_time};
+/// use wavestep_draw::{Caption, Chart};
+/// use wavestep::scene::Dimension;
+///
+/// let course = |name: &str, dimension, largest| Course {
+///     name: name.into(),
+///     dimension,
+///     measure: None,
+///     values: Sampled { points: vec![(0.0, 0.0), (2e-3, largest)], jumps: vec![] },
+/// };
+/// let courses =
+///     [course("head", Dimension::FORCE, 4e6), course("hammer", Dimension::VELOCITY, 3.0)];
+/// let figure = against_time("Pile", &courses, true, (0.0, 2e-3), Caption::default()).unwrap();
+/// assert_eq!(figure.panels()[0].axis().label(), "head (MN)");
+/// assert!(figure.svg().contains("time (ms)") && figure.svg().contains("hammer (m/s)"));
+/// ```
+pub fn against_time(
+    title: &str,
+    courses: &[Course],
+    dimensional: bool,
+    (from, to): (f64, f64),
+    caption: Caption,
+) -> Result<Figure, PictureError> {
+    let seconds = match dimensional {
+        true => Prefixed::of("s", to.abs().max(from.abs())),
+        false => Prefixed { unit: String::new(), factor: 1.0 },
+    };
+    // Units tell kinds apart; without them it is told what is measured.
+    let kind_of = |course: &Course| match dimensional {
+        true => (course.dimension, None),
+        false => (Dimension::NONE, course.measure),
+    };
+    let mut kinds: Vec<(Dimension, Option<Measure>)> = Vec::new();
+    for course in courses {
+        if !kinds.contains(&kind_of(course)) {
+            kinds.push(kind_of(course));
+        }
+    }
+    let panel = |kind: &(Dimension, Option<Measure>)| {
+        let shown: Vec<&Course> =
+            courses.iter().filter(|course| kind_of(course) == *kind).collect();
+        let (dimension, measure) = kind;
+        let points = shown.iter().flat_map(|course| &course.values.points);
+        let largest = points.map(|point| point.1.abs()).fold(0.0, f64::max);
+        let unit = Prefixed::of(&unit_of(*dimension), largest);
+        let name = match &shown[..] {
+            [only] => only.name.as_str(),
+            _ => match measure {
+                Some(measure) => measure.word(),
+                None => name_of(*dimension, dimensional),
+            },
+        };
+        let series = shown.iter().map(|course| {
+            let name = if shown.len() > 1 { course.name.as_str() } else { "" };
+            let Sampled { points, jumps } = &course.values;
+            let points = points.iter().map(|(t, y)| (t * seconds.factor, y * unit.factor));
+            let jumps = jumps
+                .iter()
+                .map(|(t, a, b)| (t * seconds.factor, a * unit.factor, b * unit.factor));
+            Series::new(name, points.collect()).jumping(jumps.collect())
+        });
+        Panel::new(unit.axis(name), series.collect())
+    };
+    let panels = kinds.iter().map(panel).collect();
+    let figure = Figure::new(title, seconds.axis("time"), panels, caption)?;
+    Ok(figure.window(from * seconds.factor, to * seconds.factor)?)
+}
+
+/// What quantities of one dimension are called together.
+fn name_of(dimension: Dimension, dimensional: bool) -> &'static str {
+    const NAMES: [(Dimension, &str); 7] = [
+        (Dimension::VELOCITY, "velocity"),
+        (Dimension::FORCE, "force"),
+        (Dimension::PRESSURE, "stress"),
+        (Dimension::LENGTH, "displacement"),
+        (Dimension::ENERGY, "energy"),
+        (Dimension::MOMENTUM, "momentum"),
+        (Dimension::NONE, "strain"),
+    ];
+    let name = NAMES.iter().find(|(known, _)| *known == dimension);
+    name.filter(|_| dimensional).map_or("value", |(_, name)| name)
+}

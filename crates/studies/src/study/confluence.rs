@@ -1,0 +1,72 @@
+//! Near equal poles: formulas with powers of `1/(a − b)` against methods that never divide by it.
+
+use crate::study::harness::{errors, worst};
+use crate::study::reference::{Reference, Sampling};
+use std::collections::BTreeMap;
+use wavestep::answer::{Kind, Problem};
+use wavestep::evaluate::Signal;
+use wavestep::language::{Source, read_recurrence};
+use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
+use wavestep_polynomial::Rational;
+
+/// Waves with poles at −1 and −(1 + d): the echoes of f hold `1/d^j` up to the order of the echo.
+const TEXT: &str = "recurrence \"Two poles\"\n\
+    symbol d > 0\n\
+    period 2, local s, time t\n\
+    wave h, f\n\
+    equation h[n]' + h[n] = h[n-1]' - h[n-1]\n\
+    equation f[n]' + (1 + d)*f[n] = h[n]\n\
+    continuous h[n] - h[n-1] starts at 1\n\
+    continuous f[n] starts at 0\n";
+
+/// The last time: five periods.
+const LAST: i64 = 10;
+
+/// The error of values by the distance of two poles, which is `10^−j`.
+///
+/// # Errors
+/// [`PlotError`], where nothing was measured.
+///
+/// ```
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::near_confluence;
+///
+/// // At a distance of 1/10 and 1/100 the formula loses digits, the polynomials do not.
+/// let chart = near_confluence(2, Caption::default()).unwrap();
+/// let [expanded, compiled] = chart.curves() else { panic!("two methods") };
+/// assert_eq!(expanded.points.len(), 3);
+/// assert!(expanded.points[2].1 > 1e3 * compiled.points[2].1);
+/// ```
+pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, PlotError> {
+    let kinds = [Kind::Expanded, Kind::Compiled];
+    let mut curves = kinds.map(|kind| Curve { name: kind.to_string(), points: Vec::new() });
+    for decade in 0..=decades {
+        let distance = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(decade));
+        match at_distance(distance, &kinds) {
+            Some(row) => {
+                for (curve, error) in curves.iter_mut().zip(row) {
+                    curve.points.push((10f64.powi(-(decade as i32)), error));
+                }
+            }
+            None => caption.remarks.push(format!("The distance 10^-{decade} is left out.")),
+        }
+    }
+    caption
+        .remarks
+        .push("A recurrence made for this: poles at −1 and −1 − d, five periods.".into());
+    let axis = Axis::logarithmic("distance d of the poles");
+    Curves::new("Error near equal poles", axis, Axis::logarithmic("error"), curves.into(), caption)?
+        .level(1e-8, "8 digits lost")
+}
+
+fn at_distance(distance: Rational, kinds: &[Kind]) -> Option<Vec<f64>> {
+    let values = BTreeMap::from([("d".to_owned(), distance)]);
+    let recurrence = read_recurrence(&Source::new("two poles", TEXT).ok()?, &values).ok()?;
+    let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f")?).ok()?;
+    let (from, to) = (Rational::default(), Rational::from_integer(LAST.into()));
+    let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+    let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST as f64);
+    let reference = Reference::new(&problem, &times).ok()?;
+    let error = |kind: &Kind| errors(&problem, *kind, &reference).ok().map(|e| worst(&e));
+    kinds.iter().map(error).collect()
+}

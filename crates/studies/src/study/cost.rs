@@ -1,0 +1,166 @@
+//! What things cost by the order: exact derivation, preparation, and values.
+
+use crate::study::curves::DOUBLES;
+use crate::study::harness::{Measured, Settings, measure};
+use crate::study::reference::{Reference, Sampling};
+use std::time::{Duration, Instant};
+use wavestep::answer::{Kind, Problem, WayError};
+use wavestep::recurrence::{Observation, Recurrence};
+use wavestep::solution::{ObserveError, Solution};
+use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
+use wavestep_polynomial::Rational;
+
+/// A derivation that takes longer is the last one: the next order may take all memory.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// A preparation that takes less is not drawn.
+const NO_PREPARATION: f64 = 1e-6;
+
+/// Seconds to derive the pieces 0 to n of an observable exactly, for ascending orders n, nothing known
+/// beforehand; the first one that takes more than 0.3 s is the last.
+///
+/// # Errors
+/// [`ObserveError`], where the observable has no pieces.
+///
+/// ```
+/// use std::time::Duration;
+/// use wavestep::language::{Source, read_recurrence};
+/// use wavestep_studies::study::{Settings, derivation_cost};
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
+/// let settings = Settings { runs: 1, time: Duration::ZERO };
+/// let f = recurrence.observation("f").unwrap();
+/// let cost = derivation_cost(&recurrence, &f, &[2, 20], settings).unwrap();
+/// // 20 times as many terms and more take longer.
+/// let [(2.0, few), (20.0, many)] = cost[..] else { panic!("two orders") };
+/// assert!(few > 0.0 && many > few);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn derivation_cost(
+    recurrence: &Recurrence,
+    observation: &Observation,
+    orders: &[usize],
+    settings: Settings,
+) -> Result<Vec<(f64, f64)>, ObserveError> {
+    let mut points = Vec::new();
+    for &order in orders {
+        let mut least = Duration::MAX;
+        let start = Instant::now();
+        let mut runs = 0;
+        while runs < settings.runs || start.elapsed() < settings.time {
+            let solution = Solution::new(recurrence.clone());
+            let start = Instant::now();
+            let pieces = std::hint::black_box(solution.observed(observation, 0, order)?);
+            least = least.min(start.elapsed());
+            drop(pieces);
+            runs += 1;
+            if least > PATIENCE {
+                break;
+            }
+        }
+        points.push((order as f64, least.as_secs_f64().max(1e-9)));
+        if least > PATIENCE {
+            break;
+        }
+    }
+    Ok(points)
+}
+
+/// What values cost, and what exact derivation and preparation cost, by the number of periods before
+/// them: two charts, values first.
+///
+/// Derived are all pieces to that order, as `derive` gives them: with numbers in place of symbols, and
+/// with the symbols of `symbolic`, where that is given. Prepared and evaluated is one period.
+///
+/// # Errors
+/// [`PlotError`], where nothing was measured.
+///
+/// ```
+/// use std::time::Duration;
+/// use wavestep::answer::Problem;
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::{Settings, cost_over_order};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let settings = Settings { runs: 1, time: Duration::ZERO };
+/// let caption = Caption::default();
+/// let [values, preparation] =
+///     cost_over_order(&problem, None, 2.0, &[1, 4], settings, caption).unwrap();
+/// let curve = |name: &str| preparation.curves().iter().find(|curve| curve.name == name);
+/// assert!(curve("compiled, period n").is_some());
+/// assert_eq!(curve("derivation of 0 to n, numbers set").unwrap().points.len(), 2);
+/// let certified = values.curves().iter().find(|curve| curve.name == "certified").unwrap();
+/// assert!(certified.points.iter().all(|(_, seconds)| *seconds > 0.0));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn cost_over_order(
+    problem: &Problem<'_>,
+    symbolic: Option<(&Recurrence, &Observation)>,
+    period: f64,
+    orders: &[usize],
+    settings: Settings,
+    caption: Caption,
+) -> Result<[Curves; 2], PlotError> {
+    let (mut of_values, mut of_preparation) = (caption.clone(), caption);
+    let (mut values, mut preparations) = (Vec::new(), Vec::new());
+    let signal = problem.signal;
+    let numeric = Some((signal.recurrence(), signal.observation()));
+    for (what, derived) in [("symbols kept", symbolic), ("numbers set", numeric)] {
+        let Some((recurrence, observation)) = derived else { continue };
+        let name = format!("derivation of 0 to n, {what}");
+        match derivation_cost(recurrence, observation, orders, settings) {
+            Ok(points) => preparations.push(Curve { name, points }),
+            Err(error) => of_preparation.remarks.push(format!("{name}, is left out: {error}.")),
+        }
+    }
+    for kind in DOUBLES.into_iter().chain([Kind::Certified]) {
+        let mut measured = Vec::new();
+        for &order in orders {
+            match on_period(problem, kind, (order, period), settings) {
+                Ok(costs) => measured.push((order as f64, costs.seconds, costs.preparation)),
+                Err(reason) => {
+                    let remark = format!("{kind} is left out from n = {order} on: {reason}.");
+                    of_values.remarks.push(remark);
+                    break;
+                }
+            }
+        }
+        let points = measured.iter().map(|(order, seconds, _)| (*order, *seconds)).collect();
+        values.push(Curve { name: kind.to_string(), points });
+        // A difference of two times that are alike says nothing.
+        let prepared = measured.iter().filter(|(_, _, preparation)| *preparation > NO_PREPARATION);
+        let points = prepared.map(|(order, _, preparation)| (*order, *preparation)).collect();
+        preparations.push(Curve { name: format!("{kind}, period n"), points });
+    }
+    let chart = |title: &str, mut curves: Vec<Curve>, caption: Caption| {
+        curves.retain(|curve| !curve.points.is_empty());
+        let (order, seconds) = (Axis::logarithmic("order n"), Axis::logarithmic("time").unit("s"));
+        Curves::new(title, order, seconds, curves, caption)
+    };
+    Ok([
+        chart("Cost of a value by order", values, of_values)?,
+        chart("Cost of derivation and preparation by order", preparations, of_preparation)?,
+    ])
+}
+
+/// One way on the period that begins after so many.
+fn on_period(
+    problem: &Problem<'_>,
+    kind: Kind,
+    (order, period): (usize, f64),
+    settings: Settings,
+) -> Result<Measured, WayError> {
+    let ends = [order as f64 * period, (order as f64 + 1.0) * period];
+    let [from, to] = ends.map(|end| Rational::from_float(end).unwrap_or_default());
+    let part = Problem { from, to, ..*problem };
+    let times = Sampling { points: 64, seed: 1 }.times(ends[0], ends[1]);
+    let reference = Reference::new(&part, &times)?;
+    measure(&part, (kind, None), &reference, settings)
+}

@@ -1,0 +1,333 @@
+//! Errors along one axis: time, order, distance from a jump, Courant's number.
+
+use crate::study::harness::errors;
+use crate::study::reference::Reference;
+use wavestep::answer::{Kind, Problem};
+use wavestep::evaluate::StablePrecision;
+use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
+use wavestep_polynomial::Rational;
+
+/// The methods in doubles whose errors are followed.
+///
+/// ```
+/// use wavestep_studies::study::DOUBLES;
+///
+/// // Only one of them fails before long: the formula as printed.
+/// assert_eq!(DOUBLES[0].to_string(), "expanded");
+/// ```
+pub const DOUBLES: [Kind; 6] = [
+    Kind::Expanded,
+    Kind::Plain,
+    Kind::Stable(StablePrecision::Double),
+    Kind::Stable(StablePrecision::DoubleDouble),
+    Kind::Marched { proven: false },
+    Kind::Compiled,
+];
+
+/// An error, in parts of the largest value, from which on a result is of no use.
+///
+/// ```
+/// use wavestep_studies::study::USELESS;
+///
+/// // A thousandth: a line that is as wide in a chart.
+/// assert_eq!(USELESS, 1.0 / 1000.0);
+/// ```
+pub const USELESS: f64 = 1e-3;
+
+/// An error at which half of the digits are lost.
+///
+/// ```
+/// use wavestep_studies::study::{HALF, USELESS};
+///
+/// assert!(HALF < USELESS && HALF > f64::EPSILON);
+/// ```
+pub const HALF: f64 = 1e-8;
+
+/// Errors above this, in parts of the largest value, stand at the upper edge of a chart.
+const CEILING: f64 = 100.0;
+
+/// A curve, with what a way refused as a remark.
+pub(super) fn curve(
+    kind: Kind,
+    points: Result<Vec<(f64, f64)>, String>,
+    caption: &mut Caption,
+) -> Option<Curve> {
+    match points {
+        Ok(points) => Some(Curve { name: kind.to_string(), points }),
+        Err(reason) => {
+            caption.remarks.push(format!("{kind} is left out: {reason}."));
+            None
+        }
+    }
+}
+
+/// Curves with the lines at which half and all of the usefulness is lost.
+fn levelled(
+    title: &str,
+    x: Axis,
+    curves: Vec<Curve>,
+    caption: Caption,
+) -> Result<Curves, PlotError> {
+    let chart = Curves::new(title, x, Axis::logarithmic("error"), curves, caption)?;
+    chart.level(HALF, "8 digits lost")?.level(USELESS, "useful no longer")?.ceiling(CEILING)
+}
+
+/// The largest error in each of equal parts of the window.
+///
+/// # Errors
+/// [`PlotError`], where no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep_draw::{Axis, Caption};
+/// use wavestep_studies::study::{Reference, Sampling, over_time};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("60")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 60.0);
+/// let reference = Reference::new(&problem, &times).unwrap();
+/// let axis = Axis::linear("time t");
+/// let chart = over_time(&reference, &problem, axis, 10, Caption::default()).unwrap();
+/// let error = |name: &str| {
+///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
+///     curve.points.last().unwrap().1
+/// };
+/// // By n = 30 the formula as printed has lost what the stable sum keeps.
+/// assert!(error("expanded") > 1e-8 && error("stable") < 1e-13);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn over_time(
+    reference: &Reference,
+    problem: &Problem<'_>,
+    axis: Axis,
+    parts: usize,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let times = reference.times();
+    let size = times.len().div_ceil(parts).max(1);
+    let mut curves = Vec::new();
+    for kind in DOUBLES {
+        let points = errors(problem, kind, reference).map_err(|error| error.to_string());
+        let points = points.map(|errors| {
+            let parts = times.chunks(size).zip(errors.chunks(size));
+            parts.map(|(t, e)| (t[t.len() / 2], super::worst(e))).collect()
+        });
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    levelled("Error over time", axis, curves, caption)
+}
+
+/// The error just after arrivals, by their number.
+///
+/// # Errors
+/// [`PlotError`], where no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::at_arrivals;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("9")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let chart = at_arrivals(&problem, 100, Caption::default()).unwrap();
+/// // Arrivals at 2, 4, 6 and 8.
+/// let compiled = chart.curves().iter().find(|curve| curve.name == "compiled").unwrap();
+/// assert!(compiled.points.iter().map(|(n, _)| *n).eq([1.0, 2.0, 3.0, 4.0]));
+/// assert!(compiled.points.iter().all(|(_, error)| *error < 1e-15));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn at_arrivals(
+    problem: &Problem<'_>,
+    most: usize,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let empty = |title: &str| PlotError::Empty { title: title.to_owned() };
+    let title = "Error just after arrivals";
+    let mut arrivals =
+        problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty(title))?;
+    // One at the very end has no time after it.
+    arrivals.retain(|at| Rational::from_float(at.next_up()).is_some_and(|at| at <= problem.to));
+    let stride = arrivals.len().div_ceil(most).max(1);
+    let chosen: Vec<(usize, f64)> = arrivals.iter().copied().enumerate().step_by(stride).collect();
+    let times: Vec<f64> = chosen.iter().flat_map(|(_, at)| [*at, at.next_up()]).collect();
+    let reference = Reference::new(problem, &times).map_err(|_| empty(title))?;
+    let mut curves = Vec::new();
+    for kind in DOUBLES {
+        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points = points.map(|errors| {
+            let pairs = chosen.iter().zip(errors.chunks(2));
+            pairs.map(|((n, _), pair)| (*n as f64 + 1.0, super::worst(pair))).collect()
+        });
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    levelled(title, Axis::linear("number of the arrival"), curves, caption)
+}
+
+/// The error at orders so high that exponentials underflow long before the echoes do.
+///
+/// # Errors
+/// [`PlotError`], where no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::over_order;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let chart = over_order(&problem, 2.0, &[5, 40], Caption::default()).unwrap();
+/// let error = |name: &str| {
+///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
+///     curve.points.last().unwrap().1
+/// };
+/// assert!(error("expanded") > 1e-3 && error("double-double") < 1e-15);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn over_order(
+    problem: &Problem<'_>,
+    period: f64,
+    orders: &[usize],
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let kinds = &DOUBLES[..5];
+    let rows = super::errors_by_order(problem, period, orders, kinds);
+    let mut curves = Vec::new();
+    for (kind, row) in kinds.iter().zip(rows) {
+        caption.remarks.extend(row.refusal.map(|refusal| format!("{kind}: {refusal}.")));
+        let points = orders.iter().zip(row.errors);
+        let points = points.filter_map(|(order, error)| Some((*order as f64, error?))).collect();
+        curves.push(Curve { name: kind.to_string(), points });
+    }
+    curves.retain(|curve: &Curve| !curve.points.is_empty());
+    levelled("Error at high orders", Axis::logarithmic("order n"), curves, caption)
+}
+
+/// The error of sums of modes by the distance from a jump, after it.
+///
+/// # Errors
+/// [`PlotError`], where modes have no values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::near_jump;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_scene};
+/// # use wavestep::network::Network;
+/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
+/// # let network = Network::new(&scene).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("9")?);
+/// # let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
+/// # let scene = Some((&network, 1));
+/// # let problem = Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to };
+/// let chart = near_jump(&problem, "", Caption::default()).unwrap();
+/// // Thirty modes miss part of the jump that three thousand follow at a distance.
+/// let [few, _, many] = chart.curves() else { panic!("three sums") };
+/// assert!(few.points.first().unwrap().1 > many.points.last().unwrap().1);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn near_jump(
+    problem: &Problem<'_>,
+    unit: &str,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    const PLACES: usize = 60;
+    let title = "Modes near a jump";
+    let empty = || PlotError::Empty { title: title.to_owned() };
+    let arrivals = problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty())?;
+    let middle = arrivals.len() / 2;
+    let (Some(at), Some(next)) = (arrivals.get(middle), arrivals.get(middle + 1)) else {
+        return Err(empty());
+    };
+    let distance = |i: usize| 10f64.powf(-4.0 + 3.8 * i as f64 / PLACES as f64) * (next - at);
+    let times: Vec<f64> = (0..PLACES).map(|i| at + distance(i)).collect();
+    let reference = Reference::new(problem, &times).map_err(|_| empty())?;
+    let mut curves = Vec::new();
+    for count in [30, 300, 3000] {
+        let kind = Kind::Modes { count };
+        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points =
+            points.map(|errors| times.iter().zip(errors).map(|(t, e)| (t - at, e)).collect());
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    let axis = Axis::logarithmic("time after the jump");
+    let axis = if unit.is_empty() { axis } else { axis.unit(unit) };
+    Curves::new(title, axis, Axis::logarithmic("error"), curves, caption)
+}
+
+/// The error of finite differences by Courant's number: the mean, and the largest.
+///
+/// # Errors
+/// [`PlotError`], where finite differences have no values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::{Reference, Sampling, over_courant};
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_scene};
+/// # use wavestep::network::Network;
+/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
+/// # let network = Network::new(&scene).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
+/// # let scene = Some((&network, 1));
+/// # let problem = Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to };
+/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 8.0);
+/// let reference = Reference::new(&problem, &times).unwrap();
+/// let chart = over_courant(&problem, (&reference, 50), Caption::default()).unwrap();
+/// let mean = &chart.curves()[0];
+/// assert_eq!(mean.name, "50 cells, mean");
+/// // Best where a step of time takes a wave through one cell: at Courant's number 1.
+/// let (last, others) = mean.points.split_last().unwrap();
+/// assert!(last.0 == 1.0 && others.iter().all(|(_, error)| *error > last.1));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn over_courant(
+    problem: &Problem<'_>,
+    (reference, most_cells): (&Reference, usize),
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let numbers = [0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.98, 1.0];
+    let mut curves = Vec::new();
+    for cells in [50, 200, 800].into_iter().filter(|cells| *cells <= most_cells) {
+        let (mut mean, mut largest) = (Vec::new(), Vec::new());
+        for courant in numbers {
+            match errors(problem, Kind::Leapfrog { cells, courant }, reference) {
+                Ok(errors) => {
+                    let sum: f64 = errors.iter().sum();
+                    mean.push((courant, sum / errors.len().max(1) as f64));
+                    largest.push((courant, super::worst(&errors)));
+                }
+                Err(reason) => {
+                    caption.remarks.push(format!("{cells} cells at {courant}: {reason}."));
+                    break;
+                }
+            }
+        }
+        curves.push(Curve { name: format!("{cells} cells, mean"), points: mean });
+        curves.push(Curve { name: format!("{cells} cells, largest"), points: largest });
+    }
+    let axis = Axis::linear("Courant's number");
+    let title = "Finite differences by Courant's number";
+    Curves::new(title, axis, Axis::logarithmic("error"), curves, caption)
+}

@@ -1,0 +1,160 @@
+//! Maps of the error over the order and a parameter of the scene.
+
+use crate::study::curves::{HALF, USELESS};
+use crate::study::harness::worst;
+use crate::study::reference::{Reference, Sampling};
+use wavestep::answer::{Kind, Problem, Way, WayError};
+use wavestep_draw::{Axis, Caption, Level, Map, PlotError};
+use wavestep_polynomial::Rational;
+
+/// How many times a period are drawn uniformly, and as many near its arrival.
+const TIMES: usize = 8;
+
+/// The nearest of the times after an arrival: `10^−NEAREST` of a period.
+const NEAREST: f64 = 6.0;
+
+/// What is known of one way for one value of the parameter.
+///
+/// ```
+/// use wavestep_studies::study::OrderRow;
+///
+/// let row = OrderRow { errors: vec![Some(1e-16), None], refusal: None };
+/// assert_eq!(row.errors.len(), 2);
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct OrderRow {
+    /// The largest error on each period; `None` where the way has no values.
+    pub errors: Vec<Option<f64>>,
+    /// Why it has none.
+    pub refusal: Option<WayError>,
+}
+
+/// The law by which [`errors_by_order`] draws times.
+///
+/// ```
+/// use wavestep_studies::study::order_law;
+///
+/// assert!(order_law().starts_with("16 times on each period"));
+/// ```
+pub fn order_law() -> String {
+    format!(
+        "{} times on each period: {TIMES} uniform, {TIMES} whose distance from the arrival is uniform in \
+         its logarithm, from 10^-{NEAREST} of a period on",
+        2 * TIMES
+    )
+}
+
+/// Times on the period that begins after so many: uniform, and near its arrival. Of a long period all that
+/// happens may lie in a small part after the arrival.
+fn times_on(order: usize, period: f64) -> Vec<f64> {
+    let from = order as f64 * period;
+    let seed = order as u64;
+    let uniform = Sampling { points: TIMES, seed }.times(0.0, 1.0);
+    let near = Sampling { points: TIMES, seed: !seed }.times(-NEAREST, 0.0);
+    let mut shares: Vec<f64> = near.iter().map(|power| 10f64.powf(*power)).collect();
+    shares.extend(uniform);
+    shares.sort_by(f64::total_cmp);
+    shares.iter().map(|share| from + share * period).collect()
+}
+
+/// The largest error on each of some periods, ascending, for each of some ways. Where a way refuses, it
+/// is asked again without the last period, until it does not.
+///
+/// ```
+/// use wavestep::answer::{Kind, Problem};
+/// use wavestep_studies::study::errors_by_order;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let kinds = [Kind::Expanded, Kind::Compiled, Kind::Rigid];
+/// let [expanded, compiled, rigid] = &errors_by_order(&problem, 2.0, &[1, 30], &kinds)[..] else {
+///     panic!("a row for each")
+/// };
+/// // The formula as printed loses its digits with the order; polynomials do not.
+/// assert!(expanded.errors[0].unwrap() < 1e-14 && expanded.errors[1].unwrap() > 1e-8);
+/// assert!(compiled.errors.iter().all(|error| error.unwrap() < 1e-15));
+/// // A model has no values without a scene.
+/// assert_eq!(rigid.errors, [None, None]);
+/// assert!(rigid.refusal.as_ref().unwrap().to_string().contains("a scene of bars"));
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn errors_by_order(
+    problem: &Problem<'_>,
+    period: f64,
+    orders: &[usize],
+    kinds: &[Kind],
+) -> Vec<OrderRow> {
+    let part = |orders: &[usize]| {
+        let end = Rational::from_float((orders.last().copied().unwrap_or(0) as f64 + 1.0) * period);
+        Problem { to: end.unwrap_or_default(), from: Rational::default(), ..*problem }
+    };
+    let times: Vec<f64> = orders.iter().flat_map(|order| times_on(*order, period)).collect();
+    let refused =
+        |refusal: WayError| OrderRow { errors: vec![None; orders.len()], refusal: Some(refusal) };
+    let reference = match Reference::new(&part(orders), &times) {
+        Ok(reference) => reference,
+        Err(error) => return vec![refused(error.into()); kinds.len()],
+    };
+    let row = |kind: &Kind| {
+        let mut refusal = None;
+        for known in (1..=orders.len()).rev() {
+            let known_times = &times[..known * 2 * TIMES];
+            let values = Way::new(*kind, &part(&orders[..known]), None)
+                .and_then(|way| way.values(known_times));
+            match values {
+                Ok(values) => {
+                    let errors = reference.first_errors(&values);
+                    let worst = errors.chunks(2 * TIMES).map(|errors| Some(worst(errors)));
+                    let mut errors: Vec<Option<f64>> = worst.collect();
+                    errors.resize(orders.len(), None);
+                    return OrderRow { errors, refusal };
+                }
+                Err(error) => {
+                    refusal.get_or_insert(error);
+                }
+            }
+        }
+        OrderRow { errors: vec![None; orders.len()], refusal }
+    };
+    kinds.iter().map(row).collect()
+}
+
+/// A map from its rows, each for one value of the parameter, ascending.
+///
+/// # Errors
+/// [`PlotError`], where there are no rows.
+///
+/// ```
+/// use wavestep::answer::Kind;
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::order_map;
+///
+/// let rows = [(0.25, vec![Some(1e-16), Some(1e-9)]), (1.0, vec![Some(1e-14), None])];
+/// let map = order_map(Kind::Expanded, "mu", &[10, 40], &rows, Caption::default())?;
+/// // Columns are orders, rows values of the parameter.
+/// assert_eq!((map.cell(1, 0), map.cell(1, 1)), (Some(1e-9), None));
+/// # Ok::<(), wavestep_draw::PlotError>(())
+/// ```
+pub fn order_map(
+    kind: Kind,
+    parameter: &str,
+    orders: &[usize],
+    rows: &[(f64, Vec<Option<f64>>)],
+    caption: Caption,
+) -> Result<Map, PlotError> {
+    let orders = orders.iter().map(|order| *order as f64).collect();
+    let values = rows.iter().map(|(value, _)| *value).collect();
+    let cells = rows.iter().flat_map(|(_, row)| row.iter().copied()).collect();
+    let x = (Axis::logarithmic("order n"), orders);
+    let y = (Axis::logarithmic(parameter), values);
+    let map = Map::new(&format!("Error of {kind} by order and {parameter}"), x, y, cells, caption)?;
+    let half = Level { value: HALF, name: "8 digits lost".to_owned() };
+    let useless = Level { value: USELESS, name: "useful no longer".to_owned() };
+    let all = Level { value: 1.0, name: "all digits lost".to_owned() };
+    map.level(half)?.level(useless)?.level(all)?.decades(-17, 1)
+}

@@ -1,0 +1,172 @@
+//! Times drawn by a seed, and values there that are far finer than doubles.
+
+use num_traits::ToPrimitive as _;
+use wavestep::answer::Problem;
+use wavestep::evaluate::{EvaluateError, Limit};
+use wavestep_polynomial::Rational;
+
+/// The bits of balls tried first, and the most.
+const FIRST_BITS: u64 = 192;
+const MAX_BITS: u64 = 1 << 14;
+
+/// The radius of references that is aimed at, in parts of the largest value: `2^−100`.
+const FINENESS: f64 = 1.0 / (1_u128 << 100) as f64;
+
+/// How times are drawn.
+///
+/// ```
+/// use wavestep_studies::study::Sampling;
+///
+/// let times = Sampling { points: 4, seed: 7 }.times(1.0, 3.0);
+/// assert!(times.is_sorted() && times.iter().all(|t| (1.0..=3.0).contains(t)));
+/// // The same on every machine.
+/// assert_eq!(times, Sampling { points: 4, seed: 7 }.times(1.0, 3.0));
+/// assert!(Sampling { points: 4, seed: 7 }.law().starts_with("4 times"));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Sampling {
+    /// How many.
+    pub points: usize,
+    /// The seed.
+    pub seed: u64,
+}
+
+impl Sampling {
+    /// Ascending times from one time to another: one in each of equal parts, uniform there.
+    pub fn times(&self, from: f64, to: f64) -> Vec<f64> {
+        let mut state = self.seed;
+        let width = (to - from) / self.points.max(1) as f64;
+        let draw = |i: usize| {
+            let share = (split_mix(&mut state) >> 11) as f64 / (1_u64 << 53) as f64;
+            (from + width * (i as f64 + share)).clamp(from, to)
+        };
+        (0..self.points).map(draw).collect()
+    }
+
+    /// The law in words.
+    pub fn law(&self) -> String {
+        format!("{} times, one in each of equal parts of the window, uniform there", self.points)
+    }
+}
+
+/// The double nearest to a rational number.
+pub(crate) fn nearest(number: &Rational) -> f64 {
+    number.to_f64().unwrap_or(f64::NAN)
+}
+
+/// The generator SplitMix64 (Steele, Lea and Flood 2014): 64 bits from a counter.
+fn split_mix(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Values at times, as sums of two doubles.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep::evaluate::Signal;
+/// use wavestep::language::{Source, parse_number, read_recurrence};
+/// use wavestep_studies::study::Reference;
+///
+/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let (from, to) = (parse_number("0")?, parse_number("8")?);
+/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let reference = Reference::new(&problem, &[0.0, 1.0]).unwrap();
+/// // 1/e rounded is off by 1.2e-17, the largest value is 1.6; 1 is known exactly.
+/// let errors = reference.errors(&[1.0, (-1f64).exp()]);
+/// assert!(errors[0] == 0.0 && (5e-18..2e-17).contains(&errors[1]));
+/// assert!(reference.radius() < 1e-29);
+/// // Errors are in parts of the largest value on the window.
+/// assert_eq!(reference.scale(), problem.scale().unwrap());
+/// assert_eq!(reference.times(), [0.0, 1.0]);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Reference {
+    times: Vec<f64>,
+    values: Vec<(f64, f64)>,
+    scale: f64,
+    radius: f64,
+}
+
+impl Reference {
+    /// The values of a problem, just after arrivals.
+    ///
+    /// # Errors
+    /// [`EvaluateError`], where the problem cannot be enclosed, and for times that are no numbers.
+    pub fn new(problem: &Problem<'_>, times: &[f64]) -> Result<Reference, EvaluateError> {
+        let signal = problem.signal;
+        let stretches = signal.stretches(&problem.from, &problem.to)?;
+        let scale = problem.scale()?;
+        let mut values = Vec::with_capacity(times.len());
+        let mut radius = 0.0_f64;
+        // Bits that did once do again, and more are needed for later times.
+        let mut bits = FIRST_BITS;
+        for time in times {
+            let at = Rational::from_float(*time).ok_or(EvaluateError::AfterLast)?;
+            let stretch = &stretches[signal.stretch_at(&stretches, &at, Limit::Right)?];
+            let scaled = signal.slowness().scale(&at);
+            let (high, low, distance) = loop {
+                let ball = signal.enclose(stretch, 0, &scaled, bits)?;
+                let told = ball.two_doubles();
+                if told.2 <= FINENESS * scale || bits >= MAX_BITS {
+                    break told;
+                }
+                bits *= 2;
+            };
+            values.push((high, low));
+            radius = radius.max(distance);
+        }
+        let largest = values.iter().map(|(high, _)| high.abs()).fold(0.0, f64::max);
+        Ok(Reference { times: times.to_vec(), values, scale: scale.max(largest), radius })
+    }
+
+    /// The times.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The largest absolute value that is known of.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The absolute values in parts of the largest.
+    pub(crate) fn sizes(&self) -> Vec<f64> {
+        let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
+        self.values.iter().map(|(high, _)| high.abs() / scale).collect()
+    }
+
+    /// How far off values can be, in parts of the largest.
+    pub fn radius(&self) -> f64 {
+        match self.scale {
+            0.0 => self.radius,
+            scale => self.radius / scale,
+        }
+    }
+
+    /// `|computed − reference|` in parts of the largest value; infinite for what is no number.
+    ///
+    /// # Panics
+    /// Where there are not as many values as times.
+    pub fn errors(&self, computed: &[f64]) -> Vec<f64> {
+        assert_eq!(computed.len(), self.values.len(), "one value a time");
+        self.first_errors(computed)
+    }
+
+    /// The same for the first times alone.
+    pub(crate) fn first_errors(&self, computed: &[f64]) -> Vec<f64> {
+        let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
+        let error = |(value, (high, low)): (&f64, &(f64, f64))| match value.is_finite() {
+            true => ((value - high) - low).abs() / scale,
+            false => f64::INFINITY,
+        };
+        computed.iter().zip(&self.values).map(error).collect()
+    }
+}

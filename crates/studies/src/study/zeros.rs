@@ -1,0 +1,123 @@
+//! Errors near zeros: certified roots, and times at given distances from them.
+
+use crate::study::curves::{DOUBLES, curve};
+use crate::study::harness::errors;
+use crate::study::reference::Reference;
+use wavestep::answer::Problem;
+use wavestep::evaluate::{Root, Search};
+use wavestep_draw::{Axis, Caption, Curves, PlotError};
+use wavestep_polynomial::Rational;
+
+/// The powers of ten of the distances.
+const DECADES: std::ops::RangeInclusive<i32> = 1..=12;
+
+/// The digits of roots: some more than a double has.
+const DIGITS: usize = 20;
+
+/// The bits of balls that may be spent on a root.
+const LIMIT_BITS: u64 = 1 << 13;
+
+/// Certified simple roots in the window of a problem, rounded to doubles: at most so many, from all over
+/// the window. None where there are none, or they cannot be told.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep_studies::study::simple_roots;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("3")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// // On the second period f = e^{−s} (1 + e^{−2} − 2s), with s = t − 2.
+/// let [root] = simple_roots(&problem, 10)[..] else { panic!("one root") };
+/// assert!((root - 2.5 - (-2f64).exp() / 2.0).abs() < 1e-15);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn simple_roots(problem: &Problem<'_>, most: usize) -> Vec<f64> {
+    let window = [&problem.from, &problem.to];
+    let roots = Search::of_signal(problem.signal, window)
+        .and_then(|search| search.roots(&Rational::default(), DIGITS, LIMIT_BITS));
+    let Ok(roots) = roots else { return Vec::new() };
+    let simple = roots.all.iter().filter_map(|root| match root {
+        Root::Simple { time, .. } => Some(time.to_double()),
+        _ => None,
+    });
+    let simple: Vec<f64> = simple.collect();
+    simple.iter().copied().step_by(simple.len().div_ceil(most).max(1)).collect()
+}
+
+/// The error relative to the value itself by the distance from certified roots: what is left near zeros.
+///
+/// The distances are `10^−k` of a period, k = 1 … 12, on both sides of at most so many roots; without
+/// periods they are such parts of the window.
+///
+/// # Errors
+/// [`PlotError`], where there is no root or no method has values.
+///
+/// ```
+/// use wavestep::answer::Problem;
+/// use wavestep_draw::Caption;
+/// use wavestep_studies::study::near_zeros;
+/// # use wavestep::evaluate::Signal;
+/// # use wavestep::language::{Source, parse_number, read_recurrence};
+/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
+/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
+/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
+/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// # let (from, to) = (parse_number("0")?, parse_number("20")?);
+/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+/// let chart = near_zeros(&problem, 10, Caption::default()).unwrap();
+/// let points = |name: &str| {
+///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
+///     curve.points.clone()
+/// };
+/// // All distances are there. The error of `compiled` is absolute: next to a zero few digits are left.
+/// let compiled = points("compiled");
+/// assert_eq!(compiled.len(), 12);
+/// assert!(compiled[0].1 < 1e-13 && compiled[11].1 > 1e-7);
+/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// ```
+pub fn near_zeros(
+    problem: &Problem<'_>,
+    most: usize,
+    mut caption: Caption,
+) -> Result<Curves, PlotError> {
+    let title = "Error relative to the value, near zeros";
+    let empty = || PlotError::Empty { title: title.to_owned() };
+    let [from, to] = [&problem.from, &problem.to].map(crate::study::reference::nearest);
+    let roots = simple_roots(problem, most);
+    let unit = problem.signal.period().unwrap_or(to - from);
+    // Each time with the decade it belongs to.
+    let mut times = Vec::new();
+    for decade in DECADES {
+        let distance = unit * 10f64.powi(-decade);
+        let both = roots.iter().flat_map(|root| [root - distance, root + distance]);
+        let within = both.filter(|time| (from..=to).contains(time));
+        times.extend(within.map(|time| (decade, time)));
+    }
+    times.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let at: Vec<f64> = times.iter().map(|(_, time)| *time).collect();
+    let reference = Reference::new(problem, &at).map_err(|_| empty())?;
+    let sizes = reference.sizes();
+    let mut curves = Vec::new();
+    for kind in DOUBLES {
+        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points = points.map(|errors| {
+            let relative = |i: usize| if sizes[i] == 0.0 { 0.0 } else { errors[i] / sizes[i] };
+            let worst = |decade: i32| {
+                let mine = (0..times.len()).filter(|i| times[*i].0 == decade);
+                let worst = mine.map(relative).reduce(f64::max)?;
+                Some((10f64.powi(-decade), worst))
+            };
+            DECADES.filter_map(worst).collect()
+        });
+        curves.extend(curve(kind, points, &mut caption));
+    }
+    let of = if problem.signal.period().is_some() { "periods" } else { "parts of the window" };
+    let axis = Axis::logarithmic(&format!("distance from the nearest certified root, in {of}"));
+    caption.remarks.push(format!("{} roots.", roots.len()));
+    Curves::new(title, axis, Axis::logarithmic("relative error"), curves, caption)
+}

@@ -1,0 +1,49 @@
+//! Lines that are drawn go through the values.
+
+use wavestep::evaluate::{Determined, Limit};
+use wavestep::history::History;
+use wavestep::language::{Source, parse_number, read_scene};
+use wavestep::network::Network;
+use wavestep_polynomial::Rational;
+use wavestep_studies::picture::sampled_search;
+
+fn shipped(name: &str, values: &[(&str, &str)]) -> Network {
+    let number = |(name, value): &(&str, &str)| ((*name).to_owned(), parse_number(value).unwrap());
+    let text = wavestep::scenes::find(name).expect("a built-in scene").text;
+    let scene = read_scene(&Source::new(name, text).unwrap(), &values.iter().map(number).collect());
+    Network::new(&scene.unwrap_or_else(|errors| panic!("{}", errors[0]))).unwrap()
+}
+
+fn rational(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn double(value: &Determined) -> f64 {
+    value.to_text(17).parse().unwrap()
+}
+
+/// A line that is drawn goes through values, and jumps where they do.
+#[test]
+fn lines_go_through_values() {
+    for (name, values, observable) in [
+        ("saint-venant", &[("mu", "1")][..], "strain_fixed"),
+        ("saint-venant", &[("mu", "2")], "strain_impact"),
+        ("bars-of-unequal-length", &[], "force"),
+    ] {
+        let network = shipped(name, values);
+        let window = [rational(0, 1), rational(5, 1)];
+        let search = History::search(&network, observable, [&window[0], &window[1]]).unwrap();
+        let line = sampled_search(&search).unwrap();
+        let points = line.points.iter().filter(|(time, _)| time.is_finite());
+        for (time, value) in points.step_by(7) {
+            let at = Rational::from_float(*time).unwrap();
+            let known = [Limit::Left, Limit::Right].map(|side| {
+                let values =
+                    History::values(&network, observable, std::slice::from_ref(&at), side, 9);
+                double(&values.unwrap()[0])
+            });
+            let off = known.map(|known| (known - value).abs());
+            assert!(off[0].min(off[1]) < 1e-9, "{name} {observable} at {time}: {value} {known:?}");
+        }
+    }
+}
