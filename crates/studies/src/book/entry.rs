@@ -254,7 +254,7 @@ impl Section {
     /// Reads a section.
     ///
     /// # Errors
-    /// The first line that is not of the form of `src/book/sections/`.
+    /// The first line that is not of the form of `sections/`.
     pub(super) fn read(text: &str) -> Result<Section, Refusal> {
         let mut section = Section {
             number: String::new(),
