@@ -10,6 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
+use wavestep_cli::diagnostic::{Style, render};
 
 /// The README and all pages of `docs/`.
 fn documents() -> Vec<String> {
@@ -116,7 +117,8 @@ fn with_real_output(name: &str) -> (String, usize) {
         if info == "refused" {
             let errors = refusals("scene.wave", &lines);
             assert!(!errors.is_empty(), "in {name}: not refused:\n{}", lines.join("\n"));
-            let texts: Vec<String> = errors.iter().map(|error| format!("{error}\n")).collect();
+            let texts: Vec<String> =
+                errors.iter().map(|error| render(error, Style::Plain) + "\n").collect();
             refused = Some(texts.join("\n"));
         }
         real.push_str(&format!("```{info}\n{text}```\n"));
