@@ -10,7 +10,7 @@ use crate::expression::{NotAUnit, NotInvertible};
 use crate::field::FieldError;
 use crate::history::HistoryError;
 use crate::language::Diagnostic;
-use crate::lock::{HistoryLockError, LockError};
+use crate::lock::LockError;
 use crate::model::ModelError;
 use crate::network::NetworkError;
 use crate::solution::{ObserveError, SolveError, Unsolvable};
@@ -56,8 +56,6 @@ pub(crate) enum Cause {
     InvalidTolerance(#[from] InvalidTolerance),
     #[error(transparent)]
     Lock(#[from] LockError),
-    #[error(transparent)]
-    HistoryLock(#[from] HistoryLockError),
 }
 
 /// What kind of error it is; every error is of one kind.
@@ -259,11 +257,9 @@ impl Cause {
             Cause::Way(error) => of_way(error),
             Cause::Lock(LockError::Solve(error)) => of_solve(error),
             Cause::Lock(LockError::Evaluate(error)) => of_evaluate(error),
-            Cause::HistoryLock(HistoryLockError::History(error)) => of_history(error),
-            Cause::Lock(LockError::Digits(_)) | Cause::HistoryLock(HistoryLockError::Digits(_)) => {
-                Kind::BadInput
-            }
-            Cause::HistoryLock(HistoryLockError::AccuracyNotReached(_)) => Kind::AccuracyNotReached,
+            Cause::Lock(LockError::History(error)) => of_history(error),
+            Cause::Lock(LockError::Digits(_)) => Kind::BadInput,
+            Cause::Lock(LockError::AccuracyNotReached(_)) => Kind::AccuracyNotReached,
         }
     }
 
@@ -277,13 +273,14 @@ impl Cause {
             Cause::Field(error) => return after_field(error),
             Cause::History(error) => return after_history(error),
             Cause::Way(error) => after_way(error),
-            Cause::Lock(LockError::Evaluate(EvaluateError::AccuracyNotReached { .. })) => {
-                Remedy::FewerDigits
-            }
-            Cause::Lock(LockError::Solve(error)) => after_solve(error),
-            Cause::Lock(LockError::Evaluate(error)) => after_evaluate(error),
-            Cause::HistoryLock(HistoryLockError::History(error)) => return after_history(error),
-            Cause::Lock(LockError::Digits(_)) | Cause::HistoryLock(_) => Remedy::FewerDigits,
+            Cause::Lock(error) => match error {
+                LockError::Solve(error) => after_solve(error),
+                LockError::Evaluate(EvaluateError::AccuracyNotReached { .. })
+                | LockError::AccuracyNotReached(_)
+                | LockError::Digits(_) => Remedy::FewerDigits,
+                LockError::Evaluate(error) => after_evaluate(error),
+                LockError::History(error) => return after_history(error),
+            },
         })
     }
 }

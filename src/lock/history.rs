@@ -5,8 +5,9 @@
 
 use crate::ball::{Ball, certify};
 use crate::evaluate::{Determined, Limit, MAX_DIGITS, Value};
-use crate::history::{ContactSummary, Ending, Event, EventKind, History, HistoryError};
+use crate::history::{ContactSummary, Ending, Event, EventKind, History};
 use crate::lock::difference::{Difference, compared};
+use crate::lock::error::LockError;
 use crate::lock::scene::stated;
 use crate::network::Network;
 use num_bigint::BigInt;
@@ -88,34 +89,20 @@ impl Default for HistoryRequest {
     }
 }
 
-/// Why no history can be locked.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
-pub enum HistoryLockError {
-    /// The history, or a value, is not told.
-    #[error(transparent)]
-    History(#[from] HistoryError),
-    /// Numbers cannot have this many digits.
-    #[error("{0} significant digits cannot be certified")]
-    Digits(usize),
-    /// What has no proven digits, and is not so near to zero that it needs none.
-    #[error("accuracy not reached: {0} has no proven digits")]
-    AccuracyNotReached(String),
-}
-
-type Outcome<T> = Result<T, HistoryLockError>;
+type Outcome<T> = Result<T, LockError>;
 
 impl HistoryLock {
     /// Follows a scene and takes down what is to be locked.
     ///
     /// # Errors
-    /// [`HistoryLockError`] where the history is not told, a number has no proven digits, or the digits are
+    /// [`LockError`] where the history is not told, a number has no proven digits, or the digits are
     /// not between 1 and [`MAX_DIGITS`].
     ///
     /// # Cost
     /// That of [`History::of`], and of [`History::values`] for each observable.
     pub fn derive(network: &Network, request: &HistoryRequest) -> Outcome<HistoryLock> {
         if request.digits == 0 || request.digits > MAX_DIGITS {
-            return Err(HistoryLockError::Digits(request.digits));
+            return Err(LockError::Digits(request.digits));
         }
         let mut request = request.clone();
         request.times.sort();
@@ -124,7 +111,7 @@ impl HistoryLock {
         loop {
             let digits = request.digits * factors.next().expect("the last one returns");
             match told(network, &request, digits) {
-                Err(HistoryLockError::AccuracyNotReached(_)) if factors.len() > 0 => {}
+                Err(LockError::AccuracyNotReached(_)) if factors.len() > 0 => {}
                 told => return told,
             }
         }
@@ -243,7 +230,7 @@ impl Teller {
         let mut facts = vec![("between".to_owned(), contact.between.join(" | "))];
         let told = |name: &str, value: &Determined| {
             let value = self.number(value, || format!("the {name} of contact {number}"))?;
-            Ok::<_, HistoryLockError>((name.to_owned(), value))
+            Ok::<_, LockError>((name.to_owned(), value))
         };
         for (time, (duration, impulse)) in
             (1..).zip(contact.durations.iter().zip(&contact.impulses))
@@ -289,7 +276,7 @@ impl Teller {
         let below = sign(ball.subtract(&high, 64)) == Some(false);
         match above && below && ball.contains(&Rational::zero()) {
             true => Ok(format!("0 ± 1e-{}", self.digits)),
-            false => Err(HistoryLockError::AccuracyNotReached(what())),
+            false => Err(LockError::AccuracyNotReached(what())),
         }
     }
 }

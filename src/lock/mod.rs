@@ -7,23 +7,25 @@
 //! contacts open instead; [`Locked`] is either of them, as it is read from a file.
 
 mod difference;
+mod error;
 mod file;
 mod history;
 mod history_file;
 mod scene;
 
-use crate::evaluate::{EvaluateError, Evaluator, Limit, MAX_DIGITS};
+use crate::evaluate::{Evaluator, Limit, MAX_DIGITS};
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::language::{Diagnostic, Source};
 use crate::recurrence::{Observation, Statement};
-use crate::solution::{Solution, SolveError};
+use crate::solution::Solution;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 pub use difference::Difference;
+pub use error::LockError;
 pub use file::{FORMAT_VERSION, MAX_FILE_BYTES};
-pub use history::{HistoryLock, HistoryLockError, HistoryRequest};
+pub use history::{HistoryLock, HistoryRequest};
 
 /// How precisely the values of a lock may be worked out.
 const LIMIT_BITS: u64 = 1 << 18;
@@ -125,20 +127,6 @@ impl Locked {
 struct Piece {
     variable: Symbol,
     expression: Expression,
-}
-
-/// Why nothing can be locked.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum LockError {
-    /// A piece cannot be given exactly.
-    #[error(transparent)]
-    Solve(#[from] SolveError),
-    /// A value cannot be certified.
-    #[error(transparent)]
-    Evaluate(#[from] EvaluateError),
-    /// Values cannot have this many digits.
-    #[error("{0} significant digits cannot be certified")]
-    Digits(usize),
 }
 
 impl Lock {

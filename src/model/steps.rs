@@ -99,14 +99,15 @@ pub struct Steps {
 /// The common measure of times, and how often each holds it.
 ///
 /// # Errors
-/// The name of the time that has none with those before.
-fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>, String> {
+/// [`NotRepresented::NoCommonMeasure`] of the time that has none with those before.
+fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>, NotRepresented> {
+    let refused = |name: &str| NotRepresented::NoCommonMeasure(name.to_owned());
     let Some((_, first)) = times.iter().find(|(_, time)| !time.is_zero()) else { return Ok(None) };
     let mut ratios: Vec<Rational> = Vec::new();
     for (name, time) in times {
         let ratio = Root::from(time.clone()).over(&Root::from(first.clone())).ok();
         let ratio = ratio.and_then(|ratio| ratio.exact()).and_then(|ratio| ratio.as_constant());
-        ratios.push(ratio.ok_or_else(|| name.clone())?);
+        ratios.push(ratio.ok_or_else(|| refused(name))?);
     }
     let mut common = Rational::zero();
     for ratio in ratios.iter().map(Rational::abs) {
@@ -114,7 +115,7 @@ fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>,
         common = Rational::new(numerator, common.denom() * ratio.denom());
     }
     let counts = ratios.iter().zip(times).map(|(ratio, (name, _))| {
-        (ratio / &common).to_integer().to_i64().ok_or_else(|| name.clone())
+        (ratio / &common).to_integer().to_i64().ok_or_else(|| refused(name))
     });
     Ok(Some((first.scale(&common), counts.collect::<Result<_, _>>()?)))
 }
@@ -151,10 +152,7 @@ impl Steps {
                 times.push((named(*element), until.clone().unwrap_or_else(Fraction::zero)));
             }
         }
-        let refuse = |name: String| ModelError::Refused {
-            model: NAME,
-            reason: NotRepresented::NoCommonMeasure(name),
-        };
+        let refuse = |reason| ModelError::Refused { model: NAME, reason };
         let grid = measure(&times).map_err(refuse)?;
         let counts = grid.as_ref().map_or(vec![0; times.len()], |(_, counts)| counts.clone());
         let mut moments = counts[line.bars.len()..].chunks(2);

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use wavestep::ball::Decimal;
 use wavestep::language::{Source, parse_number};
-use wavestep::lock::{HistoryLock, HistoryLockError, HistoryRequest, Lock, Locked};
+use wavestep::lock::{HistoryLock, HistoryRequest, Lock, LockError, Locked};
 use wavestep::network::Network;
 
 fn request(digits: usize, times: &[(i64, i64)], set: &[(&str, &str)]) -> HistoryRequest {
@@ -236,6 +236,6 @@ fn numbers_without_digits_are_refused_or_bounded() {
     assert!(told.ends_with("value zero(1/2) = 0 ± 1e-15\n"), "{told}");
     for digits in [0, 1_000_000] {
         let refused = HistoryLock::derive(&network_of(&text, &[]), &request(digits, &[], &[]));
-        assert_eq!(refused, Err(HistoryLockError::Digits(digits)));
+        assert_eq!(refused, Err(LockError::Digits(digits)));
     }
 }

@@ -156,7 +156,7 @@ fn derive(recurrence: Recurrence, request: &Request) -> Result<Lock, Failure> {
             Failure::from(error).with_remedy("ask for fewer digits")
         }
         LockError::Evaluate(error) => error.into(),
-        error @ LockError::Digits(_) => Failure::usage(error.to_string(), "ask for fewer digits"),
+        error => Failure::usage(error.to_string(), "ask for fewer digits"),
     })
 }
 

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::input;
 use super::lock::plural;
 use super::progress;
-use wavestep::lock::{HistoryLock, HistoryLockError, HistoryRequest};
+use wavestep::lock::{HistoryLock, HistoryRequest, LockError};
 use wavestep::network::Network;
 
 /// What is locked of a scene.
@@ -30,11 +30,11 @@ pub fn of(network: &Network, options: &Options) -> Result<HistoryLock, Failure> 
 pub fn derive(network: &Network, request: &HistoryRequest) -> Result<HistoryLock, Failure> {
     let _progress = progress::spinner("following contacts");
     HistoryLock::derive(network, request).map_err(|error| match error {
-        HistoryLockError::History(error) => error.into(),
-        HistoryLockError::Digits(_) => Failure::usage(error.to_string(), "ask for fewer digits"),
-        HistoryLockError::AccuracyNotReached(_) => {
+        LockError::History(error) => error.into(),
+        LockError::AccuracyNotReached(_) => {
             Failure::Accuracy(error.to_string(), "ask for fewer digits".to_owned())
         }
+        error => Failure::usage(error.to_string(), "ask for fewer digits"),
     })
 }
 
