@@ -5,7 +5,7 @@ use num_traits::Signed as _;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep::evaluate::{
-    Determined, EvaluateError, Evaluator, Extremum, Goal, Limit, Place, Root, Search, Value,
+    EvaluateError, Evaluator, Extremum, Goal, Limit, Place, Root, Search, Value,
 };
 use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
 use wavestep::network::Network;
@@ -51,16 +51,15 @@ fn extremum(solution: &Solution, quantity: &str, window: [&str; 2], goal: Goal) 
 }
 
 /// A number, to the digits that are known of it.
-fn rational(found: &Determined) -> BigRational {
+fn rational(found: &Value) -> BigRational {
     match found {
-        Determined::Digits(Value::Exact(value)) => value.clone(),
-        Determined::Digits(Value::Certified(certified)) => certified.decimal.to_rational(),
-        Determined::Enclosed(ball) => ball.to_decimal(40).midpoint().to_rational(),
+        Value::Exact(value) => value.clone(),
+        other => other.decimal(40).0.to_rational(),
     }
 }
 
-fn exactly(text: &str) -> Determined {
-    Determined::Digits(Value::Exact(number(text)))
+fn exactly(text: &str) -> Value {
+    Value::Exact(number(text))
 }
 
 /// The sign of a value less a level, by the evaluator that adds up echoes exactly.
@@ -83,7 +82,7 @@ fn value(
     let observation = solution.recurrence().observation(quantity).unwrap();
     match evaluator.value(&observation, at, Limit::Right, 30, BITS).unwrap() {
         Value::Exact(value) => value,
-        Value::Certified(certified) => certified.decimal.to_rational(),
+        other => other.decimal(30).0.to_rational(),
     }
 }
 
@@ -98,13 +97,14 @@ fn the_mass_leaves_when_the_formula_says() {
         Search::of_recurrence(&solution, &observation, [&number("2"), &number("7/2")]).unwrap();
     for digits in [1, 5, 17, 60, 300] {
         let found = search.roots(&number("0"), digits, BITS).unwrap().all;
-        let [Root::Simple { time: Determined::Digits(time), rises: true }] = &found[..] else {
+        let [Root::Simple { time, rises: true }] = &found[..] else {
             panic!("{found:?}");
         };
         let evaluator = Evaluator::new(&solution).unwrap();
         let f = solution.recurrence().observation("f").unwrap();
         let e = evaluator.value(&f, &number("2"), Limit::Left, digits + 10, BITS).unwrap();
         let exact = number("3") + e.decimal(digits + 10).0.to_rational() / number("2");
+        assert!(!matches!(time, Value::Enclosed(_)), "{found:?}");
         let (told, _) = time.decimal(digits);
         let (wanted, _) = wavestep::ball::Decimal::from_rational(&exact, digits);
         assert_eq!(told.to_string(), wanted.to_string());
@@ -388,8 +388,8 @@ fn suprema_at_sides_and_ties() {
     let middle = vec![Place::Critical(exactly("1/2"))];
     assert_eq!((found.value, found.places), (exactly("1/4"), middle));
     let found = extremum(&of_time("t*(2/3 - t)"), "q", ["0", "1"], Goal::Largest);
-    let Determined::Digits(Value::Certified(value)) = &found.value else { panic!("{found:?}") };
-    assert!(value.ball.contains(&number("1/9")), "{found:?}");
+    let Value::Certified { ball, .. } = &found.value else { panic!("{found:?}") };
+    assert!(ball.contains(&number("1/9")), "{found:?}");
     // Two maxima of a symmetric quartic cannot be told apart, and both are listed.
     let quartic = of_time("-((t - 1/3)^2 - 1/30)^2");
     let found = extremum(&quartic, "q", ["0", "1"], Goal::Largest);

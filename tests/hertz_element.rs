@@ -154,7 +154,7 @@ fn exact_of(scene: &Scene, name: &str, times: &[Rational]) -> Vec<f64> {
         let scaled = network.scaled_time(time);
         match evaluator.value(observed, &scaled, Limit::Right, 17, 1 << 14).unwrap() {
             Value::Exact(exact) => exact.to_f64().unwrap(),
-            Value::Certified(certified) => f64_of(&certified.ball),
+            other => f64_of(&other.ball(64)),
         }
     };
     times.iter().map(value).collect()

@@ -25,7 +25,7 @@ const LAYERS: [(&str, &[&str]); 17] = [
         "history",
         &["ball", "enclosure", "evaluate", "expression", "field", "network", "scene", "solution"],
     ),
-    ("answer", &["evaluate", "model", "network"]),
+    ("answer", &["ball", "evaluate", "model", "network"]),
     ("export", &["evaluate", "expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),
     (

@@ -2,7 +2,7 @@
 //! places, averages against momentum, energy and displacements, against closed contacts as long as they
 //! are closed; and fronts of what an opening or a closing sends out.
 
-use wavestep::evaluate::{Determined, Limit, Value};
+use wavestep::evaluate::{Limit, Value};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Mesh, Profile, Quantity};
 use wavestep::history::{EventKind, History, HistoryError, field_evaluator};
@@ -24,12 +24,12 @@ fn built_in(name: &str, values: &[(&str, &str)]) -> Network {
 }
 
 /// The double nearest to a value, or one beside it.
-fn double(value: &Determined) -> f64 {
+fn double(value: &Value) -> f64 {
     value.to_text(20).split(" = ").next().unwrap().parse().unwrap()
 }
 
 fn double_of(value: &Rational) -> f64 {
-    double(&Determined::Digits(Value::Exact(value.clone())))
+    double(&Value::Exact(value.clone()))
 }
 
 /// A scene with values of its symbols, and until when it is looked at.
@@ -359,7 +359,7 @@ fn an_impact_at_an_enclosed_instant_is_a_front() {
     let history = History::of(&network, Some(&number("40")), 20).unwrap();
     let closing = history.events.iter().find(|event| event.kind == EventKind::Closing).unwrap();
     let struck = double(&closing.time);
-    assert!(matches!(closing.time, Determined::Digits(Value::Certified(_))));
+    assert!(matches!(closing.time, Value::Certified { .. }));
     let time = Rational::new(((struck * 1000.0) as i64 + 400).into(), 1000.into());
     let told = double_of(&time);
     let evaluator = field_evaluator(&network, &time).unwrap();

@@ -205,8 +205,8 @@ fn values_agree_with_the_pieces() {
             let ball = wavestep::enclosure::enclose_expression(&exact, &|_, _| None, 300).unwrap();
             let time = parse_number(at).unwrap();
             let value = evaluator.value(&twice, &time, Limit::Right, 40, 2000).unwrap();
-            let Value::Certified(value) = value else { panic!("not rational") };
-            let half = value.ball.multiply_rational(&Rational::new(1.into(), 2.into()), 300);
+            let Value::Certified { ball: value, .. } = value else { panic!("not rational") };
+            let half = value.multiply_rational(&Rational::new(1.into(), 2.into()), 300);
             let difference = half.subtract(ball.real(), 300);
             assert!(difference.contains(&Rational::default()), "{first} at {at}");
             assert!(ball.imaginary().contains(&Rational::default()));

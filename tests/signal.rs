@@ -5,8 +5,7 @@
 
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
-use wavestep::ball::Ball;
-use wavestep::evaluate::{Limit, SceneEvaluator, Signal, Value};
+use wavestep::evaluate::{Limit, SceneEvaluator, Signal};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::scenes::SCENES;
@@ -45,10 +44,7 @@ fn signals_enclose_the_values_of_scenes() {
                 let stretch = &stretches[signal.stretch_at(&stretches, &at, Limit::Right).unwrap()];
                 let value = signal.enclose(stretch, 0, &scaled, 200).unwrap();
                 let told = evaluator.value(observed, &scaled, Limit::Right, 30, 1 << 12).unwrap();
-                let told = match told {
-                    Value::Exact(exact) => Ball::from_rational(&exact, 300),
-                    Value::Certified(certified) => certified.ball,
-                };
+                let told = told.ball(300);
                 let place = format!("{name} {} {at}", observed.name);
                 assert!(value.subtract(&told, 200).contains(&Rational::default()), "{place}");
                 // An enclosure that is wide would agree with anything.

@@ -1,6 +1,6 @@
 //! How far values may be off.
 
-use crate::evaluate::unit_in_the_last_place;
+use crate::ball::unit_in_the_last_place;
 use std::fmt;
 use std::str::FromStr;
 

@@ -3,9 +3,8 @@
 use crate::answer::cost::{Cost, Size};
 use crate::answer::problem::Problem;
 use crate::answer::way::Kind;
-use crate::evaluate::{
-    EvaluateError, MAX_PIECES, NoTaps, StablePrecision, Taps, unit_in_the_last_place,
-};
+use crate::ball::unit_in_the_last_place;
+use crate::evaluate::{EvaluateError, MAX_PIECES, NoTaps, StablePrecision, Taps};
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Kind; 7] = [

@@ -4,6 +4,7 @@
 //! round the midpoint to a precision the caller states and add to the radius all that this may
 //! have changed.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use num_bigint::BigInt;
@@ -119,6 +120,16 @@ impl Ball {
     #[must_use]
     pub(crate) fn midpoint_is_positive(&self) -> bool {
         !self.midpoint.is_negative() && !self.midpoint.is_zero()
+    }
+
+    /// The sign of all points of the ball, where they have one.
+    #[must_use]
+    pub(crate) fn sign(&self) -> Option<Ordering> {
+        match self.contains_zero() {
+            true => self.is_exact().then_some(Ordering::Equal),
+            false if self.midpoint().is_negative() => Some(Ordering::Less),
+            false => Some(Ordering::Greater),
+        }
     }
 
     /// Whether zero is in the ball.

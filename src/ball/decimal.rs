@@ -198,28 +198,34 @@ impl fmt::LowerExp for Decimal {
     }
 }
 
-/// The decimal of `significant` digits that every point of the ball rounds to, or `None` if there
-/// are several. The tie between two decimals goes to the even last digit.
-///
-/// A ball around zero that is not the point zero itself has no such decimal. `None` may also be
-/// returned for a point within about `2^(−64)` units of the last digit of a tie when its exponent
-/// is beyond `±2^16`.
-///
-/// # Panics
-/// Panics if `significant` is zero.
-///
-/// # Cost
-/// Products and divisions of integers as long as the digits and the exponent of the ball, up to
-/// `2^16`; independent of the exponent beyond.
-#[must_use]
-pub(super) fn proven_digits(ball: &Ball, significant: usize) -> Option<Decimal> {
-    assert!(significant > 0, "a decimal has at least one digit");
-    if ball.contains_zero() {
-        return ball.is_exact().then(|| Decimal::zero(significant));
+impl Ball {
+    /// The decimal of `significant` digits that every point of the ball rounds to, or `None` if there
+    /// are several. The tie between two decimals goes to the even last digit.
+    ///
+    /// A ball around zero that is not the point zero itself has no such decimal. `None` may also be
+    /// returned for a point within about `2^(−64)` units of the last digit of a tie when its exponent
+    /// is beyond `±2^16`.
+    ///
+    /// # Panics
+    /// Panics if `significant` is zero.
+    ///
+    /// # Cost
+    /// Products and divisions of integers as long as the digits and the exponent of the ball, up to
+    /// `2^16`; independent of the exponent beyond.
+    #[must_use]
+    pub(crate) fn proven_digits(&self, significant: usize) -> Option<Decimal> {
+        assert!(significant > 0, "a decimal has at least one digit");
+        if self.contains_zero() {
+            return self.is_exact().then(|| Decimal::zero(significant));
+        }
+        let (lower, upper) = self.endpoints();
+        let decimal = nearest(&lower, significant)?;
+        if self.is_exact() || nearest(&upper, significant)? == decimal {
+            Some(decimal)
+        } else {
+            None
+        }
     }
-    let (lower, upper) = ball.endpoints();
-    let decimal = nearest(&lower, significant)?;
-    if ball.is_exact() || nearest(&upper, significant)? == decimal { Some(decimal) } else { None }
 }
 
 /// The decimal nearest to a number that is not zero, if the scaling leaves no doubt.
@@ -402,7 +408,7 @@ mod tests {
     /// The decimal of a single binary point.
     fn of_point(mantissa: i64, exponent: i64, significant: usize) -> String {
         let point = Ball::new(Binary::new(mantissa.into(), exponent), Magnitude::ZERO);
-        proven_digits(&point, significant).unwrap().to_string()
+        point.proven_digits(significant).unwrap().to_string()
     }
 
     /// `|value − decimal|` is at most half a unit of the last digit, and a tie is even.
@@ -451,8 +457,8 @@ mod tests {
     #[test]
     fn digits_beyond_the_radius_are_undecided() {
         let ball = Ball::from_rational(&ratio(2, 3), 32);
-        assert_eq!(proven_digits(&ball, 6).unwrap().to_string(), "0.666667");
-        assert_eq!(proven_digits(&ball, 12), None);
+        assert_eq!(ball.proven_digits(6).unwrap().to_string(), "0.666667");
+        assert_eq!(ball.proven_digits(12), None);
     }
 
     #[test]
@@ -460,17 +466,17 @@ mod tests {
         let ball = |mantissa: i64, exponent: i64, radius: i64| {
             Ball::new(Binary::new(mantissa.into(), exponent), Magnitude::power_of_two(radius))
         };
-        assert_eq!(proven_digits(&ball(0, 0, -1000), 1), None);
-        assert_eq!(proven_digits(&ball(1, 0, 0), 1), None);
+        assert_eq!(ball(0, 0, -1000).proven_digits(1), None);
+        assert_eq!(ball(1, 0, 0).proven_digits(1), None);
         // 0.125 is a tie of two digits, 9.995 lies between 9.99 and 10.0.
-        assert_eq!(proven_digits(&ball(1, -3, -1000), 2), None);
-        assert_eq!(proven_digits(&ball(1, -3, -1000), 3).unwrap().to_string(), "0.125");
+        assert_eq!(ball(1, -3, -1000).proven_digits(2), None);
+        assert_eq!(ball(1, -3, -1000).proven_digits(3).unwrap().to_string(), "0.125");
         let near = Ball::from_rational(&ratio(9995, 1000), 200);
-        assert_eq!(proven_digits(&near, 3), None);
-        assert_eq!(proven_digits(&near, 4).unwrap().to_string(), "9.995");
+        assert_eq!(near.proven_digits(3), None);
+        assert_eq!(near.proven_digits(4).unwrap().to_string(), "9.995");
         // Both ends of 10 ± 2^(−40) round to 10.0.
-        assert_eq!(proven_digits(&ball(10, 0, -40), 3).unwrap().to_string(), "10.0");
-        assert_eq!(proven_digits(&ball(-10, 0, -40), 3).unwrap().to_string(), "-10.0");
+        assert_eq!(ball(10, 0, -40).proven_digits(3).unwrap().to_string(), "10.0");
+        assert_eq!(ball(-10, 0, -40).proven_digits(3).unwrap().to_string(), "-10.0");
     }
 
     #[test]
@@ -482,7 +488,7 @@ mod tests {
             .run(&(samples::ball_and_point(), 1_usize..40), |((ball, point), significant)| {
                 let (lower, upper) = ball.endpoints();
                 let ends = [BigRational::from(&lower), BigRational::from(&upper)];
-                match proven_digits(&ball, significant) {
+                match ball.proven_digits(significant) {
                     Some(decimal) => {
                         assert_eq!(decimal.significant(), significant);
                         for value in [&ends[0], &ends[1], &point] {

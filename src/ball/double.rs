@@ -127,6 +127,13 @@ impl Magnitude {
     }
 }
 
+/// The distance of doubles at a value: `2^(e−52)` for `2^e ≤ |value| < 2^(e+1)`.
+pub(crate) fn unit_in_the_last_place(value: f64) -> f64 {
+    let value = value.abs().max(f64::MIN_POSITIVE);
+    let power = f64::from_bits(value.to_bits() & !((1 << 52) - 1));
+    power * f64::EPSILON
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

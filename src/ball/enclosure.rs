@@ -116,7 +116,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::binary::Binary;
-    use super::super::decimal::proven_digits;
     use super::super::samples;
     use super::*;
 
@@ -140,7 +139,7 @@ mod tests {
         fn every_proven_digit_is_printed(
             (ball, _) in samples::ball_and_point(), significant in 1_usize..30,
         ) {
-            if let Some(decimal) = proven_digits(&ball, significant) {
+            if let Some(decimal) = ball.proven_digits(significant) {
                 let printed = ball.to_decimal(200);
                 let exact = printed.radius().is_zero();
                 prop_assert!(exact || printed.midpoint().significant() >= significant, "{printed} {decimal}");

@@ -214,7 +214,7 @@ mod tests {
         let start = |x: i64, count: usize| {
             let ball = exp_of_rational(&integer(x), 128).unwrap();
             assert_small(&ball, 128);
-            let decimal = super::super::decimal::proven_digits(&ball, count).unwrap();
+            let decimal = ball.proven_digits(count).unwrap();
             format!("{decimal:e}")
         };
         assert_eq!(start(1, 30), "2.71828182845904523536028747135e0");

@@ -4,15 +4,11 @@
 //! A [`Ball`] is a midpoint and a radius; every operation returns a ball that contains each result
 //! its operands allow. A [`ComplexBall`] is a pair of balls, a `Number` an exact rational or a ball.
 //! A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a ball as a person reads it,
-//! and a [`Certified`] value is a decimal with the ball that proves it.
-//!
-//! Values of waves come as [`Certified`] from [`evaluate`](crate::evaluate); balls may be
-//! calculated with further.
+//! and a [`Value`] is a number with proven digits. [`Precisions`] is the one loop that raises precision.
 
 #[expect(clippy::module_inception, reason = "the module is named after the type it is built on")]
 mod ball;
 mod binary;
-mod certify;
 mod complex;
 mod decimal;
 mod divided;
@@ -23,20 +19,23 @@ mod exponential;
 mod logarithm;
 mod magnitude;
 mod number;
+mod precision;
 mod root;
 #[cfg(test)]
 mod samples;
 mod trigonometry;
+mod value;
 
 pub use ball::Ball;
 pub use binary::Binary;
-pub use certify::{Certified, CertifyError, certify};
-
 pub use complex::ComplexBall;
 pub use decimal::{Decimal, Exactness};
 pub(crate) use divided::evaluate_divided;
+pub(crate) use double::unit_in_the_last_place;
 pub use enclosure::DecimalEnclosure;
 pub use error::BallError;
 pub(crate) use exponential::exp_of_rational;
 pub use magnitude::Magnitude;
 pub(crate) use number::Number;
+pub use precision::{Attempt, Precisions};
+pub use value::Value;

@@ -91,11 +91,7 @@ impl Number {
     pub fn sign(&self) -> Option<Ordering> {
         match self {
             Number::Exact(value) => Some(value.cmp(&Rational::zero())),
-            Number::Enclosed(ball) if !ball.contains_zero() => {
-                let negative = ball.midpoint().is_negative();
-                Some(if negative { Ordering::Less } else { Ordering::Greater })
-            }
-            Number::Enclosed(ball) => ball.is_exact().then_some(Ordering::Equal),
+            Number::Enclosed(ball) => ball.sign(),
         }
     }
 

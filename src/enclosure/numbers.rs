@@ -1,6 +1,6 @@
 //! Constants that have names, as numbers; and the field of enclosures.
 
-use crate::ball::{Ball, ComplexBall};
+use crate::ball::{Attempt, Ball, ComplexBall, Precisions};
 use crate::enclosure::error::EnclosureError;
 use crate::enclosure::expression::enclose_expression;
 use crate::expression::{Constant, Definition, Expression, Field, Fraction, Root};
@@ -196,18 +196,14 @@ impl Numbers {
         if let Some(number) = difference.as_constant() {
             return Ok(number.cmp(&Rational::default()));
         }
-        let mut bits = 64;
-        loop {
+        let attempt = |bits| {
             let ball = self.enclose(&difference, bits)?;
-            if !ball.contains_zero() {
-                let negative = ball.midpoint().is_negative();
-                return Ok(if negative { Ordering::Less } else { Ordering::Greater });
-            }
-            if bits >= COMPARISON_BITS {
-                return Err(EnclosureError::Undecided { best: Box::new(ball), bits });
-            }
-            bits *= 4;
-        }
+            Ok(match ball.sign() {
+                Some(order) => Attempt::Done(order),
+                None => Attempt::NotYet(EnclosureError::Undecided { best: Box::new(ball), bits }),
+            })
+        };
+        Precisions::doubling(64, COMPARISON_BITS).raise(attempt).and_then(Attempt::done)
     }
 
     /// Where a value stands among ascending ones, or where it would.

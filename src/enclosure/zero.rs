@@ -3,7 +3,7 @@
 use super::error::EnclosureError;
 use super::expression::enclose_expression;
 use super::numbers::real_part;
-use crate::ball::Ball;
+use crate::ball::{Attempt, Ball, Precisions};
 use crate::expression::Expression;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};
@@ -45,16 +45,12 @@ impl Function<'_> {
 
     /// The sign at a number; `None` where it cannot be told.
     fn sign(&self, x: &Rational) -> Result<Option<Ordering>, ZeroError> {
-        let mut bits = FIRST_BITS;
-        while bits <= LAST_BITS {
+        let attempt = |bits| {
             let value = self.enclose(self.value, &Ball::from_rational(x, bits), bits)?;
-            if !value.contains_zero() {
-                let negative = value.midpoint().is_negative();
-                return Ok(Some(if negative { Ordering::Less } else { Ordering::Greater }));
-            }
-            bits *= 2;
-        }
-        Ok(None)
+            let sign = value.sign().filter(|sign| sign.is_ne());
+            Ok(Attempt::of(sign, sign.is_some()))
+        };
+        Precisions::doubling(FIRST_BITS, LAST_BITS).raise(attempt).map(Attempt::best)
     }
 }
 
@@ -131,7 +127,8 @@ pub fn enclose_zero(
         }
         interval = between(&low, &high, FIRST_BITS);
     }
-    let mut working = FIRST_BITS;
+    let precisions = Precisions::doubling(FIRST_BITS, 2 * bits + LAST_BITS);
+    let mut working = precisions.first();
     loop {
         let middle = Rational::from(interval.midpoint());
         let point = Ball::from_rational(&middle, 2 * working + 64);
@@ -147,10 +144,10 @@ pub fn enclose_zero(
         if *interval.radius() <= fine {
             return Ok(interval);
         }
-        match (is_smaller, working < 2 * bits + LAST_BITS) {
-            (_, true) => working *= 2,
-            (true, false) => {}
-            (false, false) => return Err(ZeroError::NotSimple),
+        match precisions.after(working) {
+            Some(more) => working = more,
+            None if is_smaller => {}
+            None => return Err(ZeroError::NotSimple),
         }
     }
 }

@@ -6,7 +6,7 @@
 //! Cells begin and end at doubles. Their middles are doubles and their scales
 //! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
 
-use crate::ball::{Ball, Binary, Magnitude};
+use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::fitted_cells;
@@ -113,21 +113,17 @@ impl<'a> Window<'a> {
     /// The double nearest to the value at a time of a stretch, or next to it where that is not decided:
     /// balls with bits enough for all but ties.
     pub(crate) fn enclosed(&self, at: &Rational, stretch: usize) -> Result<f64, EvaluateError> {
-        const BITS: [u64; 4] = [128, 256, 512, 1024];
         let at = self.signal.slowness().scale(at);
-        let mut near = 0.0;
-        for bits in BITS {
+        let attempt = |bits| {
             let ball = self.signal.enclose(&self.stretches[stretch], 0, &at, bits)?;
             if let Some(value) = ball.rounded() {
-                return Ok(value);
+                return Ok(Attempt::Done(value));
             }
-            near = ball.midpoint().to_double();
             // An exact zero, or a tie: nothing is gained by more bits.
-            if *ball.radius() <= ball.midpoint().magnitude().scale(-200) {
-                break;
-            }
-        }
-        Ok(near)
+            let is_tie = *ball.radius() <= ball.midpoint().magnitude().scale(-200);
+            Ok(Attempt::of(ball.midpoint().to_double(), is_tie))
+        };
+        Precisions::doubling(128, 1024).raise(attempt).map(Attempt::best)
     }
 
     /// The doubles of a stretch, the first and the last; `None` where there are none.
@@ -169,7 +165,7 @@ impl<'a> Window<'a> {
                     let value = self.signal.enclose(stretch, 0, at, bits)?;
                     let fine = value.radius().scale(20) <= value.magnitude()
                         || value.magnitude() < Magnitude::power_of_two(-200);
-                    Ok((value, fine))
+                    Ok(Attempt::of(value, fine))
                 })?;
                 scale = scale.max(value.midpoint().magnitude());
             }
@@ -187,21 +183,15 @@ impl<'a> Window<'a> {
         Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
     }
 
-    /// What `compute` gives with the fewest bits with which it is fine; bits double.
+    /// Raises precision from that of an error on.
     fn refined<T>(
         &self,
         error: Magnitude,
-        compute: impl Fn(u64) -> Result<(T, bool), EvaluateError>,
+        attempt: impl Fn(u64) -> Result<Attempt<T>, EvaluateError>,
     ) -> Result<T, EvaluateError> {
         let wanted = error.top().map_or(0, |top| u64::try_from(-top).unwrap_or(0));
-        let mut bits = (wanted + SPARE_BITS).next_multiple_of(64);
-        loop {
-            let (value, fine) = compute(bits)?;
-            if fine || bits >= MAX_BITS {
-                return Ok(value);
-            }
-            bits *= 2;
-        }
+        let first = (wanted + SPARE_BITS).next_multiple_of(64);
+        Precisions::doubling(first, MAX_BITS.max(first)).raise(attempt).map(Attempt::best)
     }
 
     /// The bits with which coefficients are finer than an error, at the end of the window, where they
@@ -210,7 +200,7 @@ impl<'a> Window<'a> {
         let stretch = self.stretches.last().expect("a window has a stretch");
         self.refined(error, |bits| {
             let value = self.signal.enclose(stretch, 0, stretch.to(), bits)?;
-            Ok((bits, value.radius().scale(12) <= error))
+            Ok(Attempt::of(bits, value.radius().scale(12) <= error))
         })
     }
 

@@ -1,10 +1,9 @@
 //! The value of a wave or an observable at a time, certified.
 
-use crate::ball::{Ball, CertifyError, certify};
+use crate::ball::{Ball, Value};
 use crate::enclosure::enclose_expression;
 use crate::evaluate::contribution::{Amount, Contribution, Parts, enclose, rational_value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::value::Value;
 use crate::expression::{EchoSum, Expression};
 use crate::recurrence::{Observation, WaveIndex};
 use crate::solution::{EchoRow, GeneralForm, Solution};
@@ -266,12 +265,11 @@ pub(crate) fn certified(
     limit_bits: u64,
     enclosure: impl FnMut(u64) -> Result<Ball, EvaluateError>,
 ) -> Result<Value, EvaluateError> {
-    match certify(digits, limit_bits, enclosure) {
-        Ok(certified) => Ok(Value::Certified(certified)),
-        Err(CertifyError::AccuracyNotReached { best, bits }) => {
-            Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits })
+    match Value::certify(digits, limit_bits, enclosure)? {
+        Value::Enclosed(best) => {
+            Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits: limit_bits })
         }
-        Err(CertifyError::Enclosure(error)) => Err(error),
+        value => Ok(value),
     }
 }
 

@@ -21,9 +21,9 @@ mod signal;
 mod taps;
 mod taylor;
 mod transforms;
-mod value;
 mod waves;
 
+pub use crate::ball::Value;
 pub use arrivals::{Arrival, arrivals};
 pub(crate) use cells::scale;
 pub use error::EvaluateError;
@@ -31,7 +31,7 @@ pub use evaluator::{
     Evaluator, Limit, MAX_DIGITS, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
 };
 pub use find::{At, ObservedSignal, Piecewise};
-pub use find::{Determined, Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};
+pub use find::{Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,
     StablePrecision, instructions,
@@ -40,6 +40,4 @@ pub use scene::{MAX_ECHOES, SceneEvaluator};
 pub use signal::{MAX_PIECES, Signal, Stretch};
 pub use taps::{Extra, NoTaps, Tap, Taps};
 pub use taylor::Taylor;
-pub use value::Value;
-pub(crate) use value::unit_in_the_last_place;
 pub(crate) use waves::Waves;

@@ -4,13 +4,12 @@
 //! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
 //! place that is observed.
 
-use crate::ball::{Ball, BallError, Binary, ComplexBall, Magnitude};
+use crate::ball::{Attempt, Ball, BallError, Binary, ComplexBall, Magnitude, Precisions, Value};
 use crate::enclosure::{Numbers, real_part};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::{Limit, certified};
 use crate::evaluate::modular::{self, Modular, Residue};
 use crate::evaluate::transforms::value_at;
-use crate::evaluate::value::Value;
 use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
 use crate::network::{Network, Observed, ObservedValue, Unfolded};
 use crate::recurrence::{Observation, Recurrence, WaveIndex};
@@ -318,18 +317,15 @@ impl<'a> SceneEvaluator<'a> {
             |bits| Ok(enclosure(bits)?.multiply(&numbers.enclose_root(unit, bits)?, bits));
         let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
         match certified(digits, tie_bits, in_unit) {
-            Err(EvaluateError::AccuracyNotReached { best, bits }) => {
+            Err(EvaluateError::AccuracyNotReached { best, .. }) => {
                 if tie_bits == limit_bits
-                    && let Some(value) = Value::near_zero(&best, digits, bits)
+                    && let Some(value) = Value::near_zero(&best, digits)
                 {
                     return Ok(value);
                 }
             }
-            Ok(Value::Certified(certified)) if certified.ball.is_exact() => {
-                return Ok(match certified.decimal.is_zero() {
-                    true => Value::Exact(Rational::zero()),
-                    false => Value::Certified(certified),
-                });
+            Ok(Value::Certified { decimal, ball }) if ball.is_exact() && decimal.is_zero() => {
+                return Ok(Value::Exact(Rational::zero()));
             }
             told => return told,
         }
@@ -557,23 +553,20 @@ fn may_be_zero(
     enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
     limit_bits: u64,
 ) -> Result<bool, EvaluateError> {
-    let mut bits = 2 * SUSPICION_BITS;
-    loop {
+    let first = 2 * SUSPICION_BITS;
+    let attempt = |bits| {
         let ball = enclosure(bits)?;
-        if !ball.contains_zero() {
-            return Ok(false);
-        }
-        if ball.radius() <= &Magnitude::power_of_two(-(SUSPICION_BITS as i64)) {
-            return Ok(true);
-        }
-        if bits >= limit_bits {
-            return Ok(false);
-        }
-        bits = bits.saturating_mul(2).min(limit_bits);
-    }
+        let is_small = ball.radius() <= &Magnitude::power_of_two(-(SUSPICION_BITS as i64));
+        Ok(match ball.contains_zero() {
+            false => Attempt::Done(false),
+            true if is_small => Attempt::Done(true),
+            true => Attempt::NotYet(false),
+        })
+    };
+    Precisions::doubling(first, limit_bits.max(first)).raise(attempt).map(Attempt::best)
 }
 
-/// What a divisor that may be zero stands in the way of is not told yet: more bits may tell it.
+/// Treats a division by what may be zero as unbounded, so that callers retry with more bits.
 fn patient(found: Result<Ball, EvaluateError>, bits: u64) -> Result<Ball, EvaluateError> {
     match found {
         Err(EvaluateError::Ball(BallError::DivisorMayBeZero)) if bits < TIE_BITS => {

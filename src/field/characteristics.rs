@@ -6,7 +6,7 @@
 
 use super::entering::{Entering, Heading, Instant, Order};
 use super::{FieldError, FieldEvaluator};
-use crate::ball::Magnitude;
+use crate::ball::{Attempt, Magnitude, Precisions};
 use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar};
@@ -222,20 +222,18 @@ impl FieldEvaluator {
             // Late waves are small differences of large terms: the precision grows until nothing that is
             // seen is left open. Velocities are of the size of 1 in the scale of the scene.
             let fine = Magnitude::power_of_two(-FINE_BITS);
-            let mut bits = BITS;
-            loop {
+            let attempt = |bits| {
                 let instant = Instant { at, side, is_drawn: true };
                 let ball = self.waves.enclose(wave, order, instant, bits)?;
-                if *ball.radius() <= fine {
-                    return Ok(if ball.contains_zero() { 0.0 } else { ball.to_double().0 });
+                if *ball.radius() > fine {
+                    let best = Box::new(ball);
+                    let error = EvaluateError::AccuracyNotReached { best, bits };
+                    return Ok(Attempt::NotYet(error.into()));
                 }
-                if bits >= MAX_BITS {
-                    return Err(
-                        EvaluateError::AccuracyNotReached { best: Box::new(ball), bits }.into()
-                    );
-                }
-                bits *= 2;
-            }
+                let value = if ball.contains_zero() { 0.0 } else { ball.to_double().0 };
+                Ok(Attempt::Done(value))
+            };
+            Precisions::doubling(BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
         };
         let mut ends = vec![first.clone()];
         let breaks = self.waves.breaks(wave, &first..=&last)?;

@@ -15,7 +15,7 @@
 use super::entering::{ClosedContacts, Entering, EnteringWaves, Heading, Instant, Order};
 use super::fields::{BarFields, Bounded, Fields};
 use super::{FieldError, Mesh, Sampling};
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
 use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
@@ -244,14 +244,12 @@ impl FieldEvaluator {
         &self,
         enclose: impl Fn(u64) -> Result<Vec<Enclosed>, FieldError>,
     ) -> Result<(Vec<Enclosed>, u64), FieldError> {
-        let mut bits = FIRST_BITS;
-        loop {
+        let attempt = |bits| {
             let found = enclose(bits)?;
-            if is_fine(&found) || bits >= MAX_BITS {
-                return Ok((found, bits));
-            }
-            bits *= 2;
-        }
+            let fine = is_fine(&found);
+            Ok::<_, FieldError>(Attempt::of((found, bits), fine))
+        };
+        Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt).map(Attempt::best)
     }
 
     /// How far a bar is looked at: as a delay in the scale of the scene, and as a length of the user's.

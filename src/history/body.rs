@@ -4,8 +4,7 @@
 //! energy `Z ∫ (w⁺² + w⁻²) dt` and the momentum `Z ∫ (w⁺ + w⁻) dt` over the last `τ`. An endless bar holds
 //! what was sent into it since the start.
 
-use crate::ball::Number;
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Ball, Magnitude, Number};
 use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::energy::Integrand;

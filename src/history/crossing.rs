@@ -8,8 +8,7 @@
 //! for `|ξ| ≤ w`. If `Q < 0` everywhere and `δ = |c₀|/min |Q|`, then `f > 0` for `ξ < −δ` and `f < 0` for
 //! `ξ > δ`: the one root lies within `δ` of `m`.
 
-use crate::ball::Number;
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Ball, Magnitude, Number};
 use crate::history::series::{Series, Truncation};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;

@@ -4,8 +4,7 @@
 //! Both antiderivatives of a cell are worked out once, when first asked for. A part of the cell is then a
 //! difference of two of their values, and the whole cell one value that is kept.
 
-use crate::ball::Magnitude;
-use crate::ball::Number;
+use crate::ball::{Magnitude, Number};
 use crate::history::series::{Series, Truncation};
 use std::cell::OnceCell;
 

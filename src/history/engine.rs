@@ -5,8 +5,7 @@
 //! would become negative closes; the cell ends there, and the next one begins with other equations.
 //! Every node has a time of its own and is at most a travel time ahead of its neighbours.
 
-use crate::ball::Number;
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Ball, Magnitude, Number};
 use crate::expression::Fraction;
 use crate::history::contacts::{Contact, Happening};
 use crate::history::error::{HistoryError, NotFollowed, Question};

@@ -1,9 +1,8 @@
 //! The history of a scene whose contacts open and close: its events, and what became of each contact.
 
-use crate::ball::Number;
-use crate::ball::{Ball, CertifyError, certify};
+use crate::ball::{Attempt, Number, Precisions, Value};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::{Determined, Limit, Value};
+use crate::evaluate::Limit;
 use crate::expression::{Expression, Fraction, Root};
 use crate::history::body::parts;
 use crate::history::closed_form;
@@ -13,7 +12,6 @@ use crate::history::moment::Moment;
 use crate::network::Network;
 use crate::scene::Kind;
 use std::cmp::Ordering;
-use std::convert::Infallible;
 use std::ops::Range;
 use wavestep_polynomial::Rational;
 
@@ -86,14 +84,14 @@ pub struct Body {
     /// The names of its elements, from left to right.
     pub elements: Vec<String>,
     /// Its energy; none where it is infinite.
-    pub energy: Option<Determined>,
+    pub energy: Option<Value>,
     /// Its momentum; none where it is infinite.
-    pub momentum: Option<Determined>,
+    pub momentum: Option<Value>,
     /// Its mean velocity: of the centre of mass, zero where it stands fast, and what it had at the start
     /// where it is endless.
-    pub velocity: Option<Determined>,
+    pub velocity: Option<Value>,
     /// The energy that it has besides that of its mean motion, `E − P²/(2M)`; none where it is endless.
-    pub vibration: Option<Determined>,
+    pub vibration: Option<Value>,
 }
 
 /// Something that happens at a contact, in the user's units.
@@ -125,14 +123,14 @@ pub struct Event {
     /// The names of what is at its left and right.
     pub between: [String; 2],
     /// When.
-    pub time: Determined,
+    pub time: Value,
     /// When, in closed form: of the first opening, where the force of the closed contact is a linear
     /// function times an exponential there.
     pub exact: Option<Expression>,
     /// The force just before and just after, positive where it presses.
-    pub forces: [Determined; 2],
+    pub forces: [Value; 2],
     /// The velocities at the left and the right of the contact, just before and just after.
-    pub velocities: [[Determined; 2]; 2],
+    pub velocities: [[Value; 2]; 2],
     /// What moves by itself from then on.
     pub bodies: Vec<Body>,
 }
@@ -158,12 +156,12 @@ pub struct ContactSummary {
     /// The names of what is at its left and right.
     pub between: [String; 2],
     /// How long it was closed each time; none where it is closed still.
-    pub durations: Vec<Option<Determined>>,
+    pub durations: Vec<Option<Value>>,
     /// The impulse of each of these times, as far as it was followed.
-    pub impulses: Vec<Determined>,
+    pub impulses: Vec<Value>,
     /// The coefficient of restitution of rigid bodies: the relative velocity of the mean motions after the
     /// last opening over that before the impact, with the sign changed.
-    pub restitution: Option<Determined>,
+    pub restitution: Option<Value>,
 }
 
 /// How the history ends.
@@ -185,7 +183,7 @@ pub enum Ending {
     /// to come back.
     Parted,
     /// It was followed to this instant; what comes later is not known.
-    Followed(Determined),
+    Followed(Value),
 }
 
 /// The history of a scene.
@@ -253,21 +251,16 @@ pub(crate) fn unit(root: &Root, numbers: &Numbers, bits: u64) -> Result<Number, 
     }
 }
 
-/// A number with the digits that its enclosure proves.
-pub(crate) fn determined(number: &Number, digits: usize) -> Determined {
-    match number {
-        Number::Exact(value) => Determined::Digits(Value::Exact(value.clone())),
-        Number::Enclosed(ball) if ball.is_exact() => {
-            Determined::Digits(Value::Exact(Rational::from(ball.midpoint())))
-        }
-        Number::Enclosed(ball) => {
-            match certify(digits, 1, |_| Ok::<Ball, Infallible>(ball.clone())) {
-                Ok(certified) => Determined::Digits(Value::Certified(certified)),
-                Err(CertifyError::AccuracyNotReached { .. } | CertifyError::Enclosure(_)) => {
-                    Determined::Enclosed(ball.clone())
-                }
-            }
-        }
+/// The precisions that a scene is followed with for numbers of so many digits.
+pub(crate) fn precisions(digits: usize, limit: u64) -> Precisions {
+    Precisions::whole_doublings(128 + 4 * digits as u64, limit)
+}
+
+/// What is undecided may be decided with more bits.
+pub(crate) fn undecided<T>(error: HistoryError) -> Outcome<Attempt<Outcome<T>>> {
+    match error {
+        HistoryError::Undecided { .. } => Ok(Attempt::NotYet(Err(error))),
+        error => Err(error),
     }
 }
 
@@ -288,23 +281,22 @@ impl History {
         until: Option<&Rational>,
         digits: usize,
     ) -> Result<History, HistoryError> {
-        let mut bits = 128 + 4 * digits as u64;
-        loop {
-            let last = 2 * bits > MAX_BITS;
-            match History::with(network, until, digits, bits) {
-                Ok(history) if last || history.is_determined() => return Ok(history),
-                Err(HistoryError::Undecided { .. }) if !last => {}
-                Err(HistoryError::Value(EnclosureError::Ball(_))) if !last => {}
-                Err(error) => return Err(error),
-                Ok(_) => {}
+        let attempt = |bits| match History::with(network, until, digits, bits) {
+            Ok(history) => {
+                let is_determined = history.is_determined();
+                Ok(Attempt::of(Ok(history), is_determined))
             }
-            bits *= 2;
-        }
+            Err(error @ HistoryError::Value(EnclosureError::Ball(_))) => {
+                Ok(Attempt::NotYet(Err(error)))
+            }
+            Err(error) => undecided(error),
+        };
+        precisions(digits, MAX_BITS).raise(attempt)?.best()
     }
 
     /// Whether every instant has its digits.
     fn is_determined(&self) -> bool {
-        self.events.iter().all(|event| matches!(event.time, Determined::Digits(_)))
+        self.events.iter().all(|event| !matches!(event.time, Value::Enclosed(_)))
     }
 
     /// The history at one precision.
@@ -436,7 +428,7 @@ impl Story<'_> {
             false => {
                 let time = self.engine.clock.time(&self.end)?;
                 let time = time.multiply(&units.time, self.engine.cut.bits);
-                Ending::Followed(determined(&time, self.digits))
+                Ending::Followed(Value::of(&time, self.digits))
             }
         };
         let (bits, cells) = (self.engine.cut.bits, self.engine.count());
@@ -506,7 +498,7 @@ impl Story<'_> {
         };
         let before = if row.kind == EventKind::Closing { before } else { zero(before) };
         let told =
-            |value: &Number, unit: &Number| determined(&value.multiply(unit, bits), self.digits);
+            |value: &Number, unit: &Number| Value::of(&value.multiply(unit, bits), self.digits);
         let time = engine.clock.time(&row.moment)?;
         Ok(Event {
             kind: row.kind,
@@ -533,7 +525,7 @@ impl Story<'_> {
         let momentum_unit = units.force.multiply(&units.time, bits);
         let told = |value: &Option<Number>, unit: &Number| {
             let value = value.as_ref()?;
-            Some(determined(&value.multiply(unit, bits), self.digits))
+            Some(Value::of(&value.multiply(unit, bits), self.digits))
         };
         let mut bodies = Vec::new();
         for part in self.parts(closed) {
@@ -586,8 +578,8 @@ impl Story<'_> {
             if impulse.is_zero() {
                 return Ok(());
             }
-            impulses.push(determined(&impulse.multiply(&momentum_unit, bits), self.digits));
-            let duration = determined(&duration.multiply(&units.time, bits), self.digits);
+            impulses.push(Value::of(&impulse.multiply(&momentum_unit, bits), self.digits));
+            let duration = Value::of(&duration.multiply(&units.time, bits), self.digits);
             durations.push(ended.then_some(duration));
             Ok(())
         };
@@ -617,7 +609,7 @@ impl Story<'_> {
 
     /// The relative velocity of the mean motions at an instant over that at the start, with the sign
     /// changed; none where they did not meet, or where a body has no mean motion.
-    fn restitution(&self, contact: usize, moment: &Moment) -> Outcome<Option<Determined>> {
+    fn restitution(&self, contact: usize, moment: &Moment) -> Outcome<Option<Value>> {
         let (engine, bits) = (&self.engine, self.engine.cut.bits);
         let joints: Vec<usize> = engine.contacts.iter().map(|contact| contact.joint).collect();
         let parts = parts(self.network, &joints);
@@ -645,6 +637,6 @@ impl Story<'_> {
             return Ok(None);
         }
         let ratio = after.multiply(&before.reciprocal(bits)?, bits).negate();
-        Ok(Some(determined(&ratio, self.digits)))
+        Ok(Some(Value::of(&ratio, self.digits)))
     }
 }

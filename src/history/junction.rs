@@ -5,8 +5,7 @@
 //! supports, and changes with `y' = A y + B u`; velocities and contact forces are `C y + D u`. The input
 //! `u` holds the arriving waves and the loads.
 
-use crate::ball::Magnitude;
-use crate::ball::Number;
+use crate::ball::{Magnitude, Number};
 use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::node::{Link, Node};
 use crate::history::series::{Series, Truncation};

@@ -3,8 +3,7 @@
 //! A course is a sum of polynomials times exponentials of the time since the start, with complex rates
 //! where it oscillates.
 
-use crate::ball::Number;
-use crate::ball::{Ball, ComplexBall, Magnitude};
+use crate::ball::{Ball, ComplexBall, Magnitude, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
 use crate::expression::{Expression, Fraction};
 use crate::history::series::{Series, Truncation};

@@ -4,8 +4,7 @@
 //! of the start, and an exact delay. Instants of the same event compare exactly; those of different
 //! events by enclosures.
 
-use crate::ball::Ball;
-use crate::ball::Number;
+use crate::ball::{Ball, Number};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::Fraction;
 use crate::history::error::{HistoryError, Question};

@@ -4,12 +4,12 @@
 //! In a bar, at the time `s` from its left end, the wave that left the left end at `t − s` meets the one
 //! that left the right end at `t − (τ − s)`. Energies and momenta of bodies are sums over bars instead.
 
-use crate::ball::Number;
-use crate::evaluate::{Determined, EvaluateError, Limit, Value};
+use crate::ball::{Attempt, Number};
+use crate::evaluate::{EvaluateError, Limit, Value};
 use crate::expression::{Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, NotFollowed};
-use crate::history::history::{History, MAX_BITS, determined, unit};
+use crate::history::history::{History, MAX_BITS, precisions, undecided, unit};
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Signal, Source};
 use crate::network::{Network, Side as End, bar_roots};
@@ -52,33 +52,24 @@ impl History {
         times: &[Rational],
         limit: Limit,
         digits: usize,
-    ) -> Result<Vec<Determined>, HistoryError> {
+    ) -> Result<Vec<Value>, HistoryError> {
         let seen = History::observable(network, observable)?;
-        let mut bits = 128 + 4 * digits as u64;
-        loop {
-            let last = 2 * bits > MAX_BITS.max(16 * digits as u64);
-            match values_with(network, seen, times, limit, bits) {
-                Ok(values) => {
-                    let told = values.iter().map(|value| determined(value, digits));
-                    let told: Vec<Determined> = told.collect();
-                    let known = |value: &Determined| matches!(value, Determined::Digits(_));
-                    if told.iter().all(known) {
-                        return Ok(told);
-                    }
-                    if last {
-                        let near_zero = |value: Determined| match &value {
-                            Determined::Enclosed(ball) => Value::near_zero(ball, digits, bits)
-                                .map_or(value, Determined::Digits),
-                            Determined::Digits(_) => value,
-                        };
-                        return Ok(told.into_iter().map(near_zero).collect());
-                    }
-                }
-                Err(HistoryError::Undecided { .. }) if !last => {}
-                Err(error) => return Err(error),
+        let attempt = |bits| match values_with(network, seen, times, limit, bits) {
+            Ok(values) => {
+                let told: Vec<Value> =
+                    values.iter().map(|value| Value::of(value, digits)).collect();
+                let is_told = told.iter().all(|value| !matches!(value, Value::Enclosed(_)));
+                Ok(Attempt::of(Ok(told), is_told))
             }
-            bits *= 2;
-        }
+            Err(error) => undecided(error),
+        };
+        let most = MAX_BITS.max(16 * digits as u64);
+        let told = precisions(digits, most).raise(attempt)?.best()?;
+        let near_zero = |value: Value| match &value {
+            Value::Enclosed(ball) => Value::near_zero(ball, digits).unwrap_or(value),
+            _ => value,
+        };
+        Ok(told.into_iter().map(near_zero).collect())
     }
 
     /// The observable of this name.

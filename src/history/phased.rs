@@ -1,12 +1,11 @@
 //! An observable across all phases of a scene's contacts, as what roots and extrema are looked for in.
 
-use crate::ball::Number;
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::enclosure::EnclosureError;
 use crate::evaluate::{At, EvaluateError, Limit, Piecewise, Search, Taylor};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::{History, MAX_BITS, unit};
+use crate::history::history::{History, MAX_BITS, undecided, unit};
 use crate::history::moment::Moment;
 use crate::history::part::Part;
 use crate::history::series::{Series, Truncation};
@@ -130,14 +129,12 @@ impl<'a> PhasedSignal<'a> {
         }
         let seen = History::observable(network, observable)?.clone();
         let window = [from.clone(), to.clone()];
-        let mut bits = FIRST_BITS;
-        let known = loop {
-            match Followed::of(network, &seen, &window, bits) {
-                Err(HistoryError::Undecided { .. }) if 2 * bits <= MAX_BITS => bits *= 2,
-                other => break RefCell::new(Rc::new(other?)),
-            }
+        let attempt = |bits| match Followed::of(network, &seen, &window, bits) {
+            Ok(known) => Ok(Attempt::Done(Ok(known))),
+            Err(error) => undecided(error),
         };
-        Ok(PhasedSignal { network, seen, window, known })
+        let known = Precisions::whole_doublings(FIRST_BITS, MAX_BITS).raise(attempt)?.best()?;
+        Ok(PhasedSignal { network, seen, window, known: RefCell::new(Rc::new(known)) })
     }
 
     /// What is known at a precision, as far as one is reached.

@@ -5,8 +5,7 @@
 //! the series of an exponential, a bound that integration, shifts and linear differential equations
 //! keep.
 
-use crate::ball::Magnitude;
-use crate::ball::Number;
+use crate::ball::{Magnitude, Number};
 
 /// How series are cut off.
 ///

@@ -3,11 +3,11 @@
 //! Until then a scene whose contacts open and one whose contacts stay closed move alike, so the first
 //! opening of the one is the end of the other. It is found without following anything beyond it.
 
-use crate::evaluate::Determined;
+use crate::ball::{Attempt, Value};
 use crate::history::contacts::Happening;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::{MAX_BITS, PATIENCE, Units, determined, longest};
+use crate::history::history::{MAX_BITS, PATIENCE, Units, longest, precisions, undecided};
 use crate::history::moment::Moment;
 use crate::network::Network;
 use std::cmp::Ordering;
@@ -40,12 +40,12 @@ pub enum Validity {
     /// At this instant the first contact would pull.
     Until {
         /// When.
-        time: Determined,
+        time: Value,
         /// The names of what is at its left and right.
         between: [String; 2],
     },
     /// Until this instant nothing pulls; what comes later was not followed.
-    Followed(Determined),
+    Followed(Value),
 }
 
 impl Validity {
@@ -64,16 +64,14 @@ impl Validity {
         digits: usize,
         cells: usize,
     ) -> Result<Validity, HistoryError> {
-        let mut bits = 128 + 4 * digits as u64;
-        loop {
-            let last = 2 * bits > MAX_BITS;
-            match followed(network, until, digits, (bits, cells)) {
-                Err(HistoryError::Undecided { .. }) if !last => {}
-                Ok(Validity::Until { time: Determined::Enclosed(_), .. }) if !last => {}
-                told => return told,
+        let attempt = |bits| match followed(network, until, digits, (bits, cells)) {
+            Ok(told) => {
+                let is_open = matches!(told, Validity::Until { time: Value::Enclosed(_), .. });
+                Ok(Attempt::of(Ok(told), !is_open))
             }
-            bits *= 2;
-        }
+            Err(error) => undecided(error),
+        };
+        precisions(digits, MAX_BITS).raise(attempt)?.best()
     }
 }
 
@@ -91,7 +89,7 @@ fn followed(
     let (first, end) = engine.first_opening(&until, cells)?;
     let units = Units::of(network, &engine.clock.numbers, bits)?;
     let time = engine.clock.time(&end)?.multiply(&units.time, bits);
-    let time = determined(&time, digits);
+    let time = Value::of(&time, digits);
     Ok(match first {
         Some(first) => {
             let between = engine.contacts[first.contact].names.clone();

@@ -5,15 +5,14 @@
 //! closing. Here the state at the start is taken off, integrals are added, and precision is doubled where
 //! an enclosure does not do.
 
-use crate::ball::Number;
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::Fraction;
 use crate::field::{Entering, EnteringWaves, FieldError, FieldEvaluator, Heading, Instant, Order};
 use crate::history::energy::Wave;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::MAX_BITS;
+use crate::history::history::{MAX_BITS, undecided};
 use crate::history::moment::{Clock, Moment};
 use crate::history::series::{Series, Truncation};
 use crate::history::track::Track;
@@ -85,14 +84,12 @@ struct PhaseWaves {
 
 impl PhaseWaves {
     fn new(network: &Network, last: &Rational, most: u64) -> Result<PhaseWaves, HistoryError> {
-        let mut bits = FIRST_BITS;
-        let first = loop {
-            match Phases::new(network, last, bits) {
-                Err(HistoryError::Undecided { .. }) if bits < most => bits *= 2,
-                found => break found?,
-            }
+        let attempt = |bits| match Phases::new(network, last, bits) {
+            Ok(phases) => Ok(Attempt::Done(Ok((bits, Rc::new(phases))))),
+            Err(error) => undecided(error),
         };
-        let known = RefCell::new(vec![(bits, Rc::new(first))]);
+        let first = Precisions::doubling(FIRST_BITS, most).raise(attempt)?.best()?;
+        let known = RefCell::new(vec![first]);
         Ok(PhaseWaves { network: network.clone(), last: last.clone(), most, known })
     }
 
@@ -119,13 +116,12 @@ impl EnteringWaves for PhaseWaves {
         instant: Instant<'_>,
         bits: u64,
     ) -> Result<Ball, FieldError> {
-        let mut bits = bits;
-        loop {
-            match self.with(bits).enclose(wave, order, instant) {
-                Err(HistoryError::Undecided { .. }) if bits < self.most => bits *= 2,
-                found => return found.map_err(refused),
-            }
-        }
+        let attempt = |bits| match self.with(bits).enclose(wave, order, instant) {
+            Ok(ball) => Ok(Attempt::Done(Ok(ball))),
+            Err(error) => undecided(error),
+        };
+        let found = Precisions::doubling(bits, self.most).raise(attempt);
+        found.and_then(Attempt::best).map_err(refused)
     }
 
     fn breaks(
@@ -133,11 +129,13 @@ impl EnteringWaves for PhaseWaves {
         wave: Entering,
         window: RangeInclusive<&Fraction>,
     ) -> Result<Vec<Fraction>, FieldError> {
-        let mut bits = FIRST_BITS;
-        while bits < self.most && !self.with(bits).tells_instants() {
-            bits *= 2;
-        }
-        self.with(bits).breaks(wave, window).map_err(refused)
+        let attempt = |bits| {
+            let phases = self.with(bits);
+            let is_told = phases.tells_instants();
+            Ok::<_, FieldError>(Attempt::of(phases, is_told))
+        };
+        let phases = Precisions::doubling(FIRST_BITS, self.most).raise(attempt)?.best();
+        phases.breaks(wave, window).map_err(refused)
     }
 }
 

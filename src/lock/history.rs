@@ -3,8 +3,8 @@
 //! The formulas of waves are those of closed contacts and are not locked here. Numbers are rational and
 //! exact, or rounded correctly, so they are the same on every machine.
 
-use crate::ball::{Ball, certify};
-use crate::evaluate::{Determined, Limit, MAX_DIGITS, Value};
+use crate::ball::{Attempt, Ball, Decimal, Precisions};
+use crate::evaluate::{Limit, MAX_DIGITS, Value};
 use crate::history::{ContactSummary, Ending, Event, EventKind, History};
 use crate::lock::difference::{Difference, compared};
 use crate::lock::error::LockError;
@@ -13,14 +13,14 @@ use crate::network::Network;
 use num_bigint::BigInt;
 use num_traits::Zero;
 use std::collections::{BTreeMap, BTreeSet};
-use std::convert::Infallible;
 use wavestep_polynomial::Rational;
 
 /// The longest fraction that is locked; numbers with longer ones are rounded.
 const MAX_FRACTION: usize = 60;
 
-/// With how many times the digits asked for the history is told until all that is locked has its own.
-const FACTORS: [usize; 3] = [1, 2, 4];
+/// With how many times the digits asked for the history is told at most, so that all that is locked has
+/// its own.
+const MOST_TIMES: u64 = 4;
 
 /// What is locked of a history.
 ///
@@ -107,14 +107,12 @@ impl HistoryLock {
         let mut request = request.clone();
         request.times.sort();
         request.times.dedup();
-        let mut factors = FACTORS.into_iter();
-        loop {
-            let digits = request.digits * factors.next().expect("the last one returns");
-            match told(network, &request, digits) {
-                Err(LockError::AccuracyNotReached(_)) if factors.len() > 0 => {}
-                told => return told,
-            }
-        }
+        let attempt = |digits| match told(network, &request, digits as usize) {
+            Err(error @ LockError::AccuracyNotReached(_)) => Ok(Attempt::NotYet(error)),
+            told => Ok(Attempt::Done(told?)),
+        };
+        let digits = request.digits as u64;
+        Precisions::doubling(digits, MOST_TIMES * digits).raise(attempt).and_then(Attempt::done)
     }
 
     /// What was asked for.
@@ -228,7 +226,7 @@ impl Teller {
 
     fn contact(&self, number: usize, contact: &ContactSummary) -> Outcome<Facts> {
         let mut facts = vec![("between".to_owned(), contact.between.join(" | "))];
-        let told = |name: &str, value: &Determined| {
+        let told = |name: &str, value: &Value| {
             let value = self.number(value, || format!("the {name} of contact {number}"))?;
             Ok::<_, LockError>((name.to_owned(), value))
         };
@@ -251,22 +249,21 @@ impl Teller {
     /// A rational as a fraction, where that is short; else its digits. What is not decided to be zero,
     /// and is nearer to it than one unit in the last of so many decimal places, is `0 ± 1e-20`: the bound is
     /// that of the digits, whatever enclosure proved it.
-    fn number(&self, value: &Determined, what: impl FnOnce() -> String) -> Outcome<String> {
+    fn number(&self, value: &Value, what: impl FnOnce() -> String) -> Outcome<String> {
         let ball = match value {
-            Determined::Digits(Value::Exact(value)) => {
+            Value::Exact(value) => {
                 let fraction = value.to_string();
                 return Ok(match fraction.len() <= MAX_FRACTION {
                     true => fraction,
-                    false => Value::Exact(value.clone()).decimal(self.digits).0.to_string(),
+                    false => Decimal::from_rational(value, self.digits).0.to_string(),
                 });
             }
-            Determined::Digits(Value::Certified(certified)) => &certified.ball,
-            Determined::Enclosed(ball) => ball,
+            Value::Certified { ball, .. } | Value::Enclosed(ball) => ball,
         };
-        if let Ok(certified) = certify(self.digits, 1, |_| Ok::<Ball, Infallible>(ball.clone()))
-            && !certified.decimal.is_zero()
+        if let Some(decimal) = ball.proven_digits(self.digits)
+            && !decimal.is_zero()
         {
-            return Ok(certified.decimal.to_string());
+            return Ok(decimal.to_string());
         }
         let places = u32::try_from(self.digits).unwrap_or(u32::MAX);
         let bound = Rational::new(1.into(), BigInt::from(10).pow(places));

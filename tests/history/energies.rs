@@ -2,7 +2,7 @@
 
 use crate::{Values, ball, is_zero, network_of, rational};
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Determined, Limit, Value};
+use wavestep::evaluate::{Limit, Value};
 use wavestep::history::History;
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
@@ -99,7 +99,7 @@ fn rational_energies_stay_exact() {
     let exact = |name| {
         let values = History::values(&network, name, &times, Limit::Right, 12).unwrap();
         let exact = values.into_iter().map(|value| match value {
-            Determined::Digits(Value::Exact(value)) => value,
+            Value::Exact(value) => value,
             other => panic!("{name}: {other:?}"),
         });
         exact.collect::<Vec<Rational>>()

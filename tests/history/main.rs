@@ -12,7 +12,7 @@ mod validity;
 
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Determined, Limit, Value};
+use wavestep::evaluate::{Limit, Value};
 use wavestep::history::{Ending, Event, EventKind, History};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
@@ -49,12 +49,8 @@ fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
-fn ball(value: &Determined) -> Ball {
-    match value {
-        Determined::Digits(Value::Exact(value)) => Ball::from_rational(value, 300),
-        Determined::Digits(Value::Certified(certified)) => certified.ball.clone(),
-        Determined::Enclosed(ball) => ball.clone(),
-    }
+fn ball(value: &Value) -> Ball {
+    value.ball(300)
 }
 
 fn kinds(events: &[Event]) -> Vec<EventKind> {
@@ -118,13 +114,13 @@ fn a_heavier_striker_stays_in_contact() {
     let network = shipped("bars-that-part", &[("r", "3")]);
     let history = History::of(&network, None, 12).unwrap();
     assert_eq!(kinds(&history.events), [EventKind::Impact]);
-    let end = Determined::Digits(Value::Exact(rational(100, 1)));
+    let end = Value::Exact(rational(100, 1));
     assert_eq!(history.ending, Ending::Followed(end));
     let times: Vec<Rational> = (0..9).map(|n| rational(2 * n + 1, 1)).collect();
     let forces = History::values(&network, "force", &times, Limit::Right, 12).unwrap();
     for (n, force) in forces.iter().enumerate() {
         let exact = rational(3, 4) / rational(2_i64.pow(n as u32), 1);
-        assert_eq!(*force, Determined::Digits(Value::Exact(exact)));
+        assert_eq!(*force, Value::Exact(exact));
     }
     assert_eq!(history.contacts[0].durations, [None]);
 }
@@ -233,7 +229,7 @@ fn observables_go_on_across_phases() {
     let times = [rational(2, 1), rational(3, 1)];
     let right = History::values(&network, "right", &times, Limit::Right, 9).unwrap();
     let left = History::values(&network, "right", &times, Limit::Left, 9).unwrap();
-    let text = |values: &[Determined]| values.iter().map(|v| v.to_text(9)).collect::<Vec<_>>();
+    let text = |values: &[Value]| values.iter().map(|v| v.to_text(9)).collect::<Vec<_>>();
     assert_eq!(
         (text(&left), text(&right)),
         (vec!["0.5 = 1/2".to_owned(), "1".to_owned()], vec!["1".to_owned(), "1".to_owned()],)

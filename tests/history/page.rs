@@ -36,7 +36,7 @@ fn line(ratio: i64) -> String {
     )
 }
 
-fn ball_of(time: &wavestep::evaluate::Determined) -> f64 {
+fn ball_of(time: &wavestep::evaluate::Value) -> f64 {
     ball(time).rounded().unwrap()
 }
 

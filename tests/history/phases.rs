@@ -1,19 +1,19 @@
 //! What is found and drawn across the phases of contacts agrees with values, events and closed forms.
 
 use crate::{SHIPPED, ball, is_zero, network_of, rational, shipped};
-use wavestep::evaluate::{Determined, Goal, Limit, Place, Root};
+use wavestep::evaluate::{Goal, Limit, Place, Root, Value};
 use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
 
 const BITS: u64 = 1 << 10;
 
-fn double(value: &Determined) -> f64 {
+fn double(value: &Value) -> f64 {
     ball(value).rounded().unwrap_or_else(|| value.to_text(17).parse().unwrap())
 }
 
 /// A rational number near a time.
-fn near(time: &Determined) -> Rational {
+fn near(time: &Value) -> Rational {
     Rational::from_float(double(time)).unwrap()
 }
 
@@ -80,7 +80,7 @@ fn no_value_is_larger_than_the_largest() {
             Place::Undecided { .. } => panic!("{name} {observable}: {place:?}"),
         };
         // Instants that are no rational numbers are missed by a little; on a smooth run that is nothing.
-        let exact = matches!(time, Determined::Digits(wavestep::evaluate::Value::Exact(_)));
+        let exact = matches!(time, wavestep::evaluate::Value::Exact(_));
         if exact || matches!(place, Place::Critical(_)) {
             let at = near(time);
             let there = History::values(&network, &observable, &[at], side, 9).unwrap();

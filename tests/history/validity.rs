@@ -3,14 +3,14 @@
 use crate::{SHIPPED, ball, is_zero, network_of, rational, shipped};
 use std::cmp::Ordering;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Determined, Limit, SceneEvaluator, Value};
+use wavestep::evaluate::{Limit, SceneEvaluator, Value};
 use wavestep::history::{EventKind, History, HistoryError, Validity};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
 
 const CELLS: usize = 2_000;
 
-fn until(network: &Network) -> (Determined, [String; 2]) {
+fn until(network: &Network) -> (Value, [String; 2]) {
     match Validity::of(network, None, 20, CELLS).unwrap() {
         Validity::Until { time, between } => (time, between),
         Validity::Followed(time) => panic!("followed until {}", time.to_text(9)),
@@ -24,7 +24,7 @@ fn sign(network: &Network, name: &str, time: &Rational, side: Limit) -> Ordering
     let evaluator = SceneEvaluator::new(network, &at).unwrap();
     match evaluator.value(observed, &at, side, 9, 1 << 12).unwrap() {
         Value::Exact(value) => value.cmp(&Rational::default()),
-        Value::Certified(value) => value.decimal.to_rational().cmp(&Rational::default()),
+        other => other.decimal(9).0.to_rational().cmp(&Rational::default()),
     }
 }
 
@@ -37,8 +37,8 @@ fn the_closed_form_pulls_from_then_on() {
         let network = network_of(&closed, &[("mu", mu)]);
         let (time, between) = until(&network);
         assert_eq!(between, ["hammer", "rod"]);
-        let Determined::Digits(Value::Certified(time)) = time else { panic!("no rational") };
-        let (time, near) = (time.decimal.to_rational(), rational(1, 1_000_000));
+        let Value::Certified { decimal, .. } = time else { panic!("no rational") };
+        let (time, near) = (decimal.to_rational(), rational(1, 1_000_000));
         for step in 1..=20 {
             let before = &time * rational(step, 20) - &near;
             assert_eq!(sign(&network, "force", &before, Limit::Right), Ordering::Greater, "{mu}");
@@ -68,10 +68,7 @@ fn what_has_no_force_does_not_pull() {
                 bar b { impedance = 1, travel = 2 }\nline free - a | b - free\n\
                 observe force = force(b.left)\n";
     let network = network_of(text, &[]);
-    assert_eq!(
-        until(&network),
-        (Determined::Digits(Value::Exact(rational(4, 1))), ["a".into(), "b".into()])
-    );
+    assert_eq!(until(&network), (Value::Exact(rational(4, 1)), ["a".into(), "b".into()]));
     let forces = [(1, 1), (3, 1), (9, 2)]
         .map(|(above, below)| sign(&network, "force", &rational(above, below), Limit::Right));
     assert_eq!(forces, [Ordering::Greater, Ordering::Equal, Ordering::Less]);
@@ -148,14 +145,11 @@ fn the_first_opening_is_that_of_the_history() {
 #[test]
 fn limits_are_kept() {
     let network = shipped("saint-venant", &[("mu", "1")]);
-    let exactly =
-        |time: i64| Validity::Followed(Determined::Digits(Value::Exact(rational(time, 1))));
+    let exactly = |time: i64| Validity::Followed(Value::Exact(rational(time, 1)));
     assert_eq!(Validity::of(&network, Some(&rational(3, 1)), 12, CELLS), Ok(exactly(3)));
     assert_eq!(Validity::of(&network, None, 12, 0), Ok(exactly(0)));
     // Too few cells to get there: nothing is said of what comes later.
-    let Ok(Validity::Followed(Determined::Digits(Value::Exact(time)))) =
-        Validity::of(&network, None, 12, 7)
-    else {
+    let Ok(Validity::Followed(Value::Exact(time))) = Validity::of(&network, None, 12, 7) else {
         panic!("7 cells")
     };
     assert!(time > rational(0, 1) && time < rational(3, 1), "{time}");

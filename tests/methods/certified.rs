@@ -73,9 +73,9 @@ impl Tallies {
         match subject.by_form(at, Limit::Right, 40) {
             Value::Exact(number) => self.by_form.nearest(value, &number, place),
             // Next to the smallest doubles forty digits may not decide.
-            Value::Certified(_) if value.abs() < f64::MIN_POSITIVE => {}
-            Value::Certified(certified) => {
-                let (low, high) = ends(&certified.ball);
+            Value::Certified { .. } if value.abs() < f64::MIN_POSITIVE => {}
+            Value::Certified { ball, .. } | Value::Enclosed(ball) => {
+                let (low, high) = ends(&ball);
                 self.by_form.nearest(value, &low, place);
                 self.by_form.nearest(value, &high, place);
             }

@@ -7,13 +7,13 @@ use super::json::SCHEMA_VERSION;
 use super::progress;
 use num_rational::BigRational;
 use num_traits::Signed as _;
-use serde_json::{Map, Value, json};
-use wavestep::ball::Ball;
+use serde_json::{Map, Value as Json, json};
+use wavestep::ball::{Ball, Value};
 use wavestep::language::{self, Source};
 use wavestep_polynomial::Symbol;
 use wavestep_studies::dispersion::{
-    Builtin, DispersionError, Formula, PeakValue, PeakVelocity, Pulse, Quantity, Relation, Seen,
-    Shape, Travel, exact_peak_velocity, formula_latex, formula_text, peak_velocity, propagate,
+    Builtin, DispersionError, Formula, PeakVelocity, Pulse, Quantity, Relation, Seen, Shape,
+    Travel, exact_peak_velocity, formula_latex, formula_text, peak_velocity, propagate,
     read_relation, read_spectrum,
 };
 
@@ -50,7 +50,7 @@ const PLACE_DIGITS: usize = 8;
 /// The three quantities at one wavenumber.
 struct At {
     k: BigRational,
-    values: Vec<PeakValue>,
+    values: Vec<Value>,
 }
 
 /// All that was asked for.
@@ -140,16 +140,13 @@ fn values(relation: &Relation, k: BigRational, options: &Dispersion) -> Result<A
     let mut values = Vec::new();
     for (quantity, ..) in QUANTITIES {
         values.push(match relation.exact(quantity, &k) {
-            Some(value) => PeakValue::Rational(value),
-            None => {
-                let certified = relation.digits(quantity, &k, options.digits, options.max_bits)?;
-                PeakValue::Certified(Box::new(certified))
-            }
+            Some(value) => Value::Exact(value),
+            None => relation.digits(quantity, &k, options.digits, options.max_bits)?,
         });
     }
     let is_negative = match &values[0] {
-        PeakValue::Rational(omega) => omega.is_negative(),
-        PeakValue::Certified(omega) => omega.decimal.to_rational().is_negative(),
+        Value::Exact(omega) => omega.is_negative(),
+        other => other.decimal(options.digits).0.to_rational().is_negative(),
     };
     match is_negative {
         true => {
@@ -228,7 +225,7 @@ fn text(answer: &Answer) -> String {
         if let Some(exact) = exact {
             lines.push(format!("c_pp  = {}", formula_text(exact)));
         }
-        if let Some(PeakVelocity { value: value @ PeakValue::Certified(_), .. }) = peak {
+        if let Some(PeakVelocity { value: value @ Value::Certified { .. }, .. }) = peak {
             let sign = if exact.is_some() { "      =" } else { "c_pp  =" };
             lines.push(format!("{sign} {value}"));
         }
@@ -249,9 +246,9 @@ fn latex(answer: &Answer) -> String {
     for (quantity, _, _, name) in QUANTITIES {
         rows.push(format!("{name} &= {}", formula_latex(answer.relation.formula(quantity))));
     }
-    let value = |value: &PeakValue| match value {
-        PeakValue::Rational(value) => formula_latex(&Formula::number(value)),
-        PeakValue::Certified(certified) => certified.decimal.to_string(),
+    let value = |value: &Value| match value {
+        Value::Exact(value) => formula_latex(&Formula::number(value)),
+        other => other.to_string(),
     };
     for At { k, values } in &answer.at {
         let k = formula_latex(&Formula::number(k));
@@ -266,7 +263,7 @@ fn latex(answer: &Answer) -> String {
         }
         let exact = exact.map(formula_latex);
         let digits = peak.as_ref().and_then(|peak| match &peak.value {
-            PeakValue::Rational(_) => None,
+            Value::Exact(_) => None,
             certified => Some(value(certified)),
         });
         let right = match (exact, digits) {
@@ -278,12 +275,12 @@ fn latex(answer: &Answer) -> String {
     format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", rows.join(" \\\\\n"))
 }
 
-fn value_json(value: &PeakValue, digits: usize) -> Value {
+fn value_json(value: &Value, digits: usize) -> Json {
     match value {
-        PeakValue::Rational(exact) => json!({"exact": exact.to_string()}),
-        PeakValue::Certified(certified) => {
-            let mut told = json!({"value": certified.decimal.to_string()});
-            let ball = certified.ball.to_decimal(digits + 10);
+        Value::Exact(exact) => json!({"exact": exact.to_string()}),
+        Value::Certified { ball, .. } | Value::Enclosed(ball) => {
+            let mut told = json!({"value": value.to_string()});
+            let ball = ball.to_decimal(digits + 10);
             told["enclosure"] = json!({
                 "value": ball.midpoint().to_string(),
                 "radius": format!("{:e}", ball.radius()),
@@ -295,14 +292,14 @@ fn value_json(value: &PeakValue, digits: usize) -> Value {
 
 fn json(answer: &Answer, digits: usize) -> String {
     let mut document = json!({"schema_version": SCHEMA_VERSION});
-    let formulas: Map<String, Value> = QUANTITIES
+    let formulas: Map<String, Json> = QUANTITIES
         .iter()
         .map(|(quantity, _, name, _)| {
             let formula = formula_text(answer.relation.formula(*quantity));
             ((*name).to_owned(), json!(formula))
         })
         .collect();
-    document["relation"] = Value::Object(formulas);
+    document["relation"] = Json::Object(formulas);
     let at = |At { k, values }: &At| {
         let mut row = json!({"k": k.to_string()});
         for ((_, _, name, _), value) in QUANTITIES.iter().zip(values) {

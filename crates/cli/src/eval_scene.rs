@@ -6,7 +6,7 @@ use super::progress;
 use super::quantity;
 use super::rows::{Row, time_on_period, times, written};
 use num_rational::BigRational;
-use wavestep::evaluate::{Determined, Evaluator, Limit, SceneEvaluator};
+use wavestep::evaluate::{Evaluator, Limit, SceneEvaluator, Value};
 use wavestep::expression::Fraction;
 use wavestep::history::History;
 use wavestep::language;
@@ -72,14 +72,11 @@ fn across_phases(network: &Network, side: Limit, options: &Eval) -> Result<Strin
     };
     let mut rows = Vec::with_capacity(times.len());
     for (time, value) in times.into_iter().zip(values) {
-        let value = match value {
-            Determined::Digits(value) => value,
-            Determined::Enclosed(best) => {
-                let best = best.to_decimal(options.digits);
-                let message = format!("accuracy not reached at t = {time}: {name} = {best}");
-                return Err(Failure::Accuracy(message, "ask for fewer digits".to_owned()));
-            }
-        };
+        if let Value::Enclosed(best) = &value {
+            let best = best.to_decimal(options.digits);
+            let message = format!("accuracy not reached at t = {time}: {name} = {best}");
+            return Err(Failure::Accuracy(message, "ask for fewer digits".to_owned()));
+        }
         rows.push(Row { time, value });
     }
     Ok(told(network, &observed, &rows, options))

@@ -9,7 +9,7 @@ use super::progress;
 use super::rows::in_decimals;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
-use wavestep::evaluate::{Determined, Value};
+use wavestep::evaluate::Value;
 use wavestep::export::expression_text;
 use wavestep::history::{Body, Ending, Event, EventKind, History, HistoryError};
 use wavestep::language;
@@ -88,10 +88,10 @@ fn word(kind: EventKind) -> &'static str {
 
 impl Told<'_> {
     /// A value with the unit of its dimension.
-    fn value(&self, value: &Determined, dimension: Dimension) -> String {
+    fn value(&self, value: &Value, dimension: Dimension) -> String {
         let dimensional = self.network.scene().dimensional;
         let text = match value {
-            Determined::Digits(Value::Exact(value)) if dimensional => in_decimals(value),
+            Value::Exact(value) if dimensional => in_decimals(value),
             other => other.to_text(self.options.digits),
         };
         match dimensional {
@@ -101,7 +101,7 @@ impl Told<'_> {
         }
     }
 
-    fn pair(&self, [before, after]: &[Determined; 2], dimension: Dimension) -> String {
+    fn pair(&self, [before, after]: &[Value; 2], dimension: Dimension) -> String {
         let (before, after) = (self.value(before, dimension), self.value(after, dimension));
         match before == after {
             true => before,
@@ -196,8 +196,8 @@ impl Told<'_> {
     }
 
     fn json(&self) -> String {
-        let optional = |value: &Option<Determined>| value.as_ref().map(number);
-        let pair = |pair: &[Determined; 2]| pair.each_ref().map(number);
+        let optional = |value: &Option<Value>| value.as_ref().map(number);
+        let pair = |pair: &[Value; 2]| pair.each_ref().map(number);
         let body = |body: &Body| {
             json!({
                 "elements": body.elements,
@@ -258,11 +258,9 @@ impl Told<'_> {
 
     fn latex(&self) -> String {
         let escaped = |name: &str| name.replace('_', r"\_");
-        let decimals = |value: &Determined| match value {
-            Determined::Digits(value) => value.decimal(self.options.digits).0.to_string(),
-            Determined::Enclosed(ball) => {
-                ball.to_decimal(self.options.digits).to_string().replace('±', r"\pm")
-            }
+        let decimals = |value: &Value| match value {
+            Value::Enclosed(_) => value.to_text(self.options.digits).replace('±', r"\pm"),
+            _ => value.decimal(self.options.digits).0.to_string(),
         };
         let mut text = String::from("\\begin{tabular}{llrrrr}\n");
         text += "event & contact & $t$ & force before & after & left, right after \\\\\n\\hline\n";

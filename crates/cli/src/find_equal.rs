@@ -16,14 +16,10 @@ use num_traits::Signed as _;
 use serde_json::json;
 use std::cmp::Ordering;
 use wavestep::ball::{Ball, Decimal};
-use wavestep::evaluate::Goal;
+use wavestep::evaluate::{Goal, Search};
 use wavestep::expression::Fraction;
 use wavestep::language::{self, Source};
 use wavestep_polynomial::Symbol;
-
-/// The precisions in bits at which extrema are compared.
-const FIRST_BITS: u64 = 64;
-const LAST_BITS: u64 = 1 << 11;
 
 /// The most digits: each costs more than three pairs of extrema.
 const MAX_DIGITS: usize = 60;
@@ -92,7 +88,10 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         true => Ok(report),
         false => Err(Failure::Undecided {
             report,
-            message: format!("extrema cannot be told apart with {LAST_BITS} bits in this range"),
+            message: format!(
+                "extrema cannot be told apart with {} bits in this range",
+                Search::COMPARISON_BITS
+            ),
             remedy: "ask for fewer digits".to_owned(),
         }),
     }
@@ -138,20 +137,7 @@ impl Question<'_> {
         }
         let first = seen.search([&times[0], &times[1]])?.half_open();
         let second = seen.search([&times[1], &times[2]])?.half_open();
-        let mut bits = FIRST_BITS;
-        while bits <= LAST_BITS {
-            let (one, other) = (
-                first.enclose_extremum(self.goal, bits)?,
-                second.enclose_extremum(self.goal, bits)?,
-            );
-            let difference = one.subtract(&other, 2 * bits);
-            if let Ok(inverse) = difference.reciprocal(16) {
-                let positive = !inverse.to_decimal(1).midpoint().to_rational().is_negative();
-                return Ok(Some(if positive { Ordering::Greater } else { Ordering::Less }));
-            }
-            bits *= 4;
-        }
-        Ok(None)
+        Ok(first.compare_extremum(&second, self.goal)?)
     }
 
     /// A time of `--between` with a value in place of the symbol.

@@ -7,7 +7,7 @@ use super::rows::{ALL_DIGITS, in_decimals};
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Determined, Extremum, Goal, Place, Root, Roots, Value};
+use wavestep::evaluate::{Extremum, Goal, Place, Root, Roots, Value};
 
 /// Digits of bounds and of intervals that stay undecided.
 const BOUND_DIGITS: usize = 20;
@@ -37,23 +37,21 @@ impl Told<'_> {
     }
 
     /// A time with its unit.
-    fn time(&self, time: &Determined) -> String {
+    fn time(&self, time: &Value) -> String {
         let text = match time {
-            Determined::Digits(Value::Exact(time)) if self.seen.is_dimensional() => {
-                in_decimals(time)
-            }
-            Determined::Digits(Value::Exact(time)) => time.to_string(),
+            Value::Exact(time) if self.seen.is_dimensional() => in_decimals(time),
+            Value::Exact(time) => time.to_string(),
             other => other.to_text(self.options.digits),
         };
         text + self.second()
     }
 
     fn window(&self) -> String {
-        let [from, to] = self.window.map(|time| Determined::Digits(Value::Exact(time.clone())));
+        let [from, to] = self.window.map(|time| Value::Exact(time.clone()));
         format!("{} <= t <= {}", self.time(&from), self.time(&to))
     }
 
-    fn value(&self, value: &Determined) -> String {
+    fn value(&self, value: &Value) -> String {
         let unit = self.seen.unit();
         let space = if unit.is_empty() { "" } else { " " };
         format!("{}{space}{unit}", value.to_text(self.options.digits))
@@ -106,7 +104,7 @@ fn enclosed(from: &BigRational, to: &BigRational) -> Ball {
 
 fn root_line(root: &Root, told: &Told<'_>) -> String {
     let (name, level) = (told.name(), told.level());
-    let at = |time: &Determined| format!("{name} = {level} at t = {}", told.time(time));
+    let at = |time: &Value| format!("{name} = {level} at t = {}", told.time(time));
     let line = match root {
         Root::Simple { time, rises } => {
             format!("{} (simple, {})", at(time), if *rises { "rising" } else { "falling" })
@@ -194,7 +192,7 @@ fn extremum_text(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
     }
     if extremum.places.len() > 1 {
         text += match &extremum.value {
-            Determined::Digits(Value::Exact(_)) => "tied: the value is exactly the same there\n",
+            Value::Exact(_) => "tied: the value is exactly the same there\n",
             _ => "tied: these places cannot be told apart\n",
         };
     }
@@ -202,20 +200,20 @@ fn extremum_text(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
 }
 
 /// A number with all that is proven of it.
-pub fn number(number: &Determined) -> Json {
+pub fn number(number: &Value) -> Json {
     let with_ball = |ball: &Ball| {
         let enclosure = ball.to_decimal(ALL_DIGITS);
         let radius = format!("{:e}", enclosure.radius());
         json!({ "midpoint": enclosure.midpoint().to_string(), "radius": radius })
     };
     match number {
-        Determined::Digits(Value::Exact(value)) => json!({ "exact": value.to_string() }),
-        Determined::Digits(Value::Certified(certified)) => {
-            let mut body = with_ball(&certified.ball);
-            body["decimal"] = json!(certified.decimal.to_string());
+        Value::Exact(value) => json!({ "exact": value.to_string() }),
+        Value::Certified { decimal, ball } => {
+            let mut body = with_ball(ball);
+            body["decimal"] = json!(decimal.to_string());
             body
         }
-        Determined::Enclosed(ball) => with_ball(ball),
+        Value::Enclosed(ball) => with_ball(ball),
     }
 }
 
@@ -237,8 +235,8 @@ fn root_json(root: &Root) -> Json {
         }
         Root::Undecided { from, to, range, crosses } => json!({
             "kind": "undecided",
-            "time": number(&Determined::Enclosed(enclosed(from, to))),
-            "difference": number(&Determined::Enclosed(range.clone())),
+            "time": number(&Value::Enclosed(enclosed(from, to))),
+            "difference": number(&Value::Enclosed(range.clone())),
             "crosses": crosses,
         }),
     }
@@ -255,7 +253,7 @@ fn place_json(place: &Place) -> Json {
             json!({ "kind": "plateau", "from": number(from), "to": number(to), "closed": closed })
         }
         Place::Undecided { from, to } => {
-            let time = number(&Determined::Enclosed(enclosed(from, to)));
+            let time = number(&Value::Enclosed(enclosed(from, to)));
             json!({ "kind": "undecided", "time": time })
         }
     };

@@ -154,8 +154,8 @@ fn json_value(row: &Row, digits: usize) -> Json {
         Value::Exact(value) => {
             json!({"time": time, "value": decimal, "exact": value.to_string(), "radius": "0"})
         }
-        Value::Certified(certified) => {
-            let enclosure = certified.ball.to_decimal(ALL_DIGITS);
+        Value::Certified { ball, .. } | Value::Enclosed(ball) => {
+            let enclosure = ball.to_decimal(ALL_DIGITS);
             json!({
                 "time": time,
                 "value": decimal,

@@ -14,9 +14,9 @@
 //! extrema cells whose largest value is below one that is known to be taken are dropped
 //! ([`Finding::Low`]).
 
-use crate::ball::{Ball, Binary, Magnitude};
+use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::find::search::{Search, sign_of};
+use crate::evaluate::find::search::Search;
 use crate::evaluate::taylor::Taylor;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -128,19 +128,23 @@ impl Search<'_> {
     ) -> Result<Vec<Cell>, EvaluateError> {
         let [from, to] = self.bounds(stretch)?;
         let (middle, _) = middle_and_half(&from, &to);
-        let size = loop {
-            let bits = self.bits.get();
+        // Far from the start the first bits may tell nothing.
+        let attempt = |bits| {
+            self.bits.set(bits);
             let (size, error) = self.function.size(stretch, target.order, &middle, bits)?;
-            if error.scale(RELATIVE_BITS) <= size || bits >= target.limit_bits {
-                break size;
-            }
-            // Far from the start the first bits may tell nothing.
-            self.bits.set((2 * bits).min(target.limit_bits));
+            Ok::<_, EvaluateError>(Attempt::of(size, error.scale(RELATIVE_BITS) <= size))
         };
+        let size = self.precisions(target).raise(attempt)?.best();
         let (scale, cells) = (size.scale(-CANCELLED_BITS), Vec::new());
         let mut cover = Cover { search: self, stretch, target, record, scale, cells };
         cover.descend(from, to, 0, None)?;
         Ok(cover.cells)
+    }
+
+    /// From the precision that has done so far on.
+    fn precisions(&self, target: Target<'_>) -> Precisions {
+        let bits = self.bits.get();
+        Precisions::doubling(bits, target.limit_bits.max(bits))
     }
 
     /// A polynomial of a derivative, less the level where it is the observable itself.
@@ -225,8 +229,8 @@ impl Cover<'_, '_, '_> {
         depth: usize,
     ) -> Result<Expansion, EvaluateError> {
         let search = self.search;
-        loop {
-            let bits = search.bits.get();
+        let attempt = |bits| {
+            search.bits.set(bits);
             let of = |order: usize| {
                 let target = Target { order, ..self.target };
                 search.expand(self.stretch, target, (middle, half), TERMS, bits)
@@ -243,13 +247,10 @@ impl Cover<'_, '_, '_> {
             }
             let wanted = self.scale.scale(-(RELATIVE_BITS + 2 * depth as i64));
             let coarse = own.coefficients.iter().any(|c| *c.radius() > wanted);
-            if coarse && bits < self.target.limit_bits {
-                search.bits.set((2 * bits).min(self.target.limit_bits));
-                continue;
-            }
             let (middle, half) = (middle.clone(), half.clone());
-            return Ok(Expansion { middle, half, depth, polynomials, bits });
-        }
+            Ok(Attempt::of(Expansion { middle, half, depth, polynomials, bits }, !coarse))
+        };
+        search.precisions(self.target).raise(attempt).map(Attempt::best)
     }
 
     fn decided(&mut self, polynomials: &[Taylor]) -> Option<Finding> {
@@ -259,11 +260,11 @@ impl Cover<'_, '_, '_> {
             }
             record.note(&observable.coefficients[0].widened(&observable.remainder));
         }
-        match sign_of(&range_of(&polynomials[0])) {
+        match range_of(&polynomials[0]).sign() {
             Some(Ordering::Equal) | None => {}
             Some(sign) => return Some(Finding::Clear(sign)),
         }
-        match sign_of(&range_of(&polynomials[1])) {
+        match range_of(&polynomials[1]).sign() {
             Some(Ordering::Equal) | None => None,
             Some(sign) => Some(Finding::Monotone(sign)),
         }

@@ -10,21 +10,21 @@
 //! Candidates are compared by enclosures that are narrowed; those that cannot be told apart stay,
 //! all of them. The supremum then lies between the largest lower bound and the largest upper bound.
 
-use crate::ball::Ball;
+use crate::ball::{Attempt, Ball, Precisions, Value};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, range_of};
-use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::refine::Isolated;
-use crate::evaluate::find::search::{Search, rationals, sign_of};
-use crate::evaluate::value::Value;
+use crate::evaluate::find::search::{Search, rationals};
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// The precisions at which candidates are compared.
-const COMPARISONS: [u64; 4] = [64, 128, 256, 512];
+fn comparisons() -> Precisions {
+    Precisions::doubling(64, 512)
+}
 
 /// Bits of balls beyond those of a value.
 const SPARE_BITS: u64 = 64;
@@ -65,7 +65,7 @@ pub enum Goal {
 /// Where an extremum is taken, or approached. Times are the user's.
 ///
 /// ```
-/// use wavestep::evaluate::{Determined, Goal, Place, Search, Value};
+/// use wavestep::evaluate::{Goal, Place, Search, Value};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -77,7 +77,7 @@ pub enum Goal {
 /// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
 /// // Just before the front arrives at 4, not when it does.
 /// let largest = search.extremum(Goal::Largest, 6, 1 << 12).unwrap();
-/// let time = Determined::Digits(Value::Exact(parse_number("4")?));
+/// let time = Value::Exact(parse_number("4")?);
 /// assert_eq!(largest.places, [Place::Arrival { time, before: true, after: false }]);
 /// assert!(!largest.places[0].is_attained());
 /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -85,13 +85,13 @@ pub enum Goal {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Place {
     /// At a simple root of the derivative.
-    Critical(Determined),
+    Critical(Value),
     /// At an end of the window.
-    End(Determined),
+    End(Value),
     /// Where an echo arrives.
     Arrival {
         /// When.
-        time: Determined,
+        time: Value,
         /// In the limit from earlier times.
         before: bool,
         /// In the limit from later times: the value itself.
@@ -100,9 +100,9 @@ pub enum Place {
     /// On all of an interval, at its first time as well.
     Plateau {
         /// Its first time.
-        from: Determined,
+        from: Value,
         /// Its end.
-        to: Determined,
+        to: Value,
         /// Whether the value is taken at the end as well: where that of the window is it.
         closed: bool,
     },
@@ -144,7 +144,7 @@ impl Place {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Extremum {
     /// The value.
-    pub value: Determined,
+    pub value: Value,
     /// In order of time. With several of them one at least has the value; which one, balls do not
     /// tell.
     pub places: Vec<Place>,
@@ -204,17 +204,42 @@ impl<'s> Search<'s> {
         limit_bits: u64,
     ) -> Result<Extremum, EvaluateError> {
         let contenders = self.contenders(goal, limit_bits)?;
-        for bits in COMPARISONS {
+        for bits in comparisons().iter() {
             contenders.compare(bits)?;
         }
         let value = match contenders.exact()? {
-            Some(value) => Determined::Digits(Value::Exact(value)),
+            Some(value) => Value::Exact(value),
             None => {
                 let limit = contenders.limit_bits;
-                Determined::of(digits, limit, |bits| contenders.enclose(bits))?
+                Value::certify(digits, limit, |bits| contenders.enclose(bits))?.exact_if_known()
             }
         };
         Ok(Extremum { value, places: contenders.places(digits)? })
+    }
+
+    /// The most bits that two extrema are told apart with.
+    pub const COMPARISON_BITS: u64 = 1 << 10;
+
+    /// The sign of this extremum less that of another search; `None` where it is not decided, since they
+    /// are equal or too near.
+    ///
+    /// # Errors
+    /// As [`Search::extremum`].
+    ///
+    /// # Cost
+    /// As [`Search::extremum`].
+    pub fn compare_extremum(
+        &self,
+        other: &Search<'_>,
+        goal: Goal,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        let attempt = |bits| {
+            let (own, others) =
+                (self.enclose_extremum(goal, bits)?, other.enclose_extremum(goal, bits)?);
+            let sign = own.subtract(&others, 2 * bits).sign().filter(|sign| sign.is_ne());
+            Ok(Attempt::of(sign, sign.is_some()))
+        };
+        Precisions::doubling(64, Search::COMPARISON_BITS).raise(attempt).map(Attempt::best)
     }
 
     /// An enclosure of the extremum with a relative precision of about so many bits.
@@ -244,7 +269,7 @@ impl<'s> Search<'s> {
     /// ```
     pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Result<Ball, EvaluateError> {
         let contenders = self.contenders(goal, 8 * bits)?;
-        for early in COMPARISONS.into_iter().filter(|early| *early < bits) {
+        for early in comparisons().iter().filter(|early| *early < bits) {
             contenders.compare(early)?;
         }
         contenders.enclose(bits)
@@ -270,7 +295,7 @@ impl<'s> Search<'s> {
             }
         }
         for candidate in &left {
-            record.note(&contenders.value(&mut candidate.clone(), COMPARISONS[0])?);
+            record.note(&contenders.value(&mut candidate.clone(), comparisons().first())?);
         }
         let target = Target { order: 1, level: &zero, limit_bits };
         for (stretch, constant) in constant.into_iter().enumerate() {
@@ -346,25 +371,22 @@ impl<'s> Search<'s> {
         target: Target<'_>,
     ) -> Result<Option<Ordering>, EvaluateError> {
         let limit_bits = target.limit_bits.min(SLOPE_BITS);
-        let first = self.bits.get().min(limit_bits);
-        let mut bits = first;
-        loop {
+        let precisions = Precisions::doubling(self.bits.get(), limit_bits);
+        let attempt = |bits| {
             let slope = match place {
                 Ok(time) => self.at(stretch, 1, time, bits)?,
                 Err(side) => self.limit(stretch, 1, side, bits)?,
             };
-            let sign = sign_of(&slope);
+            let sign = slope.sign();
             if let (None, Err(side)) = (sign, place)
-                && bits == first
+                && bits == precisions.first()
                 && self.slope_vanishes(stretch, side)?
             {
-                return Ok(Some(Ordering::Equal));
+                return Ok(Attempt::Done(Some(Ordering::Equal)));
             }
-            match sign {
-                None if bits < limit_bits => bits = (2 * bits).min(limit_bits),
-                sign => return Ok(sign),
-            }
-        }
+            Ok(Attempt::of(sign, sign.is_some()))
+        };
+        precisions.raise(attempt).map(Attempt::best)
     }
 }
 
@@ -459,7 +481,7 @@ impl Contenders<'_, '_> {
         let search = self.search;
         let zero = Rational::default();
         let target = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
-        let exact = |time: &Rational| Determined::Digits(Value::Exact(time.clone()));
+        let exact = |time: &Rational| Value::Exact(time.clone());
         let last = search.count - 1;
         let end = |stretch: usize| match stretch == last {
             true => Ok(exact(&search.window[1])),

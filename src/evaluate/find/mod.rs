@@ -15,7 +15,6 @@
 //! the stretch.
 
 mod cover;
-mod determined;
 mod extrema;
 mod observed;
 mod piecewise;
@@ -23,7 +22,6 @@ mod refine;
 mod roots;
 mod search;
 
-pub use determined::Determined;
 pub use extrema::{Extremum, Goal, Place};
 pub use observed::ObservedSignal;
 pub use piecewise::{At, Piecewise};

@@ -3,7 +3,7 @@
 //! It is held twice: as a [`Signal`], which is enclosed in balls, and as what is asked for exact values
 //! where a ball cannot decide because the answer is zero.
 
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Ball, Magnitude, Value};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::{Evaluator, Limit};
 use crate::evaluate::find::piecewise::{At, Piecewise};
@@ -11,7 +11,6 @@ use crate::evaluate::find::search::{FIRST_BITS, SIGN_BITS};
 use crate::evaluate::scene::SceneEvaluator;
 use crate::evaluate::signal::{Signal, Stretch};
 use crate::evaluate::taylor::Taylor;
-use crate::evaluate::value::Value;
 use crate::expression::{Field as _, Fraction};
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
@@ -129,7 +128,7 @@ impl<'a> ObservedSignal<'a> {
         };
         match value {
             Ok(Value::Exact(value)) => Ok(Some(value)),
-            Ok(Value::Certified(_))
+            Ok(Value::Certified { .. } | Value::Enclosed(_))
             | Err(
                 EvaluateError::AccuracyNotReached { .. }
                 | EvaluateError::TooManyPeriods { .. }

@@ -5,14 +5,11 @@
 //! Newton. Where that does not halve the interval, the sign of `F(m)` does. Precision is doubled
 //! where `F(m)` is too coarse for either.
 
-use crate::ball::Ball;
+use crate::ball::{Ball, Precisions, Value};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::find::cover::{Target, middle_and_half};
-use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;
-use crate::evaluate::find::search::{Search, less, rationals, sign_of};
-use crate::evaluate::value::Value;
-use std::cell::RefCell;
+use crate::evaluate::find::search::{Search, less, rationals};
 use std::cmp::Ordering;
 use wavestep_polynomial::{Integer, Rational};
 
@@ -50,6 +47,7 @@ impl Search<'_> {
         let stretch = root.stretch;
         let mut working = bits.saturating_add(SPARE_BITS).max(self.bits.get());
         let most = target.limit_bits.saturating_mul(2).max(working);
+        let precisions = Precisions::doubling(working, most);
         loop {
             let width = &root.to - &root.from;
             let goal = &root.to * power_of_half(bits);
@@ -81,15 +79,17 @@ impl Search<'_> {
             if &narrowed + &narrowed <= width {
                 continue;
             }
-            match sign_of(&value) {
+            match value.sign() {
                 Some(Ordering::Equal) => (root.from, root.to) = (middle.clone(), middle),
                 Some(sign) => match (sign == Ordering::Greater) == root.rises {
                     true if middle < root.to => root.to = middle,
                     false if middle > root.from => root.from = middle,
                     _ => {}
                 },
-                None if working >= most => return Ok(()),
-                None => working = (2 * working).min(most),
+                None => match precisions.after(working) {
+                    Some(more) => working = more,
+                    None => return Ok(()),
+                },
             }
         }
     }
@@ -101,7 +101,7 @@ impl Search<'_> {
         root: &Isolated,
         target: Target<'_>,
         digits: usize,
-    ) -> Result<Determined, EvaluateError> {
+    ) -> Result<Value, EvaluateError> {
         let mut root = root.clone();
         self.narrow(&mut root, target, SUSPICION_BITS)?;
         let simple = simplest(&root.from, &root.to);
@@ -109,14 +109,17 @@ impl Search<'_> {
             && simple.denom().bits() <= MAX_DENOMINATOR_BITS
             && self.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level)
         {
-            return Ok(Determined::Digits(Value::Exact(simple)));
+            return Ok(Value::Exact(simple));
         }
-        let root = RefCell::new(root);
-        Determined::of(digits, target.limit_bits, |bits| {
-            let mut root = root.borrow_mut();
+        let time = Value::certify(digits, target.limit_bits, |bits| {
             self.narrow(&mut root, target, bits)?;
-            Ok(Ball::between(&root.from, &root.to, bits.saturating_add(SPARE_BITS)))
-        })
+            Ok::<_, EvaluateError>(Ball::between(
+                &root.from,
+                &root.to,
+                bits.saturating_add(SPARE_BITS),
+            ))
+        })?;
+        Ok(time.exact_if_known())
     }
 }
 

@@ -13,15 +13,13 @@
 //!
 //! Between stretches the two limits tell of jumps.
 
-use crate::ball::Ball;
+use crate::ball::{Ball, Value};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
-use crate::evaluate::find::determined::Determined;
 use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::refine::Isolated;
-use crate::evaluate::find::search::{Search, rationals, sign_of};
-use crate::evaluate::value::Value;
+use crate::evaluate::find::search::{Search, rationals};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -38,7 +36,7 @@ pub const MAX_ROOTS: usize = 10_000;
 /// A root of `f − v`, or where there may be one. Times are the user's.
 ///
 /// ```
-/// use wavestep::evaluate::{Determined, Root, Search, Value};
+/// use wavestep::evaluate::{Root, Search, Value};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -50,7 +48,7 @@ pub const MAX_ROOTS: usize = 10_000;
 /// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
 /// // Nothing is felt at the fixed end until the front is there, at 1.
 /// let found = search.roots(&parse_number("0")?, 9, 1 << 12).unwrap();
-/// let exactly = |time| Determined::Digits(Value::Exact(parse_number(time).unwrap()));
+/// let exactly = |time| Value::Exact(parse_number(time).unwrap());
 /// let silence = Root::Interval { from: exactly("0"), to: exactly("1"), closed: false };
 /// assert_eq!(found.all, [silence]);
 /// # Ok::<(), wavestep::language::Diagnostic>(())
@@ -60,19 +58,19 @@ pub enum Root {
     /// A change of sign with a derivative that is not zero.
     Simple {
         /// When.
-        time: Determined,
+        time: Value,
         /// Whether from below to above.
         rises: bool,
     },
     /// `f = v` exactly at an end of the window.
     End {
         /// When.
-        time: Determined,
+        time: Value,
     },
     /// `f = v` exactly in a limit where an echo arrives.
     Arrival {
         /// When.
-        time: Determined,
+        time: Value,
         /// Whether the limit from earlier times is v.
         before: bool,
         /// Whether the limit from later times, the value, is v.
@@ -81,16 +79,16 @@ pub enum Root {
     /// A jump over v where an echo arrives; there is no root.
     Jump {
         /// When.
-        time: Determined,
+        time: Value,
         /// The limits before and after, as they can be told.
-        limits: [Determined; 2],
+        limits: [Value; 2],
     },
     /// `f = v` on all of an interval.
     Interval {
         /// Its first time, at which the value is v.
-        from: Determined,
+        from: Value,
         /// Its last time.
-        to: Determined,
+        to: Value,
         /// Whether the value is v at the last time as well.
         closed: bool,
     },
@@ -162,8 +160,8 @@ struct Ends {
 }
 
 /// A number that is known.
-fn known(value: &Rational) -> Determined {
-    Determined::Digits(Value::Exact(value.clone()))
+fn known(value: &Rational) -> Value {
+    Value::Exact(value.clone())
 }
 
 impl Search<'_> {
@@ -232,15 +230,16 @@ impl Search<'_> {
         stretch: usize,
         digits: usize,
         limit_bits: u64,
-    ) -> Result<Determined, EvaluateError> {
+    ) -> Result<Value, EvaluateError> {
         if stretch == 0 {
             return Ok(known(&self.window[0]));
         }
         match self.function.exact_time(stretch, Limit::Right) {
             Some(time) => Ok(known(&time)),
-            None => Determined::of(digits, limit_bits, |bits| {
-                self.function.time(stretch, Limit::Right, bits)
-            }),
+            None => {
+                let time = |bits| self.function.time(stretch, Limit::Right, bits);
+                Ok(Value::certify(digits, limit_bits, time)?.exact_if_known())
+            }
         }
     }
 
@@ -310,15 +309,16 @@ impl Search<'_> {
         stretch: usize,
         side: Limit,
         question: &Question<'_>,
-    ) -> Result<Determined, EvaluateError> {
+    ) -> Result<Value, EvaluateError> {
         if let Some(value) = self.exact(stretch, At::End(side))? {
             return Ok(known(&value));
         }
         let limit_bits = question.target.limit_bits;
-        Determined::of(question.digits, limit_bits, |bits| self.limit(stretch, 0, side, bits))
+        let limit = |bits| self.limit(stretch, 0, side, bits);
+        Ok(Value::certify(question.digits, limit_bits, limit)?.exact_if_known())
     }
 
-    fn close_interval(&self, all: &mut [Root], end: Determined, whole: bool) {
+    fn close_interval(&self, all: &mut [Root], end: Value, whole: bool) {
         if let Some(Root::Interval { to, closed, .. }) = all.last_mut() {
             (*to, *closed) = (end, whole);
         }
@@ -421,7 +421,7 @@ impl Search<'_> {
     ) -> Result<bool, EvaluateError> {
         let curvature = Target { order: 2, ..target };
         let range = self.range(stretch, curvature, (&cell.from, &cell.to), self.bits.get())?;
-        let sign = sign_of(&range);
+        let sign = range.sign();
         Ok(sign.is_some_and(|sign| sign != Ordering::Equal)
             && self.slope_vanishes(stretch, side)?)
     }

@@ -3,7 +3,7 @@
 //! The observable is any [`Piecewise`] function: a search asks it for enclosures, and for exact values
 //! where a ball cannot decide because the answer is zero.
 
-use crate::ball::Ball;
+use crate::ball::{Attempt, Ball, Precisions};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::observed::ObservedSignal;
@@ -38,7 +38,7 @@ pub(crate) const SIGN_BITS: u64 = 1 << 12;
 ///
 /// ```
 /// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Determined, Goal, Root, Search};
+/// use wavestep::evaluate::{Value, Goal, Root, Search};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 /// use wavestep::solution::Solution;
 ///
@@ -266,22 +266,15 @@ impl<'a> Search<'a> {
         enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
         exact: impl Fn() -> Result<Option<Ordering>, EvaluateError>,
     ) -> Result<Option<Ordering>, EvaluateError> {
-        let first = self.bits.get().min(limit_bits.min(SIGN_BITS));
-        let mut bits = first;
-        loop {
-            if let Some(sign) = sign_of(&enclosure(bits)?) {
-                return Ok(Some(sign));
-            }
-            if bits == first
-                && let Some(sign) = exact()?
-            {
-                return Ok(Some(sign));
-            }
-            if bits >= limit_bits.min(SIGN_BITS) {
-                return Ok(None);
-            }
-            bits = (2 * bits).min(limit_bits.min(SIGN_BITS));
-        }
+        let precisions = Precisions::doubling(self.bits.get(), limit_bits.min(SIGN_BITS));
+        let attempt = |bits| {
+            let sign = match enclosure(bits)?.sign() {
+                None if bits == precisions.first() => exact()?,
+                sign => sign,
+            };
+            Ok(Attempt::of(sign, sign.is_some()))
+        };
+        precisions.raise(attempt).map(Attempt::best)
     }
 
     /// The value, where it is known to be rational.
@@ -311,8 +304,7 @@ impl<'a> Search<'a> {
     /// Rational bounds of a stretch: its ends themselves where they are rational, else so little
     /// beyond them that the middle of no cell lies outside.
     pub(crate) fn bounds(&self, stretch: usize) -> Result<[Rational; 2], EvaluateError> {
-        let mut bits = BOUND_BITS;
-        loop {
+        let attempt = |bits| {
             let outer = |end| -> Result<(Rational, Rational), EvaluateError> {
                 if let Some(time) = self.function.exact_time(stretch, end) {
                     return Ok((time.clone(), time));
@@ -321,13 +313,10 @@ impl<'a> Search<'a> {
             };
             let ((first, after), (before, last)) = (outer(Limit::Right)?, outer(Limit::Left)?);
             let slack = (&after - &first).max(&last - &before);
-            if slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after
-                || bits >= MAX_BOUND_BITS
-            {
-                return Ok([first, last]);
-            }
-            bits *= 4;
-        }
+            let is_near = slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after;
+            Ok(Attempt::of([first, last], is_near))
+        };
+        Precisions::doubling(BOUND_BITS, MAX_BOUND_BITS).raise(attempt).map(Attempt::best)
     }
 }
 
@@ -344,17 +333,6 @@ pub(crate) fn less(value: Ball, level: &Rational, bits: u64) -> Ball {
         true => value,
         false => value.subtract(&Ball::from_rational(level, bits), bits),
     }
-}
-
-/// The sign of all points of a ball, where they have one.
-pub(crate) fn sign_of(ball: &Ball) -> Option<Ordering> {
-    if ball.is_exact() && ball.midpoint().is_zero() {
-        return Some(Ordering::Equal);
-    }
-    if ball.contains_zero() {
-        return None;
-    }
-    Some(if ball.midpoint().is_negative() { Ordering::Less } else { Ordering::Greater })
 }
 
 /// Two rationals with the ball between them.

@@ -8,6 +8,7 @@
 
 use super::doubles::{Kept, piece};
 use super::{Method, MethodError};
+use crate::ball::{Attempt, Precisions};
 use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::evaluator::Limit;
@@ -111,24 +112,21 @@ impl<'a> Certified<'a> {
         let window = self.window()?;
         let stretch = &window.stretches[window.stretch_at(at, side)?];
         let scaled = self.signal.slowness().scale(at);
-        let mut bits = FIRST_BITS;
-        loop {
+        let attempt = |bits| {
             let ball = self.signal.enclose(stretch, 0, &scaled, bits)?;
             if let Some(value) = ball.rounded() {
-                return Ok(value);
+                return Ok(Attempt::Done(value));
             }
             // Rational numbers alone can be zero or half-way between two doubles.
             if bits == FIRST_BITS
                 && let Some(value) = (self.recognise)(at, side)?
             {
-                return Ok(nearest(&value));
+                return Ok(Attempt::Done(nearest(&value)));
             }
-            if bits >= MAX_BITS {
-                let best = Box::new(ball);
-                return Err(EvaluateError::AccuracyNotReached { best, bits }.into());
-            }
-            bits *= 2;
-        }
+            let best = Box::new(ball);
+            Ok(Attempt::NotYet(EvaluateError::AccuracyNotReached { best, bits }.into()))
+        };
+        Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
     }
 }
 

@@ -7,11 +7,10 @@
 
 use super::doubles::{Kept, piece};
 use super::{Method, MethodError};
-use crate::ball::{Ball, Magnitude};
+use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
 use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
 use crate::evaluate::evaluator::Limit;
 use crate::evaluate::signal::Signal;
-use crate::evaluate::unit_in_the_last_place;
 use std::cmp::Ordering;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;

@@ -8,7 +8,7 @@ use super::doubles::{exactly, inside};
 use super::marched_response::{Response, reflection, weights};
 use super::marched_waves::Waves;
 use super::{Method, MethodError};
-use crate::ball::{Ball, ComplexBall, Magnitude};
+use crate::ball::{Attempt, Ball, ComplexBall, Magnitude, Precisions};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
 use crate::evaluate::error::EvaluateError;
@@ -131,18 +131,15 @@ impl Marched {
         const FIRST_BITS: u64 = 128;
         const MAX_BITS: u64 = 1 << 12;
         let allowed = self.march.bound().map(|bound| Magnitude::from_double(bound).scale(-10));
-        let mut bits = FIRST_BITS;
-        loop {
+        let attempt = |bits| {
             let sum = self.extras_in(at, side, bits)?;
             if allowed.is_none_or(|allowed| *sum.radius() <= allowed) {
-                return Ok(sum);
+                return Ok(Attempt::Done(sum));
             }
-            if bits >= MAX_BITS {
-                let best = Box::new(sum);
-                return Err(EvaluateError::AccuracyNotReached { best, bits }.into());
-            }
-            bits *= 2;
-        }
+            let best = Box::new(sum);
+            Ok(Attempt::NotYet(EvaluateError::AccuracyNotReached { best, bits }.into()))
+        };
+        Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
     }
 
     /// The same with so many bits.

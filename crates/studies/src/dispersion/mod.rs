@@ -38,7 +38,7 @@ pub use error::DispersionError;
 pub use formula::{Formula, FormulaError, Function};
 pub use notation::{formula_latex, formula_text};
 pub use peak::{
-    Component, PeakValue, PeakVelocity, exact_peak_velocity, peak_velocity, peak_velocity_at,
+    Component, PeakVelocity, exact_peak_velocity, peak_velocity, peak_velocity_at,
     peak_velocity_by_quadrature, peak_velocity_of_sum,
 };
 pub use propagate::{Seen, Travel, propagate};

@@ -4,8 +4,6 @@
 //! Near its peak a pulse `Σ U_i cos(ω_i t − k_i x)` has the slope `Σ U_i k_i sin(ω_i t − k_i x)`, and as
 //! long as the angles are small, sines are angles: the slope vanishes at `x/t = Σ U_i k_i ω_i/Σ U_i k_i²`.
 
-use std::fmt;
-
 use num_traits::Zero as _;
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -13,8 +11,8 @@ use super::error::{DispersionError, place};
 use super::formula::{Formula, wave_number};
 use super::pulse::{Pulse, Shape};
 use super::quadrature::integrate;
-use super::relation::{Relation, Sample, settled, value};
-use wavestep::ball::{Ball, Certified, certify};
+use super::relation::{Relation, Sample, certified, value};
+use wavestep::ball::{Ball, Value};
 
 /// How often the range of wavenumbers is halved in looking for negative frequencies.
 const NEGATIVE_DEPTH: u32 = 12;
@@ -22,35 +20,6 @@ const NEGATIVE_DEPTH: u32 = 12;
 const BOUND_BITS: u64 = 64;
 /// The digits of samples in doubles.
 const SAMPLE_BITS: u64 = 60;
-
-/// A value that is rational, or enclosed.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, PeakValue, Pulse, Shape, peak_velocity};
-/// use wavestep_polynomial::Rational;
-///
-/// // Without dispersion every pulse has the velocity of all waves.
-/// let pulse = Pulse::in_space(Shape::Gaussian, &Rational::from_integer(3.into()))?;
-/// let peak = peak_velocity(&Builtin::String.relation(), &pulse, 15, 1000)?;
-/// assert_eq!(peak.value, PeakValue::Rational(Rational::from_integer(1.into())));
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PeakValue {
-    /// This number.
-    Rational(Rational),
-    /// A correctly rounded decimal with its proof.
-    Certified(Box<Certified>),
-}
-
-impl fmt::Display for PeakValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Rational(value) => value.fmt(f),
-            Self::Certified(certified) => certified.decimal.fmt(f),
-        }
-    }
-}
 
 /// The velocity of a pulse's peak.
 ///
@@ -75,9 +44,9 @@ pub struct PeakVelocity {
     /// In closed form, where there is one: a number that may hold π.
     pub exact: Option<Formula>,
     /// Its value.
-    pub value: PeakValue,
+    pub value: Value,
     /// The cut-off `k_co`.
-    pub cut_off: PeakValue,
+    pub cut_off: Value,
 }
 
 /// `S_m = ∫_0^π θ^m sin θ dθ`: `S_0 = 2`, `S_1 = π`, `S_m = π^m − m(m − 1) S_{m−2}`.
@@ -206,19 +175,19 @@ pub fn peak_velocity(
         }
         None => None,
     };
-    let certified = |enclosure: &dyn Fn(u64) -> Result<Ball, DispersionError>| {
-        settled(certify(digits, limit_bits, enclosure)).map(Box::new).map(PeakValue::Certified)
+    let proven = |enclosure: &dyn Fn(u64) -> Result<Ball, DispersionError>| {
+        certified(digits, limit_bits, enclosure)
     };
     let value = match &exact {
         Some(formula) => match formula.as_number() {
-            Some(number) => PeakValue::Rational(number.clone()),
-            None => certified(&|bits| value(formula, &Ball::zero(), bits))?,
+            Some(number) => Value::Exact(number.clone()),
+            None => proven(&|bits| value(formula, &Ball::zero(), bits))?,
         },
-        None => certified(&|bits| quotient(relation, pulse, bits))?,
+        None => proven(&|bits| quotient(relation, pulse, bits))?,
     };
     let cut_off = match pulse.exact_cut_off()?.as_ref().and_then(Formula::as_number) {
-        Some(number) => PeakValue::Rational(number.clone()),
-        None => certified(&|bits| pulse.cut_off(relation, bits))?,
+        Some(number) => Value::Exact(number.clone()),
+        None => proven(&|bits| pulse.cut_off(relation, bits))?,
     };
     Ok(PeakVelocity { exact, value, cut_off })
 }
@@ -236,7 +205,7 @@ pub fn peak_velocity(
 /// let cubic = Builtin::Cubic.relation();
 /// let quadrature = peak_velocity_by_quadrature(&cubic, &pulse, 12, 1000)?;
 /// let exact = peak_velocity(&cubic, &pulse, 12, 1000)?;
-/// assert_eq!(quadrature.decimal.to_string(), exact.value.to_string());
+/// assert_eq!(quadrature.to_string(), exact.value.to_string());
 /// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
 /// ```
 pub fn peak_velocity_by_quadrature(
@@ -244,8 +213,8 @@ pub fn peak_velocity_by_quadrature(
     pulse: &Pulse,
     digits: usize,
     limit_bits: u64,
-) -> Result<Certified, DispersionError> {
-    settled(certify(digits, limit_bits, |bits| quotient(relation, pulse, bits)))
+) -> Result<Value, DispersionError> {
+    certified(digits, limit_bits, |bits| quotient(relation, pulse, bits))
 }
 
 fn quotient(relation: &Relation, pulse: &Pulse, bits: u64) -> Result<Ball, DispersionError> {

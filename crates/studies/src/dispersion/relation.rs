@@ -9,7 +9,7 @@ use wavestep_polynomial::{Rational, Symbol};
 use super::error::{DispersionError, place};
 use super::formula::{Formula, Function, pi, wave_number};
 use super::series::Series;
-use wavestep::ball::{Ball, Certified, CertifyError, certify};
+use wavestep::ball::{Ball, Value};
 
 /// The precision of samples in doubles.
 const SAMPLE_BITS: u64 = 80;
@@ -75,7 +75,7 @@ pub struct Sample {
 /// let (four, two) = (Rational::from_integer(4.into()), Rational::from_integer(2.into()));
 /// assert_eq!(water.exact(Quantity::Frequency, &four), Some(two.clone()));
 /// let root = water.digits(Quantity::Frequency, &two, 10, 1000)?;
-/// assert_eq!(root.decimal.to_string(), "1.414213562");
+/// assert_eq!(root.to_string(), "1.414213562");
 /// let (omega, group) = (water.frequency_at(2.0)?, water.group_velocity_at(2.0)?);
 /// assert!((omega.value - 4.0 * group.value).abs() <= omega.bound + 4.0 * group.bound + 1e-15);
 /// assert!(Relation::new(half).is_err());
@@ -206,9 +206,9 @@ impl Relation {
         k: &Rational,
         digits: usize,
         limit_bits: u64,
-    ) -> Result<Certified, DispersionError> {
+    ) -> Result<Value, DispersionError> {
         let enclosure = |bits| self.enclose(what, &Ball::from_rational(k, bits), bits);
-        settled(certify(digits, limit_bits, enclosure))
+        certified(digits, limit_bits, enclosure)
     }
 
     /// The value at an exact wavenumber where it is a rational number by the rules of formulas.
@@ -259,16 +259,19 @@ pub(super) fn value(formula: &Formula, k: &Ball, bits: u64) -> Result<Ball, Disp
     Ok(value.coefficients()[0].clone())
 }
 
-/// Proven digits, or why there are none.
-pub(super) fn settled(
-    result: Result<Certified, CertifyError<DispersionError>>,
-) -> Result<Certified, DispersionError> {
-    result.map_err(|error| match error {
-        CertifyError::Enclosure(error) => error,
-        CertifyError::AccuracyNotReached { best, bits } => {
-            DispersionError::AccuracyNotReached { best: Some(Box::new(best)), bits }
+/// Proven digits.
+pub(super) fn certified(
+    digits: usize,
+    limit_bits: u64,
+    enclosure: impl FnMut(u64) -> Result<Ball, DispersionError>,
+) -> Result<Value, DispersionError> {
+    match Value::certify(digits, limit_bits, enclosure)? {
+        Value::Enclosed(best) => {
+            let best = Some(Box::new(best));
+            Err(DispersionError::AccuracyNotReached { best, bits: limit_bits })
         }
-    })
+        value => Ok(value),
+    }
 }
 
 /// Relations that have names. Lengths and times are in units in which long waves of the string have

@@ -31,8 +31,7 @@
 
 use super::error::HertzError;
 use num_traits::{One, Signed, ToPrimitive};
-use wavestep::ball::Ball;
-use wavestep::ball::Magnitude;
+use wavestep::ball::{Ball, Magnitude, Precisions};
 use wavestep_polynomial::Rational;
 
 /// The exponent of a contact.
@@ -366,22 +365,23 @@ impl PowerLaw {
             guess += (target - of(guess)) * (1.0 - guess.powf(m));
         }
         let mut near = rational(guess);
-        let mut good = 40;
+        let precisions = Precisions::doubling(80, working);
+        let mut good = precisions.first();
         loop {
-            good = (2 * good).min(working);
             let compression = exact(&near, good + 16);
             let force = compression.power(&self.exponent, good + 16)?;
             let there = self.first_series(&compression, &force, good + 16);
             let residual = time.subtract(&there, good + 16);
             let slope = one().subtract(&force, good + 16);
             let next = compression.add(&residual.multiply(&slope, good + 16), good + 16);
-            if good == working {
+            let Some(more) = precisions.after(good) else {
                 let compression = compression.widened(&residual.magnitude());
                 let force = compression.power(&self.exponent, working)?;
                 let deficit = one().subtract(&force, working);
                 return Ok(Share { force, deficit, compression });
-            }
+            };
             near = Rational::from(next.midpoint());
+            good = more;
         }
     }
 
@@ -408,9 +408,9 @@ impl PowerLaw {
             if is_early { low = middle } else { high = middle }
         }
         let mut near = rational(low.max(2.0_f64.ln()));
-        let mut good = 40;
+        let precisions = Precisions::doubling(80, working);
+        let mut good = precisions.first();
         loop {
-            good = (2 * good).min(working);
             let bits = good + 16;
             let exponent = exact(&near, bits);
             let deficit = exponent.clone().negate().exp(bits)?;
@@ -421,7 +421,7 @@ impl PowerLaw {
             let rising = one().subtract(&deficit, bits);
             let slope = rising.power(&(Rational::one() - self.exponent.recip()), bits)?;
             let next = exponent.add(&residual.multiply(&slope, bits), bits);
-            if good == working {
+            let Some(more) = precisions.after(good) else {
                 // All numbers between λ and λ* are those of deficits up to 1/2 and hardly beyond.
                 let most = if a > 0.0 {
                     Magnitude::power_of_two(a.ceil() as i64 + 1)
@@ -433,8 +433,9 @@ impl PowerLaw {
                 let force = one().subtract(&deficit, working);
                 let compression = force.power(&self.exponent.recip(), working)?;
                 return Ok(Share { force, deficit, compression });
-            }
+            };
             near = Rational::from(next.midpoint());
+            good = more;
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Observables sampled for a line: more densely where they bend, from both sides where they jump.
 
-use wavestep::ball::Ball;
+use wavestep::ball::{Attempt, Ball, Precisions};
 use wavestep::evaluate::{
-    At, Determined, EvaluateError, Limit, ObservedSignal, Piecewise, SceneEvaluator, Search, Signal,
+    At, EvaluateError, Limit, ObservedSignal, Piecewise, SceneEvaluator, Search, Signal,
 };
 use wavestep::network::{Network, Observed};
 use wavestep_polynomial::Rational;
@@ -169,7 +169,7 @@ pub fn sampled_energy(
         let at = from + (to - from) * Rational::new(step.into(), steps.max(1).into());
         let scaled = network.scaled_time(&at);
         let value = evaluator.value(observed, &scaled, Limit::Right, DIGITS, MAX_BITS)?;
-        found.points.push((double(&at), Determined::Digits(value).to_double()));
+        found.points.push((double(&at), value.to_double()));
     }
     Ok(found)
 }
@@ -214,18 +214,17 @@ impl Sampler<'_> {
             1.0 => At::End(Limit::Left),
             _ => At::Time(&time),
         };
-        let mut bits = FIRST_BITS;
-        loop {
+        let attempt = |bits| {
             let ball = self.function.enclose(stretch, 0, at, bits)?;
             let (value, bound) = ball.to_double();
-            if bound.to_double() <= 1e-12 * value.abs().max(1e-60) || bits >= MAX_BITS {
-                return Ok((double(&time), value, share));
+            let bound = bound.to_double();
+            if bound > 1e-12 * value.abs().max(1e-60) && bound < 1e-30 && ball.contains_zero() {
+                return Ok(Attempt::Done(0.0));
             }
-            if ball.contains_zero() && bound.to_double() < 1e-30 {
-                return Ok((double(&time), 0.0, share));
-            }
-            bits *= 2;
-        }
+            Ok::<_, EvaluateError>(Attempt::of(value, bound <= 1e-12 * value.abs().max(1e-60)))
+        };
+        let value = Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt)?.best();
+        Ok((double(&time), value, share))
     }
 
     fn coarse(&self, stretch: usize, window: f64) -> Result<Vec<Point>, EvaluateError> {

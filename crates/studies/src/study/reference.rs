@@ -2,6 +2,7 @@
 
 use num_traits::ToPrimitive as _;
 use wavestep::answer::Problem;
+use wavestep::ball::{Attempt, Precisions};
 use wavestep::evaluate::{EvaluateError, Limit};
 use wavestep_polynomial::Rational;
 
@@ -112,14 +113,13 @@ impl Reference {
             let at = Rational::from_float(*time).ok_or(EvaluateError::AfterLast)?;
             let stretch = &stretches[signal.stretch_at(&stretches, &at, Limit::Right)?];
             let scaled = signal.slowness().scale(&at);
-            let (high, low, distance) = loop {
-                let ball = signal.enclose(stretch, 0, &scaled, bits)?;
-                let told = ball.two_doubles();
-                if told.2 <= FINENESS * scale || bits >= MAX_BITS {
-                    break told;
-                }
-                bits *= 2;
+            let precisions = Precisions::doubling(bits, MAX_BITS);
+            let attempt = |more| {
+                bits = more;
+                let told = signal.enclose(stretch, 0, &scaled, bits)?.two_doubles();
+                Ok::<_, EvaluateError>(Attempt::of(told, told.2 <= FINENESS * scale))
             };
+            let (high, low, distance) = precisions.raise(attempt)?.best();
             values.push((high, low));
             radius = radius.max(distance);
         }

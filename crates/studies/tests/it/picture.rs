@@ -1,6 +1,6 @@
 //! Lines that are drawn go through the values.
 
-use wavestep::evaluate::{Determined, Limit};
+use wavestep::evaluate::{Limit, Value};
 use wavestep::history::History;
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
@@ -18,7 +18,7 @@ fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
-fn double(value: &Determined) -> f64 {
+fn double(value: &Value) -> f64 {
     value.to_text(17).parse().unwrap()
 }
 

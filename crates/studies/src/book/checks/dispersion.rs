@@ -131,8 +131,7 @@ pub(super) fn peak_of_spectrum() -> Result<Checked, Refusal> {
             let integrated =
                 dispersion::peak_velocity_by_quadrature(&relation, &pulse, DIGITS, 1 << 12);
             let integrated = integrated.map_err(|error| refused(&error))?;
-            let same =
-                exact.exact.is_some() && exact.value.to_string() == integrated.decimal.to_string();
+            let same = exact.exact.is_some() && exact.value.to_string() == integrated.to_string();
             if !same || exact.value.to_string().is_empty() {
                 return Err(Refusal::Underivable(format!("{} pulse, b = {length}", shape.name())));
             }

@@ -1,0 +1,121 @@
+//! The one loop that raises precision until an answer is good enough.
+//!
+//! An enclosure shrinks as its precision grows, but nobody knows beforehand how many bits it takes.
+//! [`Precisions`] says where to start and where to stop, and [`Precisions::raise`] tries one after the
+//! other. Where the cost of an attempt grows at least linearly, all of them together cost at most twice as
+//! much as the last one.
+
+/// Ascending precisions, in bits or digits, each twice the one before; the last one is the limit.
+#[derive(Clone, Copy, Debug)]
+pub struct Precisions {
+    first: u64,
+    limit: u64,
+}
+
+/// What came of one precision.
+#[derive(PartialEq, Debug)]
+pub enum Attempt<T, B = T> {
+    /// The answer.
+    Done(T),
+    /// More bits are needed; this is the best so far.
+    NotYet(B),
+}
+
+impl Precisions {
+    /// From `first` up to and including `limit`; the limit alone where `first` is not below it.
+    pub fn doubling(first: u64, limit: u64) -> Precisions {
+        Precisions { first: first.min(limit), limit }
+    }
+
+    /// From `first` on by whole doublings: the last precision is the highest that is not above `most`, or
+    /// `first` itself.
+    pub fn whole_doublings(first: u64, most: u64) -> Precisions {
+        let doublings = (most / first).checked_ilog2().unwrap_or(0);
+        Precisions { first, limit: first << doublings }
+    }
+
+    /// The lowest.
+    pub fn first(self) -> u64 {
+        self.first
+    }
+
+    /// The precision to try after another one.
+    pub fn after(self, bits: u64) -> Option<u64> {
+        (bits < self.limit).then(|| bits.saturating_mul(2).min(self.limit))
+    }
+
+    /// All of them.
+    pub fn iter(self) -> impl Iterator<Item = u64> {
+        std::iter::successors(Some(self.first), move |bits| self.after(*bits))
+    }
+
+    /// Makes attempts with rising precision until one is done, which is returned, or else the last one.
+    ///
+    /// # Errors
+    /// That of an attempt, at once. Where more bits may help, an attempt returns [`Attempt::NotYet`]
+    /// instead, if need be with the error in it.
+    pub fn raise<T, B, E>(
+        self,
+        mut attempt: impl FnMut(u64) -> Result<Attempt<T, B>, E>,
+    ) -> Result<Attempt<T, B>, E> {
+        let mut bits = self.first;
+        loop {
+            match (attempt(bits)?, self.after(bits)) {
+                (Attempt::NotYet(_), Some(more)) => bits = more,
+                (last, _) => return Ok(last),
+            }
+        }
+    }
+}
+
+impl<T, B> Attempt<T, B> {
+    /// The answer, or else the best so far.
+    pub fn done(self) -> Result<T, B> {
+        match self {
+            Attempt::Done(answer) => Ok(answer),
+            Attempt::NotYet(best) => Err(best),
+        }
+    }
+}
+
+impl<T> Attempt<T> {
+    /// A value that is good enough, or not.
+    pub fn of(value: T, is_good: bool) -> Attempt<T> {
+        if is_good { Attempt::Done(value) } else { Attempt::NotYet(value) }
+    }
+
+    /// The answer or the best so far, whichever there is.
+    pub fn best(self) -> T {
+        match self {
+            Attempt::Done(value) | Attempt::NotYet(value) => value,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn precisions_double_up_to_the_limit() {
+        let all = |precisions: Precisions| precisions.iter().collect::<Vec<_>>();
+        assert_eq!(all(Precisions::doubling(82, 400)), [82, 164, 328, 400]);
+        assert_eq!(all(Precisions::doubling(64, 256)), [64, 128, 256]);
+        assert_eq!(all(Precisions::doubling(64, 8)), [8]);
+        assert_eq!(all(Precisions::whole_doublings(164, 2048)), [164, 328, 656, 1312]);
+        assert_eq!(all(Precisions::whole_doublings(512, 2048)), [512, 1024, 2048]);
+        assert_eq!(all(Precisions::whole_doublings(3000, 2048)), [3000]);
+    }
+
+    #[test]
+    fn attempts_end_when_one_is_done_or_fails() {
+        let precisions = Precisions::doubling(10, 100);
+        let raise =
+            |enough: u64| precisions.raise(|bits| Ok::<_, u64>(Attempt::of(bits, bits >= enough)));
+        assert_eq!(raise(40), Ok(Attempt::Done(40)));
+        assert_eq!(raise(200), Ok(Attempt::NotYet(100)));
+        let failed = precisions
+            .raise(|bits| if bits > 10 { Err(bits) } else { Ok(Attempt::of(bits, false)) });
+        assert_eq!(failed, Err(20));
+    }
+}

@@ -1,0 +1,249 @@
+//! Values: rational ones exactly, others with proven digits, or enclosed where digits are not proven.
+
+use super::ball::Ball;
+use super::decimal::{Decimal, Exactness};
+use super::magnitude::Magnitude;
+use super::number::Number;
+use super::precision::{Attempt, Precisions};
+use std::fmt;
+use wavestep_polynomial::Rational;
+
+/// The longest fraction that is written beside its decimals.
+const MAX_FRACTION: usize = 60;
+
+/// `−log₂` of a size that is nothing beside any value of a scene.
+const NEGLIGIBLE_BITS: i64 = 1024;
+
+/// Bits of the first attempt beyond those of the digits.
+const SPARE_BITS: u64 = 32;
+
+/// The precision of doubles, and a few bits more.
+const DOUBLE_BITS: u64 = 64;
+
+/// A value, or a time.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Value {
+    /// A rational number, exactly.
+    Exact(Rational),
+    /// A number that is not known to be rational, with proven digits.
+    Certified {
+        /// The correctly rounded value.
+        decimal: Decimal,
+        /// The enclosure that proves it.
+        ball: Ball,
+    },
+    /// Enclosed, but not so that one decimal is left: it may be half-way between two.
+    Enclosed(Ball),
+}
+
+impl Value {
+    /// The number that `enclosure(bits)` encloses, rounded correctly to `digits` significant decimal
+    /// digits, ties to even; where no precision up to the limit proves them, its best enclosure.
+    ///
+    /// `enclosure` must return a ball around the same number whatever the precision; how its radius
+    /// depends on the precision is its own affair. The precision starts 32 bits above that of the digits;
+    /// the last attempt is made at `limit_bits`. A number that is a tie between two decimals, or zero, is
+    /// never decided by balls of positive radius: decide such cases exactly beforehand.
+    ///
+    /// # Errors
+    /// That of an enclosure.
+    ///
+    /// # Panics
+    /// Panics if `digits` is zero.
+    pub fn certify<E>(
+        digits: usize,
+        limit_bits: u64,
+        mut enclosure: impl FnMut(u64) -> Result<Ball, E>,
+    ) -> Result<Value, E> {
+        // log_2 10 < 10/3.
+        let first = (10 * digits as u64).div_ceil(3) + SPARE_BITS;
+        let mut best: Option<Ball> = None;
+        let attempt = |bits| {
+            let ball = enclosure(bits)?;
+            if let Some(decimal) = ball.proven_digits(digits) {
+                return Ok(Attempt::Done(Value::Certified { decimal, ball }));
+            }
+            let best = match best.take() {
+                Some(other) if other.radius() <= ball.radius() => best.insert(other),
+                _ => best.insert(ball),
+            };
+            Ok(Attempt::NotYet(Value::Enclosed(best.clone())))
+        };
+        Precisions::doubling(first, limit_bits).raise(attempt).map(Attempt::best)
+    }
+
+    /// A number with the digits that its enclosure proves.
+    pub(crate) fn of(number: &Number, digits: usize) -> Value {
+        match number {
+            Number::Exact(value) => Value::Exact(value.clone()),
+            Number::Enclosed(ball) if ball.is_exact() => Value::Exact(ball.midpoint().into()),
+            Number::Enclosed(ball) => match ball.proven_digits(digits) {
+                Some(decimal) => Value::Certified { decimal, ball: ball.clone() },
+                None => Value::Enclosed(ball.clone()),
+            },
+        }
+    }
+
+    /// Exactly, where the enclosure of a certified value is a point.
+    pub(crate) fn exact_if_known(self) -> Value {
+        match self {
+            Value::Certified { ball, .. } if ball.is_exact() => {
+                Value::Exact(ball.midpoint().into())
+            }
+            value => value,
+        }
+    }
+
+    /// Zero as far as can be told, where an enclosure says so: it is told as `0 ± r`.
+    pub(crate) fn near_zero(ball: &Ball, digits: usize) -> Option<Value> {
+        if !ball.contains_zero() || *ball.radius() > Magnitude::power_of_two(-NEGLIGIBLE_BITS) {
+            return None;
+        }
+        let decimal = Decimal::from_rational(&Rational::default(), digits).0;
+        Some(Value::Certified { decimal, ball: ball.clone() })
+    }
+
+    /// The value rounded to `digits` significant digits, and whether they are all of it. A certified
+    /// value has the digits that it was asked for, the midpoint of an enclosure those that it proves.
+    pub fn decimal(&self, digits: usize) -> (Decimal, Exactness) {
+        match self {
+            Value::Exact(value) => Decimal::from_rational(value, digits),
+            Value::Certified { decimal, .. } => (decimal.clone(), Exactness::Rounded),
+            Value::Enclosed(ball) => {
+                (ball.to_decimal(digits).midpoint().clone(), Exactness::Rounded)
+            }
+        }
+    }
+
+    /// A double near it.
+    pub fn to_double(&self) -> f64 {
+        self.ball(DOUBLE_BITS).to_double().0
+    }
+
+    /// The best enclosure there is; that of a rational number has so many bits.
+    pub fn ball(&self, bits: u64) -> Ball {
+        match self {
+            Value::Exact(value) => Ball::from_rational(value, bits),
+            Value::Certified { ball, .. } | Value::Enclosed(ball) => ball.clone(),
+        }
+    }
+
+    /// The value as plain text: its digits; a rational number that is no integer of so many digits
+    /// as a fraction as well, where that is short; an enclosure as a midpoint with a radius.
+    pub fn to_text(&self, digits: usize) -> String {
+        match (self, self.decimal(digits)) {
+            (Value::Exact(value), (_, Exactness::Exact)) if value.is_integer() => value.to_string(),
+            (Value::Exact(value), (decimal, _)) => match value.to_string() {
+                fraction if fraction.len() <= MAX_FRACTION => format!("{decimal} = {fraction}"),
+                _ => decimal.to_string(),
+            },
+            (Value::Certified { ball, .. }, (decimal, _)) if decimal.is_zero() => {
+                format!("0 ± {:e}", ball.to_decimal(1).radius())
+            }
+            (Value::Certified { .. }, (decimal, _)) => decimal.to_string(),
+            (Value::Enclosed(ball), _) => ball.to_decimal(digits).to_string(),
+        }
+    }
+}
+
+/// A rational number as a fraction, else the digits that are proven.
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Exact(value) => value.fmt(f),
+            Value::Certified { decimal, .. } => decimal.fmt(f),
+            Value::Enclosed(ball) => ball.fmt(f),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::super::binary::Binary;
+    use super::super::{BallError, exp_of_rational};
+    use super::*;
+
+    fn ratio(above: i64, below: i64) -> Rational {
+        Rational::new(above.into(), below.into())
+    }
+
+    #[test]
+    fn precision_is_doubled_until_the_digits_are_proven() {
+        let mut tried = Vec::new();
+        // 1/3 hidden below a term that cancels 200 bits.
+        let offset = Ball::new(Binary::new(1.into(), 200), Magnitude::ZERO);
+        let proven = Value::certify(15, 1 << 12, |bits| {
+            tried.push(bits);
+            let third = Ball::from_rational(&ratio(1, 3), bits);
+            Ok::<_, Infallible>(third.add(&offset, bits).subtract(&offset, bits))
+        });
+        let Ok(Value::Certified { decimal, ball }) = proven else { panic!("{proven:?}") };
+        assert_eq!(decimal.to_string(), "0.333333333333333");
+        assert_eq!(tried, [82, 164, 328]);
+        assert!(ball.contains(&ratio(1, 3)));
+    }
+
+    #[test]
+    fn digits_that_cancel_are_made_up_for() {
+        // e^(10^−20) − 1 loses twenty digits.
+        let tiny = ratio(1, 10).pow(20);
+        let one = Ball::from_integer(&1.into());
+        let mut last = 0;
+        let proven: Result<_, BallError> = Value::certify(10, 4096, |bits| {
+            last = bits;
+            Ok(exp_of_rational(&tiny, bits)?.subtract(&one, bits))
+        });
+        assert_eq!(proven.unwrap().to_text(10), "1.000000000e-20");
+        assert_eq!(last, 132);
+    }
+
+    #[test]
+    fn a_tie_is_never_guessed() {
+        // 9.995 is no binary number, so its balls always reach both 9.99 and 10.0.
+        let value = Value::certify(3, 1000, |bits| {
+            Ok::<_, Infallible>(Ball::from_rational(&ratio(9995, 1000), bits))
+        });
+        let Ok(Value::Enclosed(best)) = value else { panic!("decided: {value:?}") };
+        assert!(best.contains(&ratio(9995, 1000)));
+        assert!(best.radius() < &Magnitude::power_of_two(-990));
+    }
+
+    #[test]
+    fn the_best_enclosure_is_kept_and_errors_pass_through() {
+        // The radius grows with the precision: the first attempt is the best.
+        let mut attempts = 0;
+        let value = Value::certify(3, 200, |_| {
+            attempts += 1;
+            Ok::<_, Infallible>(Ball::new(Binary::zero(), Magnitude::from_u64(attempts)))
+        });
+        let first = Ball::new(Binary::zero(), Magnitude::from_u64(1));
+        assert_eq!(value, Ok(Value::Enclosed(first)));
+        assert_eq!(attempts, 4);
+        let error = Value::certify(3, 200, |bits| exp_of_rational(&ratio(1 << 50, 1), bits));
+        assert_eq!(error, Err(BallError::ArgumentTooLarge));
+    }
+
+    #[test]
+    fn a_low_limit_is_tried_once() {
+        let proven = Value::certify(20, 8, |bits| {
+            assert_eq!(bits, 8);
+            Ok::<_, Infallible>(Ball::from_integer(&5.into()))
+        });
+        let proven = proven.unwrap();
+        assert_eq!(proven.to_text(20), "5.0000000000000000000");
+        assert_eq!(proven.exact_if_known(), Value::Exact(ratio(5, 1)));
+    }
+
+    #[test]
+    fn values_are_written_as_far_as_they_are_known() {
+        assert_eq!(Value::Exact(ratio(1, 2)).to_text(9), "0.5 = 1/2");
+        assert_eq!(Value::Exact(ratio(1, 3)).to_double(), 1.0 / 3.0);
+        let third = Number::Enclosed(Ball::from_rational(&ratio(1, 3), 20));
+        assert_eq!(Value::of(&third, 9).to_text(9), "0.333333492 ± 4.8e-7");
+        assert_eq!(Value::of(&third, 4).to_text(4), "0.3333");
+        let half = Number::Enclosed(Ball::from_rational(&ratio(1, 2), 20));
+        assert_eq!(Value::of(&half, 4), Value::Exact(ratio(1, 2)));
+    }
+}
