@@ -6,8 +6,8 @@
 //! recurrence a point in all of them.
 //!
 //! What was measured on the rigid mass of a fixed bar, `φ_k(x) = e^{−x} L_k(2x)`, `D = 2μ`, for
-//! `μ` from 1/100 to 10 and `n ≤ 200`, in ulps of the largest value (tests/echoes.rs prints them
-//! anew, and holds the limits):
+//! `μ` from 1/100 to 10 and `n ≤ 200`, in ulps of the largest value (the tests of echoes print them
+//! anew, and hold the limits):
 //!
 //! | method | loses at most, as measured | limit held by tests |
 //! |---|---|---|

@@ -1,0 +1,6 @@
+//! The kernels, a module a capability.
+
+mod echoes;
+mod fixed;
+mod march;
+mod piecewise;

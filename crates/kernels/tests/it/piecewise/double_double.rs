@@ -1,0 +1,126 @@
+//! Sums and products without loss, against exact arithmetic.
+
+use crate::piecewise::support::*;
+use wavestep_kernels::double_double::*;
+use wavestep_kernels::rounding::round_within;
+
+/// Doubles of all signs and of many sizes, with few and with many bits.
+fn double(random: &mut Random, range: i32) -> f64 {
+    let exponent = random.bits() as i32 % range;
+    let bits = [1, 5, 26, 27, 52][random.bits() as usize % 5];
+    let mantissa = f64::from_bits(random.unit().to_bits() & !((1 << (52 - bits)) - 1));
+    let sign = if random.bits() & 1 == 0 { 1.0 } else { -1.0 };
+    sign * mantissa * 2.0_f64.powi(exponent)
+}
+
+fn equal(a: &Dyadic, b: &Dyadic) -> bool {
+    a.subtract(b).is_zero()
+}
+
+#[test]
+fn sums_and_products_lose_nothing() {
+    let mut random = Random(21);
+    for _ in 0..20_000 {
+        let (a, b) = (double(&mut random, 120), double(&mut random, 120));
+        let (exact_a, exact_b) = (Dyadic::new(a), Dyadic::new(b));
+        let (sum, error) = two_sum(a, b);
+        let exact = exact_a.add(&exact_b);
+        assert!(exact.rounds_to(sum) && equal(&exact, &Dyadic::new(sum).add(&Dyadic::new(error))));
+        let (large, small) = if a.abs() >= b.abs() { (a, b) } else { (b, a) };
+        assert_eq!(fast_two_sum(large, small), (sum, error));
+        let (product, error) = two_product(a, b);
+        let exact = exact_a.multiply(&exact_b);
+        assert!(exact.rounds_to(product));
+        assert!(equal(&exact, &Dyadic::new(product).add(&Dyadic::new(error))));
+    }
+}
+
+#[test]
+fn fused_multiply_add_rounds_once() {
+    let mut random = Random(22);
+    let mut close = 0;
+    for i in 0..40_000 {
+        let (a, b) = (double(&mut random, 60), double(&mut random, 60));
+        // Far from the product, near to it, and such that the sum is just beside a midpoint.
+        let c = match i % 4 {
+            0 => double(&mut random, 120),
+            1 => -a * b,
+            2 => -a * b * (1.0 + double(&mut random, 50)),
+            _ => (a * b / double(&mut random, 1)) * 2.0_f64.powi(random.bits() as i32 % 110),
+        };
+        if !c.is_finite() {
+            continue;
+        }
+        let value = fused_multiply_add(a, b, c);
+        assert_eq!(value, a.mul_add(b, c), "{a:e} {b:e} {c:e}");
+        close += usize::from(value != a * b + c);
+        let exact = Dyadic::new(a).multiply(&Dyadic::new(b)).add(&Dyadic::new(c));
+        assert!(exact.rounds_to(value));
+    }
+    assert!(close > 1000, "only {close} cases tell one rounding from two");
+}
+
+/// A sum just beside a midpoint: a rounding of the small parts would hide the side.
+#[test]
+fn fused_multiply_add_sees_the_side_of_a_midpoint() {
+    let tiny = 2.0_f64.powi(-80);
+    for (b, expected) in [(1.0 + tiny.sqrt(), 1.0_f64.next_up()), (1.0 - tiny.sqrt(), 1.0)] {
+        // b · 2⁻⁵³ lies beside half an ulp of 1.
+        assert_eq!(fused_multiply_add(b, 2.0_f64.powi(-53), 1.0), expected);
+    }
+    assert_eq!(fused_multiply_add(1.0, 2.0_f64.powi(-53), 1.0), 1.0);
+    assert_eq!(fused_multiply_add(3.0, 2.0_f64.powi(-53), 1.0), 1.0 + 2.0 * f64::EPSILON);
+}
+
+#[test]
+fn pairs_add_and_multiply_within_their_bounds() {
+    let mut random = Random(23);
+    let exact = |x: DoubleDouble| Dyadic::new(x.high()).add(&Dyadic::new(x.low()));
+    let (mut worst_sum, mut worst_product) = (0.0_f64, 0.0_f64);
+    for _ in 0..20_000 {
+        let mut pair = || {
+            let high = double(&mut random, 30);
+            DoubleDouble::from_sum(high, high * 2.0_f64.powi(-53) * random.signed())
+                .expect("finite")
+        };
+        let (a, b) = (pair(), pair());
+        for (computed, exact_result, bound, worst) in [
+            (a + b, exact(a).add(&exact(b)), DoubleDouble::SUM_ERROR, &mut worst_sum),
+            (a * b, exact(a).multiply(&exact(b)), DoubleDouble::PRODUCT_ERROR, &mut worst_product),
+        ] {
+            assert_eq!(two_sum(computed.high(), computed.low()), (computed.high(), computed.low()));
+            let error = exact(computed).subtract(&exact_result).abs();
+            let allowed = exact_result.abs().multiply(&Dyadic::new(bound));
+            assert!(error.at_most(&allowed), "{a:?} {b:?}");
+            if !allowed.is_zero() {
+                *worst = worst.max(error.approximate() / allowed.approximate());
+            }
+        }
+    }
+    println!("{worst_sum:.2} and {worst_product:.2} of the bounds");
+    assert!(worst_sum > 0.2 && worst_product > 0.2);
+    assert_eq!(DoubleDouble::from_sum(f64::MAX, f64::MAX), None);
+    assert_eq!(DoubleDouble::from_sum(f64::NAN, 0.0), None);
+}
+
+#[test]
+fn rounding_is_decided_only_if_both_ends_agree() {
+    let mut random = Random(24);
+    let mut undecided = 0;
+    for _ in 0..20_000 {
+        let high = 1.0 + random.unit();
+        let distance = 2.0_f64.powi(-(random.bits() as i32 & 63));
+        let half = f64::EPSILON / 2.0 * (1.0 - distance);
+        let (high, low) = two_sum(high, if random.bits() & 1 == 0 { half } else { -half });
+        let error = f64::EPSILON * 2.0_f64.powi(-(random.bits() as i32 & 63));
+        let value = Dyadic::new(high).add(&Dyadic::new(low));
+        let ends = [value.subtract(&Dyadic::new(error)), value.add(&Dyadic::new(error))];
+        match round_within(high, low, error) {
+            Some(rounded) => assert!(ends.iter().all(|end| end.rounds_to(rounded))),
+            None => undecided += 1,
+        }
+    }
+    println!("{undecided} undecided");
+    assert!((2_000..18_000).contains(&undecided));
+    assert_eq!(round_within(1.0, 0.0, f64::NAN), None);
+}

@@ -1,0 +1,206 @@
+//! Values of tables: within their bounds, and the same double whatever the way.
+
+use crate::piecewise::support::*;
+use wavestep_kernels::{Level, Piece, Table};
+
+#[test]
+fn values_are_within_the_bound_at_every_level() {
+    let mut random = Random(1);
+    for shape in SHAPES {
+        let (mut pieces, end) = pieces(shape, &mut random);
+        let table = table(&mut pieces, end);
+        let times = times(&pieces, end, 3000, &mut random);
+        let exact: Vec<Dyadic> = times.iter().map(|&t| exact(piece_at(&pieces, t), t)).collect();
+        let bound = Dyadic::new(table.bound());
+        let mut out = vec![0.0; times.len()];
+        for level in Level::available() {
+            table.evaluator().with_level(level).unsorted(&times, &mut out);
+            let mut largest = 0.0_f64;
+            for ((&value, exact), t) in out.iter().zip(&exact).zip(&times) {
+                let error = Dyadic::new(value).subtract(exact).abs();
+                assert!(error.at_most(&bound), "{shape:?} {level:?} at {t:e}: {value:e}");
+                largest = largest.max(error.approximate() / table.bound());
+            }
+            println!("{level:?}: {largest:.2} of the bound {:e}", table.bound());
+        }
+    }
+}
+
+#[test]
+fn the_bound_is_not_slack() {
+    let mut random = Random(2);
+    for seed in 0..5 {
+        let (mut pieces, end) = pieces(TYPICAL, &mut random);
+        let table = table(&mut pieces, end);
+        let sum = |piece: &Piece| -> f64 { piece.coefficients.iter().map(|c| c.abs()).sum() };
+        let largest = pieces.iter().map(sum).fold(0.0, f64::max);
+        assert!(table.bound() <= 2.0 * f64::EPSILON * largest, "{seed}: {:e}", table.bound());
+        for level in Level::available() {
+            let times = times(&pieces, end, 20_000, &mut random);
+            let mut out = vec![0.0; times.len()];
+            table.evaluator().with_level(level).unsorted(&times, &mut out);
+            let error = |(&t, &value): (&f64, &f64)| {
+                Dyadic::new(value).subtract(&exact(piece_at(&pieces, t), t)).abs().approximate()
+            };
+            let worst = times.iter().zip(&out).map(error).fold(0.0, f64::max);
+            println!("{level:?}: {:.2} of the bound", worst / table.bound());
+            assert!(worst * 4.0 >= table.bound());
+        }
+    }
+}
+
+/// Every way to the values of the same points.
+#[test]
+fn all_ways_give_the_same_doubles() {
+    let mut random = Random(3);
+    for shape in SHAPES {
+        let (mut pieces, end) = pieces(shape, &mut random);
+        let table = table(&mut pieces, end);
+        let mut scattered = times(&pieces, end, 500, &mut random);
+        let outside = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, end.next_up(), -f64::MAX];
+        for (i, t) in outside.into_iter().enumerate() {
+            scattered.insert(37 * (i + 1) % scattered.len(), t);
+        }
+        scattered.push(table.start().next_down());
+        let mut ascending = scattered.clone();
+        ascending.sort_by(f64::total_cmp);
+        let mut fused = Vec::new();
+        for level in Level::available() {
+            let evaluator = table.evaluator().with_level(level);
+            for times in [&scattered, &ascending] {
+                let expected: Vec<f64> = times.iter().map(|&t| evaluator.value(t)).collect();
+                for (t, value) in times.iter().zip(&expected) {
+                    let inside = table.start() <= *t && *t <= end;
+                    assert_eq!(value.is_nan(), !inside, "{t:e}");
+                }
+                let mut out = vec![0.0; times.len()];
+                evaluator.sorted(times, &mut out);
+                assert_eq!(bits(&out), bits(&expected), "{shape:?} {level:?}");
+                out.fill(0.0);
+                evaluator.unsorted(times, &mut out);
+                assert_eq!(bits(&out), bits(&expected), "{shape:?} {level:?}");
+                for threads in [0, 2, 3, 1000] {
+                    out.fill(0.0);
+                    evaluator.with_threads(threads).sorted(times, &mut out);
+                    assert_eq!(bits(&out), bits(&expected));
+                }
+                if level > Level::Baseline {
+                    fused.push(bits(&expected));
+                }
+            }
+        }
+        assert!(fused.iter().skip(2).zip(&fused).all(|(a, b)| a == b), "AVX2 and AVX-512 differ");
+    }
+}
+
+#[test]
+fn grids_are_values_at_sums_rounded_once() {
+    let mut random = Random(4);
+    for shape in SHAPES {
+        let (mut pieces, end) = pieces(shape, &mut random);
+        let table = table(&mut pieces, end);
+        let length = end - table.start();
+        // Inside, across both ends, a point again and again, one piece only, downwards, no numbers.
+        let grids = [
+            (table.start(), length / 3001.0, 3000),
+            (table.start() - length / 7.0, length / 400.0, 777),
+            (table.start() + length / 3.0, 0.0, 100),
+            (table.start(), length * 1e-9, 300),
+            (end, -length / 500.0, 600),
+            (f64::NAN, 1.0, 70),
+            (table.start(), f64::NAN, 70),
+            (table.start(), f64::INFINITY, 70),
+            (table.start(), 1e300, 70),
+        ];
+        for level in Level::available() {
+            let evaluator = table.evaluator().with_level(level);
+            for (from, step, count) in grids {
+                let time = |i: usize| (i as f64).mul_add(step, from);
+                let expected: Vec<f64> = (0..count).map(|i| evaluator.value(time(i))).collect();
+                let mut out = vec![0.0; count];
+                evaluator.grid(from, step, &mut out);
+                assert_eq!(bits(&out), bits(&expected), "{shape:?} {level:?} {from:e} {step:e}");
+                out.fill(0.0);
+                evaluator.with_threads(3).grid(from, step, &mut out);
+                assert_eq!(bits(&out), bits(&expected));
+            }
+        }
+    }
+}
+
+/// Every other point lies on the midpoint of two doubles, or just beside it.
+#[test]
+fn points_of_grids_beside_midpoints_are_rounded_once() {
+    let scale = 2.0_f64.powi(40);
+    let coefficients = vec![0.0, 1.0];
+    let piece = Piece { start: 1.0, centre: 1.0, scale, coefficients, low: vec![], error: 0.0 };
+    let table = Table::new(&[piece], 1.0 + 1.0 / scale).expect("a table");
+    let half = 2.0_f64.powi(-53);
+    // From a start with bits of its own, what a step is more than half a unit is lost in their sum.
+    for from in [1.0, 1.0 + 2.0 * half, 1.0 + 4.0 * half, 1.0 + 12.0 * half] {
+        for step in [half, half.next_up(), half.next_down()] {
+            let expected: Vec<f64> =
+                (0..700).map(|i| (f64::from(i).mul_add(step, from) - 1.0) * scale).collect();
+            for level in Level::available() {
+                let mut out = [0.0; 700];
+                table.evaluator().with_level(level).grid(from, step, &mut out);
+                assert_eq!(bits(&out), bits(&expected), "{level:?} {from:e} {step:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sizes_and_alignments_do_not_matter() {
+    let mut random = Random(5);
+    let (mut pieces, end) = pieces(TYPICAL, &mut random);
+    let table = table(&mut pieces, end);
+    let step = end / 150.0;
+    let times: Vec<f64> = (0..80).map(|i| f64::from(i).mul_add(step, 0.0)).collect();
+    for level in Level::available() {
+        let evaluator = table.evaluator().with_level(level);
+        let expected: Vec<f64> = times.iter().map(|&t| evaluator.value(t)).collect();
+        for size in 0..=70 {
+            for shift in 0..9 {
+                let mut out = [7.0; 80];
+                evaluator.grid(0.0, step, &mut out[shift..shift + size]);
+                assert_eq!(bits(&out[shift..shift + size]), bits(&expected[..size]));
+                assert!(out[..shift].iter().chain(&out[shift + size..]).all(|&x| x == 7.0));
+                evaluator.sorted(&times[shift..shift + size], &mut out[..size]);
+                assert_eq!(bits(&out[..size]), bits(&expected[shift..shift + size]));
+            }
+        }
+    }
+}
+
+/// Outputs long enough to be streamed, at all alignments.
+#[test]
+fn streamed_outputs_are_the_same() {
+    let mut random = Random(6);
+    let (mut pieces, end) = pieces(TYPICAL, &mut random);
+    let table = table(&mut pieces, end);
+    let count = 300_001;
+    let step = end / count as f64;
+    let times: Vec<f64> = (0..count).map(|i| (i as f64).mul_add(step, 0.0)).collect();
+    let mut out = vec![0.0; count + 8];
+    for level in Level::available() {
+        let evaluator = table.evaluator().with_level(level);
+        let expected: Vec<u64> = times.iter().map(|&t| evaluator.value(t).to_bits()).collect();
+        for shift in 0..8 {
+            out.fill(7.0);
+            evaluator.grid(0.0, step, &mut out[shift..shift + count]);
+            assert!(bits(&out[shift..shift + count]) == expected, "{level:?} {shift}");
+            assert!(out[..shift].iter().chain(&out[shift + count..]).all(|&x| x == 7.0));
+        }
+        out.fill(7.0);
+        evaluator.sorted(&times, &mut out[3..3 + count]);
+        assert!(bits(&out[3..3 + count]) == expected, "{level:?}");
+    }
+}
+
+#[test]
+#[should_panic(expected = "one place for every time")]
+fn times_and_places_must_be_equally_many() {
+    let (mut pieces, end) = pieces(TYPICAL, &mut Random(7));
+    table(&mut pieces, end).evaluator().sorted(&[0.0, 0.1], &mut [0.0]);
+}

@@ -1,0 +1,9 @@
+//! Polynomials, a module a capability.
+
+mod calculus;
+mod division;
+mod ring;
+mod roots;
+mod support;
+mod text;
+mod univariate;

@@ -1,0 +1,187 @@
+//! What is found and drawn across the phases of contacts agrees with values, events and closed forms.
+
+use wavestep::evaluate::{Goal, Limit, Place, Root, Value};
+use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped};
+use wavestep::history::{EventKind, History, HistoryError};
+use wavestep::network::Network;
+use wavestep_polynomial::Rational;
+
+const BITS: u64 = 1 << 10;
+
+fn double(value: &Value) -> f64 {
+    ball(value).rounded().unwrap_or_else(|| value.to_text(17).parse().unwrap())
+}
+
+/// A rational number near a time.
+fn near(time: &Value) -> Rational {
+    Rational::from_float(double(time)).unwrap()
+}
+
+/// Somewhat longer than until the first contact opens.
+fn window(network: &Network) -> Rational {
+    let history = History::of(network, None, 12).unwrap();
+    let opening = history.events.iter().find(|event| event.kind != EventKind::Impact);
+    opening.map_or(rational(3, 1), |event| near(&event.time) * rational(5, 3))
+}
+
+/// The mass of Saint-Venant's problem is slowest in the bar when it leaves the second time, and keeps that
+/// velocity; its own force vanishes from the instants at which it leaves until it strikes again.
+#[test]
+fn roots_and_extrema_are_those_of_the_events() {
+    let network = shipped("saint-venant", &[("mu", "1")]);
+    let history = History::of(&network, None, 15).unwrap();
+    let window = [rational(0, 1), rational(9, 1)];
+    let search = |name| History::search(&network, name, [&window[0], &window[1]]).unwrap();
+    let roots = search("strain_impact").roots(&rational(0, 1), 15, BITS).unwrap();
+    let [first, second] = &roots.all[..] else { panic!("{roots:?}") };
+    let [_, left, struck, again] = &history.events[..] else { panic!("four events") };
+    let told = |root: &Root| match root {
+        Root::Interval { from, to, .. } => [from.to_text(15), to.to_text(15)],
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(told(first), [left.time.to_text(15), struck.time.to_text(15)]);
+    assert_eq!(told(second), [again.time.to_text(15), "9".to_owned()]);
+    let least = search("velocity").extremum(Goal::Smallest, 15, BITS).unwrap();
+    let [_, after] = &again.velocities;
+    assert_eq!(least.value.to_text(15), after[0].to_text(15));
+    // The velocity is zero once.
+    let stop = search("velocity").roots(&rational(0, 1), 15, BITS).unwrap();
+    let [Root::Simple { time, rises: false }] = &stop.all[..] else { panic!("{stop:?}") };
+    let at = near(time);
+    let there = History::values(&network, "velocity", &[at], Limit::Right, 12).unwrap();
+    assert!(double(&there[0]).abs() < 1e-12);
+}
+
+/// The largest value is taken where it is said to be, and no value is larger.
+#[test]
+fn no_value_is_larger_than_the_largest() {
+    for (name, values) in SHIPPED.iter().filter(|(name, _)| *name != "mass-that-bounces") {
+        let network = shipped(name, values);
+        let to = window(&network);
+        let from = Rational::default();
+        let seen = network.observables().iter().map(|observed| observed.name.clone());
+        let observable = seen.into_iter().find(|name| !matches!(&name[..], "energy" | "momentum"));
+        let observable = observable.expect("an observable that can be searched");
+        let search = History::search(&network, &observable, [&from, &to]).unwrap();
+        let largest = search.extremum(Goal::Largest, 9, BITS).unwrap();
+        let times: Vec<Rational> = (0..=40).map(|i| &to * rational(i, 40)).collect();
+        let values = History::values(&network, &observable, &times, Limit::Right, 9).unwrap();
+        let top = ball(&largest.value);
+        for value in &values {
+            let less = top.subtract(&ball(value), 200);
+            let sign = if less.contains(&rational(0, 1)) { 0.0 } else { less.rounded().unwrap() };
+            assert!(sign >= 0.0, "{name} {observable}: {value:?} above {:?}", largest.value);
+        }
+        let place = largest.places.first().expect("a place");
+        let (time, side) = match place {
+            Place::End(time) | Place::Critical(time) => (time, Limit::Right),
+            Place::Arrival { time, before: true, .. } => (time, Limit::Left),
+            Place::Arrival { time, .. } | Place::Plateau { from: time, .. } => (time, Limit::Right),
+            Place::Undecided { .. } => panic!("{name} {observable}: {place:?}"),
+        };
+        // Instants that are no rational numbers are missed by a little; on a smooth run that is nothing.
+        let exact = matches!(time, wavestep::evaluate::Value::Exact(_));
+        if exact || matches!(place, Place::Critical(_)) {
+            let at = near(time);
+            let there = History::values(&network, &observable, &[at], side, 9).unwrap();
+            let (there, top) = (double(&there[0]), double(&largest.value));
+            assert!((there - top).abs() <= 1e-8 * top.abs(), "{name} {observable}: {there} {top}");
+        }
+    }
+}
+
+#[test]
+fn empty_windows_and_energies_are_refused() {
+    let network = shipped("saint-venant", &[("mu", "1")]);
+    let (zero, one, early) = (rational(0, 1), rational(1, 1), rational(-1, 1));
+    let refused = |name, window| History::search(&network, name, window).err().unwrap();
+    assert_eq!(refused("velocity", [&one, &one]), HistoryError::EmptyWindow);
+    assert_eq!(refused("velocity", [&early, &one]), HistoryError::EmptyWindow);
+    assert!(matches!(refused("energy", [&zero, &one]), HistoryError::Refused(_)));
+    assert!(refused("speed", [&zero, &one]).to_string().contains("no observable"));
+}
+
+/// An event at the very end of a window is told, one after it is not; a search that ends there as well.
+#[test]
+fn events_at_the_end_of_a_window_are_told() {
+    let parting = shipped("bars-that-part", &[("r", "1/3")]);
+    let kinds = |network: &Network, until: &Rational| {
+        let history = History::of(network, Some(until), 12).unwrap();
+        history.events.iter().map(|event| event.kind).collect::<Vec<_>>()
+    };
+    let before = rational(2, 1) - Rational::new(1.into(), num_bigint::BigInt::from(10).pow(30));
+    assert_eq!(kinds(&parting, &before), [EventKind::Impact]);
+    assert_eq!(kinds(&parting, &rational(2, 1)), [EventKind::Impact, EventKind::Opening]);
+    // 3 + e^{−2}/2 = 3.0676676416183063459…
+    let struck = shipped("saint-venant", &[("mu", "1")]);
+    let digits = |last: i64| rational(30_676_676_416_183_000 + last, 10_000_000_000_000_000);
+    assert_eq!(kinds(&struck, &digits(63)), [EventKind::Impact]);
+    assert_eq!(kinds(&struck, &digits(64)), [EventKind::Impact, EventKind::Opening]);
+    // A force that comes to zero exactly at the end.
+    let pressed = crate::history::refusals::pressed("3/2 - t");
+    let network = network_of(&format!("{pressed}\nobserve wall = force(rod.right)"), &[]);
+    let window = [rational(3, 2), rational(5, 2)];
+    let search = History::search(&network, "wall", [&window[0], &window[1]]).unwrap();
+    let roots = search.roots(&rational(0, 1), 9, BITS).unwrap();
+    let [Root::Arrival { time, .. } | Root::End { time }] = &roots.all[..] else {
+        panic!("{roots:?}")
+    };
+    assert_eq!(time.to_text(9), "2.5 = 5/2");
+}
+
+/// What a wall takes up is missing in the momentum: `P(0) − P(t) = ∫ F dt` over the fixed end, by Gauss's
+/// rule between the instants at which anything changes.
+#[test]
+fn the_wall_takes_up_the_missing_momentum() {
+    const NODES: [(f64, f64); 5] = [
+        (0.0, 0.568_888_888_888_888_9),
+        (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+        (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+        (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    ];
+    let network = shipped("saint-venant", &[("mu", "1")]);
+    let history = History::of(&network, None, 15).unwrap();
+    let until = 7.25;
+    let mut cuts = vec![0.0, until];
+    for start in history.events.iter().map(|event| double(&event.time)) {
+        cuts.extend((0..8).map(|n| start + f64::from(n)).filter(|time| *time < until));
+    }
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let mut points = Vec::new();
+    for pair in cuts.windows(2) {
+        for half in [0.0, 0.5] {
+            let (length, from) = (pair[1] - pair[0], pair[0]);
+            let middle = from + length * (half + 0.25);
+            points.extend(NODES.map(|(x, w)| (middle + x * length / 4.0, w * length / 4.0)));
+        }
+    }
+    let times: Vec<Rational> =
+        points.iter().map(|(time, _)| Rational::from_float(*time).unwrap()).collect();
+    let strains = History::values(&network, "strain_fixed", &times, Limit::Right, 12).unwrap();
+    // Impedance and wave speed are one: the force is the strain with its sign changed.
+    let impulse: f64 =
+        points.iter().zip(&strains).map(|((_, weight), strain)| -weight * double(strain)).sum();
+    let ends = [Rational::default(), Rational::from_float(until).unwrap()];
+    let held = History::values(&network, "momentum", &ends, Limit::Right, 12).unwrap();
+    let lost = double(&held[0]) - double(&held[1]);
+    assert!((impulse - lost).abs() < 1e-9, "{impulse} {lost}");
+}
+
+/// Enclosures of roots hold what a finer history tells.
+#[test]
+fn finer_digits_begin_with_the_coarser() {
+    let network = shipped("saint-venant", &[("mu", "2")]);
+    let window = [rational(0, 1), rational(6, 1)];
+    let search = History::search(&network, "velocity", [&window[0], &window[1]]).unwrap();
+    let time = |digits| match &search.roots(&rational(0, 1), digits, BITS).unwrap().all[..] {
+        [Root::Simple { time, .. }, ..] => ball(time),
+        other => panic!("{other:?}"),
+    };
+    let (coarse, fine) = (time(12), time(60));
+    let difference = coarse.subtract(&fine, 400);
+    assert!(difference.contains(&rational(0, 1)) && !is_zero(&coarse));
+    // The finer one is known to 40 digits, the coarser one is not.
+    assert!(is_zero(&fine.subtract(&fine, 400)) && !is_zero(&coarse.subtract(&coarse, 400)));
+}

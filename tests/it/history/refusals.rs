@@ -1,0 +1,85 @@
+//! What cannot be decided or followed is refused by name.
+
+use crate::history::{kinds, network_of};
+use wavestep::history::{EventKind, History, HistoryError};
+
+/// A bar against a wall. A force `f` at its other end is felt at the wall a travel time later as `2 f`, until
+/// the wave has gone back and forth.
+pub fn pressed(force: &str) -> String {
+    format!(
+        "scene \"A bar against a wall\"\nload push {{ force = {force} }}\n\
+         bar rod {{ impedance = 1, travel = 1 }}\nline free - push - rod | fixed\ncontacts open"
+    )
+}
+
+/// What touches zero with rational coefficients does not pull: the contact stays closed.
+#[test]
+fn a_polynomial_that_touches_zero_is_no_event() {
+    for force in ["(t - 1)*(t - 1)", "(t - 4/3)*(t - 4/3)"] {
+        let until = wavestep::language::parse_number("5/2").unwrap();
+        let history = History::of(&network_of(&pressed(force), &[]), Some(&until), 9).unwrap();
+        assert_eq!(kinds(&history.events), []);
+    }
+}
+
+#[test]
+fn a_force_that_touches_zero_is_refused() {
+    let network = network_of(&pressed("(t - 5/4)*(t - 5/4)*(t + 1)"), &[]);
+    let until = wavestep::language::parse_number("5/2").unwrap();
+    let error = History::of(&network, Some(&until), 9).err().unwrap();
+    let HistoryError::Undecided { at, .. } = &error else { panic!("{error}") };
+    assert!(
+        at.to_string().starts_with("2.250000000000000")
+            || at.to_string().starts_with("2.249999999999999999"),
+        "{error}"
+    );
+    assert!(error.to_string().contains("between rod and wall"), "{error}");
+}
+
+/// Two zeros of the force within 2e-9 of each other: the contact opens and closes again. With
+/// `s = t − 2` and `ε = 1e-9` the free end moves with `2 (s² − ε²)` and is back at the wall where
+/// `(s + ε)² (s − 2ε) = 0`.
+#[test]
+fn two_zeros_near_each_other_are_both_found() {
+    let near = pressed("(t - 1)*(t - 1) - 1/1000000000000000000");
+    let until = wavestep::language::parse_number("5/2").unwrap();
+    let history = History::of(&network_of(&near, &[]), Some(&until), 15).unwrap();
+    assert_eq!(kinds(&history.events), [EventKind::Opening, EventKind::Closing]);
+    assert_eq!(history.events[0].time.to_text(15), "1.999999999 = 1999999999/1000000000");
+    assert_eq!(history.events[1].time.to_text(15), "2.00000000200000");
+    let above = pressed("(t - 1)*(t - 1) + 1/1000000000000000000");
+    let history = History::of(&network_of(&above, &[]), Some(&until), 15).unwrap();
+    assert_eq!(kinds(&history.events), []);
+}
+
+#[test]
+fn rigid_masses_that_meet_are_refused() {
+    let text = "scene \"Two masses\"\nmass a { mass = 1, velocity = 1 }\nmass b { mass = 1 }\n\
+                line free - a | b - free\ncontacts open";
+    let error = History::of(&network_of(text, &[]), None, 9).err().unwrap();
+    assert!(error.to_string().contains("two rigid masses meet"), "{error}");
+}
+
+#[test]
+fn imposed_velocities_are_refused() {
+    let text = "scene \"Pushed\"\nload push { velocity = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
+                bar two { impedance = 1, travel = 1 }\nline free - push - rod | two - free";
+    let error = History::of(&network_of(text, &[]), None, 9).err().unwrap();
+    assert!(error.to_string().starts_with("the load push imposes a velocity"), "{error}");
+}
+
+/// Bodies that move apart from the start part at once, and a gap that closes exactly when a wave arrives
+/// is closed there.
+#[test]
+fn events_at_the_start_and_at_arrivals_are_told() {
+    let text = "scene \"Apart\"\nbar rod { impedance = 1, travel = 1, velocity = -1 }\n\
+                bar two { impedance = 1, travel = 1 }\nline fixed - rod | two - free";
+    let history = History::of(&network_of(text, &[]), None, 9).unwrap();
+    let opening = &history.events[0];
+    assert_eq!((opening.kind, opening.time.to_text(9).as_str()), (EventKind::Opening, "0"));
+    // The free end goes to the left with the rod until the wall is felt, for one travel time, and then
+    // comes back with velocity 1: it is home at t = 2, when the next wave arrives from the wall.
+    let closing = &history.events[1];
+    assert_eq!((closing.kind, closing.time.to_text(9).as_str()), (EventKind::Closing, "2"));
+    assert_eq!(closing.forces[1].to_text(9), "0.5 = 1/2");
+}

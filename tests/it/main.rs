@@ -1,0 +1,26 @@
+//! The library, a module a capability.
+
+mod derivations;
+mod evaluate;
+mod examples;
+mod expression;
+mod field;
+mod find;
+mod formulas;
+mod general;
+mod hertz_element;
+mod history;
+mod language;
+mod layering;
+mod lock;
+mod methods;
+mod models;
+mod phases_fields;
+mod root_formulas;
+mod roots;
+mod scene_language;
+mod scenes;
+mod signal;
+mod source;
+mod source_form;
+mod support;

@@ -1,0 +1,174 @@
+//! The chooser: the cheapest way that is proven to be good enough, and none that is not.
+
+use crate::methods::subject::with;
+use crate::methods::tally::{Tally, ends};
+use crate::methods::{Values, exact, random, times, unit_in_the_last_place};
+use proptest::prelude::RngExt as _;
+use wavestep::answer::{
+    Cost, Kind, Problem, Promise, Size, Tolerance, Way, WayError, Weighed, consider,
+};
+use wavestep::evaluate::{Limit, StablePrecision};
+
+/// Problems of all kinds: on a grid with one pole, with several, in units, and on a lattice.
+const PROBLEMS: [(&str, Values<'static>, &str, &str); 5] = [
+    ("rigid-mass", &[("mu", "1")], "velocity", "12"),
+    ("rigid-mass", &[("mu", "1/100")], "f", "1/4"),
+    ("struck-free-bar", &[("mu", "2")], "middle_force", "14"),
+    ("stepped-striker", &[], "pulse", "8"),
+    ("incommensurate", &[], "wall_force", "1/4000"),
+];
+
+/// Whether the table of costs and the promises single out the way that is picked.
+fn is_cheapest(problem: &Problem<'_>, weighed: &Weighed, points: usize, tolerance: f64) {
+    let proven = |promise: &Option<Promise>| matches!(promise, Some(Promise::Proven(bound)) if *bound <= tolerance);
+    let good: Vec<_> = weighed.candidates.iter().filter(|c| proven(&c.promise)).collect();
+    assert_eq!(weighed.met, !good.is_empty());
+    assert_eq!(weighed.candidates.len(), 7, "every method is weighed");
+    assert!(problem.order().unwrap() < 1000);
+    if let Some(least) = good.iter().map(|c| c.seconds).min_by(f64::total_cmp) {
+        let first = &weighed.candidates[0];
+        assert!(proven(&first.promise), "{first:?}");
+        assert_eq!(first.seconds, least, "{points} points: {first:?}");
+        assert!(first.verdict.contains("cheapest"), "{}", first.verdict);
+        assert!(
+            matches!(first.kind, Kind::Certified | Kind::Compiled | Kind::Marched { proven: true }),
+            "{first:?}"
+        );
+    }
+    for candidate in &weighed.candidates[1..] {
+        assert!(!candidate.verdict.contains("cheapest"), "{}", candidate.verdict);
+    }
+}
+
+#[test]
+fn what_is_picked_is_the_cheapest_that_is_proven() {
+    let mut random = random(71);
+    let mut weighed_problems = 0;
+    let mut many = Vec::new();
+    for (scene, values, quantity, last) in PROBLEMS {
+        with(scene, values, quantity, ("0", last), |subject| {
+            let (problem, scale) = (subject.problem(), subject.scale());
+            for _ in 0..60 {
+                let tolerance = scale * 10f64.powf(random.random_range(-19.0..0.0));
+                let points = 10f64.powf(random.random_range(0.0..6.0)) as usize;
+                let weighed = consider(&problem, points, tolerance, scale).unwrap();
+                is_cheapest(&problem, &weighed, points, tolerance);
+                weighed_problems += 1;
+            }
+            // Nothing is nearer than half a unit in the last place.
+            let unit = unit_in_the_last_place(scale);
+            let met = |tolerance: f64| consider(&problem, 10, tolerance, scale).unwrap().met;
+            assert!(met(0.5 * unit) && met(unit) && !met(0.49 * unit));
+            let first = |points, tolerance: f64| {
+                consider(&problem, points, tolerance, scale).unwrap().candidates[0].kind
+            };
+            assert_eq!(first(1_000_000, 0.6 * unit), Kind::Certified);
+            many.push(first(1_000_000, 4.0 * unit));
+            assert_eq!(first(1, 4.0 * unit), Kind::Certified);
+        });
+    }
+    println!("chooser: {weighed_problems} problems weighed, many values by {many:?}");
+    // A march in integers makes certified values the cheapest at exact times; others cost more.
+    assert!(many.iter().all(|kind| matches!(kind, Kind::Certified | Kind::Compiled)));
+    assert!(many.contains(&Kind::Certified) && many.contains(&Kind::Compiled));
+}
+
+/// A way made for a tolerance keeps it, for tolerances and numbers of points at random.
+#[test]
+fn tolerances_are_kept() {
+    let mut random = random(72);
+    let mut tally = Tally::new("ways by tolerance, of the tolerance");
+    let mut kinds = std::collections::BTreeSet::new();
+    for (scene, values, quantity, last) in PROBLEMS {
+        with(scene, values, quantity, ("0", last), |subject| {
+            let (problem, scale) = (subject.problem(), subject.scale());
+            for _ in 0..6 {
+                let tolerance = scale * 10f64.powf(random.random_range(-15.0..-1.0));
+                let points = 10f64.powf(random.random_range(0.0..6.0)) as usize;
+                let weighed = consider(&problem, points, tolerance, scale).unwrap();
+                assert!(weighed.met);
+                let kind = weighed.candidates[0].kind;
+                let way = Way::new(kind, &problem, Some(tolerance)).unwrap();
+                kinds.insert(way.kind().to_string());
+                let bound = way.bound().expect("what is picked is proven");
+                // The bound of certified values is beyond the rounding of the result.
+                let rounding = unit_in_the_last_place(scale) / 2.0;
+                assert!(bound <= tolerance && rounding <= tolerance, "{kind} {tolerance:e}");
+                let mut at = times::special(subject);
+                at.truncate(30);
+                at.extend(times::anywhere(subject, &mut random, 20));
+                let values = way.values(&at).unwrap();
+                for (time, value) in at.iter().zip(values) {
+                    let enclosed = ends(&subject.exact(&exact(*time), Limit::Right));
+                    let place = || format!("{time:?} by {kind} in {}", subject.name);
+                    tally.within(value, enclosed, &exact(tolerance), place);
+                }
+                let exact_times: Vec<_> = at.iter().map(|time| exact(*time)).collect();
+                let values = way.exact_values(&exact_times, Limit::Left).unwrap();
+                for (time, value) in exact_times.iter().zip(values) {
+                    let enclosed = ends(&subject.exact(time, Limit::Left));
+                    let place = || format!("{time} on the left by {kind} in {}", subject.name);
+                    tally.within(value, enclosed, &exact(tolerance), place);
+                }
+            }
+        });
+    }
+    println!("ways taken: {kinds:?}");
+    assert!(kinds.contains("certified") && kinds.contains("compiled"), "{kinds:?}");
+    tally.report(1_000);
+}
+
+#[test]
+fn tolerances_are_read_as_they_are_documented() {
+    let mut random = random(73);
+    for _ in 0..1000 {
+        let scale = 10f64.powf(random.random_range(-290.0..290.0));
+        let number = 10f64.powf(random.random_range(-8.0..3.0));
+        let read = |text: String| text.parse::<Tolerance>().unwrap().absolute(scale);
+        assert_eq!(read(format!("{number:e}")), number * scale);
+        assert_eq!(read(format!("abs:{number:e}")), number);
+        assert_eq!(read(format!("ulp:{number:e}")), number * unit_in_the_last_place(scale));
+    }
+    for text in ["", "0", "-1e-9", "nan", "inf", "1e-9%", "ulp:", "ulp:-1", "rel:1e-9", "1e999"] {
+        let error = text.parse::<Tolerance>().unwrap_err();
+        assert_eq!(error.to_string(), format!("`{text}` is no tolerance"));
+    }
+}
+
+#[test]
+fn every_method_is_named_as_it_is_read() {
+    for (name, _) in Kind::NAMES {
+        let bare = name.split(':').next().unwrap();
+        let kind: Kind = bare.parse().unwrap();
+        assert_eq!(kind.name(), bare);
+        assert_eq!(kind.to_string().parse::<Kind>(), Ok(kind));
+        assert_eq!(kind.setting().is_empty(), !name.contains(':'), "{name}");
+        let size = Size { order: 50, points: 10, marches: true };
+        assert_eq!(Cost::of(kind, size).is_none(), kind.is_model(), "{name}");
+    }
+    for text in ["modes:", "modes:-1", "leapfrog:4,x", "steps:tight", "compiled:3"] {
+        let error = text.parse::<Kind>().unwrap_err().to_string();
+        let (name, setting) = text.split_once(':').unwrap();
+        assert_eq!(error, format!("`{setting}` is no setting of {name}"));
+    }
+}
+
+/// Forced ways say what they cannot do.
+#[test]
+fn models_have_their_limits() {
+    with("rigid-mass", &[("mu", "1")], "f", ("0", "4"), |subject| {
+        let refused = Way::new(Kind::Modes { count: 10 }, &subject.problem(), None).err();
+        assert_eq!(refused, Some(WayError::NeedsScene("modes")));
+    });
+    with("mass-on-fixed-bar", &[("mu", "1")], "velocity", ("0", "4"), |subject| {
+        let way = Way::new(Kind::Modes { count: 10 }, &subject.problem(), None).unwrap();
+        assert_eq!(way.bound(), None);
+        let left = way.value(&exact(2.0), Limit::Left);
+        assert_eq!(left, Err(WayError::LeftLimit("modes")));
+        assert!(way.value(&exact(2.0), Limit::Right).is_ok());
+        for precision in [StablePrecision::Double, StablePrecision::DoubleDouble] {
+            let way = Way::new(Kind::Stable(precision), &subject.problem(), None).unwrap();
+            assert!(way.bound().is_none() && way.law().contains("measured"));
+        }
+    });
+}

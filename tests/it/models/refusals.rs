@@ -1,0 +1,232 @@
+//! Every refusal says what is not represented, by name.
+
+use crate::models::{Settings, built_in, network};
+use wavestep::model::{
+    Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
+};
+use wavestep::network::Network;
+
+type Outcome = Result<Box<dyn Model>, ModelError>;
+
+fn boxed(model: impl Model + 'static) -> Box<dyn Model> {
+    Box::new(model)
+}
+
+fn make(model: &str, network: &Network) -> Outcome {
+    match model {
+        "rigid" => RigidBody::new(network).map(boxed),
+        "third" => ThirdOfMass::new(network, StartingVelocity::Kept).map(boxed),
+        "modes" => Modes::new(network, 3).map(boxed),
+        "leapfrog" => Leapfrog::new(network, 4, 1.0).map(boxed),
+        "steps" => Steps::new(network, 1e-6).map(boxed),
+        other => panic!("no model {other}"),
+    }
+}
+
+const BAR: &str = "bar a { impedance = 1, travel = 1, velocity = 1 }\n";
+
+/// The model, the scene behind its title, and what the message ends with.
+const REFUSED: [(&str, &str, &str); 25] = [
+    (
+        "rigid",
+        "bar e { impedance = 1 }\nline free - a - e - endless",
+        "bar e is endless, so its mass has no bound",
+    ),
+    (
+        "rigid",
+        "bar s { impedance = 1, travel = 1, strain = 1 }\nline free - a - s - free",
+        "bar s is strained at the start, and a rigid one is not",
+    ),
+    (
+        "rigid",
+        "line free - a - fixed",
+        "an end is fixed without a spring, so that a rigid line cannot move",
+    ),
+    (
+        "rigid",
+        "spring k { stiffness = 1 }\nmass m { mass = 1 }\nline free - m - k - a - free",
+        "it takes one body, and spring k parts this line into more",
+    ),
+    (
+        "rigid",
+        "spring k { stiffness = 1 }\nspring j { stiffness = 1 }\nline fixed - k - j - a - free",
+        "spring k does not lie between the body and a fixed end",
+    ),
+    ("rigid", "load v { velocity = 1 }\nline free - v - a - free", "load v imposes a velocity"),
+    (
+        "rigid",
+        "load f { force = exp(-t) }\nline free - f - a - free",
+        "the force of load f varies in time",
+    ),
+    (
+        "third",
+        "bar b { impedance = 1, travel = 1 }\nbar c { impedance = 1, travel = 1 }\nline free - a - b - c - fixed",
+        "it takes one bar; this line has 3",
+    ),
+    (
+        "third",
+        "bar e { impedance = 1 }\nmass m { mass = 1, velocity = 1 }\nline free - m - e - endless\n#no a",
+        "bar e is endless, and no spring",
+    ),
+    (
+        "third",
+        "mass m { mass = 1, velocity = 1 }\nline free - m - a - free",
+        "it takes a line with one free and one fixed end",
+    ),
+    (
+        "third",
+        "mass m { mass = 1, velocity = 1 }\nspring k { stiffness = 1 }\nline free - m - a - k - fixed",
+        "k stands at the fixed end, which it takes bare",
+    ),
+    (
+        "third",
+        "spring k { stiffness = 1 }\nmass m { mass = 1, velocity = 1 }\nline free - m - k - a - fixed",
+        "k is no mass; it takes masses at the struck end",
+    ),
+    (
+        "third",
+        "mass m { mass = 1, velocity = 1 }\nline free - m - a - fixed",
+        "bar a is not at rest at the start",
+    ),
+    (
+        "third",
+        "load f { force = 1 }\nbar b { impedance = 1, travel = 1 }\nline free - f - b - fixed\n#no a",
+        "f is no mass; it takes masses at the struck end",
+    ),
+    (
+        "modes",
+        "bar e { impedance = 1 }\nline free - a - e - endless",
+        "bar e is endless, and waves that leave are no vibration",
+    ),
+    ("modes", "support s { damping = 1 }\nline free - a - s - free", "s damps the motion"),
+    (
+        "modes",
+        "spring k { stiffness = 1, damping = 1 }\nline free - a - k - fixed",
+        "k damps the motion",
+    ),
+    ("modes", "load f { force = 1 }\nline free - f - a - free", "load f acts from outside"),
+    (
+        "modes",
+        "mass m { mass = 1, velocity = 1 }\nspring k { stiffness = 1 }\nline free - m - k - fixed\n#no a",
+        "it takes a line with at least one bar",
+    ),
+    (
+        "leapfrog",
+        "mass m { mass = 1 }\nbar e { impedance = 1, velocity = 1 }\nline free - m | e - endless\n#no a",
+        "no bar has a finite length, and nothing else says how long a cell is",
+    ),
+    (
+        "leapfrog",
+        "spring k { stiffness = 1 }\nspring j { stiffness = 1, damping = 1 }\nline free - a - k - j - fixed",
+        "beside k something moves that has no mass",
+    ),
+    (
+        "steps",
+        "spring k { stiffness = 1 }\nspring j { stiffness = 1 }\nline free - a - k - j - fixed",
+        "beside k something moves that has no mass, and nothing resists it",
+    ),
+    ("steps", "#units", "have no common measure"),
+    ("rigid", "#observe", "X observes the force within a rigid bar"),
+    (
+        "third",
+        "#momentum",
+        "p observes the momentum of a bar, which a third of its mass does not tell",
+    ),
+];
+
+#[test]
+fn refusals_name_what_is_not_represented() {
+    let mut seen = 0;
+    for (model, scene, told) in REFUSED {
+        let outcome = match scene {
+            "#units" => make(model, &built_in("incommensurate", &[])).map(drop),
+            "#observe" => {
+                let text =
+                    format!("scene \"A\"\n{BAR}line free - a - free\nobserve X = force(a.left)");
+                make(model, &network(&text, &[])).unwrap().values(0, &[1.0]).map(drop)
+            }
+            "#momentum" => {
+                let text = "scene \"A\"\nmass m { mass = 1, velocity = 1 }\nbar b { impedance = 1, travel = 1 }\nline free - m - b - fixed\nobserve p = momentum(b)";
+                make(model, &network(text, &[])).unwrap().values(0, &[1.0]).map(drop)
+            }
+            scene => {
+                let bar = if scene.ends_with("#no a") { "" } else { BAR };
+                let text = format!("scene \"A\"\n{bar}{scene}\n");
+                make(model, &network(&text, &[])).map(drop)
+            }
+        };
+        let error = outcome.expect_err(told);
+        assert!(matches!(error, ModelError::Refused { .. }), "{error:?}");
+        let text = error.to_string();
+        assert!(text.ends_with(told), "{model}: {text}");
+        seen += 1;
+    }
+    assert_eq!(seen, REFUSED.len());
+}
+
+#[test]
+fn energies_and_momenta_of_endless_bars_are_refused_by_all() {
+    let energy = built_in("struck-free-bar", &[("mu", "1")]);
+    for model in ["rigid", "modes", "leapfrog", "steps"] {
+        let error = make(model, &energy).unwrap().values(4, &[1.0]).unwrap_err().to_string();
+        assert!(
+            error.ends_with("energy observes an energy, of which it keeps no account"),
+            "{error}"
+        );
+    }
+    let endless = built_in("striker-on-long-bar", &[("r", "2")]);
+    for model in ["leapfrog", "steps"] {
+        let error = make(model, &endless).unwrap().values(3, &[1.0]).unwrap_err().to_string();
+        assert!(error.ends_with("momentum observes the momentum of an endless bar"), "{error}");
+    }
+}
+
+#[test]
+fn settings_times_and_symbols_are_checked() {
+    let network = built_in("struck-free-bar", &[("mu", "1")]);
+    let settings: [(Option<ModelError>, &str); 9] = [
+        (
+            Leapfrog::new(&network, 4, 1.01).err(),
+            "a Courant number of 1.01 is unstable: a wave would cross more than a cell in a step; take at most 1",
+        ),
+        (
+            Leapfrog::new(&network, 4, 0.0).err(),
+            "the Courant number 0 is not positive; take 1 or less",
+        ),
+        (
+            Leapfrog::new(&network, 4, f64::NAN).err(),
+            "the Courant number NaN is not positive; take 1 or less",
+        ),
+        (Leapfrog::new(&network, 0, 1.0).err(), "it takes at least one cell"),
+        (Modes::new(&network, 0).err(), "it takes at least one mode"),
+        (Steps::new(&network, 0.5).err(), "the tolerance 5e-1 is not between 1e-13 and 1e-2"),
+        (Steps::new(&network, f64::NAN).err(), "the tolerance NaN is not between 1e-13 and 1e-2"),
+        (
+            Leapfrog::new(&network, 2_000_000_000, 1.0).err(),
+            "ask for earlier times or a coarser model",
+        ),
+        (Modes::new(&network, 2_000_000).err(), "ask for earlier times or a coarser model"),
+    ];
+    for (error, told) in settings {
+        let text = error.expect(told).to_string();
+        assert!(text.ends_with(told), "{text}");
+    }
+    let steps = Steps::new(&network, 1e-6).unwrap();
+    assert_eq!(steps.values(0, &[f64::INFINITY]), Err(ModelError::Time(f64::INFINITY)));
+    let error = steps.values(9, &[1.0]).unwrap_err();
+    assert_eq!(error.to_string(), "there is no observable 9; the scene has 6, counted from 0");
+    let late = steps.values(0, &[1e9]).unwrap_err();
+    assert!(matches!(late, ModelError::TooMuch { limit: 2e4, .. }), "{late}");
+    let cells = Leapfrog::new(&network, 1000, 1.0).unwrap().values(0, &[1e4]).unwrap_err();
+    assert!(matches!(cells, ModelError::TooMuch { limit: 1e9, .. }), "{cells}");
+    let many = Modes::new(&network, 20_000).unwrap().values(0, &vec![1.0; 60_000]).unwrap_err();
+    assert!(matches!(many, ModelError::TooMuch { what: "terms", .. }), "{many}");
+    let open: Settings<'_> = &[];
+    for model in ["rigid", "third", "modes", "leapfrog", "steps"] {
+        let Err(error) = make(model, &built_in("mass-on-fixed-bar", open)) else {
+            panic!("{model}")
+        };
+        let told = "the symbol mu has no value; models in doubles need one for each";
+        assert_eq!(error.to_string(), told, "{model}");
+    }
+}
