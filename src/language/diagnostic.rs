@@ -10,7 +10,7 @@ use super::syntax::Span;
 /// One error in a text: a message, the place it is about, places that help to understand it, and a
 /// remedy.
 ///
-/// `Display` gives the place as `name:line:column`, the message and the remedy.
+/// `Display` gives the place as `name:line:column`, the message with the remark, and the remedy.
 ///
 /// # Invariants
 /// All spans lie in the text and start and end between characters.
@@ -137,6 +137,9 @@ impl fmt::Display for Diagnostic {
             write!(f, ":{line}:{column}")?;
         }
         write!(f, ": {message}")?;
+        if !primary.text.is_empty() {
+            write!(f, ": {}", primary.text)?;
+        }
         match remedy {
             Some(remedy) => write!(f, "\nhelp: {remedy}"),
             None => Ok(()),
@@ -212,8 +215,8 @@ mod tests {
     fn errors_say_their_place_and_a_remedy() {
         let source = Source::new("a.wave", "wave f\nμ g = 1").unwrap();
         let error = Diagnostic::new(&source, "no", Span::new(10, 11), "here");
-        assert_eq!(error.to_string(), "a.wave:2:3: no");
-        assert_eq!(error.with_remedy("yes").to_string(), "a.wave:2:3: no\nhelp: yes");
+        assert_eq!(error.to_string(), "a.wave:2:3: no: here");
+        assert_eq!(error.with_remedy("yes").to_string(), "a.wave:2:3: no: here\nhelp: yes");
     }
 
     #[test]
@@ -237,7 +240,7 @@ mod tests {
                 for Span { start, end } in marked {
                     assert!(text.get(start..end).is_some());
                 }
-                assert!(error.to_string().ends_with("m"));
+                assert!(error.to_string().ends_with("m: l"));
             }
         }
     }
