@@ -1,7 +1,7 @@
 //! What is found and drawn across the phases of contacts agrees with values, events and closed forms.
 
-use wavestep::evaluate::{Goal, Limit, Place, Root, Value};
 use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped};
+use wavestep::evaluate::{Goal, Limit, Place, Root, Value};
 use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;

@@ -1,7 +1,7 @@
 //! Springs and dampers beside contacts that open.
 
-use wavestep::evaluate::{Limit, Value};
 use crate::history::{ball, is_zero, network_of, rational};
+use wavestep::evaluate::{Limit, Value};
 use wavestep::history::{EventKind, History};
 use wavestep_polynomial::Rational;
 
