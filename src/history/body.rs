@@ -11,7 +11,7 @@ use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::network::Network;
+use crate::network::{ElementLaw, Lumped, Network};
 use crate::scene::{ElementIndex, End, Kind};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -70,19 +70,21 @@ impl Engine {
         let (start, cell) = self.cell(node, moment, Limit::Right)?;
         let time = self.clock.since(start, moment)?;
         let half = Number::Exact(Rational::new(1.into(), 2.into()));
-        if let Some(mass) = own.masses.iter().find(|mass| mass.element == element) {
-            let velocity = cell.velocities[mass.run].value(&time, &self.cut);
-            let momentum = mass.mass.multiply(&velocity, bits);
+        let place = own.place(element).expect("an element of its node");
+        if let Lumped { run, law: ElementLaw::Mass { mass, .. }, .. } = &own.elements[place] {
+            let velocity = cell.velocities[*run].value(&time, &self.cut);
+            let momentum = mass.multiply(&velocity, bits);
             let energy = momentum.multiply(&velocity, bits).multiply(&half, bits);
             return Ok(Held { energy: Some(energy), momentum: Some(momentum) });
         }
-        let mut yields = own.yields().zip(&cell.yields);
+        let mut yielding = own.yielding().zip(&cell.yields);
         let mut energy = Number::zero();
-        if let Some(((_, own, _), series)) = yields.find(|((_, own, _), _)| own.element == element)
+        if let Some((own, series)) = yielding.find(|(own, _)| own.element == element)
+            && let Some([stiffness, _]) = own.law.resistance()
         {
             let yielded = series.value(&time, &self.cut);
             let square = yielded.multiply(&yielded, bits).multiply(&half, bits);
-            energy = own.stiffness.multiply(&square, bits);
+            energy = stiffness.multiply(&square, bits);
         }
         Ok(Held { energy: Some(energy), momentum: Some(Number::zero()) })
     }
@@ -147,9 +149,11 @@ impl Engine {
                     impedance.multiply(&self.clock.number(travel)?, bits)
                 }
                 None => {
-                    let mut masses = self.nodes.iter().flat_map(|node| &node.masses);
-                    let own = masses.find(|mass| mass.element == *element);
-                    own.map_or_else(Number::zero, |own| own.mass.clone())
+                    let mut all = self.nodes.iter().flat_map(|node| &node.elements);
+                    match all.find(|own| own.element == *element).map(|own| &own.law) {
+                        Some(ElementLaw::Mass { mass, .. }) => mass.clone(),
+                        _ => Number::zero(),
+                    }
                 }
             };
             mass = mass.add(&own, bits);
@@ -234,8 +238,7 @@ impl Engine {
                 continue;
             }
             let node = self.layout.node_of(*element).expect("an element of a node");
-            if let Some(load) = self.nodes[node].loads.iter().find(|load| load.element == *element)
-            {
+            if let Some(load) = self.loads.get(element) {
                 let ended = match &load.until {
                     Some(until) => {
                         let until = Moment::at(until.clone());
@@ -247,12 +250,13 @@ impl Engine {
                     return Ok(Drift::Unknown);
                 }
             }
-            let mut yields = self.nodes[node].yields();
-            if let Some((_, own, _)) = yields.find(|(_, own, _)| own.element == *element) {
-                if own.stiffness.is_zero() {
+            let mut yielding = self.nodes[node].yielding();
+            let own = yielding.find(|own| own.element == *element);
+            if let Some([stiffness, _]) = own.and_then(|own| own.law.resistance()) {
+                if stiffness.is_zero() {
                     return Ok(Drift::Unknown);
                 }
-                softness = softness.add(&own.stiffness.reciprocal(bits)?.magnitude());
+                softness = softness.add(&stiffness.reciprocal(bits)?.magnitude());
             }
         }
         match endless[..] {

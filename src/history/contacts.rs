@@ -8,8 +8,8 @@ use crate::ball::Number;
 use crate::history::crossing::{Beginning, Course, beginning, follow};
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, Question};
-use crate::history::junction::{Junction, Motion};
 use crate::history::moment::Moment;
+use crate::history::motion::Motion;
 use crate::history::series::Series;
 use std::cmp::Ordering;
 
@@ -45,7 +45,7 @@ type Outcome<T> = Result<T, HistoryError>;
 
 impl Engine {
     fn between(&self, contact: usize) -> String {
-        let [left, right] = &self.contacts[contact].names;
+        let [left, right] = &self.layout.contacts[contact].names;
         format!("between {left} and {right}")
     }
 
@@ -53,7 +53,7 @@ impl Engine {
     pub fn contact_series(&self, node: usize, motion: &Motion) -> (Vec<Series>, Vec<Series>) {
         let (mut forces, mut gaps) = (Vec::new(), Vec::new());
         for (contact, run) in self.nodes[node].contacts() {
-            let closed = self.states[node].junction.closed.iter().position(|own| own.0 == contact);
+            let closed = self.states[node].system.closed.iter().position(|own| own.0 == contact);
             let Some(row) = closed else {
                 let apart =
                     motion.velocities[run + 1].subtract(&motion.velocities[run], self.cut.bits);
@@ -162,24 +162,23 @@ impl Engine {
         }
         let state = &self.states[node];
         let open = &self.open;
-        let junction = Junction::of(own, |contact| open[contact].closed, &self.places[node], bits)?;
-        let yielded: Vec<Number> = (0..state.junction.active.len())
-            .map(|number| {
-                let place = state.junction.place_of_yield(number);
-                place.map_or_else(Number::zero, |place| state.state[place].clone())
-            })
+        let system = self.system(node, |contact| open[contact].closed)?;
+        let known = |place: Option<usize>| place.map(|place| state.state[place].clone());
+        let displaced: Vec<Number> = (0..state.system.followed.len())
+            .map(|number| known(state.system.place_of_yield(number)))
+            .map(|value| value.unwrap_or_else(Number::zero))
             .collect();
-        let velocity = |run: usize| state.junction.velocity_of(run, &state.state);
-        let next = junction.state(own, velocity, &yielded, &self.places[node])?;
-        let loosened = junction.active != state.junction.active;
+        let velocity = |run: usize| known(state.system.place_of_velocity(run));
+        let next = system.state(own, velocity, &displaced, &self.places[node], bits)?;
+        let loosened = system.followed != state.system.followed;
         for contact in changes {
-            let run = self.contacts[*contact].run;
-            let inert = junction.has_inertia(run) && junction.has_inertia(run + 1);
+            let run = self.layout.contacts[*contact].run;
+            let inert = system.has_inertia(run) && system.has_inertia(run + 1);
             let own = &mut self.open[*contact];
             own.rests = !own.closed && (inert || smooth && !loosened);
         }
         let state = &mut self.states[node];
-        (state.junction, state.state) = (junction, next);
+        (state.system, state.state) = (system, next);
         Ok(())
     }
 

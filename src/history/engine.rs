@@ -9,13 +9,17 @@ use crate::ball::{Ball, Magnitude, Number};
 use crate::expression::Fraction;
 use crate::history::contacts::{Contact, Happening};
 use crate::history::error::{HistoryError, NotFollowed, Question};
-use crate::history::junction::{Junction, Motion};
+use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
-use crate::history::node::{ContactPlace, Node, nodes};
+use crate::history::motion::Motion;
 use crate::history::series::{LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
-use crate::network::{Layout, Network, Side};
+use crate::network::{
+    Contacts, ElementLaw, Layout, ModelLump, Network, Node, Side, System, Unresisted,
+};
+use crate::scene::{Drive, ElementIndex};
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The most cells of all nodes together.
@@ -44,10 +48,17 @@ pub(crate) struct Cell {
     pub gaps: Vec<Series>,
 }
 
+/// A force that acts for a while.
+pub(crate) struct Load {
+    course: Course,
+    from: Fraction,
+    pub until: Option<Fraction>,
+}
+
 /// A node as it is.
 pub(crate) struct State {
     pub now: Moment,
-    pub junction: Junction,
+    pub system: System<Number>,
     pub state: Vec<Number>,
     arriving: [Arriving; 2],
     displacements: Vec<Number>,
@@ -58,8 +69,8 @@ pub(crate) struct Engine {
     pub clock: Clock,
     pub cut: Truncation,
     pub layout: Layout,
-    pub nodes: Vec<Node>,
-    pub contacts: Vec<ContactPlace>,
+    pub nodes: Vec<Node<Number>>,
+    pub loads: BTreeMap<ElementIndex, Load>,
     /// Of each bar the impedance and the travel time.
     pub bars: Vec<(Number, Option<Fraction>)>,
     /// Of each bar the waves to the right and to the left, as they leave its ends.
@@ -89,6 +100,22 @@ fn before(network: &Network, layout: &Layout, clock: &Clock, bar: usize) -> Outc
     ])
 }
 
+/// All loads of a scene.
+fn loads(network: &Network, clock: &Clock) -> Outcome<BTreeMap<ElementIndex, Load>> {
+    let scene = network.scene();
+    let mut loads = BTreeMap::new();
+    for (element, lump) in &network.model().lumps {
+        let ModelLump::Load(drive, course, from, until) = lump else { continue };
+        if *drive == Drive::Velocity {
+            let name = scene.elements[*element].name.clone();
+            return Err(NotFollowed::ImposedVelocity(name).into());
+        }
+        let course = Course::of(&clock.numbers, course, &scene.time, clock.bits)?;
+        loads.insert(*element, Load { course, from: from.clone(), until: until.clone() });
+    }
+    Ok(loads)
+}
+
 impl Engine {
     /// The scene at its start.
     ///
@@ -101,8 +128,10 @@ impl Engine {
             return Err(HistoryError::MissingValue(symbol.clone()));
         }
         let clock = Clock::new(numbers, bits);
-        let layout = Layout::of(network.scene());
-        let (nodes, contacts) = nodes(network, &layout, &clock)?;
+        let layout = Layout::of(network.scene(), network.model(), Contacts::Links);
+        let nodes = layout.nodes.iter().map(|node| node.map(|value| clock.number(value)));
+        let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
+        let loads = loads(network, &clock)?;
         let mut bars = Vec::new();
         let mut waves = Vec::new();
         for (bar, element) in layout.bars.iter().enumerate() {
@@ -120,7 +149,7 @@ impl Engine {
             cut: Truncation::new(bits, 0),
             layout,
             nodes,
-            contacts,
+            loads,
             bars,
             waves,
             cells: Vec::new(),
@@ -153,12 +182,12 @@ impl Engine {
                     place.is_some_and(|place| choice >> place & 1 == 1)
                 };
                 // A state that is refused is refused when it comes.
-                let Ok(junction) = Junction::of(node, closed, "", self.cut.bits) else { continue };
-                largest = largest.max(junction.norms().0.scale(2));
+                let Ok(system) = System::of(node, closed, self.cut.bits) else { continue };
+                largest = largest.max(system.norms().0.scale(2));
             }
-            for load in &node.loads {
-                largest = largest.max(load.course.rate().scale(1));
-            }
+        }
+        for load in self.loads.values() {
+            largest = largest.max(load.course.rate().scale(1));
         }
         if let Some(rate) = largest.top() {
             self.cut = Truncation::new(self.cut.bits, rate);
@@ -178,13 +207,13 @@ impl Engine {
             idle: None,
             pressed: false,
         };
-        self.open = self.contacts.iter().map(|_| contact()).collect();
+        self.open = self.layout.contacts.iter().map(|_| contact()).collect();
         for (number, node) in self.nodes.iter().enumerate() {
             let bits = self.cut.bits;
-            let junction = Junction::of(node, |_| true, &self.places[number], bits)?;
-            let yielded = vec![Number::zero(); node.yields().count()];
+            let system = self.system(number, |_| true)?;
+            let still = vec![Number::zero(); system.followed.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
-            let state = junction.state(node, velocity, &yielded, &self.places[number])?;
+            let state = system.state(node, velocity, &still, &self.places[number], bits)?;
             let arriving = [node.left, node.right].into_iter().zip([0, 1]);
             let arriving = arriving.map(|(side, direction)| match side {
                 Side::Bar(bar) => match &self.bars[bar].1 {
@@ -202,22 +231,37 @@ impl Engine {
             let Ok(arriving) = <[Arriving; 2]>::try_from(arriving) else { unreachable!() };
             let displacements = vec![Number::zero(); node.runs()];
             let now = start.clone();
-            self.states.push(State { now, junction, state, arriving, displacements });
+            self.states.push(State { now, system, state, arriving, displacements });
             self.cells.push(Vec::new());
         }
         Ok(())
     }
 
+    /// The system of a node with these contacts closed.
+    pub fn system(
+        &self,
+        node: usize,
+        is_closed: impl Fn(usize) -> bool,
+    ) -> Outcome<System<Number>> {
+        let system = System::of(&self.nodes[node], is_closed, self.cut.bits);
+        let place = || self.places[node].clone();
+        Ok(system.map_err(|Unresisted| NotFollowed::Massless { place: place() })?)
+    }
+
     /// The velocity of the masses of a run before the start.
-    pub fn starting_velocity(&self, node: &Node, run: usize) -> Option<Number> {
+    pub fn starting_velocity(&self, node: &Node<Number>, run: usize) -> Option<Number> {
         let bits = self.cut.bits;
-        let mut own = node.masses.iter().filter(|mass| mass.run == run).peekable();
-        let first = own.peek()?.velocity.clone();
+        let masses = node.attached(run).filter_map(|own| match &own.law {
+            ElementLaw::Mass { mass, velocity } => Some((mass, velocity)),
+            _ => None,
+        });
+        let mut masses = masses.peekable();
+        let first = masses.peek()?.1.clone();
         let mut momentum = Number::zero();
         let mut same = true;
-        for mass in own {
-            same &= mass.velocity == first;
-            momentum = momentum.add(&mass.mass.multiply(&mass.velocity, bits), bits);
+        for (mass, velocity) in masses {
+            same &= *velocity == first;
+            momentum = momentum.add(&mass.multiply(velocity, bits), bits);
         }
         if same {
             return Some(first);
@@ -274,7 +318,7 @@ impl Engine {
         let state = &self.states[node];
         let mut ends: Vec<Moment> =
             state.arriving.iter().filter_map(|arriving| arriving.end(&self.waves)).collect();
-        for load in &self.nodes[node].loads {
+        for load in self.loads_of(node) {
             for time in std::iter::once(&load.from).chain(&load.until) {
                 let time = Moment::at(time.clone());
                 if self.clock.compare(&time, &state.now)? == Ordering::Greater {
@@ -297,15 +341,19 @@ impl Engine {
         Ok(first)
     }
 
-    /// What acts on a node from now on: arriving waves, then the load of each run.
+    /// The loads of a node, from left to right.
+    fn loads_of(&self, node: usize) -> impl Iterator<Item = &Load> {
+        self.nodes[node].elements.iter().filter_map(|own| self.loads.get(&own.element))
+    }
+
+    /// What acts on a node from now on: arriving waves, then its loads.
     fn inputs(&self, node: usize) -> Outcome<Vec<Series>> {
         let state = &self.states[node];
         let mut inputs = Vec::new();
         for arriving in &state.arriving {
             inputs.push(arriving.series(&self.waves, &state.now, &self.clock, &self.cut)?);
         }
-        inputs.resize(2 + self.nodes[node].runs(), Series::zero());
-        for load in &self.nodes[node].loads {
+        for load in self.loads_of(node) {
             let begun = self.clock.compare(&Moment::at(load.from.clone()), &state.now)?;
             let acts = begun != Ordering::Greater
                 && match &load.until {
@@ -315,11 +363,10 @@ impl Engine {
                     }
                     None => true,
                 };
-            if acts {
-                let series = load.course.series(&self.clock.time(&state.now)?, &self.cut)?;
-                let own = &mut inputs[2 + load.run];
-                *own = own.add(&series, self.cut.bits);
-            }
+            inputs.push(match acts {
+                true => load.course.series(&self.clock.time(&state.now)?, &self.cut)?,
+                false => Series::zero(),
+            });
         }
         Ok(inputs)
     }
@@ -338,7 +385,7 @@ impl Engine {
         let mut changed = 0;
         let (motion, forces, gaps) = loop {
             let state = &self.states[node];
-            let motion = state.junction.solve(state.state.clone(), &inputs, &self.cut);
+            let motion = state.system.solve(state.state.clone(), &inputs, &self.cut);
             let (forces, gaps) = self.contact_series(node, &motion);
             let changes = self.changes(node, &forces, &gaps)?;
             if changes.is_empty() {
@@ -412,8 +459,8 @@ impl Engine {
             *start = displacement.value(length, &cut);
             displacements.push(displacement);
         }
-        let yields = (0..own.yields().count()).map(|number| {
-            let place = state.junction.place_of_yield(number);
+        let yields = (0..state.system.followed.len()).map(|number| {
+            let place = state.system.place_of_yield(number);
             place.map_or_else(Series::zero, |place| motion.state[place].clone())
         });
         let yields = yields.collect();

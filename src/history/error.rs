@@ -66,9 +66,6 @@ pub enum HistoryError {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotFollowed {
-    /// A local contact, by its name.
-    #[error("the local contact {0} is not linear: its openings are followed by `eval` alone")]
-    LocalContact(String),
     /// A load, by its name, that imposes a velocity.
     #[error(
         "the load {0} imposes a velocity, and contacts beside imposed motions are not followed: \

@@ -364,7 +364,7 @@ fn follow_to_the_end(
 
 /// Whether nothing can meet again after an instant.
 fn has_parted(network: &Network, engine: &Engine, moment: &Moment) -> Outcome<bool> {
-    let count = engine.contacts.len();
+    let count = engine.layout.contacts.len();
     // What happens a little later is known already; then the instant tells nothing.
     for happening in &engine.happenings {
         if engine.clock.compare(&happening.moment, moment)? == Ordering::Greater {
@@ -375,7 +375,7 @@ fn has_parted(network: &Network, engine: &Engine, moment: &Moment) -> Outcome<bo
     if count == 0 || !(0..count).all(apart) {
         return Ok(count == 0);
     }
-    let joints: Vec<usize> = engine.contacts.iter().map(|contact| contact.joint).collect();
+    let joints: Vec<usize> = engine.layout.contacts.iter().map(|contact| contact.joint).collect();
     let parts = parts(network, &joints);
     let wall = [0..0, usize::MAX..usize::MAX];
     for (contact, joint) in joints.iter().enumerate() {
@@ -408,7 +408,7 @@ impl Story<'_> {
     fn told(self) -> Outcome<History> {
         let rows = self.rows()?;
         let units = Units::of(self.network, &self.engine.clock.numbers, self.engine.cut.bits)?;
-        let mut closed = vec![true; self.engine.contacts.len()];
+        let mut closed = vec![true; self.engine.layout.contacts.len()];
         let mut events = Vec::new();
         let first = rows.iter().position(|row| row.kind != EventKind::Impact);
         for (number, row) in rows.iter().enumerate() {
@@ -420,7 +420,7 @@ impl Story<'_> {
             events.push(event);
         }
         let mut contacts = Vec::new();
-        for contact in 0..self.engine.contacts.len() {
+        for contact in 0..self.engine.layout.contacts.len() {
             contacts.push(self.summary(contact, &rows, &closed, &units)?);
         }
         let ending = match self.parted {
@@ -451,7 +451,7 @@ impl Story<'_> {
             };
             rows.push(Row { kind, contact: happening.contact, moment: happening.moment.clone() });
         }
-        for contact in 0..engine.contacts.len() {
+        for contact in 0..engine.layout.contacts.len() {
             if let Some(moment) = engine.idle_since(contact) {
                 let moment = moment.clone();
                 rows.push(Row { kind: EventKind::Release, contact, moment });
@@ -480,7 +480,7 @@ impl Story<'_> {
         let Number::Enclosed(instant) = self.engine.clock.time(&row.moment)? else {
             return Ok(None);
         };
-        let joint = self.engine.contacts[row.contact].joint;
+        let joint = self.engine.layout.contacts[row.contact].joint;
         Ok(closed_form::opening(self.network, joint, &instant))
     }
 
@@ -503,7 +503,7 @@ impl Story<'_> {
         Ok(Event {
             kind: row.kind,
             contact: row.contact,
-            between: engine.contacts[row.contact].names.clone(),
+            between: engine.layout.contacts[row.contact].names.clone(),
             time: told(&time, &units.time),
             exact: None,
             forces: [before, after].map(|force| told(&force, &units.force)),
@@ -514,7 +514,7 @@ impl Story<'_> {
 
     /// The parts of the line at an instant.
     fn parts(&self, closed: &[bool]) -> Vec<Range<usize>> {
-        let contacts = self.engine.contacts.iter().zip(closed);
+        let contacts = self.engine.layout.contacts.iter().zip(closed);
         let open = contacts.filter(|(_, closed)| !**closed).map(|(contact, _)| contact.joint);
         parts(self.network, &open.collect::<Vec<_>>())
     }
@@ -603,7 +603,7 @@ impl Story<'_> {
             Some(row) => self.restitution(contact, &row.moment)?,
             None => None,
         };
-        let between = engine.contacts[contact].names.clone();
+        let between = engine.layout.contacts[contact].names.clone();
         Ok(ContactSummary { between, durations, impulses, restitution })
     }
 
@@ -611,7 +611,8 @@ impl Story<'_> {
     /// changed; none where they did not meet, or where a body has no mean motion.
     fn restitution(&self, contact: usize, moment: &Moment) -> Outcome<Option<Value>> {
         let (engine, bits) = (&self.engine, self.engine.cut.bits);
-        let joints: Vec<usize> = engine.contacts.iter().map(|contact| contact.joint).collect();
+        let joints: Vec<usize> =
+            engine.layout.contacts.iter().map(|contact| contact.joint).collect();
         let parts = parts(self.network, &joints);
         let joint = joints[contact];
         let sides = [

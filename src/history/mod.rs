@@ -20,10 +20,9 @@ mod engine;
 mod error;
 #[expect(clippy::module_inception, reason = "the module is named after what it tells")]
 mod history;
-mod junction;
 mod load;
 mod moment;
-mod node;
+mod motion;
 mod observe;
 mod part;
 mod phased;

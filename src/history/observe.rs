@@ -12,7 +12,7 @@ use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::history::{History, MAX_BITS, precisions, undecided, unit};
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Signal, Source};
-use crate::network::{Network, Side as End, bar_roots};
+use crate::network::{Lumped, Network, Side, bar_roots};
 use crate::scene::{Body, ElementIndex, Kind, Measure, Observable, Place, Position, Seen};
 use wavestep_polynomial::Rational;
 
@@ -190,17 +190,14 @@ impl Engine {
         let own = &self.nodes[node];
         // The bar is at the other side of its node.
         let run = own.side_runs()[1 - side];
-        let loaded = own.held[run]
-            || own.masses.iter().any(|mass| mass.run == run)
-            || own.loads.iter().any(|load| load.run == run)
-            || own.supports.iter().any(|(support, _)| *support == run);
-        if loaded {
+        if own.is_held(run) || own.attached(run).next().is_some() {
             return None;
         }
         let force = |place| Source::Node { node, signal: Signal::Force(place) };
-        match own.contact_beside(run, side == 1) {
+        let contact = if side == 1 { own.contact_right_of(run) } else { own.contact_left_of(run) };
+        match contact {
             Some(place) => Some(Some(force(place)).into_iter()),
-            None if own.links.is_empty() && [own.left, own.right][side] == End::Free => {
+            None if own.links.is_empty() && [own.left, own.right][side] == Side::Free => {
                 Some(None.into_iter())
             }
             None => None,
@@ -247,14 +244,17 @@ impl Engine {
         };
         let part = |signal, factor| Part::of(Source::Node { node, signal }, factor);
         let own = &self.nodes[node];
-        let yields = own.yields().enumerate().find(|(_, (_, own, _))| own.element == element);
-        if let Some((place, (run, own, spring))) = &yields {
-            let yielded = Signal::Yield(*place);
+        let Lumped { run, law, .. } =
+            &own.elements[own.place(element).expect("an element of its node")];
+        let run = *run;
+        if let Some([stiffness, damping]) = law.resistance() {
+            let place = own.yielding().position(|own| own.element == element);
+            let yielded = Signal::Yield(place.expect("it yields"));
             match measure {
                 // A damper alone has no spring that remembers: what its ends have moved tells.
-                Measure::Compression if own.stiffness.is_zero() => {
-                    let mut parts = vec![part(Signal::Displacement(*run), one.clone())];
-                    if *spring {
+                Measure::Compression if stiffness.is_zero() => {
+                    let mut parts = vec![part(Signal::Displacement(run), one.clone())];
+                    if law.is_link() {
                         parts.push(part(Signal::Displacement(run + 1), one.negate()));
                     }
                     return Ok(parts);
@@ -262,34 +262,29 @@ impl Engine {
                 Measure::Compression => return Ok(vec![part(yielded, one.clone())]),
                 Measure::Force => {
                     // A contact at a bare end of a spring presses as the spring does.
-                    let joined = &self.nodes[node];
-                    let beside = |run: usize, right| {
-                        joined.contact_beside(run, right).filter(|_| joined.is_bare(run))
-                    };
-                    if *spring
-                        && let Some(place) = beside(*run, false).or_else(|| beside(run + 1, true))
+                    let left = own.contact_left_of(run).filter(|_| own.is_bare(run));
+                    let right = || own.contact_right_of(run + 1).filter(|_| own.is_bare(run + 1));
+                    if law.is_link()
+                        && let Some(place) = left.or_else(right)
                     {
                         return Ok(vec![part(Signal::Force(place), one.clone())]);
                     }
-                    let damping = own.damping.multiply(one, bits);
-                    let mut parts = vec![part(yielded, own.stiffness.multiply(one, bits))];
+                    let damping = damping.multiply(one, bits);
+                    let mut parts = vec![part(yielded, stiffness.multiply(one, bits))];
                     if !damping.is_zero() {
-                        if *spring {
+                        if law.is_link() {
                             parts.push(part(Signal::Velocity(run + 1), damping.negate()));
                         }
-                        parts.push(part(Signal::Velocity(*run), damping));
+                        parts.push(part(Signal::Velocity(run), damping));
                     }
                     return Ok(parts);
                 }
                 _ => {}
             }
         }
-        let mass = own.masses.iter().find(|mass| mass.element == element).map(|mass| mass.run);
-        let load = own.loads.iter().find(|load| load.element == element).map(|load| load.run);
-        let support = yields.and_then(|(_, (run, _, spring))| (!spring).then_some(run));
-        let Some(run) = mass.or(load).or(support) else {
-            return refuse(NotFollowed::TwoVelocities);
-        };
+        if law.is_link() {
+            return Err(NotFollowed::TwoVelocities.into());
+        }
         match measure {
             Measure::Velocity => Ok(vec![part(Signal::Velocity(run), one.clone())]),
             Measure::Displacement => Ok(vec![part(Signal::Displacement(run), one.clone())]),

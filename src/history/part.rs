@@ -8,6 +8,7 @@ use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::history::series::Series;
+use crate::network::{ElementLaw, Side};
 
 type Outcome<T> = Result<T, HistoryError>;
 
@@ -131,7 +132,8 @@ impl Engine {
             Source::Wave { .. } => part.integrated || part.delay.is_none(),
             Source::Node { signal: Signal::Displacement(_), .. } => true,
             Source::Node { node, signal: Signal::Velocity(run) } => {
-                self.nodes[node].masses.iter().any(|mass| mass.run == run)
+                let mut attached = self.nodes[node].attached(run);
+                attached.any(|own| matches!(own.law, ElementLaw::Mass { .. }))
             }
             Source::Node { signal: Signal::Yield(_) | Signal::Force(_), .. } => false,
         }
@@ -151,13 +153,12 @@ impl Engine {
     pub fn slope_of(&self, part: &Part) -> Option<Part> {
         let Source::Node { node, signal: Signal::Velocity(run) } = part.source else { return None };
         let own = &self.nodes[node];
-        let acted = own.held[run]
-            || own.masses.iter().all(|mass| mass.run != run)
-            || own.loads.iter().any(|load| load.run == run)
-            || own.supports.iter().any(|(support, _)| *support == run)
-            || own.reaches_bar(run);
+        let is_mass = |law: &ElementLaw<Number>| matches!(law, ElementLaw::Mass { .. });
+        let acted = own.attached(run).next().is_none()
+            || own.attached(run).any(|own| !is_mass(&own.law))
+            || own.sides(run).any(|side| side != Side::Free);
         let links = usize::from(run > 0) + usize::from(run < own.links.len());
-        let place = own.contact_beside(run, false).or_else(|| own.contact_beside(run, true))?;
+        let place = own.contact_left_of(run).or_else(|| own.contact_right_of(run))?;
         if links > 1 {
             return None;
         }

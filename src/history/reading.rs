@@ -6,9 +6,8 @@ use crate::expression::Fraction;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::history::node::{ContactPlace, Link, Node};
 use crate::history::series::Series;
-use crate::network::Side;
+use crate::network::{Contact, Node, Side};
 use std::cmp::Ordering;
 
 type Outcome<T> = Result<T, HistoryError>;
@@ -24,7 +23,7 @@ impl Engine {
         moment: &Moment,
         limit: Limit,
     ) -> Outcome<(Number, [Number; 2])> {
-        let ContactPlace { node, run, .. } = self.contacts[contact];
+        let Contact { node, run, .. } = self.layout.contacts[contact];
         let own = &self.nodes[node];
         let start = Moment::at(Fraction::zero());
         if limit == Limit::Left && self.clock.compare(moment, &start)? == Ordering::Equal {
@@ -49,7 +48,7 @@ impl Engine {
     /// # Errors
     /// As [`Track::cell`].
     pub fn gap(&self, contact: usize, moment: &Moment) -> Outcome<Number> {
-        let node = self.contacts[contact].node;
+        let node = self.layout.contacts[contact].node;
         let (start, cell) = self.cell(node, moment, Limit::Right)?;
         let place = self.nodes[node].contacts().position(|(own, _)| own == contact);
         let gap = &cell.gaps[place.expect("a contact of the node")];
@@ -61,7 +60,7 @@ impl Engine {
     /// # Errors
     /// As [`Track::cell`].
     pub fn impulse(&self, contact: usize, [from, to]: [&Moment; 2]) -> Outcome<Number> {
-        let node = self.contacts[contact].node;
+        let node = self.layout.contacts[contact].node;
         let place = self.nodes[node].contacts().position(|(own, _)| own == contact);
         let place = place.expect("a contact of the node");
         let mut sum = Number::zero();
@@ -108,32 +107,28 @@ impl Engine {
     }
 
     /// The velocity beside a contact before the start: of a mass, a bar or a wall.
-    fn velocity_before(&self, node: &Node, run: usize) -> Option<Number> {
-        if node.held[run] {
+    fn velocity_before(&self, node: &Node<Number>, run: usize) -> Option<Number> {
+        if node.is_held(run) {
             return Some(Number::zero());
         }
         if let Some(velocity) = self.starting_velocity(node, run) {
             return Some(velocity);
         }
-        for (own, side) in node.side_runs().into_iter().zip([node.left, node.right]) {
-            if let (true, Side::Bar(bar)) = (own == run, side) {
-                let [right, left] = &self.waves[bar];
-                let sum = right.before().add(left.before(), self.cut.bits);
-                return Some(sum.coefficient(0));
-            }
+        let is_bar = |side: &Side| matches!(side, Side::Bar(_));
+        if let Some(Side::Bar(bar)) = node.sides(run).find(is_bar) {
+            let [right, left] = &self.waves[bar];
+            let sum = right.before().add(left.before(), self.cut.bits);
+            return Some(sum.coefficient(0));
         }
         // Beyond a spring without load is what it rests on.
-        let springs = node.links.iter().enumerate();
-        let mut springs = springs.filter(|(_, link)| matches!(link, Link::Spring(_)));
-        let next = springs.find_map(|(left, _)| match run {
-            run if run == left => Some(left + 1),
-            run if run == left + 1 => Some(left),
+        let mut springs = node.elements.iter().filter(|own| own.law.is_link());
+        let next = springs.find_map(|own| match run {
+            run if run == own.run => Some(own.run + 1),
+            run if run == own.run + 1 => Some(own.run),
             _ => None,
         })?;
-        let beyond = node.side_runs().into_iter().zip([node.left, node.right]);
-        let is_end =
-            beyond.into_iter().any(|(own, side)| own == next && matches!(side, Side::Bar(_)));
-        let known = is_end || node.held[next] || self.starting_velocity(node, next).is_some();
+        let known = node.sides(next).any(|side| side != Side::Free)
+            || self.starting_velocity(node, next).is_some();
         if known { self.velocity_before(node, next) } else { None }
     }
 }

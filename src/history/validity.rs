@@ -92,7 +92,7 @@ fn followed(
     let time = Value::of(&time, digits);
     Ok(match first {
         Some(first) => {
-            let between = engine.contacts[first.contact].names.clone();
+            let between = engine.layout.contacts[first.contact].names.clone();
             Validity::Until { time, between }
         }
         None => Validity::Followed(time),

@@ -4,7 +4,7 @@
 use crate::enclosure::Numbers;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::network::{Layout, ModelLump, ScaledScene, Side, bar_roots};
+use crate::network::{Contacts, Layout, ModelLump, ScaledScene, Side, bar_roots};
 use crate::scene::{Body, Drive, ElementIndex, Kind, Measure, Place, Position};
 use num_traits::ToPrimitive as _;
 
@@ -227,7 +227,7 @@ impl Line {
         if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
             return Err(ModelError::MissingValue(symbol.clone()));
         }
-        let layout = Layout::of(scaled.scene());
+        let layout = Layout::of(scaled.scene(), scaled.model(), Contacts::Closed);
         Reader { scaled, layout, numbers }.line()
     }
 
@@ -317,7 +317,7 @@ impl Line {
     /// [`ModelError::Value`] where they are no numbers.
     pub fn units_of(&self, scaled: &ScaledScene, bar: usize) -> Result<(f64, f64), ModelError> {
         let numbers = Numbers::new(&scaled.model().constants);
-        let layout = Layout::of(scaled.scene());
+        let layout = Layout::of(scaled.scene(), scaled.model(), Contacts::Closed);
         let Kind::Bar(data) = &scaled.scene().elements[layout.bars[bar]].kind else {
             unreachable!("a bar of the line")
         };
@@ -375,7 +375,7 @@ impl Reader<'_> {
         let node = &self.layout.nodes[index];
         let double = |value| double(&self.numbers, value);
         let (mut lumps, mut runs) = (Vec::new(), 1);
-        for element in &node.elements {
+        for element in node.elements.iter().map(|own| &own.element) {
             let law = match &self.scaled.model().lumps[element] {
                 ModelLump::Mass(mass, velocity) => {
                     Law::Mass { mass: double(mass)?, velocity: double(velocity)? }
@@ -449,8 +449,7 @@ impl Reader<'_> {
             }
             Place::Element(element) => match self.layout.node_of(*element) {
                 Some(node) => {
-                    let elements = &self.layout.nodes[node].elements;
-                    let place = elements.iter().position(|own| own == element);
+                    let place = self.layout.nodes[node].place(*element);
                     Spot::Lump { node, place: place.expect("an element of its node") }
                 }
                 None => Spot::Bar(bar(element)),

@@ -7,8 +7,9 @@
 use crate::expression::{Expression, Fraction};
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
-use crate::network::layout::{Layout, Node, Run, Side};
+use crate::network::layout::{Contacts, Layout};
 use crate::network::model::{Model, ModelLump};
+use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observe::Observed;
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, WaveIndex};
@@ -130,7 +131,7 @@ impl Network {
         if let Some(contact) = scaled.local_contact() {
             return Err(NetworkError::NotLinear(scaled.scene.elements[contact].name.clone()));
         }
-        let layout = Layout::of(&scaled.scene);
+        let layout = Layout::of(&scaled.scene, &scaled.model, Contacts::Closed);
         let mut network = Network {
             scaled,
             waves: Vec::new(),
@@ -242,16 +243,13 @@ impl Network {
     }
 
     /// Whether something happens at a node at the start, or later by a load.
-    fn starts(&self, node: &Node) -> bool {
-        let velocities: Vec<Option<Fraction>> = self
-            .velocity_runs(node)
-            .iter()
-            .map(|run| {
-                let mut all = self.initial_velocities(node, *run);
-                all.dedup();
-                (all.len() <= 1).then(|| all.into_iter().next().unwrap_or_else(Fraction::zero))
-            })
-            .collect();
+    fn starts(&self, node: &Node<Fraction>) -> bool {
+        let velocity = |run| {
+            let mut all = self.initial_velocities(node, run);
+            all.dedup();
+            (all.len() <= 1).then(|| all.into_iter().next().unwrap_or_else(Fraction::zero))
+        };
+        let velocities: Vec<Option<Fraction>> = (0..node.runs()).map(velocity).collect();
         let uneven = velocities.iter().any(Option::is_none);
         let apart = velocities.windows(2).any(|pair| pair[0] != pair[1]);
         let forced = |side: Side| match side {
@@ -260,50 +258,26 @@ impl Network {
         };
         let pressed = forced(node.left) || forced(node.right);
         let moved = velocities.iter().flatten().any(|velocity| !velocity.is_zero());
-        let held = node.elements.iter().any(|element| match &self.scaled.model.lumps[element] {
-            ModelLump::Load(..) => true,
-            ModelLump::Support(..) => moved,
+        let held = node.elements.iter().any(|own| match own.law {
+            ElementLaw::Load(_) => true,
+            ElementLaw::Support { .. } => moved,
             _ => false,
         });
         uneven || apart || pressed || held
     }
 
     /// The velocities at the start of all that moves together.
-    pub(crate) fn initial_velocities(&self, node: &Node, run: Run) -> Vec<Fraction> {
+    pub(crate) fn initial_velocities(&self, node: &Node<Fraction>, run: usize) -> Vec<Fraction> {
         let of_side = |side: Side| match side {
             Side::Bar(bar) => Some(self.scaled.model.bars[&self.layout.bars[bar]].velocity.clone()),
             Side::Fixed => Some(Fraction::zero()),
             Side::Free => None,
         };
-        let mut all: Vec<Fraction> = node.sides(run).filter_map(of_side).collect();
-        for element in &node.elements[run.first..run.last] {
-            if let ModelLump::Mass(_, velocity) = &self.scaled.model.lumps[element] {
-                all.push(velocity.clone());
-            }
-        }
-        all
-    }
-
-    /// The runs of places that move together: elements that act on the line from outside, or by
-    /// their mass, do not part them; springs do.
-    pub(crate) fn velocity_runs(&self, node: &Node) -> Vec<Run> {
-        self.runs(node, |lump| !matches!(lump, ModelLump::Spring(..)))
-    }
-
-    /// The runs of places with the same force: springs pass it on.
-    pub(crate) fn force_runs(&self, node: &Node) -> Vec<Run> {
-        self.runs(node, |lump| matches!(lump, ModelLump::Spring(..)))
-    }
-
-    fn runs(&self, node: &Node, joins: impl Fn(&ModelLump) -> bool) -> Vec<Run> {
-        let mut runs = vec![Run { first: 0, last: 0 }];
-        for (i, element) in node.elements.iter().enumerate() {
-            match joins(&self.scaled.model.lumps[element]) {
-                true => runs.last_mut().expect("one at least").last = i + 1,
-                false => runs.push(Run { first: i + 1, last: i + 1 }),
-            }
-        }
-        runs
+        let masses = node.attached(run).filter_map(|own| match &own.law {
+            ElementLaw::Mass { velocity, .. } => Some(velocity.clone()),
+            _ => None,
+        });
+        node.sides(run).filter_map(of_side).chain(masses).collect()
     }
 
     /// Finds the clocks of the nodes, and the lattice on which all delays can be counted.
@@ -334,9 +308,9 @@ impl Network {
             finite.iter().map(|bar| travel[*bar].clone().expect("a finite bar")).collect();
         let mut moments = Vec::new();
         for (place, node) in self.layout.nodes.iter().enumerate() {
-            for element in &node.elements {
-                if let ModelLump::Load(_, _, from, until) = &self.scaled.model.lumps[element] {
-                    moments.push((*element, place, from.clone(), until.clone()));
+            for own in &node.elements {
+                if let ModelLump::Load(_, _, from, until) = &self.scaled.model.lumps[&own.element] {
+                    moments.push((own.element, place, from.clone(), until.clone()));
                     times.push(from.clone());
                     times.extend(until.clone());
                 }
@@ -401,8 +375,8 @@ impl Network {
         Ok(())
     }
 
-    /// Whether nothing beside a run of places gives its velocity.
-    fn is_unknown(&self, node: &Node, run: Run) -> bool {
+    /// Whether nothing beside a run gives its velocity.
+    fn is_unknown(node: &Node<Fraction>, run: usize) -> bool {
         node.sides(run).all(|side| side == Side::Free)
     }
 
@@ -425,31 +399,27 @@ impl Network {
             }
         }
         for (place, node) in self.layout.nodes.iter().enumerate() {
-            for element in &node.elements {
-                match &self.scaled.model.lumps[element] {
-                    ModelLump::Spring(k, _) if !k.is_zero() => {
-                        waves.push((name(*element).clone(), Role::Compression(*element)));
+            for own in &node.elements {
+                match &own.law {
+                    ElementLaw::Spring { stiffness, .. } if !stiffness.is_zero() => {
+                        waves.push((name(own.element).clone(), Role::Compression(own.element)));
                     }
-                    ModelLump::Support(k, _) if !k.is_zero() => {
-                        let name = format!("u_{}", name(*element));
-                        waves.push((name, Role::Displacement(*element)));
+                    ElementLaw::Support { stiffness, .. } if !stiffness.is_zero() => {
+                        let name = format!("u_{}", name(own.element));
+                        waves.push((name, Role::Displacement(own.element)));
                     }
                     _ => {}
                 }
             }
-            for run in self.velocity_runs(node) {
-                if self.is_unknown(node, run) {
-                    let masses = node.elements[run.first..run.last].iter();
-                    let mass = masses.clone().find(|element| {
-                        matches!(self.scaled.model.lumps[element], ModelLump::Mass(..))
-                    });
-                    let named = mass.or(node.elements[run.first..run.last].first());
-                    let name = match named {
-                        Some(element) => format!("v_{}", name(*element)),
-                        None => format!("v_joint_{}", run.first),
-                    };
-                    waves.push((name, Role::Velocity(place, run.first)));
-                }
+            for run in (0..node.runs()).filter(|run| Network::is_unknown(node, *run)) {
+                let first = node.first_place(run);
+                let mut masses = node.attached(run);
+                let mass = masses.find(|own| matches!(own.law, ElementLaw::Mass { .. }));
+                let name = match mass.or(node.attached(run).next()) {
+                    Some(named) => format!("v_{}", name(named.element)),
+                    None => format!("v_joint_{first}"),
+                };
+                waves.push((name, Role::Velocity(place, first)));
             }
         }
         for (mut name, role) in waves {

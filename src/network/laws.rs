@@ -3,13 +3,14 @@
 use crate::expression::{Expression, Fraction};
 use crate::network::equations::{Network, Role, lag};
 use crate::network::error::NetworkError;
-use crate::network::layout::{Node, Run, Side};
 use crate::network::model::ModelLump;
+use crate::network::node::{Acting, ElementLaw, Lumped, Node, Side};
 use crate::network::observe::{Observed, ObservedValue};
 use crate::recurrence::{
     Continuity, LinearForm, Observable, Recurrence, SourceNotation, Statement, WaveIndex,
 };
-use crate::scene::{Drive, ElementIndex};
+use crate::scene::ElementIndex;
+use std::ops::Range;
 use wavestep_polynomial::Symbol;
 
 /// What a law says.
@@ -165,8 +166,8 @@ impl Network {
 
     fn all_laws(&self, strides: &[usize]) -> Laws {
         let mut laws = Laws::default();
-        for (place, node) in self.layout.nodes.iter().enumerate() {
-            self.laws_of(place, node, strides, &mut laws);
+        for place in 0..self.layout.nodes.len() {
+            NodeLaws::of(self, place, strides).add_to(&mut laws);
         }
         for (i, wave) in self.integrals.iter().enumerate() {
             let integral = self.waves.len() + i;
@@ -190,93 +191,6 @@ impl Network {
         self.all_laws(&[1]).laws
     }
 
-    /// All that is known of the velocity of a run of places, by the node's clock.
-    pub(crate) fn velocity_forms(
-        &self,
-        place: usize,
-        node: &Node,
-        run: Run,
-        strides: &[usize],
-    ) -> Vec<LinearForm> {
-        let mut forms = Vec::new();
-        for element in &node.elements[run.first..run.last] {
-            if let ModelLump::Load(Drive::Velocity, ..) = &self.scaled.model.lumps[element] {
-                forms.push(self.load(*element, strides));
-            }
-        }
-        forms.extend(node.sides(run).filter_map(|side| match side {
-            Side::Bar(bar) => Some(self.bar_forms(place, bar, strides)[0].clone()),
-            Side::Fixed => Some(LinearForm::zero()),
-            Side::Free => None,
-        }));
-        if let Some(wave) = self.wave(Role::Velocity(place, run.first)) {
-            forms.push(LinearForm::wave(wave, 0));
-        }
-        forms
-    }
-
-    /// The velocity of a run of places, by the node's clock.
-    pub(crate) fn velocity_form(
-        &self,
-        place: usize,
-        node: &Node,
-        run: Run,
-        strides: &[usize],
-    ) -> LinearForm {
-        self.velocity_forms(place, node, run, strides).swap_remove(0)
-    }
-
-    /// The force in a spring: `k α + d (v_left − v_right)`.
-    pub(crate) fn spring_force(
-        &self,
-        place: usize,
-        node: &Node,
-        i: usize,
-        strides: &[usize],
-    ) -> LinearForm {
-        let element = node.elements[i];
-        let ModelLump::Spring(stiffness, damping) = &self.scaled.model.lumps[&element] else {
-            unreachable!("asked for springs only");
-        };
-        let mut force = LinearForm::zero();
-        if let Some(wave) = self.wave(Role::Compression(element)) {
-            force = scaled(&LinearForm::wave(wave, 0), stiffness);
-        }
-        if !damping.is_zero() {
-            let closing = self.closing(place, node, i, strides);
-            force.add_scaled(&closing, &damping.clone().into(), 0);
-        }
-        force
-    }
-
-    /// `v_left − v_right` of the i-th element of a node.
-    fn closing(&self, place: usize, node: &Node, i: usize, strides: &[usize]) -> LinearForm {
-        let runs = self.velocity_runs(node);
-        let velocity = |at: usize| {
-            let run = runs.iter().find(|run| run.first <= at && at <= run.last);
-            self.velocity_form(place, node, *run.expect("every place is in a run"), strides)
-        };
-        difference(&velocity(i), &velocity(i + 1))
-    }
-
-    /// All that is known of the force in a run of places.
-    pub(crate) fn force_forms(
-        &self,
-        place: usize,
-        node: &Node,
-        run: Run,
-        strides: &[usize],
-    ) -> Vec<LinearForm> {
-        let of_side = |side| match side {
-            Side::Bar(bar) => Some(self.bar_forms(place, bar, strides)[1].clone()),
-            Side::Free => Some(LinearForm::zero()),
-            Side::Fixed => None,
-        };
-        let mut forms: Vec<LinearForm> = node.sides(run).filter_map(of_side).collect();
-        forms.extend((run.first..run.last).map(|i| self.spring_force(place, node, i, strides)));
-        forms
-    }
-
     /// A load by the clock of its node: its course from its beginning, taken away again at its end.
     pub(crate) fn load(&self, element: ElementIndex, strides: &[usize]) -> LinearForm {
         let ModelLump::Load(_, course, from, until) = &self.scaled.model.lumps[&element] else {
@@ -295,117 +209,261 @@ impl Network {
         }
         form
     }
+}
 
-    fn laws_of(&self, place: usize, node: &Node, strides: &[usize], laws: &mut Laws) {
-        let time = &self.scaled.scene.time;
-        let forces = self.force_runs(node);
-        let force_at = |at: usize| {
-            let run = forces.iter().find(|run| run.first <= at && at <= run.last);
-            let forms =
-                self.force_forms(place, node, *run.expect("every place is in a run"), strides);
-            forms.into_iter().next()
+/// What passes the same force on: links with nothing but joints between them, and the sides of the node
+/// that they reach.
+struct Chain {
+    links: Range<usize>,
+    sides: Vec<Side>,
+}
+
+/// The chains of a node from left to right; elements that act on the line stand between two of them.
+fn chains(node: &Node<Fraction>) -> Vec<Chain> {
+    let mut chains = vec![Chain { links: 0..0, sides: vec![node.left] }];
+    for run in 0..node.runs() {
+        if node.attached(run).next().is_some() {
+            chains.push(Chain { links: run..run, sides: Vec::new() });
+        }
+        let last = chains.last_mut().expect("one at least");
+        match run < node.links.len() {
+            true => last.links.end = run + 1,
+            false => last.sides.push(node.right),
+        }
+    }
+    chains
+}
+
+/// The laws of one node in wave functions, by the clock of the node.
+///
+/// The system of equations in numbers solves for velocities and forces. A derivation states each law as a
+/// book does instead: equal velocities and forces one by one, and the balance of a run, whose terms and
+/// signs are those of [`Node::acting`], with the force of the bar beside a spring rather than that of the
+/// spring.
+struct NodeLaws<'a> {
+    network: &'a Network,
+    place: usize,
+    node: &'a Node<Fraction>,
+    strides: &'a [usize],
+    chains: Vec<Chain>,
+    laws: Vec<Law>,
+    /// What is continuous and starts at 0.
+    starts: Vec<LinearForm>,
+}
+
+impl<'a> NodeLaws<'a> {
+    fn of(network: &'a Network, place: usize, strides: &'a [usize]) -> NodeLaws<'a> {
+        let node = &network.layout.nodes[place];
+        let (chains, laws, starts) = (chains(node), Vec::new(), Vec::new());
+        NodeLaws { network, place, node, strides, chains, laws, starts }
+    }
+
+    fn add_to(mut self, laws: &mut Laws) {
+        for run in 0..self.node.runs() {
+            self.motion(run);
+        }
+        for chain in std::mem::take(&mut self.chains) {
+            self.force(&chain);
+        }
+        self.shortenings();
+        laws.laws.extend(self.laws);
+        self.starts.into_iter().for_each(|form| laws.start(form));
+    }
+
+    fn add(&mut self, rule: Rule, left: LinearForm, right: LinearForm) {
+        self.laws.push(Law { node: Some(self.place), rule, left, right });
+    }
+
+    fn load(&self, element: ElementIndex) -> LinearForm {
+        self.network.load(element, self.strides)
+    }
+
+    /// All that is known of the velocity of a run.
+    fn velocity_forms(&self, run: usize) -> Vec<LinearForm> {
+        let imposing = self.node.imposing(run).map(|own| self.load(own.element));
+        let sides = self.node.sides(run).filter_map(|side| match side {
+            Side::Bar(bar) => {
+                Some(self.network.bar_forms(self.place, bar, self.strides)[0].clone())
+            }
+            Side::Fixed => Some(LinearForm::zero()),
+            Side::Free => None,
+        });
+        let role = Role::Velocity(self.place, self.node.first_place(run));
+        let own = self.network.wave(role).map(|wave| LinearForm::wave(wave, 0));
+        imposing.chain(sides).chain(own).collect()
+    }
+
+    fn velocity(&self, run: usize) -> LinearForm {
+        self.velocity_forms(run).swap_remove(0)
+    }
+
+    /// `v_left − v_right` of a link.
+    fn closing(&self, link: usize) -> LinearForm {
+        difference(&self.velocity(link), &self.velocity(link + 1))
+    }
+
+    /// The force in a spring: `k α + d (v_left − v_right)`.
+    fn spring_force(&self, link: usize) -> LinearForm {
+        let mut force = LinearForm::zero();
+        let Some(Lumped { element, law: ElementLaw::Spring { stiffness, damping }, .. }) =
+            self.node.spanning(link)
+        else {
+            return force;
         };
-        let mut add = |rule, left: &LinearForm, right: &LinearForm| {
-            let (left, right) = (left.clone(), right.clone());
-            laws.laws.push(Law { node: Some(place), rule, left, right });
+        if let Some(wave) = self.network.wave(Role::Compression(*element)) {
+            force = scaled(&LinearForm::wave(wave, 0), stiffness);
+        }
+        if !damping.is_zero() {
+            force.add_scaled(&self.closing(link), &damping.clone().into(), 0);
+        }
+        force
+    }
+
+    /// All that is known of the force in a chain: of its sides, then of its springs.
+    fn force_forms(&self, chain: &Chain) -> Vec<LinearForm> {
+        let of_side = |side: &Side| match side {
+            Side::Bar(bar) => {
+                Some(self.network.bar_forms(self.place, *bar, self.strides)[1].clone())
+            }
+            Side::Free => Some(LinearForm::zero()),
+            Side::Fixed => None,
         };
-        let mut starts = Vec::new();
-        let nothing = LinearForm::zero();
-        for run in self.velocity_runs(node) {
-            let forms = self.velocity_forms(place, node, run, strides);
-            let elements = &node.elements[run.first..run.last];
-            let imposing = elements.iter().find(|element| {
-                matches!(self.scaled.model.lumps[element], ModelLump::Load(Drive::Velocity, ..))
-            });
-            let held = node.sides(run).any(|side| side == Side::Fixed);
-            for other in &forms[1..] {
-                match (imposing, held) {
-                    (Some(load), _) => add(Rule::Imposed(*load), other, &forms[0]),
-                    (None, true) if forms[0].is_zero() => add(Rule::FixedEnd, other, &nothing),
-                    (None, true) => add(Rule::FixedEnd, &forms[0], other),
-                    (None, false) => add(Rule::Velocity, &forms[0], other),
+        let springs = chain.links.clone().map(|link| self.spring_force(link));
+        chain.sides.iter().filter_map(of_side).chain(springs).collect()
+    }
+
+    /// What a run of elements that move together obeys.
+    fn motion(&mut self, run: usize) {
+        let forms = self.velocity_forms(run);
+        let imposing = self.node.imposing(run).next().map(|own| own.element);
+        let held = self.node.is_held(run);
+        let (first, nothing) = (forms[0].clone(), LinearForm::zero());
+        for other in &forms[1..] {
+            let (first, other) = (first.clone(), other.clone());
+            match (imposing, held) {
+                (Some(load), _) => self.add(Rule::Imposed(load), other, first),
+                (None, true) if first.is_zero() => {
+                    self.add(Rule::FixedEnd, other, nothing.clone());
                 }
+                (None, true) => self.add(Rule::FixedEnd, first, other),
+                (None, false) => self.add(Rule::Velocity, first, other),
             }
-            for element in elements {
-                if let Some(wave) = self.wave(Role::Displacement(*element)) {
-                    add(Rule::Displacement(*element), &LinearForm::slope(wave, 0), &forms[0]);
-                    starts.push(LinearForm::wave(wave, 0));
-                }
-            }
-            if run.first == run.last || imposing.is_some() || held {
-                continue;
-            }
-            // Σ (M v' + d v + k u) = X_left − X_right + F
-            let [left, right] = [run.first, run.last].map(|at| force_at(at).expect("a force"));
-            let mut acting = difference(&left, &right);
-            let mut resisting = LinearForm::zero();
-            let velocity = &forms[0];
-            let (mut mass, mut momentum) = (Fraction::zero(), Fraction::zero());
-            for element in elements {
-                match &self.scaled.model.lumps[element] {
-                    ModelLump::Mass(m, v) => {
-                        mass = &mass + m;
-                        momentum = &momentum + &(m * v);
-                    }
-                    ModelLump::Support(stiffness, damping) => {
-                        resisting.add_scaled(velocity, &damping.clone().into(), 0);
-                        if let Some(wave) = self.wave(Role::Displacement(*element)) {
-                            let own = LinearForm::wave(wave, 0);
-                            resisting.add_scaled(&own, &stiffness.clone().into(), 0);
-                        }
-                    }
-                    ModelLump::Load(..) => {
-                        acting.add_scaled(&self.load(*element, strides), &one(), 0);
-                    }
-                    ModelLump::Spring(..) => unreachable!("springs part what moves together"),
-                    ModelLump::Hertz(..) => unreachable!("a network holds no local contact"),
-                }
-            }
-            if !mass.is_zero() {
-                resisting.add_scaled(&velocity.derivative(time), &mass.clone().into(), 0);
-                // M v − Σ m v_0, so that nothing is divided by.
-                let start = self.constant(place, &momentum, strides);
-                starts.push(difference(&scaled(velocity, &mass), &start));
-            }
-            add(Rule::Balance(elements.to_vec()), &resisting, &acting);
         }
-        for run in forces {
-            let springs = &node.elements[run.first..run.last];
-            let free = node.sides(run).any(|side| side == Side::Free);
-            let forms = self.force_forms(place, node, run, strides);
-            let Some((first, others)) = forms.split_first() else { continue };
-            let before_springs = forms.len() - springs.len();
-            // At a free end the waves themselves are equal, whatever the impedance.
-            let end = match (node.left, node.right) {
-                (Side::Bar(bar), Side::Free) | (Side::Free, Side::Bar(bar)) => Some(bar),
-                _ => None,
+        let node = self.node;
+        for own in node.attached(run) {
+            if let Some(wave) = self.network.wave(Role::Displacement(own.element)) {
+                let rule = Rule::Displacement(own.element);
+                self.add(rule, LinearForm::slope(wave, 0), first.clone());
+                self.starts.push(LinearForm::wave(wave, 0));
+            }
+        }
+        if node.attached(run).next().is_some() && imposing.is_none() && !held {
+            self.balance(run, &first);
+        }
+    }
+
+    /// `Σ (M v' + d v + k u) = X_left − X_right + F`.
+    fn balance(&mut self, run: usize, velocity: &LinearForm) {
+        let (mut acting, mut resisting) = (LinearForm::zero(), LinearForm::zero());
+        let (mut mass, mut momentum) = (Fraction::zero(), Fraction::zero());
+        for (sign, own) in self.node.acting(run) {
+            let own = match own {
+                Acting::Side(_) | Acting::Link(_) => {
+                    let forms = self.force_forms(self.chain(own));
+                    acting.add_scaled(&forms[0], &Expression::integer(sign), 0);
+                    continue;
+                }
+                Acting::Element(place) => &self.node.elements[place],
             };
-            let compliance = end.and_then(|bar| {
-                let impedance = &self.scaled.model.bars[&self.layout.bars[bar]].impedance;
-                let inverse = Fraction::reciprocal(impedance.numerator()).ok()?;
-                Some(&inverse * &Fraction::from(impedance.denominator()))
-            });
-            let bare = |form: &LinearForm| match &compliance {
-                Some(compliance) => scaled(form, compliance),
-                None => form.clone(),
-            };
-            for (i, other) in (1_usize..).zip(others) {
-                match i.checked_sub(before_springs) {
-                    Some(spring) => add(Rule::Spring(springs[spring]), first, other),
-                    None if free && first.is_zero() => add(Rule::FreeEnd, &bare(other), &nothing),
-                    None if free => add(Rule::FreeEnd, &bare(first), &bare(other)),
-                    None => add(Rule::Force, first, other),
+            match &own.law {
+                ElementLaw::Mass { mass: own, velocity } => {
+                    mass = &mass + own;
+                    momentum = &momentum + &(own * velocity);
                 }
+                ElementLaw::Support { stiffness, damping } => {
+                    resisting.add_scaled(velocity, &damping.clone().into(), 0);
+                    if let Some(wave) = self.network.wave(Role::Displacement(own.element)) {
+                        let displacement = LinearForm::wave(wave, 0);
+                        resisting.add_scaled(&displacement, &stiffness.clone().into(), 0);
+                    }
+                }
+                _ => acting.add_scaled(&self.load(own.element), &Expression::integer(sign), 0),
             }
         }
-        for (i, element) in node.elements.iter().enumerate() {
-            if let Some(wave) = self.wave(Role::Compression(*element)) {
-                let closing = self.closing(place, node, i, strides);
-                add(Rule::Shortening(*element), &LinearForm::slope(wave, 0), &closing);
-                starts.push(LinearForm::wave(wave, 0));
+        if !mass.is_zero() {
+            let time = &self.network.scaled.scene.time;
+            resisting.add_scaled(&velocity.derivative(time), &mass.clone().into(), 0);
+            // M v − Σ m v_0, so that nothing is divided by.
+            let start = self.network.constant(self.place, &momentum, self.strides);
+            self.starts.push(difference(&scaled(velocity, &mass), &start));
+        }
+        let elements = self.node.attached(run).map(|own| own.element).collect();
+        self.add(Rule::Balance(elements), resisting, acting);
+    }
+
+    /// The chain that a side or a link of the node is in.
+    fn chain(&self, acting: Acting) -> &Chain {
+        let place = match acting {
+            Acting::Link(link) => self.chains.iter().position(|own| own.links.contains(&link)),
+            Acting::Side(0) => Some(0),
+            _ => None,
+        };
+        &self.chains[place.unwrap_or(self.chains.len() - 1)]
+    }
+
+    /// What passes the same force on.
+    fn force(&mut self, chain: &Chain) {
+        let forms = self.force_forms(chain);
+        let Some((first, others)) = forms.split_first() else { return };
+        let free = chain.sides.contains(&Side::Free);
+        let springs: Vec<ElementIndex> = chain
+            .links
+            .clone()
+            .filter_map(|link| self.node.spanning(link).map(|own| own.element))
+            .collect();
+        let before_springs = forms.len() - springs.len();
+        // At a free end the waves themselves are equal, whatever the impedance.
+        let compliance = self.end_compliance();
+        let bare = |form: &LinearForm| match &compliance {
+            Some(compliance) => scaled(form, compliance),
+            None => form.clone(),
+        };
+        for (i, other) in (1_usize..).zip(others) {
+            match i.checked_sub(before_springs) {
+                Some(spring) => {
+                    self.add(Rule::Spring(springs[spring]), first.clone(), other.clone());
+                }
+                None if free && first.is_zero() => {
+                    self.add(Rule::FreeEnd, bare(other), LinearForm::zero());
+                }
+                None if free => self.add(Rule::FreeEnd, bare(first), bare(other)),
+                None => self.add(Rule::Force, first.clone(), other.clone()),
             }
         }
-        starts.into_iter().for_each(|form| laws.start(form));
+    }
+
+    /// `1/Z` of the bar with a free end at this node.
+    fn end_compliance(&self) -> Option<Fraction> {
+        let impedance = match (self.node.left, self.node.right) {
+            (Side::Bar(_), Side::Free) => &self.node.impedance[0],
+            (Side::Free, Side::Bar(_)) => &self.node.impedance[1],
+            _ => return None,
+        };
+        let inverse = Fraction::reciprocal(impedance.numerator()).ok()?;
+        Some(&inverse * &Fraction::from(impedance.denominator()))
+    }
+
+    /// How springs are shortened.
+    fn shortenings(&mut self) {
+        let node = self.node;
+        for link in 0..node.links.len() {
+            let Some(own) = node.spanning(link) else { continue };
+            if let Some(wave) = self.network.wave(Role::Compression(own.element)) {
+                let closing = self.closing(link);
+                self.add(Rule::Shortening(own.element), LinearForm::slope(wave, 0), closing);
+                self.starts.push(LinearForm::wave(wave, 0));
+            }
+        }
     }
 }
 

@@ -1,42 +1,29 @@
 //! A line cut into nodes and the bars between them.
 
-use crate::scene::{ElementIndex, End, Kind, Scene};
+use crate::expression::Fraction;
+use crate::network::model::{Model, ModelLump};
+use crate::network::node::{ElementLaw, Link, Lumped, Node, Side};
+use crate::scene::{ElementIndex, End, Joint, Kind, Scene};
 
-/// What a node has on one side.
+/// What contacts are to a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Side {
-    /// A bar, by its place in the line.
-    Bar(usize),
-    /// No force.
-    Free,
-    /// No motion.
-    Fixed,
+pub(crate) enum Contacts {
+    /// They stay closed: what touches moves together.
+    Closed,
+    /// They open and close, and part what moves together.
+    Links,
 }
 
-/// The elements between two bars, or between a bar and an end.
+/// A contact of a line that may open.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Node {
-    pub left: Side,
-    /// Lumped elements from left to right.
-    pub elements: Vec<ElementIndex>,
-    pub right: Side,
-}
-
-/// A run of places in a node that move together, or that pass the same force on: from the first
-/// place to the last. Place `i` is left of the i-th element.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Run {
-    pub first: usize,
-    pub last: usize,
-}
-
-impl Node {
-    /// What a run of places has at its ends: the sides of the node that it reaches.
-    pub fn sides(&self, run: Run) -> impl Iterator<Item = Side> {
-        let left = (run.first == 0).then_some(self.left);
-        let right = (run.last == self.elements.len()).then_some(self.right);
-        left.into_iter().chain(right)
-    }
+pub(crate) struct Contact {
+    /// The names of what is at its left and at its right.
+    pub names: [String; 2],
+    /// Its node, and the run at its left.
+    pub node: usize,
+    pub run: usize,
+    /// The joint of the line.
+    pub joint: usize,
 }
 
 /// A line as nodes and bars in turn.
@@ -45,55 +32,106 @@ pub(crate) struct Layout {
     /// The bars from left to right.
     pub bars: Vec<ElementIndex>,
     /// The nodes from left to right.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<Node<Fraction>>,
     /// Of each bar, the node at its left and at its right; none where it is endless.
     pub ends: Vec<[Option<usize>; 2]>,
+    /// The contacts that are links.
+    pub contacts: Vec<Contact>,
 }
 
 impl Layout {
-    pub fn of(scene: &Scene) -> Layout {
+    pub fn of(scene: &Scene, model: &Model, contacts: Contacts) -> Layout {
         let side = |end: End| match end {
             End::Free => Some(Side::Free),
             End::Fixed => Some(Side::Fixed),
             End::Endless => None,
         };
-        let mut layout = Layout { bars: Vec::new(), nodes: Vec::new(), ends: Vec::new() };
-        let mut left = side(scene.line.left);
-        let mut elements = Vec::new();
-        for element in &scene.line.elements {
+        let mut layout =
+            Layout { bars: Vec::new(), nodes: Vec::new(), ends: Vec::new(), contacts: Vec::new() };
+        let line = &scene.line;
+        let is_link = |joint| contacts == Contacts::Links && line.joints[joint] == Joint::Contact;
+        let mut open = side(line.left).map(|side| Node::beginning(side, Fraction::zero()));
+        for (joint, element) in line.elements.iter().enumerate() {
+            if let Some(node) = open.as_mut().filter(|_| is_link(joint)) {
+                layout.contact(scene, node, joint);
+            }
             if !matches!(scene.elements[*element].kind, Kind::Bar(_)) {
-                elements.push(*element);
+                let node = open.as_mut().expect("an endless line begins with a bar");
+                node.attach(*element, &model.lumps[element]);
                 continue;
             }
-            let bar = layout.bars.len();
-            let before = left.map(|left| layout.close(left, &mut elements, Side::Bar(bar)));
+            let (bar, impedance) = (layout.bars.len(), &model.bars[element].impedance);
+            let before = open.map(|node| layout.close(node, Side::Bar(bar), impedance));
             layout.bars.push(*element);
             layout.ends.push([before, None]);
-            left = Some(Side::Bar(bar));
+            open = Some(Node::beginning(Side::Bar(bar), impedance.clone()));
         }
-        if let (Some(left), Some(right)) = (left, side(scene.line.right)) {
-            layout.close(left, &mut elements, right);
+        if let (Some(mut node), Some(right)) = (open, side(line.right)) {
+            if is_link(line.elements.len()) {
+                layout.contact(scene, &mut node, line.elements.len());
+            }
+            layout.close(node, right, &Fraction::zero());
         }
         layout
     }
 
+    /// Adds a contact to the node that begins where the last one ended.
+    fn contact(&mut self, scene: &Scene, node: &mut Node<Fraction>, joint: usize) {
+        let name = |place: Option<usize>| {
+            let element = place.and_then(|place| scene.line.elements.get(place));
+            element.map_or("wall".to_owned(), |element| scene.elements[*element].name.clone())
+        };
+        let names = [name(joint.checked_sub(1)), name(Some(joint))];
+        let (number, run) = (self.contacts.len(), node.links.len());
+        self.contacts.push(Contact { names, node: self.nodes.len(), run, joint });
+        node.links.push(Link::Contact(number));
+    }
+
     /// Adds a node; a bar at its left ends there.
-    fn close(&mut self, left: Side, elements: &mut Vec<ElementIndex>, right: Side) -> usize {
-        let node = self.nodes.len();
-        if let Side::Bar(bar) = left {
-            self.ends[bar][1] = Some(node);
+    fn close(&mut self, mut node: Node<Fraction>, right: Side, impedance: &Fraction) -> usize {
+        let place = self.nodes.len();
+        if let Side::Bar(bar) = node.left {
+            self.ends[bar][1] = Some(place);
         }
-        self.nodes.push(Node { left, elements: std::mem::take(elements), right });
-        node
+        node.right = right;
+        node.impedance[1] = impedance.clone();
+        self.nodes.push(node);
+        place
     }
 
     /// The node at which a lumped element sits.
     pub fn node_of(&self, element: ElementIndex) -> Option<usize> {
-        self.nodes.iter().position(|node| node.elements.contains(&element))
+        self.nodes.iter().position(|node| node.place(element).is_some())
     }
 
     /// The place of a bar in the line.
     pub fn bar(&self, element: ElementIndex) -> Option<usize> {
         self.bars.iter().position(|bar| *bar == element)
+    }
+}
+
+impl Node<Fraction> {
+    /// A node of which only the left side is known yet.
+    fn beginning(left: Side, impedance: Fraction) -> Node<Fraction> {
+        let impedance = [impedance, Fraction::zero()];
+        Node { left, right: Side::Free, impedance, elements: Vec::new(), links: Vec::new() }
+    }
+
+    /// Adds an element at the right.
+    fn attach(&mut self, element: ElementIndex, lump: &ModelLump) {
+        let run = self.links.len();
+        let law = match lump.clone() {
+            ModelLump::Mass(mass, velocity) => ElementLaw::Mass { mass, velocity },
+            ModelLump::Spring(stiffness, damping) => ElementLaw::Spring { stiffness, damping },
+            ModelLump::Hertz(force, compression, exponent) => {
+                ElementLaw::LocalContact { force, compression, exponent }
+            }
+            ModelLump::Support(stiffness, damping) => ElementLaw::Support { stiffness, damping },
+            ModelLump::Load(drive, ..) => ElementLaw::Load(drive),
+        };
+        if law.is_link() {
+            self.links.push(Link::Element(self.elements.len()));
+        }
+        self.elements.push(Lumped { element, run, law });
     }
 }

@@ -6,8 +6,8 @@
 use crate::expression::{Expression, Fraction, Root};
 use crate::network::equations::{Network, Role};
 use crate::network::error::{NetworkError, Unobservable};
-use crate::network::layout::{Node, Run, Side};
 use crate::network::model::{ModelLump, bar_roots};
+use crate::network::node::{Node, Side};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
 use crate::scene::{Body, Dimension, ElementIndex, Kind, Measure, Place, Position, Seen};
 use wavestep_polynomial::Rational;
@@ -398,20 +398,21 @@ impl Network {
             })
     }
 
-    /// The velocity of a run of places in a node.
-    fn velocity_of_run(&self, place: usize, node: &Node, run: Run) -> Observation {
+    /// The velocity of a run of a node.
+    fn velocity_of_run(&self, place: usize, node: &Node<Fraction>, run: usize) -> Observation {
         let side = |side: Side, share: Fraction| match side {
             Side::Bar(bar) => Some(self.velocity_at_end(self.layout.bars[bar], &share)),
             Side::Fixed => Some(Observation::default()),
             Side::Free => None,
         };
-        let left = (run.first == 0).then(|| side(node.left, Fraction::one())).flatten();
-        let last = node.elements.len();
-        let right = || (run.last == last).then(|| side(node.right, Fraction::zero())).flatten();
+        let [first, last] = node.side_runs();
+        let left = (run == first).then(|| side(node.left, Fraction::one())).flatten();
+        let right = || (run == last).then(|| side(node.right, Fraction::zero())).flatten();
         if let Some(known) = left.or_else(right) {
             return known;
         }
-        let wave = self.wave(Role::Velocity(place, run.first)).expect("else it is known");
+        let wave =
+            self.wave(Role::Velocity(place, node.first_place(run))).expect("else it is known");
         let mut velocity = Observation::default();
         if !self.has_clock(place) {
             let common = self.initial_velocities(node, run).into_iter().next();
@@ -430,33 +431,25 @@ impl Network {
         }
     }
 
-    /// The node of an element, and its place there.
-    fn place_of(&self, element: ElementIndex) -> Option<(usize, &Node, usize)> {
+    /// The node of an element, and its run there; of a spring the one at its left.
+    fn place_of(&self, element: ElementIndex) -> Option<(usize, &Node<Fraction>, usize)> {
         let place = self.layout.node_of(element)?;
         let node = &self.layout.nodes[place];
-        let i = node.elements.iter().position(|other| *other == element)?;
-        Some((place, node, i))
-    }
-
-    /// The velocity at the place left of the i-th element of a node.
-    fn velocity_at(&self, place: usize, node: &Node, i: usize) -> Observation {
-        let runs = self.velocity_runs(node);
-        let run = runs.iter().find(|run| run.first <= i && i <= run.last);
-        self.velocity_of_run(place, node, *run.expect("every place is in a run"))
+        Some((place, node, node.elements[node.place(element)?].run))
     }
 
     /// The velocity of what moves as one: a mass, a support, a load.
     fn velocity_of(&self, element: ElementIndex) -> Option<Observation> {
-        let (place, node, i) = self.place_of(element)?;
+        let (place, node, run) = self.place_of(element)?;
         let spring = matches!(self.scaled.model.lumps[&element], ModelLump::Spring(..));
-        (!spring).then(|| self.velocity_at(place, node, i))
+        (!spring).then(|| self.velocity_of_run(place, node, run))
     }
 
     /// How fast a spring shortens.
     pub(crate) fn closing_of(&self, element: ElementIndex) -> Option<Observation> {
-        let (place, node, i) = self.place_of(element)?;
-        let mut closing = self.velocity_at(place, node, i);
-        add(&mut closing, &self.velocity_at(place, node, i + 1), &-&Fraction::one());
+        let (place, node, run) = self.place_of(element)?;
+        let mut closing = self.velocity_of_run(place, node, run);
+        add(&mut closing, &self.velocity_of_run(place, node, run + 1), &-&Fraction::one());
         Some(closing)
     }
 

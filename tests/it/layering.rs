@@ -13,7 +13,7 @@ const LAYERS: [(&str, &[&str]); 17] = [
     ("enclosure", &["ball", "expression"]),
     ("scene", &["expression"]),
     ("recurrence", &["enclosure", "expression"]),
-    ("network", &["enclosure", "expression", "recurrence", "scene"]),
+    ("network", &["ball", "enclosure", "expression", "recurrence", "scene"]),
     ("model", &["ball", "enclosure", "expression", "network", "recurrence", "scene"]),
     ("solution", &["expression", "recurrence"]),
     (

@@ -1,0 +1,386 @@
+//! The law of a node as a linear system of differential equations, in numbers.
+//!
+//! With `w` the wave that arrives in a bar of impedance `Z`, the force of the bar on a run that moves with
+//! `v` is `Z (2w − v)`, and what leaves is `v − w`: no derivative of a delayed function occurs. The state `y`
+//! holds the velocities of what has a mass and the displacements of what yields, and changes with
+//! `y' = A y + B u`; velocities of runs and forces of closed contacts are `C y + D u`. The input `u` holds
+//! the two arriving waves, then what each load does and the force in each local contact.
+
+use crate::ball::Number;
+use crate::network::node::{Acting, ElementLaw, Link, Lumped, Node};
+use crate::scene::Drive;
+
+/// Something without mass moves, and nothing resists it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Unresisted;
+
+/// A node whose contacts are open or closed.
+///
+/// # Invariants
+/// The rows of `change` belong to the state: the velocities of `heavy` groups, then the displacements that
+/// are `followed`. The rows of `output` are the velocities of all runs, then the forces of `closed` contacts.
+/// All rows are as long as state and input together.
+#[derive(Clone, Debug)]
+pub(crate) struct System<V> {
+    /// The group of each run: runs of one group move together.
+    pub group: Vec<usize>,
+    /// The groups that are held, or moved by a load.
+    pub held: Vec<bool>,
+    /// Groups with a mass that move freely.
+    pub heavy: Vec<usize>,
+    /// Which of what yields has a displacement in the state. Dampers alone have none, and springs without
+    /// load.
+    pub followed: Vec<bool>,
+    /// `[A B]` by rows.
+    pub change: Vec<Vec<V>>,
+    /// `[C D]` by rows.
+    pub output: Vec<Vec<V>>,
+    /// The closed contacts with the runs at their left.
+    pub closed: Vec<(usize, usize)>,
+}
+
+impl<V> System<V> {
+    /// How many entries the state has.
+    pub fn states(&self) -> usize {
+        self.change.len()
+    }
+
+    /// The place of a displacement in the state.
+    pub fn place_of_yield(&self, number: usize) -> Option<usize> {
+        let before = self.followed[..number].iter().filter(|followed| **followed).count();
+        self.followed[number].then(|| self.heavy.len() + before)
+    }
+
+    /// The place of the velocity of a run in the state, where it moves with a mass.
+    pub fn place_of_velocity(&self, run: usize) -> Option<usize> {
+        self.heavy.iter().position(|group| *group == self.group[run])
+    }
+
+    /// Whether a run moves with a mass, or is held.
+    pub fn has_inertia(&self, run: usize) -> bool {
+        self.held[self.group[run]] || self.place_of_velocity(run).is_some()
+    }
+}
+
+/// The inverse of a small matrix that is positive definite, by elimination.
+fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec<Number>>> {
+    let size = matrix.len();
+    let unit = |i, j| if i == j { Number::one() } else { Number::zero() };
+    let mut result: Vec<Vec<Number>> =
+        (0..size).map(|i| (0..size).map(|j| unit(i, j)).collect()).collect();
+    for i in 0..size {
+        let pivot = matrix[i][i].reciprocal(bits).ok()?;
+        for entry in matrix[i].iter_mut().chain(&mut result[i]) {
+            *entry = entry.multiply(&pivot, bits);
+        }
+        for row in (0..size).filter(|row| *row != i) {
+            let factor = matrix[row][i].clone();
+            for rows in [&mut matrix, &mut result] {
+                let above = rows[i].clone();
+                for (entry, above) in rows[row].iter_mut().zip(above) {
+                    *entry = entry.subtract(&factor.multiply(&above, bits), bits);
+                }
+            }
+        }
+    }
+    Some(result)
+}
+
+/// A row times a column.
+pub(crate) fn dot(row: &[Number], column: &[Number], bits: u64) -> Number {
+    let terms = row.iter().zip(column).filter(|(a, b)| !a.is_zero() && !b.is_zero());
+    terms.fold(Number::zero(), |sum, (a, b)| sum.add(&a.multiply(b, bits), bits))
+}
+
+impl Node<Number> {
+    /// The mass of a run.
+    pub fn mass_of(&self, run: usize, bits: u64) -> Number {
+        let masses = self.attached(run).filter_map(|own| match &own.law {
+            ElementLaw::Mass { mass, .. } => Some(mass),
+            _ => None,
+        });
+        masses.fold(Number::zero(), |sum, mass| sum.add(mass, bits))
+    }
+}
+
+impl ElementLaw<Number> {
+    /// Whether its displacement is part of the state: not that of a damper alone.
+    fn remembers(&self) -> bool {
+        match self {
+            ElementLaw::LocalContact { .. } => true,
+            _ => self.resistance().is_some_and(|[stiffness, _]| !stiffness.is_zero()),
+        }
+    }
+}
+
+impl System<Number> {
+    /// The system of a node with these contacts closed.
+    ///
+    /// # Errors
+    /// [`Unresisted`] where something without mass moves against nothing.
+    pub fn of(
+        node: &Node<Number>,
+        is_closed: impl Fn(usize) -> bool,
+        bits: u64,
+    ) -> Result<System<Number>, Unresisted> {
+        let closed: Vec<(usize, usize)> =
+            node.contacts().filter(|(contact, _)| is_closed(*contact)).collect();
+        let mut joined: Vec<bool> =
+            (0..node.links.len()).map(|link| closed.iter().any(|(_, own)| *own == link)).collect();
+        let mut followed: Vec<bool> = node.yielding().map(|own| own.law.remembers()).collect();
+        // An undamped spring beside an open contact, with nothing else at its end, carries no force.
+        while let Some(link) = loose(node, &joined) {
+            let spring = |own: &Lumped<Number>| own.law.is_link() && own.run == link;
+            followed[node.yielding().position(spring).expect("a spring")] = false;
+            joined[link] = true;
+        }
+        let mut group = vec![0];
+        for (run, joined) in joined.iter().enumerate() {
+            group.push(group[run] + usize::from(!joined));
+        }
+        Law::of(node, group, followed, bits).system(closed)
+    }
+}
+
+/// The balances of a node while its system is made.
+struct Law<'a> {
+    node: &'a Node<Number>,
+    group: Vec<usize>,
+    groups: usize,
+    /// The mass of each group.
+    mass: Vec<Number>,
+    held: Vec<bool>,
+    heavy: Vec<usize>,
+    /// Where the displacement of each element stands in the state.
+    kept: Vec<Option<usize>>,
+    /// Where each load and local contact stands in the input.
+    driven: Vec<Option<usize>>,
+    followed: Vec<bool>,
+    bits: u64,
+}
+
+/// The motion that one entry of state and input goes with.
+struct Motion<'a> {
+    state: &'a [Number],
+    input: &'a [Number],
+    /// The velocity of each group.
+    velocities: Vec<Number>,
+}
+
+impl Law<'_> {
+    fn of(node: &Node<Number>, group: Vec<usize>, followed: Vec<bool>, bits: u64) -> Law<'_> {
+        let groups = group.last().expect("one run at least") + 1;
+        let (mut mass, mut held) = (vec![Number::zero(); groups], vec![false; groups]);
+        for (run, group) in group.iter().enumerate() {
+            mass[*group] = mass[*group].add(&node.mass_of(run, bits), bits);
+            held[*group] |= node.is_imposed(run);
+        }
+        let free = |group: &usize| !held[*group] && !mass[*group].is_zero();
+        let heavy: Vec<usize> = (0..groups).filter(free).collect();
+        let mut states = heavy.len()..;
+        let mut is_followed = followed.iter();
+        let kept = |own: &Lumped<Number>| {
+            let follows = own.law.yields() && *is_followed.next().expect("one for each");
+            follows.then(|| states.next().expect("without end"))
+        };
+        let kept = node.elements.iter().map(kept).collect();
+        let mut inputs = 2..;
+        let driven =
+            |own: &Lumped<Number>| own.law.is_driven().then(|| inputs.next().expect("without end"));
+        let driven = node.elements.iter().map(driven).collect();
+        Law { node, group, groups, mass, held, heavy, kept, driven, followed, bits }
+    }
+
+    /// The sum over the runs of a group.
+    fn sum(&self, values: &[Number], group: usize) -> Number {
+        let own = values.iter().zip(&self.group).filter(|(_, own)| **own == group);
+        own.fold(Number::zero(), |sum, (value, _)| sum.add(value, self.bits))
+    }
+
+    /// How fast the displacement of an element grows.
+    fn rate(&self, own: &Lumped<Number>, motion: &Motion<'_>) -> Number {
+        let velocity = |run: usize| &motion.velocities[self.group[run]];
+        match own.law.is_link() {
+            true => velocity(own.run).subtract(velocity(own.run + 1), self.bits),
+            false => velocity(own.run).clone(),
+        }
+    }
+
+    /// The force of an element: in a spring or a local contact the one that compresses it.
+    fn force_of(&self, place: usize, motion: &Motion<'_>) -> Number {
+        let own = &self.node.elements[place];
+        if let Some(input) = self.driven[place] {
+            return motion.input[input].clone();
+        }
+        let Some([stiffness, damping]) = own.law.resistance() else { return Number::zero() };
+        let damped = damping.multiply(&self.rate(own, motion), self.bits);
+        match self.kept[place] {
+            Some(state) => {
+                damped.add(&stiffness.multiply(&motion.state[state], self.bits), self.bits)
+            }
+            None => damped,
+        }
+    }
+
+    /// The forces on runs: all terms of their balances but inertia and the forces of contacts.
+    fn forces(&self, motion: &Motion<'_>) -> Vec<Number> {
+        let bits = self.bits;
+        let compressive = |run: usize, acting: Acting| match acting {
+            Acting::Side(side) => {
+                // X = Z (2w − v) at the left and −Z (2w − v) at the right.
+                let twice = motion.input[side].add(&motion.input[side], bits);
+                let moved = twice.subtract(&motion.velocities[self.group[run]], bits);
+                let force = self.node.impedance[side].multiply(&moved, bits);
+                if side == 0 { force } else { force.negate() }
+            }
+            Acting::Link(link) => match self.node.links[link] {
+                Link::Contact(_) => Number::zero(),
+                Link::Element(place) => self.force_of(place, motion),
+            },
+            Acting::Element(place) => self.force_of(place, motion),
+        };
+        let force = |run: usize| {
+            self.node.acting(run).fold(Number::zero(), |sum, (sign, acting)| {
+                let term = compressive(run, acting);
+                if sign > 0 { sum.add(&term, bits) } else { sum.subtract(&term, bits) }
+            })
+        };
+        (0..self.node.runs()).map(force).collect()
+    }
+
+    /// The groups without mass, and the inverse of how the forces on them fall with their velocities.
+    fn massless(&self) -> Result<(Vec<usize>, Vec<Vec<Number>>), Unresisted> {
+        let free = |group: &usize| !self.held[*group] && self.mass[*group].is_zero();
+        let massless: Vec<usize> = (0..self.groups).filter(free).collect();
+        let nothing = vec![Number::zero(); self.columns()];
+        let resistance = |moving: &usize| -> Vec<Number> {
+            let mut velocities = vec![Number::zero(); self.groups];
+            velocities[*moving] = Number::one();
+            let motion = Motion { state: &nothing, input: &nothing, velocities };
+            let forces = self.forces(&motion);
+            massless.iter().map(|group| self.sum(&forces, *group).negate()).collect()
+        };
+        // The matrix is symmetric.
+        let inverse = inverse(massless.iter().map(resistance).collect(), self.bits);
+        Ok((massless, inverse.ok_or(Unresisted)?))
+    }
+
+    fn states(&self) -> usize {
+        self.heavy.len() + self.kept.iter().flatten().count()
+    }
+
+    fn columns(&self) -> usize {
+        self.states() + 2 + self.driven.iter().flatten().count()
+    }
+
+    /// The matrices, column by column.
+    fn system(self, closed: Vec<(usize, usize)>) -> Result<System<Number>, Unresisted> {
+        let bits = self.bits;
+        let (massless, inverse) = self.massless()?;
+        let (states, runs) = (self.states(), self.node.runs());
+        let reciprocal = |group: &usize| self.mass[*group].reciprocal(bits);
+        let lightness: Vec<Number> =
+            self.heavy.iter().map(reciprocal).collect::<Result<_, _>>().map_err(|_| Unresisted)?;
+        let mut change = vec![Vec::new(); states];
+        let mut output = vec![Vec::new(); runs + closed.len()];
+        for column in 0..self.columns() {
+            let mut unit = vec![Number::zero(); self.columns()];
+            unit[column] = Number::one();
+            let (state, input) = unit.split_at(states);
+            let mut motion = Motion { state, input, velocities: self.given(state, input) };
+            let forces = self.forces(&motion);
+            let rest: Vec<Number> =
+                massless.iter().map(|group| self.sum(&forces, *group)).collect();
+            for (group, row) in massless.iter().zip(&inverse) {
+                motion.velocities[*group] = dot(row, &rest, bits);
+            }
+            let forces = self.forces(&motion);
+            let mut accelerations = vec![Number::zero(); self.groups];
+            for ((row, group), lightness) in change.iter_mut().zip(&self.heavy).zip(&lightness) {
+                accelerations[*group] = self.sum(&forces, *group).multiply(lightness, bits);
+                row.push(accelerations[*group].clone());
+            }
+            for (own, row) in self.node.elements.iter().zip(&self.kept) {
+                if let Some(row) = row {
+                    change[*row].push(self.rate(own, &motion));
+                }
+            }
+            for (run, group) in self.group.iter().enumerate() {
+                output[run].push(motion.velocities[*group].clone());
+            }
+            for (row, (_, run)) in closed.iter().enumerate() {
+                let force = self.contact_force(*run, &forces, &accelerations);
+                output[runs + row].push(force);
+            }
+        }
+        let Law { group, held, heavy, followed, .. } = self;
+        Ok(System { group, held, heavy, followed, change, output, closed })
+    }
+
+    /// The velocities of groups that are states or inputs; zero for the others.
+    fn given(&self, state: &[Number], input: &[Number]) -> Vec<Number> {
+        let mut velocities = vec![Number::zero(); self.groups];
+        for (group, value) in self.heavy.iter().zip(state) {
+            velocities[*group] = value.clone();
+        }
+        for (own, driven) in self.node.elements.iter().zip(&self.driven) {
+            if let (ElementLaw::Load(Drive::Velocity), Some(driven)) = (&own.law, driven) {
+                let velocity = &mut velocities[self.group[own.run]];
+                *velocity = velocity.add(&input[*driven], self.bits);
+            }
+        }
+        velocities
+    }
+
+    /// The force of a closed contact: what presses on the runs at its left, less what accelerates them;
+    /// from the right where the left is held.
+    fn contact_force(&self, run: usize, forces: &[Number], accelerations: &[Number]) -> Number {
+        let group = self.group[run];
+        let member = |other: &usize| self.group[*other] == group;
+        let held_left = (0..=run).filter(member).any(|run| self.node.is_imposed(run));
+        let side: Vec<usize> = match held_left {
+            false => (0..=run).filter(member).collect(),
+            true => (run + 1..self.node.runs()).filter(member).collect(),
+        };
+        let mut sum = Number::zero();
+        for run in side {
+            let mass = self.node.mass_of(run, self.bits);
+            let inertia = mass.multiply(&accelerations[group], self.bits);
+            sum = sum.add(&forces[run], self.bits).subtract(&inertia, self.bits);
+        }
+        if held_left { sum.negate() } else { sum }
+    }
+}
+
+/// An undamped spring that has nothing but open contacts at one end, by the run at its left.
+fn loose(node: &Node<Number>, joined: &[bool]) -> Option<usize> {
+    // The first and the last run that move with one.
+    let group_of = |run: usize| {
+        let (mut first, mut last) = (run, run);
+        while first > 0 && joined[first - 1] {
+            first -= 1;
+        }
+        while last < joined.len() && joined[last] {
+            last += 1;
+        }
+        (first, last)
+    };
+    let is_bare = |(first, last): (usize, usize), spring: usize| {
+        let inside = |run: usize| first <= run && run <= last;
+        let others = node.yielding().any(|own| {
+            let within = inside(own.run) && inside(own.run + 1);
+            own.law.is_link()
+                && own.run != spring
+                && (inside(own.run) || inside(own.run + 1))
+                && !within
+        });
+        (first..=last).all(|run| node.is_bare(run)) && !others
+    };
+    let mut springs = (0..joined.len()).filter(|link| {
+        let law = node.spanning(*link).map(|own| &own.law);
+        let undamped = matches!(law, Some(ElementLaw::Spring { damping, .. }) if damping.is_zero());
+        undamped && !joined[*link]
+    });
+    // One that is bare at both ends would fly alone.
+    springs.find(|link| is_bare(group_of(*link), *link) != is_bare(group_of(link + 1), *link))
+}
