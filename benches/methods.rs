@@ -6,7 +6,9 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::cell::LazyCell;
 use std::hint::black_box;
-use wavestep::evaluate::{Certified, Compiled, Marched, Method, Signal, Stable, StablePrecision};
+use wavestep::evaluate::{
+    Certified, ClosedForm, Compiled, Marched, Method, Stable, StablePrecision,
+};
 use wavestep::language::parse_number;
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_kernels::{Level, Piece, Table};
@@ -18,7 +20,7 @@ const UNSORTED: usize = 1_000_000;
 const MASSES: [&str; 2] = ["1", "1/4"];
 
 /// Calls `work` with the wave f, and the end of the window.
-fn with_wave(mass: &str, work: impl FnOnce(&Signal, &str)) {
+fn with_wave(mass: &str, work: impl FnOnce(&ClosedForm, &str)) {
     with_signal(rigid_mass(), Some(mass), |signal| {
         work(signal, &format!("{}*2*{mass}", ORDER + 1))
     });
@@ -46,7 +48,7 @@ struct Prepared<'a> {
 }
 
 impl Prepared<'_> {
-    fn new<'a>(signal: &'a Signal, last: &str) -> Prepared<'a> {
+    fn new<'a>(signal: &'a ClosedForm, last: &str) -> Prepared<'a> {
         let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
         let compiled = Compiled::new(signal, &from, &to, None).unwrap();
         let certified = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();

@@ -1,7 +1,7 @@
 //! The example of the README: a scene, its fourth piece as LaTeX, and thirty digits.
 
 use std::collections::BTreeMap;
-use wavestep::evaluate::{Evaluator, Limit};
+use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::export::{Formula, Head, LATEX_WIDTH, latex};
 use wavestep::language::{Source, parse_number, read_expression, read_recurrence};
 use wavestep::solution::Solution;
@@ -27,7 +27,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let solution = Solution::new(read_recurrence(&source, &values)?);
     let f = solution.recurrence().observation("f").ok_or("a wave of the scene")?;
     let time = parse_number("33/10")?;
-    let value = Evaluator::new(&solution)?.value(&f, &time, Limit::Right, 30, 1 << 16)?;
+    let signal = ClosedSignal::of_recurrence(&solution, &f, [&time, &time])?;
+    let value = digits(&signal, &time, Limit::Right, 30, 1 << 16)?;
     assert_eq!(value.to_text(30), "0.305385264408791064086396952466");
     Ok(())
 }

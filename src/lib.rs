@@ -53,6 +53,7 @@ pub mod recurrence;
 pub mod scene;
 #[doc(hidden)]
 pub mod scenes;
+pub mod signal;
 #[doc(hidden)]
 pub mod solution;
 

@@ -1,32 +1,13 @@
 //! What is asked for: an observable on a window of time.
 
-use crate::evaluate::{EvaluateError, Limit, Marched, Method as _, Recogniser, Signal, Taps};
+use crate::evaluate::{ClosedForm, EvaluateError, Limit, Marched, Method as _, Recogniser, Taps};
 use crate::network::Network;
 use wavestep_polynomial::Rational;
 
 /// An observable on a window, with what there is to compute it from.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("7")?);
-/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// // f is largest just after its second front, at 2: 1 + e^{−2}. The scale is not less.
-/// let above = problem.scale().unwrap() / (1.0 + (-2f64).exp()) - 1.0;
-/// assert!((-1e-15..1e-5).contains(&above));
-/// // A period lasts 2, so that three have passed by the end.
-/// assert_eq!(problem.order(), Ok(3));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Problem<'a> {
     /// The observable.
-    pub signal: &'a Signal,
+    pub signal: &'a ClosedForm,
     /// The scene, and the place of the observable in it; models need it.
     pub scene: Option<(&'a Network, usize)>,
     /// Tells values that are rational numbers.
@@ -69,7 +50,7 @@ impl Problem<'_> {
     /// How many reflections the window sees.
     ///
     /// # Errors
-    /// As [`Signal::order`].
+    /// As [`ClosedForm::order`].
     pub fn order(&self) -> Result<usize, EvaluateError> {
         self.signal.order(&self.to)
     }

@@ -15,24 +15,6 @@ use std::str::FromStr;
 use wavestep_polynomial::Rational;
 
 /// A way to values with its settings, as it is written: `NAME` or `NAME:SETTING[,SETTING]`.
-///
-/// ```
-/// use wavestep::answer::Kind;
-///
-/// assert_eq!("modes:1000".parse(), Ok(Kind::Modes { count: 1000 }));
-/// assert!(Kind::Rigid.is_model() && !Kind::Plain.is_model());
-/// assert_eq!("leapfrog:400,0.9".parse(), Ok(Kind::Leapfrog { cells: 400, courant: 0.9 }));
-/// assert_eq!("compiled".parse::<Kind>().unwrap().to_string(), "compiled");
-/// let error = "modes:few".parse::<Kind>().unwrap_err();
-/// assert_eq!(error.to_string(), "`few` is no setting of modes");
-/// let modes = Kind::Modes { count: 30 };
-/// assert_eq!((modes.name(), modes.setting().as_str()), ("modes", "30"));
-/// // Every name in the list is read, and gives itself.
-/// for (written, _) in Kind::NAMES {
-///     let name = written.split(':').next().unwrap();
-///     assert_eq!(name.parse::<Kind>().unwrap().name(), name);
-/// }
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Kind {
     /// Correctly rounded.
@@ -235,30 +217,6 @@ enum Ways<'a> {
 }
 
 /// A way to the values of a problem.
-///
-/// ```
-/// use wavestep::answer::{Kind, Problem, Way};
-/// use wavestep::evaluate::{Limit, Signal};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let way = Way::new(Kind::Compiled, &problem, None).unwrap();
-/// assert!((way.values(&[1.0]).unwrap()[0] - (-1f64).exp()).abs() <= way.bound().unwrap() + 1e-16);
-/// assert_eq!(way.kind(), Kind::Compiled);
-/// assert!(way.law().contains("proven"));
-/// // The echo at 2 is a jump by 1, seen in limits from both sides.
-/// let two = parse_number("2")?;
-/// let [left, right] = [Limit::Left, Limit::Right].map(|side| way.value(&two, side).unwrap());
-/// assert!((right - left - 1.0).abs() < 1e-15);
-/// assert_eq!(way.exact_values(&[two], Limit::Left).unwrap(), [left]);
-/// assert!(Way::new(Kind::Rigid, &problem, None).is_err());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Way<'a> {
     kind: Kind,
     inner: Ways<'a>,
@@ -303,21 +261,6 @@ impl<'a> Way<'a> {
     }
 
     /// A model made ready for the observable at this place of a scene, which needs no recurrence.
-    ///
-    /// ```
-    /// use wavestep::answer::{Kind, Way};
-    /// use wavestep::language::{Source, read_scene};
-    /// use wavestep::network::ScaledScene;
-    ///
-    /// let text = wavestep::scenes::find("hertz-striker").unwrap().text;
-    /// let scene = read_scene(&Source::new("hertz-striker", text)?, &Default::default()).unwrap();
-    /// let scaled = ScaledScene::of(&scene).unwrap();
-    /// // Before a wave returns the force comes near to Z V/2 = 63.8 kN, and stays below.
-    /// let steps = Way::of_model("steps:1e-8".parse().unwrap(), &scaled, 0).unwrap();
-    /// assert!((63e3..63.8e3).contains(&steps.values(&[6e-5]).unwrap()[0]));
-    /// assert!(Way::of_model(Kind::Compiled, &scaled, 0).is_err());
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     ///
     /// # Errors
     /// [`WayError::NeedsRecurrence`] for methods on the exact solution; [`WayError::Model`] where the

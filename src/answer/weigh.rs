@@ -28,12 +28,6 @@ const MARCHED_ULPS: f64 = 40.0;
 const MARCHED_WAVES: f64 = 1e-13;
 
 /// How far off a way can be, as known before it is tried.
-///
-/// ```
-/// use wavestep::answer::Promise;
-///
-/// assert_ne!(Promise::Proven(1e-15), Promise::Measured(1e-15));
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Promise {
     /// A bound that will be proven.
@@ -45,16 +39,6 @@ pub enum Promise {
 }
 
 /// A way that was weighed.
-///
-/// ```
-/// use wavestep::answer::{Candidate, Promise};
-///
-/// let promise = Some(Promise::Measured(1e-15));
-/// let verdict = "its error is measured, not proven".to_owned();
-/// let stable = Candidate { kind: "stable".parse().unwrap(), promise, seconds: 1e-6, verdict };
-/// assert_eq!(stable.kind.to_string(), "stable");
-/// assert!(!matches!(stable.promise, Some(Promise::Proven(_))));
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Candidate {
     /// Which.
@@ -68,25 +52,6 @@ pub struct Candidate {
 }
 
 /// The ways that were weighed, the one that was picked first.
-///
-/// ```
-/// use wavestep::answer::{Problem, Promise, Weighed, consider};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let Weighed { candidates, met } = consider(&problem, 100, 1e-12, 1.0).unwrap();
-/// // The cheapest of those whose proven bound does.
-/// let good = |promise| matches!(promise, Some(Promise::Proven(bound)) if bound <= 1e-12);
-/// assert!(met && good(candidates[0].promise));
-/// let others = candidates.iter().filter(|other| good(other.promise));
-/// assert!(others.into_iter().all(|other| candidates[0].seconds <= other.seconds));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Weighed {
     /// All of them.
@@ -100,36 +65,6 @@ pub struct Weighed {
 ///
 /// # Errors
 /// [`EvaluateError`], where there is no exact solution to evaluate.
-///
-/// ```
-/// use wavestep::answer::{Kind, Problem, consider};
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// // Two poles: no march in integers, which gives certified values at little cost.
-/// let source = Source::new("two poles", r#"
-///     recurrence "Two poles"
-///     period 2, local s, time t
-///     wave h, f
-///     equation h[n]' + h[n] = h[n-1]' - h[n-1]
-///     equation f[n]' + 2*f[n] = h[n]
-///     continuous h[n] - h[n-1] starts at 1
-///     continuous f[n] starts at 0
-/// "#)?;
-/// let recurrence = read_recurrence(&source, &Default::default())?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("80")?);
-/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let picked = |points, tolerance| {
-///     let weighed = consider(&problem, points, tolerance, 1.0).unwrap();
-///     weighed.met.then(|| weighed.candidates[0].kind)
-/// };
-/// assert_eq!(picked(1, 2e-16), Some(Kind::Certified));
-/// assert_eq!(picked(1_000_000, 1e-15), Some(Kind::Compiled));
-/// // No double is so near.
-/// assert_eq!(picked(1, 1e-20), None);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn consider(
     problem: &Problem<'_>,
     points: usize,

@@ -7,11 +7,11 @@
 //! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
 
 use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
+use crate::evaluate::closed::{ClosedForm, MAX_PIECES, Stretch};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
 use crate::evaluate::fitted_cells;
 use crate::evaluate::marched_pieces::MarchedPieces;
-use crate::evaluate::signal::{MAX_PIECES, Signal, Stretch};
+use crate::evaluate::signal::Limit;
 use crate::evaluate::taylor::Taylor;
 use crate::expression::Fraction;
 use num_traits::Signed as _;
@@ -64,7 +64,7 @@ pub(crate) struct Cell {
 
 /// A signal on a window, with its cells made as they are asked for.
 pub(crate) struct Window<'a> {
-    pub signal: &'a Signal,
+    pub signal: &'a ClosedForm,
     /// Those of the window; before them the one that ends where an arrival begins the window, for the
     /// limit from the left there.
     pub stretches: Vec<Stretch>,
@@ -79,7 +79,7 @@ pub(crate) struct Window<'a> {
 impl<'a> Window<'a> {
     /// The window from one time of the user's to another.
     pub(crate) fn new(
-        signal: &'a Signal,
+        signal: &'a ClosedForm,
         from: &Rational,
         to: &Rational,
     ) -> Result<Window<'a>, EvaluateError> {
@@ -310,12 +310,16 @@ impl<'a> Window<'a> {
 ///
 /// # Errors
 /// [`EvaluateError`], where the window has too many arrivals.
-pub(crate) fn scale(signal: &Signal, from: &Rational, to: &Rational) -> Result<f64, EvaluateError> {
+pub(crate) fn scale(
+    signal: &ClosedForm,
+    from: &Rational,
+    to: &Rational,
+) -> Result<f64, EvaluateError> {
     Ok(Window::new(signal, from, to)?.scale()?.to_double())
 }
 
 /// The stretch that an arrival ends at a time; `None` where nothing arrives then.
-fn ending_at(signal: &Signal, time: &Rational) -> Result<Option<Stretch>, EvaluateError> {
+fn ending_at(signal: &ClosedForm, time: &Rational) -> Result<Option<Stretch>, EvaluateError> {
     // However little earlier: the stretches from there on end with that of the arrival alone.
     let little = (time.abs() + Rational::from_integer(1.into()))
         / Rational::from_integer((1_u64 << 60).into());
@@ -358,7 +362,7 @@ pub(crate) fn at_or_after(value: &Rational) -> f64 {
 }
 
 /// The smallest double that is not before a time in the scale of the waves.
-pub(crate) fn first_double(signal: &Signal, time: &Fraction) -> Result<f64, EvaluateError> {
+pub(crate) fn first_double(signal: &ClosedForm, time: &Fraction) -> Result<f64, EvaluateError> {
     let numbers = signal.numbers();
     if let (Some(time), Some(slowness)) = (time.as_constant(), signal.slowness().as_constant()) {
         return Ok(at_or_after(&(time / slowness)));

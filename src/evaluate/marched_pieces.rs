@@ -7,9 +7,9 @@
 use crate::ball::{Ball, Binary, ComplexBall, Magnitude};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::{at_or_after, rational};
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::signal::Limit;
 use crate::evaluate::taps::{Extra, Taps};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::{Field as _, Transform};
@@ -53,7 +53,7 @@ struct RationalTap {
 
 impl MarchedPieces {
     /// The pieces of a signal, where it has some.
-    pub(crate) fn of(signal: &Signal, from: &Rational, to: &Rational) -> Option<MarchedPieces> {
+    pub(crate) fn of(signal: &ClosedForm, from: &Rational, to: &Rational) -> Option<MarchedPieces> {
         let slowness = signal.slowness().as_constant()?;
         let unit = signal.unit().exact()?.as_constant()?;
         if from.is_negative() {

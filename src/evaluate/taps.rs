@@ -11,7 +11,7 @@
 //! to finitely many exponential polynomials. Methods for doubles need to know how to compute `Y` alone;
 //! where there are no taps, [`Marched`](crate::evaluate::Marched) takes the steps of all waves.
 
-use crate::evaluate::signal::Signal;
+use crate::evaluate::closed::ClosedForm;
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::ObservedWave;
 use crate::solution::{EchoTemplate, Family, GeneralForm, Solution};
@@ -21,22 +21,6 @@ use wavestep_polynomial::Rational;
 const MAX_FIRST: usize = 4;
 
 /// `weight · Y(T − delay)`, from a time on.
-///
-/// ```
-/// use wavestep::evaluate::{Tap, Taps};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("g").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// // g[n] = −f[n−1]: minus the response, one period later.
-/// let [Tap { weight, delay, since }] = &Taps::of(&signal).unwrap().taps[..] else { panic!() };
-/// assert_eq!((weight.to_string(), delay.to_string()), ("-1".to_owned(), "2".to_owned()));
-/// assert_eq!(since, delay);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Tap {
     /// The weight.
@@ -48,15 +32,6 @@ pub struct Tap {
 }
 
 /// A function that is added from a time on: `function(T − origin)`, in the local time.
-///
-/// ```
-/// use wavestep::evaluate::Extra;
-/// use wavestep::expression::{Expression, Fraction};
-///
-/// // 1 from the beginning on.
-/// let step = Extra { function: Expression::one(), origin: Fraction::zero() };
-/// assert!(step.function.is_one() && step.origin.is_zero());
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Extra {
     /// The exponential polynomial.
@@ -66,23 +41,6 @@ pub struct Extra {
 }
 
 /// An observable in the scale of its waves, by taps.
-///
-/// ```
-/// use wavestep::evaluate::{Signal, Taps};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1/4")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let velocity = recurrence.observation("velocity").unwrap();
-/// let signal = Signal::of_recurrence(&recurrence, &velocity).unwrap();
-/// // f[n] + g[n] = f[n] − f[n−1]
-/// let taps = Taps::of(&signal).unwrap();
-/// let taps: Vec<_> = taps.taps.iter().map(|t| (t.weight.to_string(), t.delay.to_string())).collect();
-/// let expected = [("1", "0"), ("-1", "1/2")];
-/// assert!(taps.iter().map(|(w, d)| (w.as_str(), d.as_str())).eq(expected));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Taps {
     /// The rate `b`.
@@ -130,7 +88,7 @@ impl Taps {
     ///
     /// # Errors
     /// [`NoTaps`], where the waves have other forms.
-    pub fn of(signal: &Signal) -> Result<Taps, NoTaps> {
+    pub fn of(signal: &ClosedForm) -> Result<Taps, NoTaps> {
         if !signal.is_on_grid() {
             return Err(NoTaps::NoGrid);
         }

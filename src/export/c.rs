@@ -65,14 +65,14 @@ fn array(output: &mut String, kind: &str, name: &str, values: impl Iterator<Item
 /// A C file with the function `double wavestep_QUANTITY(double t)` and one for many times.
 ///
 /// ```
-/// use wavestep::evaluate::{Compiled, Signal};
+/// use wavestep::evaluate::{Compiled, ClosedForm};
 /// use wavestep::export::{CHeading, to_c};
 /// use wavestep::language::{Source, parse_number, read_recurrence};
 ///
 /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
 /// let values = [("mu".to_owned(), parse_number("1")?)].into();
 /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
+/// let signal = ClosedForm::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
 /// let (from, to) = (parse_number("0")?, parse_number("4")?);
 /// let compiled = Compiled::new(&signal, &from, &to, None).unwrap();
 /// let heading = CHeading {

@@ -171,6 +171,18 @@ pub enum Question {
     First([String; 2]),
 }
 
+impl HistoryError {
+    /// Why there is no value with so many bits, of a scene that was followed as far as that before:
+    /// nothing but the precision can be wanting.
+    pub(crate) fn of_value(self, bits: u64) -> EvaluateError {
+        match self {
+            HistoryError::Evaluate(error) => *error,
+            HistoryError::Value(error) => error.into(),
+            _ => EvaluateError::NotFollowed { bits },
+        }
+    }
+}
+
 impl From<EnclosureError> for HistoryError {
     fn from(error: EnclosureError) -> HistoryError {
         match error {

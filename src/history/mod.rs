@@ -34,5 +34,6 @@ mod waves;
 
 pub use error::{HistoryError, NotFollowed, Question};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History, MAX_BITS};
+pub use phased::FollowedSignal;
 pub use validity::Validity;
 pub use waves::field_evaluator;

@@ -4,74 +4,20 @@
 //! In a bar, at the time `s` from its left end, the wave that left the left end at `t − s` meets the one
 //! that left the right end at `t − (τ − s)`. Energies and momenta of bodies are sums over bars instead.
 
-use crate::ball::{Attempt, Number};
-use crate::evaluate::{EvaluateError, Limit, Value};
+use crate::ball::Number;
+use crate::evaluate::EvaluateError;
 use crate::expression::{Fraction, Root};
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, NotFollowed};
-use crate::history::history::{History, MAX_BITS, precisions, undecided, unit};
+use crate::history::history::{History, unit};
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Signal, Source};
 use crate::network::{Lumped, Network, Side, bar_roots};
 use crate::scene::{Body, ElementIndex, Kind, Measure, Observable, Place, Position, Seen};
-use wavestep_polynomial::Rational;
 
 type Outcome<T> = Result<T, HistoryError>;
 
 impl History {
-    /// Values of an observable at times in the user's units, in metres, kilograms and seconds or as plain
-    /// numbers, with the digits asked for; contacts open and close on the way. At a jump `limit`
-    /// tells which one is meant.
-    ///
-    /// # Errors
-    /// As [`History::of`]; [`HistoryError::Refused`] for places that are no exact share of a travel time.
-    ///
-    /// ```
-    /// use wavestep::evaluate::Limit;
-    /// use wavestep::history::History;
-    /// use wavestep::language::{Source, parse_number, read_scene};
-    /// use wavestep::network::Network;
-    ///
-    /// let text = r#"
-    ///     scene "A bar strikes a wall"
-    ///     bar rod { impedance = 1, travel = 1, velocity = 1 }
-    ///     line free - rod | fixed
-    ///     contacts open
-    ///     observe v = velocity(rod.at(1/2))
-    /// "#;
-    /// let network = Network::new(&read_scene(&Source::new("text", text)?, &Default::default()).unwrap());
-    /// let times = ["0", "1", "3"].map(|time| parse_number(time).unwrap());
-    /// let values = History::values(&network.unwrap(), "v", &times, Limit::Right, 9).unwrap();
-    /// let told: Vec<String> = values.iter().map(|value| value.to_text(9)).collect();
-    /// assert_eq!(told, ["1", "0", "-1"]);
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
-    pub fn values(
-        network: &Network,
-        observable: &str,
-        times: &[Rational],
-        limit: Limit,
-        digits: usize,
-    ) -> Result<Vec<Value>, HistoryError> {
-        let seen = History::observable(network, observable)?;
-        let attempt = |bits| match values_with(network, seen, times, limit, bits) {
-            Ok(values) => {
-                let told: Vec<Value> =
-                    values.iter().map(|value| Value::of(value, digits)).collect();
-                let is_told = told.iter().all(|value| !matches!(value, Value::Enclosed(_)));
-                Ok(Attempt::of(Ok(told), is_told))
-            }
-            Err(error) => undecided(error),
-        };
-        let most = MAX_BITS.max(16 * digits as u64);
-        let told = precisions(digits, most).raise(attempt)?.best()?;
-        let near_zero = |value: Value| match &value {
-            Value::Enclosed(ball) => Value::near_zero(ball, digits).unwrap_or(value),
-            _ => value,
-        };
-        Ok(told.into_iter().map(near_zero).collect())
-    }
-
     /// The observable of this name.
     pub(crate) fn observable<'a>(
         network: &'a Network,
@@ -82,38 +28,6 @@ impl History {
             .find(|own| own.name == name)
             .ok_or_else(|| HistoryError::NoObservable(name.to_owned()))
     }
-}
-
-/// The values at one precision.
-fn values_with(
-    network: &Network,
-    seen: &Observable,
-    times: &[Rational],
-    limit: Limit,
-    bits: u64,
-) -> Outcome<Vec<Number>> {
-    let mut engine = Engine::new(network, bits)?;
-    if let Some(last) = times.iter().max() {
-        engine.follow_until(&Moment::at(network.scaled_time(last)))?;
-    }
-    let is_linear = |term: &&Seen| !matches!(term.measure, Measure::Energy | Measure::Momentum);
-    let (linear, held): (Vec<&Seen>, Vec<&Seen>) = seen.terms.iter().partition(is_linear);
-    let mut parts = Vec::new();
-    for term in linear {
-        parts.extend(engine.parts(network, term)?);
-    }
-    let value = |time: &Rational| {
-        let moment = Moment::at(network.scaled_time(time));
-        let mut sum = Number::zero();
-        for part in &parts {
-            sum = sum.add(&engine.value_of(part, &moment, limit)?, bits);
-        }
-        for term in &held {
-            sum = sum.add(&engine.held_in(network, term, &moment)?, bits);
-        }
-        Ok(sum)
-    };
-    times.iter().map(value).collect()
 }
 
 /// A section of a bar: its place in the line, and the time of a wave from the left end, or from the end
@@ -293,7 +207,7 @@ impl Engine {
     }
 
     /// Energy or momentum of an element or of the whole line, in the user's units.
-    fn held_in(&self, network: &Network, seen: &Seen, moment: &Moment) -> Outcome<Number> {
+    pub fn held_in(&self, network: &Network, seen: &Seen, moment: &Moment) -> Outcome<Number> {
         let line = &network.scene().line.elements;
         let part = match &seen.place {
             Place::Element(element) => {

@@ -1,19 +1,20 @@
-//! An observable across all phases of a scene's contacts, as what roots and extrema are looked for in.
+//! An observable across all phases of a scene's contacts, as a signal.
 
 use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::enclosure::EnclosureError;
-use crate::evaluate::{At, EvaluateError, Limit, Piecewise, Search, Taylor};
+use crate::evaluate::{At, EvaluateError, Known, Limit, Point, Signal, Taylor};
+use crate::expression::Fraction;
 use crate::history::engine::Engine;
-use crate::history::error::HistoryError;
+use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::history::{History, MAX_BITS, undecided, unit};
 use crate::history::moment::Moment;
 use crate::history::part::Part;
 use crate::history::series::{Series, Truncation};
 use crate::network::Network;
-use crate::scene::Observable;
+use crate::scene::{Measure, Observable, Seen};
 use num_traits::Zero as _;
 use std::borrow::Cow;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::cmp::Ordering;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -25,50 +26,11 @@ const SEARCH_BITS: u64 = 640;
 /// Precisions are multiples of so many bits.
 const STEP_BITS: u64 = 64;
 
-impl History {
-    /// An observable on a window of the user's time, across all phases of the contacts, for roots and
-    /// extrema.
-    ///
-    /// # Errors
-    /// As [`History::of`]; [`HistoryError::Refused`] for energies and momenta, and
-    /// [`HistoryError::EmptyWindow`].
-    ///
-    /// # Cost
-    /// That of the history until the end of the window, again for each doubling of the precision.
-    ///
-    /// ```
-    /// use wavestep::evaluate::{Goal, Root};
-    /// use wavestep::history::History;
-    /// use wavestep::language::{Source, parse_number, read_scene};
-    /// use wavestep::network::Network;
-    ///
-    /// let text = r#"
-    ///     scene "A mass strikes a fixed bar and leaves it"
-    ///     mass hammer { mass = 1, velocity = 1 }
-    ///     bar rod { impedance = 1, travel = 1 }
-    ///     line free - hammer | rod - fixed
-    ///     contacts open
-    ///     observe v = velocity(hammer)
-    /// "#;
-    /// let network = Network::new(&read_scene(&Source::new("text", text)?, &Default::default()).unwrap());
-    /// let (network, window) = (network.unwrap(), [parse_number("0")?, parse_number("9")?]);
-    /// let search = History::search(&network, "v", [&window[0], &window[1]]).unwrap();
-    /// // It leaves at 3 + exp(-2)/2, is struck again by the end of the bar, and flies on from then.
-    /// let least = search.extremum(Goal::Smallest, 12, 1 << 10).unwrap();
-    /// assert_eq!(least.value.to_text(12), "-0.698875581996");
-    /// let roots = search.roots(&parse_number("0")?, 9, 1 << 10).unwrap();
-    /// assert!(matches!(&roots.all[..], [Root::Simple { rises: false, .. }]), "{roots:?}");
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
-    pub fn search<'a>(
-        network: &'a Network,
-        observable: &str,
-        window: [&Rational; 2],
-    ) -> Result<Search<'a>, HistoryError> {
-        let signal = PhasedSignal::new(network, observable, window)?;
-        Search::over(Box::new(signal), window).map_err(|_| HistoryError::EmptyWindow)
-    }
-}
+/// Bits that a value has lost about, compared with the precision it was worked out with.
+const SPARE_BITS: u64 = 64;
+
+/// A value below two to the minus this is suspected to be zero.
+const NEGLIGIBLE_BITS: i64 = 64;
 
 /// An observable between two breaks.
 struct Piece {
@@ -102,29 +64,38 @@ impl Piece {
 /// What is known at one precision.
 struct Followed {
     engine: Engine,
+    /// What is linear in the waves, and energies and momenta.
     parts: Vec<Part>,
-    pieces: Vec<Piece>,
+    held: Vec<Seen>,
+    /// Made when stretches are first asked for.
+    pieces: OnceCell<Vec<Piece>>,
     /// The unit of time, and one over it.
     unit: [Number; 2],
 }
 
 /// An observable of a scene whose contacts open, on a window of the user's time.
-pub(crate) struct PhasedSignal<'a> {
+pub struct FollowedSignal<'a> {
     network: &'a Network,
     seen: Observable,
     window: [Rational; 2],
     known: RefCell<Rc<Followed>>,
 }
 
-impl<'a> PhasedSignal<'a> {
+impl<'a> FollowedSignal<'a> {
+    /// Follows the scene until the end of the window.
+    ///
     /// # Errors
-    /// As [`History::search`].
+    /// As [`History::of`]; [`HistoryError::EmptyWindow`]; [`HistoryError::Refused`] for places that are no
+    /// exact share of a travel time.
+    ///
+    /// # Cost
+    /// That of the history until the end of the window, again for each doubling of the precision.
     pub fn new(
         network: &'a Network,
         observable: &str,
         [from, to]: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
-        if to <= from || *from < Rational::zero() {
+        if to < from || *from < Rational::zero() {
             return Err(HistoryError::EmptyWindow);
         }
         let seen = History::observable(network, observable)?.clone();
@@ -134,26 +105,46 @@ impl<'a> PhasedSignal<'a> {
             Err(error) => undecided(error),
         };
         let known = Precisions::whole_doublings(FIRST_BITS, MAX_BITS).raise(attempt)?.best()?;
-        Ok(PhasedSignal { network, seen, window, known: RefCell::new(Rc::new(known)) })
+        if !known.held.is_empty() {
+            // An energy that is infinite is so at all times.
+            let start = Moment::at(Fraction::zero());
+            known.value(network, &start, Limit::Right)?;
+        }
+        Ok(FollowedSignal { network, seen, window, known: RefCell::new(Rc::new(known)) })
     }
 
-    /// What is known at a precision, as far as one is reached.
+    /// Finds all breaks, so that stretches can be asked for.
+    ///
+    /// # Errors
+    /// [`HistoryError::Refused`] for energies and momenta.
+    pub fn cut_at_breaks(self) -> Result<Self, HistoryError> {
+        self.known.borrow().pieces(self.network, &self.window)?;
+        Ok(self)
+    }
+
+    /// What is known at a precision; where more is known, that.
     fn followed(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
         let known = Rc::clone(&self.known.borrow());
-        let bits = bits.min(SEARCH_BITS);
         if known.engine.cut.bits >= bits {
             return Ok(known);
         }
-        let finer =
-            Followed::of(self.network, &self.seen, &self.window, bits.next_multiple_of(STEP_BITS));
+        let bits = bits.next_multiple_of(STEP_BITS);
         // The window was followed before, so nothing but the precision can be wanting.
-        let finer = finer.map_err(|_| EvaluateError::NotFollowed { bits })?;
-        if finer.pieces.len() != known.pieces.len() {
+        let wanting = |_| EvaluateError::NotFollowed { bits };
+        let finer = Followed::of(self.network, &self.seen, &self.window, bits).map_err(wanting)?;
+        if let Some(pieces) = known.pieces.get()
+            && finer.pieces(self.network, &self.window).map_err(wanting)?.len() != pieces.len()
+        {
             return Err(EvaluateError::NotFollowed { bits });
         }
         let finer = Rc::new(finer);
         *self.known.borrow_mut() = Rc::clone(&finer);
         Ok(finer)
+    }
+
+    /// What is known of stretches at a precision, as far as one is reached.
+    fn cut(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
+        self.followed(bits.min(SEARCH_BITS))
     }
 
     /// The time from the first instant of a piece.
@@ -163,7 +154,7 @@ impl<'a> PhasedSignal<'a> {
         stretch: usize,
         at: At<'_>,
     ) -> Result<Number, EvaluateError> {
-        let [from, to] = &followed.pieces[stretch].ends;
+        let [from, to] = &followed.piece(stretch).ends;
         let number = match at {
             At::End(Limit::Right) => return Ok(Number::zero()),
             At::End(Limit::Left) => followed.engine.clock.since(from, to)?,
@@ -183,37 +174,71 @@ impl Followed {
         bits: u64,
     ) -> Result<Followed, HistoryError> {
         let mut engine = Engine::new(network, bits)?;
-        let ends = window.each_ref().map(|time| Moment::at(network.scaled_time(time)));
-        engine.follow_until(&ends[1])?;
+        engine.follow_until(&Moment::at(network.scaled_time(&window[1])))?;
+        let is_linear = |term: &&Seen| !matches!(term.measure, Measure::Energy | Measure::Momentum);
+        let (linear, held): (Vec<&Seen>, Vec<&Seen>) = seen.terms.iter().partition(is_linear);
         let mut parts = Vec::new();
-        for term in &seen.terms {
+        for term in linear {
             parts.extend(engine.parts(network, term)?);
         }
+        let held = held.into_iter().cloned().collect();
+        let time = unit(&network.model().scale.time, &engine.clock.numbers, bits)?;
+        let inverse = time.reciprocal(bits)?;
+        Ok(Followed { engine, parts, held, pieces: OnceCell::new(), unit: [time, inverse] })
+    }
+
+    /// One limit at an instant.
+    fn value(
+        &self,
+        network: &Network,
+        moment: &Moment,
+        limit: Limit,
+    ) -> Result<Number, HistoryError> {
+        let bits = self.engine.cut.bits;
+        let mut sum = Number::zero();
+        for part in &self.parts {
+            sum = sum.add(&self.engine.value_of(part, moment, limit)?, bits);
+        }
+        for term in &self.held {
+            sum = sum.add(&self.engine.held_in(network, term, moment)?, bits);
+        }
+        Ok(sum)
+    }
+
+    fn pieces(&self, network: &Network, window: &[Rational; 2]) -> Result<&[Piece], HistoryError> {
+        if let Some(pieces) = self.pieces.get() {
+            return Ok(pieces);
+        }
+        if !self.held.is_empty() {
+            return Err(NotFollowed::EnergyOrMomentum.into());
+        }
+        let (engine, parts) = (&self.engine, &self.parts);
+        let ends = window.each_ref().map(|time| Moment::at(network.scaled_time(time)));
         let mut starts = vec![ends[0].clone()];
-        starts.extend(engine.breaks(&parts, &ends)?);
+        starts.extend(engine.breaks(parts, &ends)?);
         let mut pieces: Vec<Piece> = Vec::new();
         let is_continuous = parts.iter().all(|part| engine.is_continuous(part));
         for (number, start) in starts.iter().enumerate() {
             let end = starts.get(number + 1).unwrap_or(&ends[1]);
-            let (series, size) = sum(&engine, &parts, start)?;
+            let (series, size) = sum(engine, parts, start)?;
             match pieces.last_mut() {
-                Some(last) if last.goes_on(&series, start, is_continuous, &engine)? => {
+                Some(last) if last.goes_on(&series, start, is_continuous, engine)? => {
                     last.ends[1] = end.clone();
                 }
                 _ => pieces.push(Piece { ends: [start.clone(), end.clone()], series, size }),
             }
         }
-        let time = unit(&network.model().scale.time, &engine.clock.numbers, bits)?;
-        let inverse = time.reciprocal(bits)?;
-        Ok(Followed { engine, parts, pieces, unit: [time, inverse] })
+        Ok(self.pieces.get_or_init(|| pieces))
     }
-}
 
-impl Followed {
+    fn piece(&self, stretch: usize) -> &Piece {
+        &self.pieces.get().expect("stretches were counted before they are asked for")[stretch]
+    }
+
     /// The derivative of an order with respect to the user's time, from the first instant of a piece on.
     fn derivative(&self, stretch: usize, order: usize) -> Cow<'_, Series> {
         let (cut, inverse) = (&self.engine.cut, &self.unit[1]);
-        (0..order).fold(Cow::Borrowed(&self.pieces[stretch].series), |series, _| {
+        (0..order).fold(Cow::Borrowed(&self.piece(stretch).series), |series, _| {
             let slope = series.derivative(cut);
             Cow::Owned(slope.combine(inverse, &Series::zero(), &Number::zero(), cut.bits))
         })
@@ -263,23 +288,58 @@ impl Engine {
     }
 }
 
-impl Piecewise for PhasedSignal<'_> {
-    fn count(&self) -> usize {
-        self.known.borrow().pieces.len()
+impl Signal for FollowedSignal<'_> {
+    fn window(&self) -> [&Rational; 2] {
+        self.window.each_ref()
+    }
+
+    fn point(&self, at: &Rational, limit: Limit) -> Result<Point<'_>, EvaluateError> {
+        let moment = Moment::at(self.network.scaled_time(at));
+        let value = move |bits: u64| -> Result<Number, EvaluateError> {
+            let mut first = self.known.borrow().engine.cut.bits;
+            if bits > first {
+                first = (bits + SPARE_BITS).max((2 * first).min(MAX_BITS));
+            }
+            let attempt = |bits| match self.followed(bits)?.value(self.network, &moment, limit) {
+                Ok(value) => Ok(Attempt::Done(value)),
+                Err(error @ HistoryError::Undecided { .. }) => {
+                    Ok(Attempt::NotYet(error.of_value(bits)))
+                }
+                Err(error) => Err(error.of_value(bits)),
+            };
+            Precisions::whole_doublings(first, MAX_BITS).raise(attempt)?.done()
+        };
+        if let Some(exact) = value(0)?.exact() {
+            return Ok(Point::exact(exact.clone()));
+        }
+        let enclose = move |bits| Ok(value(bits)?.ball(bits));
+        Ok(Point {
+            known: Known::Unknown,
+            negligible: Magnitude::power_of_two(-NEGLIGIBLE_BITS),
+            most_bits: MAX_BITS,
+            ..Point::irrational(enclose)
+        })
+    }
+
+    fn count(&self) -> Result<usize, EvaluateError> {
+        let known = self.cut(0)?;
+        let pieces = known.pieces(self.network, &self.window);
+        Ok(pieces.map_err(|error| error.of_value(known.engine.cut.bits))?.len())
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
-        let [from, to] = &self.known.borrow().pieces[stretch].ends;
+        let known = self.known.borrow();
+        let [from, to] = &known.piece(stretch).ends;
         from == to
     }
 
     fn is_zero(&self, stretch: usize) -> bool {
-        self.known.borrow().pieces[stretch].series.is_zero()
+        self.known.borrow().piece(stretch).series.is_zero()
     }
 
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
         let known = self.known.borrow();
-        let pieces = &known.pieces;
+        let pieces = known.pieces.get().map_or(&[][..], Vec::as_slice);
         match end {
             Limit::Right if stretch == 0 => return Some(self.window[0].clone()),
             Limit::Left if stretch + 1 == pieces.len() => return Some(self.window[1].clone()),
@@ -291,9 +351,9 @@ impl Piecewise for PhasedSignal<'_> {
     }
 
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
-        let followed = self.followed(bits)?;
+        let followed = self.cut(bits)?;
         let place = usize::from(end == Limit::Left);
-        let time = followed.engine.clock.time(&followed.pieces[stretch].ends[place])?;
+        let time = followed.engine.clock.time(&followed.piece(stretch).ends[place])?;
         Ok(time.multiply(&followed.unit[0], followed.engine.cut.bits).ball(bits))
     }
 
@@ -304,7 +364,7 @@ impl Piecewise for PhasedSignal<'_> {
         at: At<'_>,
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
-        let followed = self.followed(bits)?;
+        let followed = self.cut(bits)?;
         let at = self.since(&followed, stretch, at)?;
         let value = followed.derivative(stretch, order).value(&at, &followed.engine.cut);
         Ok(value.ball(bits))
@@ -318,7 +378,7 @@ impl Piecewise for PhasedSignal<'_> {
         terms: usize,
         bits: u64,
     ) -> Result<Taylor, EvaluateError> {
-        let followed = self.followed(bits)?;
+        let followed = self.cut(bits)?;
         // A finer history may be known than is asked for.
         let cut = &Truncation { bits: followed.engine.cut.bits.min(bits), ..followed.engine.cut };
         let at = self.since(&followed, stretch, At::Time(middle))?;
@@ -342,25 +402,25 @@ impl Piecewise for PhasedSignal<'_> {
         bits: u64,
     ) -> Result<(Magnitude, Magnitude), EvaluateError> {
         let value = self.enclose(stretch, order, At::Time(at), bits)?;
-        let size = self.followed(bits)?.pieces[stretch].size;
+        let size = self.cut(bits)?.piece(stretch).size;
         Ok((size.max(value.magnitude()), *value.radius()))
     }
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
-        let followed = self.followed(0)?;
-        let end = &followed.pieces[stretch].ends[1];
+        let followed = self.cut(0)?;
+        let end = &followed.piece(stretch).ends[1];
         let zero = |part| followed.engine.vanishes_before(part, end);
         if matches!(at, At::End(Limit::Left)) && followed.parts.iter().all(zero) {
             return Ok(Some(Rational::zero()));
         }
         let at = self.since(&followed, stretch, at)?;
-        let value = followed.pieces[stretch].series.value(&at, &followed.engine.cut);
+        let value = followed.piece(stretch).series.value(&at, &followed.engine.cut);
         Ok(value.exact().cloned())
     }
 
     fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
-        let followed = self.followed(0)?;
-        let last = &followed.pieces[stretch].ends[1];
+        let followed = self.cut(0)?;
+        let last = &followed.piece(stretch).ends[1];
         let flat = |part| {
             let slope = followed.engine.slope_of(part);
             slope.is_some_and(|slope| followed.engine.vanishes_before(&slope, last))
@@ -380,8 +440,8 @@ impl Piecewise for PhasedSignal<'_> {
         _: &[Rational; 2],
         _: u64,
     ) -> Result<bool, EvaluateError> {
-        let followed = self.followed(0)?;
-        let series = &followed.pieces[stretch].series;
+        let followed = self.cut(0)?;
+        let series = &followed.piece(stretch).series;
         Ok(series.is_exact()
             && series.is_constant()
             && series.coefficient(0).exact() == Some(value))

@@ -44,25 +44,6 @@ const NO_JUMP_BITS: i64 = 100;
 /// # Cost
 /// The scene is followed once, with 256 bits, and again with twice the precision where a value needs it;
 /// a value is then read off one series of each wave.
-///
-/// ```
-/// use wavestep::field::{Mesh, Quantity};
-/// use wavestep::history::field_evaluator;
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("bars-of-equal-length").unwrap().text;
-/// let scene = read_scene(&Source::new("equal", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let evaluator = field_evaluator(&network, &parse_number("9")?).unwrap();
-/// // After two travel times the first bar is at rest, and the second goes on with its velocity.
-/// let fields = evaluator.at(&parse_number("9")?, &Mesh::new(4).unwrap().averages()).unwrap();
-/// let [first, second] = &fields.bars[..] else { panic!("two bars") };
-/// assert!(first.of(Quantity::Velocity).iter().all(|v| v.value == 0.0 && v.bound < 1e-30));
-/// let momentum: f64 = second.of(Quantity::Velocity).iter().map(|v| v.value / 4.0).sum();
-/// assert_eq!(momentum, 1.0);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn field_evaluator(network: &Network, last: &Rational) -> Result<FieldEvaluator, HistoryError> {
     let waves = PhaseWaves::new(network, last, MAX_BITS)?;
     FieldEvaluator::with(network, last, |_, _| Ok(Box::new(waves)))

@@ -4,8 +4,11 @@
 //! exact, or rounded correctly, so they are the same on every machine.
 
 use crate::ball::{Attempt, Ball, Decimal, Precisions};
-use crate::evaluate::{Limit, MAX_DIGITS, Value};
-use crate::history::{ContactSummary, Ending, Event, EventKind, History};
+use crate::evaluate::{Limit, MAX_DIGITS, Value, value};
+use crate::history::{
+    ContactSummary, Ending, Event, EventKind, FollowedSignal, History, HistoryError,
+};
+use crate::lock::LIMIT_BITS;
 use crate::lock::difference::{Difference, compared};
 use crate::lock::error::LockError;
 use crate::lock::scene::stated;
@@ -99,7 +102,7 @@ impl HistoryLock {
     /// not between 1 and [`MAX_DIGITS`].
     ///
     /// # Cost
-    /// That of [`History::of`], and of [`History::values`] for each observable.
+    /// That of [`History::of`], and again for each observable.
     pub fn derive(network: &Network, request: &HistoryRequest) -> Outcome<HistoryLock> {
         if request.digits == 0 || request.digits > MAX_DIGITS {
             return Err(LockError::Digits(request.digits));
@@ -186,9 +189,12 @@ fn told(network: &Network, request: &HistoryRequest, digits: usize) -> Outcome<H
     let mut values = BTreeMap::new();
     for observable in network.scene().observables.iter().filter(|_| !request.times.is_empty()) {
         let name = &observable.name;
-        let told = History::values(network, name, &request.times, Limit::Right, digits)?;
-        for (time, value) in request.times.iter().zip(&told) {
-            let value = teller.number(value, || format!("{name}({time})"))?;
+        let window = [&request.times[0], &request.times[request.times.len() - 1]];
+        let signal = FollowedSignal::new(network, name, window)?;
+        for time in &request.times {
+            let value = value(&signal, time, Limit::Right, digits, LIMIT_BITS);
+            let value = value.map_err(HistoryError::from)?;
+            let value = teller.number(&value, || format!("{name}({time})"))?;
             values.insert((name.clone(), time.clone()), value);
         }
     }

@@ -13,7 +13,7 @@ mod history;
 mod history_file;
 mod scene;
 
-use crate::evaluate::{Evaluator, Limit, MAX_DIGITS};
+use crate::evaluate::{ClosedSignal, Limit, MAX_DIGITS, digits};
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::language::{Diagnostic, Source};
@@ -156,16 +156,15 @@ impl Lock {
         }
         let mut values = BTreeMap::new();
         if !request.times.is_empty() {
-            let evaluator = Evaluator::new(solution)?;
             let observables = statement.observables.iter().map(|observable| &observable.name);
             for name in statement.waves.iter().chain(observables) {
                 let quantity = solution.recurrence().observation(name).expect("a known name");
+                let window = [&request.times[0], &request.times[request.times.len() - 1]];
+                let signal = ClosedSignal::of_recurrence(solution, &quantity, window)?;
                 for time in &request.times {
-                    let digits = request.digits;
-                    let value =
-                        evaluator.value(&quantity, time, Limit::Right, digits, LIMIT_BITS)?;
-                    values
-                        .insert((name.clone(), time.clone()), value.decimal(digits).0.to_string());
+                    let value = digits(&signal, time, Limit::Right, request.digits, LIMIT_BITS)?;
+                    let decimal = value.decimal(request.digits).0.to_string();
+                    values.insert((name.clone(), time.clone()), decimal);
                 }
             }
         }

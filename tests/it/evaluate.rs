@@ -11,7 +11,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
 use wavestep::ball::Decimal;
 use wavestep::evaluate::{
-    EvaluateError, Evaluator, Limit, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
+    ClosedSignal, EvaluateError, Limit, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
     Value,
 };
 use wavestep::expression::{ExponentialSum, Expression};
@@ -72,9 +72,20 @@ fn value(
     side: Limit,
     digits: usize,
 ) -> Value {
+    told(solution, quantity, at, side, digits, BITS).unwrap()
+}
+
+fn told(
+    solution: &Solution,
+    quantity: &str,
+    at: &BigRational,
+    side: Limit,
+    digits: usize,
+    bits: u64,
+) -> Result<Value, EvaluateError> {
     let observation = solution.recurrence().observation(quantity).expect(quantity);
-    let evaluator = Evaluator::new(solution).unwrap();
-    evaluator.value(&observation, at, side, digits, BITS).unwrap()
+    let signal = ClosedSignal::of_recurrence(solution, &observation, [at, at])?;
+    wavestep::evaluate::digits(&signal, at, side, digits, bits)
 }
 
 fn decimal(value: &Value, digits: usize) -> Decimal {
@@ -624,29 +635,26 @@ fn accuracy_that_is_not_reached_is_told_with_an_enclosure() {
     let own = recurrence("rigid-mass", &[("mu", &mu)]);
     let pieces = Pieces::new(&own, 6);
     let solution = Solution::new(recurrence("rigid-mass", &[("mu", &mu)]));
-    let evaluator = Evaluator::new(&solution).unwrap();
-    let observation = solution.recurrence().observation("f").unwrap();
     let at = ratio("33/10");
     let exact = enclose(&pieces.at("f", false, &at, Limit::Right), 600);
     for limit in [0, 2, 8, 16, 30, 60] {
-        let error = evaluator.value(&observation, &at, Limit::Right, 30, limit).unwrap_err();
+        let error = told(&solution, "f", &at, Limit::Right, 30, limit).unwrap_err();
         let EvaluateError::AccuracyNotReached { best, bits } = &error else { panic!("{error}") };
         assert_eq!(*bits, limit);
         assert!(best.contains(&exact.low) && best.contains(&exact.high));
         assert!(error.to_string().contains("radius"));
     }
-    let found = evaluator.value(&observation, &at, Limit::Right, 30, 200).unwrap();
+    let found = told(&solution, "f", &at, Limit::Right, 30, 200).unwrap();
     assert_eq!(decimal(&found, 30), exact.rounded(30));
 }
 
 #[test]
 fn late_times_are_refused() {
     let refused = |solution: &Solution, at: BigRational, limit: usize| {
-        let evaluator = Evaluator::new(solution).unwrap();
-        let name = solution.recurrence().statement().waves[0].clone();
-        let observation = solution.recurrence().observation(&name).unwrap();
-        let periods = (&at / evaluator.period()).floor().to_integer();
-        let error = evaluator.value(&observation, &at, Limit::Right, 15, BITS).unwrap_err();
+        let statement = solution.recurrence().statement();
+        let period = statement.period.as_constant().unwrap();
+        let periods = (&at / period).floor().to_integer();
+        let error = told(solution, &statement.waves[0], &at, Limit::Right, 15, BITS).unwrap_err();
         assert_eq!(error, EvaluateError::TooManyPeriods { periods, limit });
         assert!(error.to_string().len() < 200);
     };
@@ -671,6 +679,6 @@ fn late_times_are_refused() {
 #[test]
 fn a_symbol_without_a_value_is_named() {
     let solution = Solution::new(recurrence("rigid-mass", &[]));
-    let Err(error) = Evaluator::new(&solution) else { panic!("mu has no value") };
+    let error = told(&solution, "f", &ratio("1"), Limit::Right, 15, BITS).unwrap_err();
     assert_eq!(error.to_string(), "the symbol mu has no value");
 }

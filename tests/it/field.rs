@@ -2,7 +2,7 @@
 //! averages against nodes, the two sides of fronts, and what is refused.
 
 use proptest::prelude::*;
-use wavestep::evaluate::{EvaluateError, Limit, SceneEvaluator};
+use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, digits};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Fields, MAX_CELLS, Mesh, Quantity};
 use wavestep::language::{Source, parse_number, read_scene};
@@ -48,9 +48,8 @@ fn observed(
     let seen = Seen { coefficient: Fraction::one(), measure, place };
     scene.observables = vec![Observable { name: "q".into(), terms: vec![seen] }];
     let network = Network::new(&scene).unwrap();
-    let at = network.scaled_time(time);
-    let evaluator = SceneEvaluator::new(&network, &at).unwrap();
-    let value = evaluator.value(&network.observables()[0], &at, side, 20, 1 << 14).unwrap();
+    let signal = ClosedSignal::of_scene(&network, &network.observables()[0], [time, time]).unwrap();
+    let value = digits(&signal.echo_by_echo(), time, side, 20, 1 << 14).unwrap();
     value.decimal(20).0.to_string().parse().unwrap()
 }
 

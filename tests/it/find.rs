@@ -5,7 +5,7 @@ use num_traits::Signed as _;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep::evaluate::{
-    EvaluateError, Evaluator, Extremum, Goal, Limit, Place, Root, Search, Value,
+    ClosedSignal, EvaluateError, Extremum, Goal, Limit, Place, Root, Search, Value, digits,
 };
 use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
 use wavestep::network::Network;
@@ -39,14 +39,16 @@ fn of_time(function: &str) -> Solution {
 fn roots(solution: &Solution, quantity: &str, window: [&str; 2], level: &str) -> Vec<Root> {
     let observation = solution.recurrence().observation(quantity).unwrap();
     let [from, to] = window.map(number);
-    let search = Search::of_recurrence(solution, &observation, [&from, &to]).unwrap();
+    let signal = ClosedSignal::of_recurrence(solution, &observation, [&from, &to]).unwrap();
+    let search = Search::new(&signal).unwrap();
     search.roots(&number(level), 20, BITS).unwrap().all
 }
 
 fn extremum(solution: &Solution, quantity: &str, window: [&str; 2], goal: Goal) -> Extremum {
     let observation = solution.recurrence().observation(quantity).unwrap();
     let [from, to] = window.map(number);
-    let search = Search::of_recurrence(solution, &observation, [&from, &to]).unwrap();
+    let signal = ClosedSignal::of_recurrence(solution, &observation, [&from, &to]).unwrap();
+    let search = Search::new(&signal).unwrap();
     search.extremum(goal, 20, BITS).unwrap()
 }
 
@@ -62,25 +64,13 @@ fn exactly(text: &str) -> Value {
     Value::Exact(number(text))
 }
 
-/// The sign of a value less a level, by the evaluator that adds up echoes exactly.
-fn sign(
-    evaluator: &Evaluator<'_>,
-    solution: &Solution,
-    quantity: &str,
-    at: &BigRational,
-    level: &BigRational,
-) -> Ordering {
-    value(evaluator, solution, quantity, at).cmp(level)
+/// The sign of a value less a level, by echoes that are added up exactly.
+fn sign(signal: &ClosedSignal<'_>, at: &BigRational, level: &BigRational) -> Ordering {
+    value(signal, at).cmp(level)
 }
 
-fn value(
-    evaluator: &Evaluator<'_>,
-    solution: &Solution,
-    quantity: &str,
-    at: &BigRational,
-) -> BigRational {
-    let observation = solution.recurrence().observation(quantity).unwrap();
-    match evaluator.value(&observation, at, Limit::Right, 30, BITS).unwrap() {
+fn value(signal: &ClosedSignal<'_>, at: &BigRational) -> BigRational {
+    match digits(signal, at, Limit::Right, 30, BITS).unwrap() {
         Value::Exact(value) => value,
         other => other.decimal(30).0.to_rational(),
     }
@@ -93,20 +83,22 @@ fn value(
 fn the_mass_leaves_when_the_formula_says() {
     let solution = solution("rigid-mass", &[("mu", "1")]);
     let observation = solution.recurrence().observation("strain_impact").unwrap();
-    let search =
-        Search::of_recurrence(&solution, &observation, [&number("2"), &number("7/2")]).unwrap();
-    for digits in [1, 5, 17, 60, 300] {
-        let found = search.roots(&number("0"), digits, BITS).unwrap().all;
+    let window = [number("2"), number("7/2")];
+    let signal = ClosedSignal::of_recurrence(&solution, &observation, [&window[0], &window[1]]);
+    let signal = signal.unwrap();
+    let search = Search::new(&signal).unwrap();
+    let f = solution.recurrence().observation("f").unwrap();
+    let f = ClosedSignal::of_recurrence(&solution, &f, [&window[0], &window[1]]).unwrap();
+    for count in [1, 5, 17, 60, 300] {
+        let found = search.roots(&number("0"), count, BITS).unwrap().all;
         let [Root::Simple { time, rises: true }] = &found[..] else {
             panic!("{found:?}");
         };
-        let evaluator = Evaluator::new(&solution).unwrap();
-        let f = solution.recurrence().observation("f").unwrap();
-        let e = evaluator.value(&f, &number("2"), Limit::Left, digits + 10, BITS).unwrap();
-        let exact = number("3") + e.decimal(digits + 10).0.to_rational() / number("2");
+        let e = digits(&f, &number("2"), Limit::Left, count + 10, BITS).unwrap();
+        let exact = number("3") + e.decimal(count + 10).0.to_rational() / number("2");
         assert!(!matches!(time, Value::Enclosed(_)), "{found:?}");
-        let (told, _) = time.decimal(digits);
-        let (wanted, _) = wavestep::ball::Decimal::from_rational(&exact, digits);
+        let (told, _) = time.decimal(count);
+        let (wanted, _) = wavestep::ball::Decimal::from_rational(&exact, count);
         assert_eq!(told.to_string(), wanted.to_string());
     }
 }
@@ -155,14 +147,16 @@ fn near_misses_are_kept_apart() {
     assert!(*from == number("2") && *to > number("2 + 1e-20") && *to < number("2 + 1e-15"));
     // After many periods, where pieces need far more bits than at first.
     let rigid = solution("rigid-mass", &[("mu", "1")]);
-    let evaluator = Evaluator::new(&rigid).unwrap();
+    let f = rigid.recurrence().observation("f").unwrap();
+    let window = [number("400"), number("402")];
+    let f = ClosedSignal::of_recurrence(&rigid, &f, [&window[0], &window[1]]).unwrap();
     let found = roots(&rigid, "f", ["400", "402"], "0");
     assert!(found.len() > 1);
     for root in &found {
         let Root::Simple { time, .. } = root else { continue };
         let time = rational(time);
-        let sides = [number("-1e-16"), number("1e-16")]
-            .map(|by| sign(&evaluator, &rigid, "f", &(&time + by), &number("0")));
+        let sides =
+            [number("-1e-16"), number("1e-16")].map(|by| sign(&f, &(&time + by), &number("0")));
         assert_ne!(sides[0], sides[1]);
     }
     assert!(!found.iter().any(|root| matches!(root, Root::Undecided { .. })), "{found:?}");
@@ -263,14 +257,15 @@ fn no_change_of_sign_is_missed() {
         for _ in 0..4 {
             let value = draw.ratio(2);
             let solution = solution(scene, &[(symbol, &value.to_string())]);
-            let evaluator = Evaluator::new(&solution).unwrap();
             for quantity in quantities {
                 let level = draw.ratio(1) * number("1/7") - number("1/14");
                 let level = if draw.below(2) == 0 { number("0") } else { level };
                 let from = draw.ratio(2) * number("1/3");
                 let to = &from + draw.ratio(3) + number("4");
                 let observation = solution.recurrence().observation(quantity).unwrap();
-                let search = Search::of_recurrence(&solution, &observation, [&from, &to]).unwrap();
+                let signal =
+                    ClosedSignal::of_recurrence(&solution, &observation, [&from, &to]).unwrap();
+                let search = Search::new(&signal).unwrap();
                 let found = search.roots(&level, 20, BITS).unwrap();
                 let mut exact = Vec::new();
                 let mut blind = Vec::new();
@@ -279,8 +274,8 @@ fn no_change_of_sign_is_missed() {
                         Root::Simple { time, rises } => {
                             let time = rational(time);
                             let near = &time * number("1e-18");
-                            let sides = [&time - &near, &time + &near]
-                                .map(|at| sign(&evaluator, &solution, quantity, &at, &level));
+                            let sides =
+                                [&time - &near, &time + &near].map(|at| sign(&signal, &at, &level));
                             let rising = [Ordering::Less, Ordering::Greater];
                             let falling = [Ordering::Greater, Ordering::Less];
                             assert_eq!(sides, if *rises { rising } else { falling });
@@ -299,10 +294,10 @@ fn no_change_of_sign_is_missed() {
                 let count = 60_u32;
                 let time =
                     |i: u32| &from + (&to - &from) * BigRational::new(i.into(), count.into());
-                let mut before = sign(&evaluator, &solution, quantity, &from, &level);
+                let mut before = sign(&signal, &from, &level);
                 for i in 0..count {
                     let (a, b) = (time(i), time(i + 1));
-                    let after = sign(&evaluator, &solution, quantity, &b, &level);
+                    let after = sign(&signal, &b, &level);
                     let within = |(from, to): &(BigRational, BigRational)| *from <= b && a <= *to;
                     if !blind.iter().any(within) {
                         let inside = exact.iter().filter(|at| a < **at && **at <= b).count();
@@ -336,11 +331,12 @@ fn no_sample_exceeds_an_extremum() {
     ] {
         for goal in [Goal::Largest, Goal::Smallest] {
             let solution = solution(scene, &[("mu", &draw.ratio(2).to_string())]);
-            let evaluator = Evaluator::new(&solution).unwrap();
             let from = draw.ratio(3);
             let to = &from + draw.ratio(6);
             let observation = solution.recurrence().observation(quantity).unwrap();
-            let search = Search::of_recurrence(&solution, &observation, [&from, &to]).unwrap();
+            let signal =
+                ClosedSignal::of_recurrence(&solution, &observation, [&from, &to]).unwrap();
+            let search = Search::new(&signal).unwrap();
             let found = search.extremum(goal, 20, BITS).unwrap();
             let best = rational(&found.value);
             let above = |value: &BigRational| match goal {
@@ -349,7 +345,7 @@ fn no_sample_exceeds_an_extremum() {
             };
             for i in 0..=60_u32 {
                 let at = &from + (&to - &from) * BigRational::new(i.into(), 60.into());
-                assert!(above(&value(&evaluator, &solution, quantity, &at)) <= number("1e-18"));
+                assert!(above(&value(&signal, &at)) <= number("1e-18"));
             }
             assert_eq!(found.places.len(), 1, "{found:?}");
             let (kind, at, side) = match &found.places[0] {
@@ -361,7 +357,7 @@ fn no_sample_exceeds_an_extremum() {
                 other => panic!("{other:?}"),
             };
             *kinds.entry(kind).or_insert(0) += 1;
-            let told = evaluator.value(&observation, &rational(at), side, 30, BITS).unwrap();
+            let told = digits(&signal, &rational(at), side, 30, BITS).unwrap();
             let told = told.decimal(30).0.to_rational();
             assert!((told - &best).abs() <= number("1e-17"), "{found:?}");
         }
@@ -436,7 +432,8 @@ fn scenes_with_units_and_lattices() {
             "pile" => [number("0"), number("2")],
             _ => window,
         };
-        let search = Search::of_scene(&network, observed, [&window[0], &window[1]]).unwrap();
+        let signal = ClosedSignal::of_scene(&network, observed, [&window[0], &window[1]]).unwrap();
+        let search = Search::new(&signal).unwrap();
         let found = search.roots(&number("0"), 12, BITS).unwrap().all;
         let told: Vec<&str> = found
             .iter()
@@ -453,7 +450,8 @@ fn scenes_with_units_and_lattices() {
     let network = network("incommensurate");
     let observed = network.observables().iter().find(|seen| seen.name == "wall_force").unwrap();
     let window = [number("0"), number("5e-4")];
-    let search = Search::of_scene(&network, observed, [&window[0], &window[1]]).unwrap();
+    let signal = ClosedSignal::of_scene(&network, observed, [&window[0], &window[1]]).unwrap();
+    let search = Search::new(&signal).unwrap();
     let found = search.extremum(Goal::Smallest, 9, BITS).unwrap();
     assert!(matches!(&found.places[..], [Place::Plateau { closed: false, .. }]), "{found:?}");
     assert_eq!(found.value.to_text(9), "-53122.2775");
@@ -463,9 +461,11 @@ fn scenes_with_units_and_lattices() {
 fn windows_and_energies_are_refused() {
     let rigid = solution("rigid-mass", &[("mu", "1")]);
     let f = rigid.recurrence().observation("f").unwrap();
-    let error = Search::of_recurrence(&rigid, &f, [&number("1"), &number("1")]).err();
+    let (one, two) = (number("1"), number("2"));
+    let signal = ClosedSignal::of_recurrence(&rigid, &f, [&one, &one]).unwrap();
+    let error = Search::new(&signal).err();
     assert_eq!(error, Some(EvaluateError::EmptyWindow));
     let symbolic = solution("rigid-mass", &[]);
-    let error = Search::of_recurrence(&symbolic, &f, [&number("1"), &number("2")]).err();
+    let error = ClosedSignal::of_recurrence(&symbolic, &f, [&one, &two]).err();
     assert!(matches!(error, Some(EvaluateError::MissingValue(_))));
 }

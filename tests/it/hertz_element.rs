@@ -4,7 +4,7 @@
 
 use num_traits::ToPrimitive as _;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Limit, SceneEvaluator, Value};
+use wavestep::evaluate::{ClosedSignal, Limit, Value, digits};
 use wavestep::language::{Source, read_scene};
 use wavestep::model::{
     Leapfrog, Model, ModelError, Modes, NotRepresented, RigidBody, StartingVelocity, Steps,
@@ -148,14 +148,11 @@ fn exact(text: &str, name: &str, times: &[Rational]) -> Vec<f64> {
 fn exact_of(scene: &Scene, name: &str, times: &[Rational]) -> Vec<f64> {
     let network = Network::new(scene).unwrap();
     let observed = network.observables().iter().find(|own| own.name == name).unwrap();
-    let last = network.scaled_time(times.iter().max().unwrap());
-    let evaluator = SceneEvaluator::new(&network, &last).unwrap();
-    let value = |time: &Rational| {
-        let scaled = network.scaled_time(time);
-        match evaluator.value(observed, &scaled, Limit::Right, 17, 1 << 14).unwrap() {
-            Value::Exact(exact) => exact.to_f64().unwrap(),
-            other => f64_of(&other.ball(64)),
-        }
+    let window = [&Rational::default(), times.iter().max().unwrap()];
+    let signal = ClosedSignal::of_scene(&network, observed, window).unwrap().echo_by_echo();
+    let value = |time: &Rational| match digits(&signal, time, Limit::Right, 17, 1 << 14).unwrap() {
+        Value::Exact(exact) => exact.to_f64().unwrap(),
+        other => f64_of(&other.ball(64)),
     };
     times.iter().map(value).collect()
 }

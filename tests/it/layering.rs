@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every layer with the layers it may use.
-const LAYERS: [(&str, &[&str]); 17] = [
+const LAYERS: [(&str, &[&str]); 18] = [
     ("ball", &[]),
     ("expression", &[]),
     ("enclosure", &["ball", "expression"]),
@@ -25,6 +25,7 @@ const LAYERS: [(&str, &[&str]); 17] = [
         "history",
         &["ball", "enclosure", "evaluate", "expression", "field", "network", "scene", "solution"],
     ),
+    ("signal", &["evaluate", "history", "network"]),
     ("answer", &["ball", "evaluate", "model", "network"]),
     ("export", &["evaluate", "expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),

@@ -2,10 +2,10 @@
 //! places, averages against momentum, energy and displacements, against closed contacts as long as they
 //! are closed; and fronts of what an opening or a closing sends out.
 
-use wavestep::evaluate::{Limit, Value};
+use wavestep::evaluate::{Limit, Value, value};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Mesh, Profile, Quantity};
-use wavestep::history::{EventKind, History, HistoryError, field_evaluator};
+use wavestep::history::{EventKind, FollowedSignal, History, HistoryError, field_evaluator};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::scene::{Kind, Measure, Observable, Place, Position, Seen};
@@ -94,8 +94,10 @@ fn observed(
     let terms = places.into_iter().map(seen).collect();
     scene.observables = vec![Observable { name: "q".into(), terms }];
     let network = Network::new(&scene).unwrap();
-    let values = History::values(&network, "q", times, Limit::Right, 18).unwrap();
-    values.iter().map(double).collect()
+    let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
+    let signal = FollowedSignal::new(&network, "q", window).unwrap();
+    let told = |time| value(&signal, time, Limit::Right, 18, 1 << 18).unwrap();
+    times.iter().map(|time| double(&told(time))).collect()
 }
 
 /// Weights by which a mistake at one place is not undone by another.

@@ -2,7 +2,7 @@
 //! as what they show, and come out of derivations with second-order poles.
 
 use proptest::prelude::*;
-use wavestep::evaluate::{EvaluateError, Evaluator, Limit, Value};
+use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, Value, digits};
 use wavestep::export::{Formula, Head, LATEX_WIDTH, expression_text, latex};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, parse_number, read_expression, read_listing, read_recurrence};
@@ -196,15 +196,17 @@ fn derived_pieces_satisfy_their_equation_and_are_real() {
 fn values_agree_with_the_pieces() {
     for (first, second, _, _) in POLES {
         let solution = scene(first, second, "cos(2*t)");
-        let evaluator = Evaluator::new(&solution).unwrap();
+        let last = parse_number("31/4").unwrap();
         let twice = solution.recurrence().observation("twice").unwrap();
+        let window = [&Rational::default(), &last];
+        let twice = ClosedSignal::of_recurrence(&solution, &twice, window).unwrap();
         for (n, at) in [(0, "1/3"), (1, "5/2"), (3, "31/4")] {
             let local = parse_number(at).unwrap() - Rational::from_integer((2 * n).into());
             let piece = &solution.pieces(0, n, n).unwrap()[0];
             let exact = piece.substitute(&s(), &Fraction::constant(&local)).unwrap();
             let ball = wavestep::enclosure::enclose_expression(&exact, &|_, _| None, 300).unwrap();
             let time = parse_number(at).unwrap();
-            let value = evaluator.value(&twice, &time, Limit::Right, 40, 2000).unwrap();
+            let value = digits(&twice, &time, Limit::Right, 40, 2000).unwrap();
             let Value::Certified { ball: value, .. } = value else { panic!("not rational") };
             let half = value.multiply_rational(&Rational::new(1.into(), 2.into()), 300);
             let difference = half.subtract(ball.real(), 300);
@@ -212,7 +214,7 @@ fn values_agree_with_the_pieces() {
             assert!(ball.imaginary().contains(&Rational::default()));
         }
         // At the start f is 1, exactly.
-        let start = evaluator.value(&twice, &Rational::default(), Limit::Right, 10, 200);
+        let start = digits(&twice, &Rational::default(), Limit::Right, 10, 200);
         assert_eq!(start, Ok(Value::Exact(parse_number("2").unwrap())));
     }
 }
@@ -222,7 +224,8 @@ fn a_wave_with_one_pole_of_a_pair_is_not_real() {
     let solution = scene("2*sqrt(-1)", "-2*sqrt(-1)", "0");
     let inner = solution.recurrence().observation("inner").unwrap();
     let at = parse_number("1/3").unwrap();
-    let value = Evaluator::new(&solution).unwrap().value(&inner, &at, Limit::Right, 10, 200);
+    let inner = ClosedSignal::of_recurrence(&solution, &inner, [&at, &at]).unwrap();
+    let value = digits(&inner, &at, Limit::Right, 10, 200);
     assert_eq!(value, Err(EvaluateError::NotReal));
 }
 
@@ -231,7 +234,8 @@ fn a_wave_with_one_pole_of_a_pair_is_not_real() {
 fn digits_of_a_cosine() {
     let solution = scene("2*sqrt(-1)", "-2*sqrt(-1)", "0");
     let f = solution.recurrence().observation("f").unwrap();
-    let evaluator = Evaluator::new(&solution).unwrap();
-    let value = evaluator.value(&f, &parse_number("1/3").unwrap(), Limit::Right, 20, 400).unwrap();
+    let at = parse_number("1/3").unwrap();
+    let f = ClosedSignal::of_recurrence(&solution, &f, [&at, &at]).unwrap();
+    let value = digits(&f, &at, Limit::Right, 20, 400).unwrap();
     assert_eq!(value.to_text(20), "0.78588726077694800072");
 }

@@ -5,7 +5,7 @@
 
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
-use wavestep::evaluate::{Limit, SceneEvaluator, Signal};
+use wavestep::evaluate::{ClosedForm, ClosedSignal, Limit, digits};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::scenes::SCENES;
@@ -34,16 +34,17 @@ fn signals_enclose_the_values_of_scenes() {
         let unit =
             Rational::new(1.into(), if network.scene().dimensional { 5000 } else { 1 }.into());
         let last = &unit * Rational::from_integer(7.into());
-        let evaluator = SceneEvaluator::new(&network, &network.scaled_time(&last)).unwrap();
         for observed in network.observables() {
-            let Ok(signal) = Signal::of_scene(&network, observed, &last) else { continue };
+            let exact = ClosedSignal::of_scene(&network, observed, [&Rational::default(), &last]);
+            let exact = exact.unwrap().echo_by_echo();
+            let Ok(signal) = ClosedForm::of_scene(&network, observed, &last) else { continue };
             let stretches = signal.stretches(&Rational::default(), &last).unwrap();
             for i in 0..12 {
                 let at = &last * Rational::new((7 * i + 1).into(), 80.into());
                 let scaled = network.scaled_time(&at);
                 let stretch = &stretches[signal.stretch_at(&stretches, &at, Limit::Right).unwrap()];
                 let value = signal.enclose(stretch, 0, &scaled, 200).unwrap();
-                let told = evaluator.value(observed, &scaled, Limit::Right, 30, 1 << 12).unwrap();
+                let told = digits(&exact, &at, Limit::Right, 30, 1 << 12).unwrap();
                 let told = told.ball(300);
                 let place = format!("{name} {} {at}", observed.name);
                 assert!(value.subtract(&told, 200).contains(&Rational::default()), "{place}");

@@ -1,16 +1,17 @@
 //! `eval` for scenes: in their units, with constants, on lattices, and energies.
 
 use super::arguments::Eval;
+use super::eval_recurrence::{rows, window};
 use super::failure::Failure;
 use super::progress;
 use super::quantity;
 use super::rows::{Row, time_on_period, times, written};
 use num_rational::BigRational;
-use wavestep::evaluate::{Evaluator, Limit, SceneEvaluator, Value};
+use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, digits};
 use wavestep::expression::Fraction;
-use wavestep::history::History;
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
+use wavestep::signal::{self, Purpose};
 use wavestep::solution::Solution;
 
 /// Evaluates an observable or a wave of a scene.
@@ -24,25 +25,17 @@ pub fn run(network: &Network, options: &Eval) -> Result<String, Failure> {
         (Some(n), Some(local)) => vec![time_on_piece(network, &observed, n, local, side)?],
         _ => times(options, network.scene().dimensional)?,
     };
-    if let Some(solution) = closed_form(network, &observed)?.filter(|_| !options.stats) {
-        return told_by_closed_form(&solution, &observed, times, side, options);
-    }
-    let scaled: Vec<Fraction> = times.iter().map(|time| network.scaled_time(time)).collect();
-    let last = times.iter().zip(&scaled).max().map(|(_, scaled)| scaled.clone());
-    let last = last.expect("times without any are refused");
-    let evaluator = SceneEvaluator::new(network, &last)?;
-    let progress = progress::counted(times.len());
-    let mut rows = Vec::with_capacity(times.len());
-    for (time, scaled) in times.into_iter().zip(scaled) {
-        let value = evaluator.value(&observed, &scaled, side, options.digits, options.max_bits)?;
-        rows.push(Row { time, value });
-        progress.inc(1);
-    }
-    drop(progress);
+    let window = window(&times);
     if options.stats {
-        let (expanded, needed) = (evaluator.expanded(), evaluator.needed());
-        eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
+        let signal = ClosedSignal::of_scene(network, &observed, window)?.echo_by_echo();
+        let rows = rows(&signal, times.clone(), options)?;
+        if let Some((expanded, needed)) = signal.work() {
+            eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
+        }
+        return Ok(told(network, &observed, &rows, options));
     }
+    let signal = signal::of_scene(network, &observed, window, Purpose::Values)?;
+    let rows = rows(&*signal, times.clone(), options)?;
     Ok(told(network, &observed, &rows, options))
 }
 
@@ -66,56 +59,24 @@ fn across_phases(network: &Network, side: Limit, options: &Eval) -> Result<Strin
         return Err(Failure::usage(message, "give --at T, or --from, --to and --points"));
     }
     let times = times(options, network.scene().dimensional)?;
-    let values = {
+    let signal = {
         let _progress = progress::spinner("following contacts");
-        History::values(network, name, &times, side, options.digits)?
+        signal::of_scene(network, &observed, window(&times), Purpose::Values)?
     };
     let mut rows = Vec::with_capacity(times.len());
-    for (time, value) in times.into_iter().zip(values) {
-        if let Value::Enclosed(best) = &value {
-            let best = best.to_decimal(options.digits);
-            let message = format!("accuracy not reached at t = {time}: {name} = {best}");
-            return Err(Failure::Accuracy(message, "ask for fewer digits".to_owned()));
-        }
+    for time in times {
+        let value = digits(&*signal, &time, side, options.digits, options.max_bits);
+        let value = value.map_err(|error| match error {
+            EvaluateError::AccuracyNotReached { best, .. } => {
+                let best = best.to_decimal(options.digits);
+                let message = format!("accuracy not reached at t = {time}: {name} = {best}");
+                Failure::Accuracy(message, "ask for fewer digits".to_owned())
+            }
+            other => other.into(),
+        })?;
         rows.push(Row { time, value });
     }
     Ok(told(network, &observed, &rows, options))
-}
-
-/// The solution of a scene in which echoes of all that is observed have a closed form, without units
-/// and named constants: then any of them is had without those before.
-fn closed_form(network: &Network, observed: &Observed) -> Result<Option<Solution>, Failure> {
-    let ObservedValue::Linear(observation) = &observed.value else { return Ok(None) };
-    if network.scene().dimensional || network.lattice().periods().len() > 1 {
-        return Ok(None);
-    }
-    let recurrence = network.recurrence()?;
-    let is_number = recurrence.symbols().next().is_none() && recurrence.constants().is_empty();
-    let solution = Solution::new(recurrence);
-    let known = observation.waves.iter().all(|seen| solution.general(seen.wave).is_ok());
-    Ok((is_number && known).then_some(solution))
-}
-
-fn told_by_closed_form(
-    solution: &Solution,
-    observed: &Observed,
-    times: Vec<BigRational>,
-    side: Limit,
-    options: &Eval,
-) -> Result<String, Failure> {
-    let ObservedValue::Linear(observation) = &observed.value else {
-        unreachable!("energies have no closed form")
-    };
-    let evaluator = Evaluator::new(solution)?;
-    let progress = progress::counted(times.len());
-    let mut rows = Vec::with_capacity(times.len());
-    for time in times {
-        let value = evaluator.value(observation, &time, side, options.digits, options.max_bits)?;
-        rows.push(Row { time, value });
-        progress.inc(1);
-    }
-    drop(progress);
-    Ok(written(&rows, &solution.recurrence().statement().title, ["", "", ""], options))
 }
 
 /// The time on a period of the observable, in scenes on one grid and without units.

@@ -8,6 +8,7 @@ use wavestep::field::FieldError;
 use wavestep::language::Diagnostic;
 use wavestep::model::ModelError;
 use wavestep::network::NetworkError;
+use wavestep::signal::SignalError;
 use wavestep::solution::{SolveError, Unsolvable};
 use wavestep_draw::PlotError;
 use wavestep_studies::picture::PictureError;
@@ -166,6 +167,15 @@ impl From<EvaluateError> for Failure {
                 Failure::Accuracy(message, "raise --max-bits, or ask for fewer digits".to_owned())
             }
             _ => Failure::Computation(message, "ask for an earlier time".to_owned()),
+        }
+    }
+}
+
+impl From<SignalError> for Failure {
+    fn from(error: SignalError) -> Failure {
+        match error {
+            SignalError::Closed(error) => error.into(),
+            SignalError::Followed(error) => error.into(),
         }
     }
 }

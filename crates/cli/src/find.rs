@@ -9,12 +9,12 @@ use super::progress;
 use super::quantity;
 use super::validity;
 use num_rational::BigRational;
-use wavestep::evaluate::{EvaluateError, Goal, Place, Search};
-use wavestep::history::History;
+use wavestep::evaluate::{ClosedSignal, EvaluateError, Goal, Place, Search, Signal};
 use wavestep::language::{self, Source};
 use wavestep::network::{Network, Observed};
 use wavestep::recurrence::Observation;
 use wavestep::scene::Dimension;
+use wavestep::signal::{self, Purpose};
 use wavestep::solution::Solution;
 
 /// Finds what is asked for.
@@ -35,7 +35,8 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     // What is given wrongly is told before any work is done.
     let goal = goal(options);
     let level = if goal.is_none() { level(options, &seen)? } else { BigRational::default() };
-    let search = seen.search([&from, &to])?;
+    let signal = seen.signal([&from, &to])?;
+    let search = Search::new(&*signal)?;
     let progress = progress::spinner("searching");
     let (digits, limit_bits) = (options.digits, options.max_bits);
     let found = match goal {
@@ -172,15 +173,14 @@ impl Seen {
     }
 
     /// The quantity on a window.
-    pub fn search(&self, window: [&BigRational; 2]) -> Result<Search<'_>, Failure> {
+    pub fn signal(&self, window: [&BigRational; 2]) -> Result<Box<dyn Signal + '_>, Failure> {
         Ok(match self {
             Seen::Recurrence(solution, observation) => {
-                Search::of_recurrence(solution, observation, window)?
+                Box::new(ClosedSignal::of_recurrence(solution, observation, window)?)
             }
-            Seen::Scene { network, observed } if network.scene().contacts_open => {
-                History::search(network, &observed.name, window)?
+            Seen::Scene { network, observed } => {
+                signal::of_scene(network, observed, window, Purpose::Stretches)?
             }
-            Seen::Scene { network, observed } => Search::of_scene(network, observed, window)?,
         })
     }
 }

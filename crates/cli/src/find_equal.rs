@@ -135,8 +135,10 @@ impl Question<'_> {
                 format!("the times of --between do not ascend at {} = {value}", self.name);
             return Err(Failure::usage(message, "give T1 before T2 before T3"));
         }
-        let first = seen.search([&times[0], &times[1]])?.half_open();
-        let second = seen.search([&times[1], &times[2]])?.half_open();
+        let first = seen.signal([&times[0], &times[1]])?;
+        let second = seen.signal([&times[1], &times[2]])?;
+        let first = Search::new(&*first)?.half_open();
+        let second = Search::new(&*second)?.half_open();
         Ok(first.compare_extremum(&second, self.goal)?)
     }
 

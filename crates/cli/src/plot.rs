@@ -9,18 +9,17 @@ use super::plot_contact;
 use super::quantity;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
-use wavestep::evaluate::{EvaluateError, Limit, Signal};
+use wavestep::evaluate::{ClosedForm, ClosedSignal, EvaluateError};
 use wavestep::expression::Fraction;
 use wavestep::field::Quantity;
-use wavestep::history::History;
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::recurrence::Recurrence;
 use wavestep::scene::{Dimension, Measure, Seen};
+use wavestep::signal::{self, Purpose};
 use wavestep_draw::{Caption, Chart};
 use wavestep_studies::picture::{
-    Course, Sampled, against_time, along_the_line, lagrange, sampled, sampled_energy,
-    sampled_search,
+    Course, against_time, along_the_line, lagrange, sampled, sampled_in_steps,
 };
 
 /// How many periods are shown at least where no end is given, and how often a wave may pass the whole line
@@ -30,12 +29,6 @@ const PASSAGES: i64 = 2;
 
 /// At how many times an energy is looked at.
 const ENERGY_STEPS: usize = 240;
-
-/// At how many times one is looked at across the phases of contacts, each time a sum over all bars.
-const PHASE_STEPS: i64 = 240;
-
-/// Digits of these.
-const PHASE_DIGITS: usize = 6;
 
 /// Draws what is asked for.
 pub fn run(options: &Plot) -> Result<String, Failure> {
@@ -164,7 +157,7 @@ fn default_length(subject: &Subject) -> Result<BigRational, Failure> {
     }
     let linear = |observed: &&Observed| matches!(observed.value, ObservedValue::Linear(_));
     let observed = network.observables().iter().find(linear).ok_or_else(no_end)?;
-    let signal = Signal::of_scene(network, observed, &BigRational::default())?;
+    let signal = ClosedForm::of_scene(network, observed, &BigRational::default())?;
     let period = signal.period().ok_or_else(no_end)?;
     two_figures(period * double(&periods))
 }
@@ -221,8 +214,8 @@ fn of_recurrence(
     let all = observables.iter().map(|observable| observable.name.clone());
     let course = |name: String| {
         let observation = quantity::of_recurrence(recurrence, &name)?;
-        let signal = Signal::of_recurrence(recurrence, &observation)?;
-        let values = sampled(signal, from, to)?;
+        let form = ClosedForm::of_recurrence(recurrence, &observation)?;
+        let values = sampled(&ClosedSignal::of_form(form, [from, to])?)?;
         Ok(Course { name, dimension: Dimension::NONE, measure: None, values })
     };
     names(options, all)?.into_iter().map(course).collect()
@@ -235,17 +228,17 @@ fn of_scene(
 ) -> Result<Vec<Course>, Failure> {
     let all = network.observables().iter().map(|observed| observed.name.clone());
     let course = |name: String| {
-        if network.scene().contacts_open {
-            return across_phases(network, &name, [from, to]);
-        }
-        let observed = quantity::of_scene(network, &name)?;
-        let values: Sampled = match observed.value {
-            ObservedValue::Linear(_) => {
-                sampled(Signal::of_scene(network, &observed, to)?, from, to)?
-            }
-            ObservedValue::Energy(_) => {
-                sampled_energy(network, &observed, [from, to], ENERGY_STEPS)?
-            }
+        let observed = match network.scene().contacts_open {
+            true => quantity::of_phases(network, &name)?,
+            false => quantity::of_scene(network, &name)?,
+        };
+        let is_sum =
+            matches!(observed.value, ObservedValue::Energy(_)) || is_held(network, &observed.name);
+        let purpose = if is_sum { Purpose::Values } else { Purpose::Stretches };
+        let signal = signal::of_scene(network, &observed, [from, to], purpose)?;
+        let values = match is_sum {
+            true => sampled_in_steps(&*signal, ENERGY_STEPS)?,
+            false => sampled(&*signal)?,
         };
         let measure = measure_of(network, &name);
         Ok(Course { name, dimension: observed.dimension, measure, values })
@@ -253,27 +246,11 @@ fn of_scene(
     names(options, all)?.into_iter().map(course).collect()
 }
 
-/// An observable of a scene whose contacts open; energies and momenta, which are sums over all bars, at
-/// equal steps.
-fn across_phases(
-    network: &Network,
-    name: &str,
-    [from, to]: [&BigRational; 2],
-) -> Result<Course, Failure> {
-    let Observed { name, dimension, .. } = quantity::of_phases(network, name)?;
+/// Whether an observable is an energy or a momentum, a sum over all bars where contacts open.
+fn is_held(network: &Network, name: &str) -> bool {
     let is_sum = |term: &Seen| matches!(term.measure, Measure::Energy | Measure::Momentum);
     let own = network.scene().observables.iter().find(|own| own.name == name);
-    let measure = measure_of(network, &name);
-    if !own.is_some_and(|own| own.terms.iter().any(is_sum)) {
-        let values = sampled_search(&History::search(network, &name, [from, to])?)?;
-        return Ok(Course { name, dimension, measure, values });
-    }
-    let time = |step: i64| from + (to - from) * BigRational::new(step.into(), PHASE_STEPS.into());
-    let times: Vec<BigRational> = (0..=PHASE_STEPS).map(time).collect();
-    let values = History::values(network, &name, &times, Limit::Right, PHASE_DIGITS)?;
-    let points = times.iter().zip(&values).map(|(time, value)| (double(time), value.to_double()));
-    let values = Sampled { points: points.collect(), jumps: Vec::new() };
-    Ok(Course { name, dimension, measure, values })
+    network.scene().contacts_open && own.is_some_and(|own| own.terms.iter().any(is_sum))
 }
 
 /// What an observable measures; none where its terms differ, or where it is a wave.

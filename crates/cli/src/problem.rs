@@ -4,9 +4,8 @@ use super::failure::Failure;
 use super::input::Subject;
 use super::quantity;
 use num_rational::BigRational;
-use std::cell::OnceCell;
 use wavestep::answer::Problem;
-use wavestep::evaluate::{EvaluateError, Evaluator, Limit, SceneEvaluator, Signal};
+use wavestep::evaluate::{ClosedForm, ClosedSignal, Limit};
 use wavestep::language;
 use wavestep::network::Network;
 use wavestep::solution::Solution;
@@ -37,14 +36,9 @@ pub fn with_problem<T>(
         Subject::Recurrence(recurrence) => {
             let observation = quantity::of_recurrence(&recurrence, name)?;
             let solution = Solution::new(*recurrence);
-            let evaluator = Evaluator::new(&solution)?;
-            let signal = Signal::of_recurrence(solution.recurrence(), &observation)?;
-            let recognise =
-                |at: &BigRational, side: Limit| match evaluator.rational(&observation, at, side) {
-                    // Too far for exact arithmetic: nothing is recognised.
-                    Err(EvaluateError::TooManyPeriods { .. }) => Ok(None),
-                    told => told,
-                };
+            let exact = ClosedSignal::of_recurrence(&solution, &observation, [&from, &to])?;
+            let signal = ClosedForm::of_recurrence(solution.recurrence(), &observation)?;
+            let recognise = |at: &BigRational, side: Limit| exact.rational(at, side);
             let title = solution.recurrence().statement().title.clone();
             let titles = Titles { title, unit: String::new(), time_unit: String::new() };
             let recognise = &recognise;
@@ -62,16 +56,9 @@ fn of_scene<T>(
     work: impl FnOnce(&Problem<'_>, &Titles) -> Result<T, Failure>,
 ) -> Result<T, Failure> {
     let observed = quantity::of_scene(network, name)?;
-    let signal = Signal::of_scene(network, &observed, &to)?;
-    let last = network.scaled_time(&to);
-    let evaluator = OnceCell::new();
-    let recognise = |at: &BigRational, side: Limit| {
-        let known = evaluator.get_or_init(|| SceneEvaluator::new(network, &last).ok());
-        match known {
-            Some(evaluator) => evaluator.rational(&observed, &network.scaled_time(at), side),
-            None => Ok(None),
-        }
-    };
+    let signal = ClosedForm::of_scene(network, &observed, &to)?;
+    let exact = ClosedSignal::of_scene(network, &observed, [&from, &to])?;
+    let recognise = |at: &BigRational, side: Limit| exact.rational(at, side);
     let dimensional = network.scene().dimensional;
     let titles = Titles {
         title: network.scene().title.clone(),

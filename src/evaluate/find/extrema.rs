@@ -12,11 +12,10 @@
 
 use crate::ball::{Attempt, Ball, Precisions, Value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, range_of};
-use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::refine::Isolated;
 use crate::evaluate::find::search::{Search, rationals};
+use crate::evaluate::signal::{At, Limit};
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -36,24 +35,6 @@ const SLOPE_BITS: u64 = 1 << 10;
 const MAX_PLACES: usize = 10_000;
 
 /// Which extremum.
-///
-/// ```
-/// use wavestep::evaluate::{Goal, Search};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
-/// let window = [parse_number("1")?, parse_number("2")?];
-/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-/// // The front is felt twice at the fixed end; then it fades.
-/// let told = |goal| search.extremum(goal, 4, 1 << 12).unwrap().value.to_text(4);
-/// assert_eq!(told(Goal::Smallest), "-2");
-/// assert_eq!(told(Goal::Largest), "-0.7358");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Goal {
     /// The supremum.
@@ -63,25 +44,6 @@ pub enum Goal {
 }
 
 /// Where an extremum is taken, or approached. Times are the user's.
-///
-/// ```
-/// use wavestep::evaluate::{Goal, Place, Search, Value};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let strain = solution.recurrence().observation("strain_impact").unwrap();
-/// let window = [parse_number("2")?, parse_number("4")?];
-/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-/// // Just before the front arrives at 4, not when it does.
-/// let largest = search.extremum(Goal::Largest, 6, 1 << 12).unwrap();
-/// let time = Value::Exact(parse_number("4")?);
-/// assert_eq!(largest.places, [Place::Arrival { time, before: true, after: false }]);
-/// assert!(!largest.places[0].is_attained());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Place {
     /// At a simple root of the derivative.
@@ -123,24 +85,6 @@ impl Place {
 }
 
 /// The largest or smallest value with all places that cannot be told apart.
-///
-/// ```
-/// use wavestep::evaluate::{Goal, Place, Search};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let strain = solution.recurrence().observation("g").unwrap();
-/// let window = [parse_number("2")?, parse_number("4")?];
-/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-/// let largest = search.extremum(Goal::Largest, 12, 1 << 12).unwrap();
-/// // g_1 = -exp(-s) ends lowest, and is largest where it has faded most: at 4, before it jumps.
-/// assert_eq!(largest.value.to_text(12), "-0.135335283237");
-/// assert!(matches!(&largest.places[..], [Place::Arrival { before: true, after: false, .. }]));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Extremum {
     /// The value.
@@ -179,24 +123,6 @@ impl<'s> Search<'s> {
     ///
     /// # Cost
     /// A few polynomials with 20 terms for each stretch, tens for each place that comes close.
-    ///
-    /// ```
-    /// use wavestep::evaluate::{Goal, Place, Search};
-    /// use wavestep::language::{Source, parse_number, read_recurrence};
-    /// use wavestep::solution::Solution;
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
-    /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-    /// let strain = solution.recurrence().observation("g").unwrap();
-    /// let window = [parse_number("0")?, parse_number("12")?];
-    /// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-    /// let largest = search.extremum(Goal::Largest, 9, 1 << 12).unwrap();
-    /// let [Place::Critical(time)] = &largest.places[..] else { panic!("{largest:?}") };
-    /// assert_eq!(time.to_text(9), "6.71350395");
-    /// assert_eq!(largest.value.to_text(9), "0.694053895");
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn extremum(
         &self,
         goal: Goal,
@@ -249,24 +175,6 @@ impl<'s> Search<'s> {
     ///
     /// # Cost
     /// As [`Search::extremum`].
-    ///
-    /// ```
-    /// use std::collections::BTreeMap;
-    /// use wavestep::evaluate::{Goal, Search};
-    /// use wavestep::language::{Source, parse_number, read_recurrence};
-    /// use wavestep::solution::Solution;
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let values = BTreeMap::from([("mu".to_owned(), parse_number("1")?)]);
-    /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-    /// let f = solution.recurrence().observation("f").unwrap();
-    /// let window = [parse_number("1")?, parse_number("2")?];
-    /// let search = Search::of_recurrence(&solution, &f, [&window[0], &window[1]]).unwrap();
-    /// // A second front arrives at 2, where f jumps up; without that instant f is largest at 1.
-    /// let largest = search.half_open().enclose_extremum(Goal::Largest, 60).unwrap();
-    /// assert!(largest.to_string().starts_with("0.3678794411714423")); // exp(-1)
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Result<Ball, EvaluateError> {
         let contenders = self.contenders(goal, 8 * bits)?;
         for early in comparisons().iter().filter(|early| *early < bits) {

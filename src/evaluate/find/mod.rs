@@ -5,9 +5,8 @@
 //! and every statement about one of them is proven with balls or decided exactly; what is not
 //! decided is returned as that. The proofs stand where the work is done: [`cover`] cuts a stretch
 //! into cells, [`refine`] narrows one root, [`roots`] and [`extrema`] put the answers together,
-//! [`search`] asks for exact values where an enclosure cannot tell zero from what is small. What the
-//! function is they need not know: [`piecewise`] says what they ask of it, [`observed`] answers for
-//! waves and observables whose contacts stay closed.
+//! [`search`] asks for exact values where an enclosure cannot tell zero from what is small. What kind of
+//! function it is they need not know: any [`Signal`](crate::evaluate::Signal) will do.
 //!
 //! Ends of stretches may be irrational. A cell there reaches a little beyond the end, where the
 //! same exponential polynomial goes on; a root on a monotone run counts where the limit at the end
@@ -16,14 +15,10 @@
 
 mod cover;
 mod extrema;
-mod observed;
-mod piecewise;
 mod refine;
 mod roots;
 mod search;
 
 pub use extrema::{Extremum, Goal, Place};
-pub use observed::ObservedSignal;
-pub use piecewise::{At, Piecewise};
 pub use roots::{MAX_ROOTS, Root, Roots};
 pub use search::Search;

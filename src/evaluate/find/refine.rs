@@ -8,8 +8,8 @@
 use crate::ball::{Ball, Precisions, Value};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::find::cover::{Target, middle_and_half};
-use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::search::{Search, less, rationals};
+use crate::evaluate::signal::At;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Integer, Rational};
 

@@ -15,44 +15,17 @@
 
 use crate::ball::{Ball, Value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
 use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
-use crate::evaluate::find::piecewise::At;
 use crate::evaluate::find::refine::Isolated;
 use crate::evaluate::find::search::{Search, rationals};
+use crate::evaluate::signal::{At, Limit};
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// The most roots of one window.
-///
-/// ```
-/// use wavestep::evaluate::{EvaluateError, MAX_ROOTS};
-///
-/// let error = EvaluateError::TooManyRoots { limit: MAX_ROOTS };
-/// assert_eq!(error.to_string(), "more than 10000 roots lie in this window");
-/// ```
 pub const MAX_ROOTS: usize = 10_000;
 
 /// A root of `f − v`, or where there may be one. Times are the user's.
-///
-/// ```
-/// use wavestep::evaluate::{Root, Search, Value};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
-/// let window = [parse_number("0")?, parse_number("3")?];
-/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-/// // Nothing is felt at the fixed end until the front is there, at 1.
-/// let found = search.roots(&parse_number("0")?, 9, 1 << 12).unwrap();
-/// let exactly = |time| Value::Exact(parse_number(time).unwrap());
-/// let silence = Root::Interval { from: exactly("0"), to: exactly("1"), closed: false };
-/// assert_eq!(found.all, [silence]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Root {
     /// A change of sign with a derivative that is not zero.
@@ -106,25 +79,6 @@ pub enum Root {
 }
 
 /// All roots of a window, in order.
-///
-/// ```
-/// use wavestep::evaluate::{Root, Search};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let strain = solution.recurrence().observation("velocity").unwrap();
-/// let window = [parse_number("0")?, parse_number("6")?];
-/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-/// // The mass comes to rest, and to rest again on its way back and forth.
-/// let found = search.roots(&parse_number("0")?, 9, 1 << 12).unwrap();
-/// let rises = |root: &Root| matches!(root, Root::Simple { rises: true, .. });
-/// assert_eq!(found.all.iter().map(rises).collect::<Vec<_>>(), [false, true]);
-/// assert_eq!(found.undecided(), 0);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 ///
 /// # Invariants
 /// - `f − v` has no other roots in the window; no root is in two of these.

@@ -1,23 +1,18 @@
 //! A window of time in which roots and extrema of one observable are looked for.
 //!
-//! The observable is any [`Piecewise`] function: a search asks it for enclosures, and for exact values
+//! A search asks it for enclosures, and for exact values
 //! where a ball cannot decide because the answer is zero.
 
 use crate::ball::{Attempt, Ball, Precisions};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::find::observed::ObservedSignal;
-use crate::evaluate::find::piecewise::{At, Piecewise};
-use crate::evaluate::signal::Signal;
-use crate::network::{Network, Observed};
-use crate::recurrence::Observation;
-use crate::solution::Solution;
+use crate::evaluate::signal::Limit;
+use crate::evaluate::signal::{At, Signal};
 use std::cell::Cell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// The precision in bits that is begun with.
-pub(crate) const FIRST_BITS: u64 = 192;
+const FIRST_BITS: u64 = 192;
 
 /// The precision in bits of times that are irrational, where they bound a cell.
 const BOUND_BITS: u64 = 320;
@@ -29,38 +24,14 @@ const MAX_BOUND_BITS: u64 = 1 << 16;
 const BOUND_SHARE: u128 = 1 << 80;
 
 /// The most bits that a sign is tried with, unless fewer are allowed.
-pub(crate) const SIGN_BITS: u64 = 1 << 12;
+const SIGN_BITS: u64 = 1 << 12;
 
 /// An observable on a window of the user's time.
 ///
 /// # Invariants
 /// - the window is not empty; every symbol has a value; its arrivals are known.
-///
-/// ```
-/// use std::collections::BTreeMap;
-/// use wavestep::evaluate::{Value, Goal, Root, Search};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = BTreeMap::from([("mu".to_owned(), parse_number("1")?)]);
-/// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-/// let strain = solution.recurrence().observation("strain_impact").unwrap();
-/// let window = [parse_number("2")?, parse_number("4")?];
-/// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-/// // The mass leaves the bar at 3 + exp(-2)/2.
-/// let roots = search.roots(&parse_number("0")?, 15, 1 << 12).unwrap();
-/// let [Root::Simple { time, rises }, Root::Jump { .. }] = &roots.all[..] else {
-///     panic!("{roots:?}")
-/// };
-/// assert_eq!((time.to_text(15).as_str(), *rises), ("3.06766764161831", true));
-/// // The strain is largest where the window ends, just before the next front arrives.
-/// let largest = search.extremum(Goal::Largest, 6, 1 << 12).unwrap();
-/// assert_eq!(largest.value.to_text(6), "0.252355");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Search<'a> {
-    pub function: Box<dyn Piecewise + 'a>,
+    pub(crate) function: &'a dyn Signal,
     /// How many stretches are looked at.
     pub(crate) count: usize,
     pub(crate) window: [Rational; 2],
@@ -73,118 +44,23 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// A wave or observable of a recurrence on a window, both its ends included.
+    /// A signal on its window, both its ends included.
     ///
     /// # Errors
-    /// [`EvaluateError::EmptyWindow`]; [`EvaluateError::MissingValue`] where a symbol is left;
-    /// [`EvaluateError::TooManyEchoes`] where too many arrivals lie in the window.
-    pub fn of_recurrence(
-        solution: &'a Solution,
-        observation: &Observation,
-        window: [&Rational; 2],
-    ) -> Result<Search<'a>, EvaluateError> {
-        check(window)?;
-        let function = ObservedSignal::of_recurrence(solution, observation, window)?;
-        Search::over(Box::new(function), window)
-    }
-
-    /// An observable of a scene on a window in the user's time, both its ends included.
-    ///
-    /// # Errors
-    /// As [`Search::of_recurrence`]; [`EvaluateError::NotLinear`] for energies.
-    ///
-    /// ```
-    /// use wavestep::evaluate::{EvaluateError, Goal, Search};
-    /// use wavestep::language::{Source, parse_number, read_scene};
-    /// use wavestep::network::Network;
-    ///
-    /// let text = wavestep::scenes::find("pushed-bar").unwrap().text;
-    /// let scene = read_scene(&Source::new("pushed-bar", text)?, &Default::default()).unwrap();
-    /// let network = Network::new(&scene).unwrap();
-    /// let seen = |name| network.observables().iter().find(|seen| seen.name == name).unwrap();
-    /// let window = [parse_number("0")?, parse_number("9")?];
-    /// let search = |name| Search::of_scene(&network, seen(name), [&window[0], &window[1]]);
-    /// // Four times since the start the wave has come back, each time with 2 more.
-    /// let largest = search("velocity").unwrap().extremum(Goal::Largest, 6, 1 << 12).unwrap();
-    /// assert_eq!(largest.value.to_text(6), "9");
-    /// assert!(matches!(search("energy").err(), Some(EvaluateError::NotLinear(_))));
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
-    pub fn of_scene(
-        network: &'a Network,
-        observed: &Observed,
-        window: [&Rational; 2],
-    ) -> Result<Search<'a>, EvaluateError> {
-        check(window)?;
-        let function = ObservedSignal::of_scene(network, observed, window)?;
-        Search::over(Box::new(function), window)
-    }
-
-    /// A signal on a window, both its ends included. There are no exact values to compare with: a root
-    /// that is an arrival, or one of even order, stays undecided.
-    ///
-    /// # Errors
-    /// As [`Search::of_recurrence`].
-    ///
-    /// ```
-    /// use wavestep::evaluate::{Root, Search, Signal};
-    /// use wavestep::language::{Source, parse_number, read_recurrence};
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
-    /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-    /// let f = recurrence.observation("f").unwrap();
-    /// let signal = Signal::of_recurrence(&recurrence, &f).unwrap();
-    /// let window = [parse_number("0")?, parse_number("3")?];
-    /// let search = Search::of_signal(&signal, [&window[0], &window[1]]).unwrap();
-    /// let roots = search.roots(&parse_number("0")?, 9, 1 << 12).unwrap();
-    /// let [Root::Simple { time, rises: false }] = &roots.all[..] else { panic!("one root") };
-    /// // It is 5/2 + e^{−2}/2.
-    /// assert_eq!(time.to_text(9), "2.56766764");
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
-    pub fn of_signal(
-        signal: &Signal,
-        window: [&Rational; 2],
-    ) -> Result<Search<'static>, EvaluateError> {
-        check(window)?;
-        let function = ObservedSignal::of_signal(signal.clone(), window)?;
-        Search::over(Box::new(function), window)
-    }
-
-    /// Any function on its window.
-    ///
-    /// # Errors
-    /// [`EvaluateError::EmptyWindow`].
-    pub(crate) fn over(
-        function: Box<dyn Piecewise + 'a>,
-        window: [&Rational; 2],
-    ) -> Result<Search<'a>, EvaluateError> {
-        check(window)?;
+    /// [`EvaluateError::EmptyWindow`]; [`EvaluateError::TooManyEchoes`] where too many arrivals lie in the
+    /// window; [`EvaluateError::NotLinear`] for energies.
+    pub fn new(signal: &'a dyn Signal) -> Result<Search<'a>, EvaluateError> {
+        let window = signal.window();
+        if window[1] <= window[0] {
+            return Err(EvaluateError::EmptyWindow);
+        }
         let (bits, work) = (Cell::new(FIRST_BITS), Cell::new(0));
-        let (count, window) = (function.count(), window.map(Clone::clone));
-        Ok(Search { function, count, window, bits, work, open: false })
+        let (count, window) = (signal.count()?, window.map(Clone::clone));
+        Ok(Search { function: signal, count, window, bits, work, open: false })
     }
 
     /// The same window without its end: an echo that arrives there does not count, the limit before
     /// does.
-    ///
-    /// ```
-    /// use wavestep::evaluate::{Goal, Search};
-    /// use wavestep::language::{Source, parse_number, read_recurrence};
-    /// use wavestep::solution::Solution;
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
-    /// let solution = Solution::new(read_recurrence(&Source::new("rigid-mass", text)?, &values)?);
-    /// let strain = solution.recurrence().observation("f").unwrap();
-    /// let window = [parse_number("1")?, parse_number("2")?];
-    /// let search = Search::of_recurrence(&solution, &strain, [&window[0], &window[1]]).unwrap();
-    /// // A second front arrives at 2, where f jumps up. Before that f fades: it is largest at 1.
-    /// let largest = search.half_open().extremum(Goal::Largest, 6, 1 << 12).unwrap();
-    /// assert_eq!(largest.value.to_text(6), "0.367879"); // exp(-1)
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     #[must_use]
     pub fn half_open(mut self) -> Search<'a> {
         if self.count > 1 && self.is_instant(self.count - 1) {
@@ -317,13 +193,6 @@ impl<'a> Search<'a> {
             Ok(Attempt::of([first, last], is_near))
         };
         Precisions::doubling(BOUND_BITS, MAX_BOUND_BITS).raise(attempt).map(Attempt::best)
-    }
-}
-
-fn check([from, to]: [&Rational; 2]) -> Result<(), EvaluateError> {
-    match to <= from || *from < Rational::default() {
-        true => Err(EvaluateError::EmptyWindow),
-        false => Ok(()),
     }
 }
 

@@ -10,10 +10,10 @@ use super::doubles::{Kept, piece};
 use super::{Method, MethodError};
 use crate::ball::{Attempt, Precisions};
 use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
 use crate::evaluate::marched_pieces::MarchedPieces;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::signal::Limit;
 use std::cell::OnceCell;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
@@ -36,7 +36,7 @@ pub type Recogniser<'a> = dyn Fn(&Rational, Limit) -> Result<Option<Rational>, E
 
 /// Correctly rounded values of an observable on a window.
 pub struct Certified<'a> {
-    signal: &'a Signal,
+    signal: &'a ClosedForm,
     from: Rational,
     to: Rational,
     /// Pieces from a march, where there is one.
@@ -48,14 +48,12 @@ pub struct Certified<'a> {
 }
 
 impl<'a> Certified<'a> {
-    /// Values on a window; `recognise` tells those that are rational, as
-    /// [`Evaluator::rational`](crate::evaluate::Evaluator::rational) and
-    /// [`SceneEvaluator::rational`](crate::evaluate::SceneEvaluator::rational) do.
+    /// Values on a window; `recognise` tells those that are rational.
     ///
     /// # Errors
     /// [`MethodError`], where the window has too many arrivals.
     pub fn new(
-        signal: &'a Signal,
+        signal: &'a ClosedForm,
         from: &Rational,
         to: &Rational,
         recognise: &'a Recogniser<'a>,

@@ -5,7 +5,7 @@ use crate::ball::Ball;
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::{at_or_after, rational};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
+use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_kernels::fixed::{self, FixedError, Reduction};

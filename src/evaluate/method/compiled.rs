@@ -9,8 +9,8 @@ use super::doubles::{Kept, piece};
 use super::{Method, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
 use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::closed::ClosedForm;
+use crate::evaluate::signal::Limit;
 use std::cmp::Ordering;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
@@ -44,7 +44,7 @@ impl<'a> Compiled<'a> {
     /// For each piece as many operations in balls as a piece of a wave has coefficients, times 30; some
     /// milliseconds each at n = 200.
     pub fn new(
-        signal: &'a Signal,
+        signal: &'a ClosedForm,
         from: &Rational,
         to: &Rational,
         tolerance: Option<f64>,

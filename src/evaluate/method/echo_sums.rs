@@ -5,9 +5,9 @@ use super::MethodError;
 use super::doubles::{three, three_of};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::signal::Limit;
 use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
 use crate::solution::{EchoTemplate, Family, Solution};
@@ -129,7 +129,7 @@ pub(super) struct EchoSums {
 impl EchoSums {
     /// The echoes of a signal up to a time.
     pub(super) fn new(
-        signal: &Signal,
+        signal: &ClosedForm,
         from: &Rational,
         to: &Rational,
     ) -> Result<EchoSums, MethodError> {

@@ -9,8 +9,8 @@ use super::printed::PrintedEchoes;
 use super::{Method, MethodError};
 use crate::ball::Ball;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::closed::ClosedForm;
+use crate::evaluate::signal::Limit;
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
@@ -33,7 +33,11 @@ impl Expanded {
     ///
     /// # Cost
     /// O(n) for n echoes in closed form, O(n³) for others; for each value O(n²).
-    pub fn new(signal: &Signal, from: &Rational, to: &Rational) -> Result<Expanded, MethodError> {
+    pub fn new(
+        signal: &ClosedForm,
+        from: &Rational,
+        to: &Rational,
+    ) -> Result<Expanded, MethodError> {
         let sums = match EchoSums::new(signal, from, to) {
             Err(MethodError::NoTaps(_)) => Sums::Derived(PrintedEchoes::new(signal, to)?),
             sums => Sums::Closed(Box::new(sums?)),

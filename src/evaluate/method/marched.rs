@@ -11,9 +11,9 @@ use super::{Method, MethodError};
 use crate::ball::{Attempt, Ball, ComplexBall, Magnitude, Precisions};
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::rational;
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::signal::Limit;
 use crate::evaluate::taps::{Extra, NoTaps, Taps};
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Root, Transform};
@@ -67,7 +67,7 @@ impl Marched {
     /// With one pole and one lag some hundred operations a coefficient for each period, of which there
     /// are about `√(2nD)`; two or three times as many with a bound. Otherwise that for each term of each step.
     pub fn new(
-        signal: &Signal,
+        signal: &ClosedForm,
         from: &Rational,
         to: &Rational,
         proven: bool,
@@ -89,7 +89,7 @@ impl Marched {
     /// By the impulse response.
     fn of_response(
         taps: Taps,
-        signal: &Signal,
+        signal: &ClosedForm,
         from: &Rational,
         to: &Rational,
         proven: bool,
@@ -110,7 +110,11 @@ impl Marched {
     }
 
     /// By all waves.
-    fn of_waves(signal: &Signal, from: &Rational, to: &Rational) -> Result<Marched, MethodError> {
+    fn of_waves(
+        signal: &ClosedForm,
+        from: &Rational,
+        to: &Rational,
+    ) -> Result<Marched, MethodError> {
         if !signal.is_on_grid() {
             return Err(NoTaps::NoGrid.into());
         }

@@ -6,8 +6,8 @@ use super::march_system::{SystemBuilder, enclosed, nearest, product, transform};
 use super::marched::March;
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::Signal;
 use crate::evaluate::taps::NoTaps;
 use crate::expression::{Fraction, Transform};
 use crate::recurrence::WaveIndex;
@@ -48,7 +48,10 @@ impl Waves {
     ///
     /// # Cost
     /// That of the numbers in balls; the march is made when values are asked for.
-    pub fn new(signal: &Signal, numbers: &Numbers) -> Result<(Waves, Vec<Delayed>), MethodError> {
+    pub fn new(
+        signal: &ClosedForm,
+        numbers: &Numbers,
+    ) -> Result<(Waves, Vec<Delayed>), MethodError> {
         let recurrence = signal.recurrence();
         let statement = recurrence.statement();
         let unit = numbers.enclose_root(signal.unit(), BITS).map_err(EvaluateError::from)?;

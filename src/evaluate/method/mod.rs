@@ -33,7 +33,7 @@ pub use marched::Marched;
 pub use plain::Plain;
 pub use stable::{Stable, StablePrecision};
 
-use crate::evaluate::evaluator::Limit;
+use crate::evaluate::signal::Limit;
 use wavestep_polynomial::Rational;
 
 /// One way to values of an observable in doubles, on a window of time.

@@ -8,8 +8,8 @@ use super::echo_sums::EchoSums;
 use super::{Method, MethodError};
 use crate::ball::Ball;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::closed::ClosedForm;
+use crate::evaluate::signal::Limit;
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
@@ -26,7 +26,7 @@ impl Plain {
     ///
     /// # Cost
     /// O(n) for n echoes; for each value O(n²).
-    pub fn new(signal: &Signal, from: &Rational, to: &Rational) -> Result<Plain, MethodError> {
+    pub fn new(signal: &ClosedForm, from: &Rational, to: &Rational) -> Result<Plain, MethodError> {
         Ok(Plain { sums: EchoSums::new(signal, from, to)? })
     }
 }

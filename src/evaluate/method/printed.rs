@@ -2,9 +2,9 @@
 
 use super::MethodError;
 use crate::ball::Ball;
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::signal::Limit;
 use crate::expression::{Expression, Field as _, Transform};
 use wavestep_polynomial::Rational;
 
@@ -36,7 +36,7 @@ pub(super) struct PrintedEchoes {
 }
 
 impl PrintedEchoes {
-    pub(super) fn new(signal: &Signal, to: &Rational) -> Result<PrintedEchoes, MethodError> {
+    pub(super) fn new(signal: &ClosedForm, to: &Rational) -> Result<PrintedEchoes, MethodError> {
         let numbers = signal.numbers();
         let field = numbers.field(BITS);
         let number = |value: &Expression| -> Result<Complex, EvaluateError> {

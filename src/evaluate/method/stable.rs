@@ -8,8 +8,8 @@ use super::echo_sums::EchoSums;
 use super::{Method, MethodError};
 use crate::ball::Ball;
 use crate::evaluate::cells::rational;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::signal::Signal;
+use crate::evaluate::closed::ClosedForm;
+use crate::evaluate::signal::Limit;
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
@@ -37,7 +37,7 @@ impl Stable {
     /// # Cost
     /// O(n) for n echoes; for each value O(n²).
     pub fn new(
-        signal: &Signal,
+        signal: &ClosedForm,
         from: &Rational,
         to: &Rational,
         precision: StablePrecision,

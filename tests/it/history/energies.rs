@@ -1,9 +1,8 @@
 //! Energies and momenta between events: what a body holds is what contacts and loads have done to it.
 
-use crate::history::{Values, ball, is_zero, network_of, rational};
+use crate::history::{Values, ball, is_zero, network_of, rational, values};
 use wavestep::ball::Ball;
 use wavestep::evaluate::{Limit, Value};
-use wavestep::history::History;
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
 
@@ -20,8 +19,7 @@ const FREE: &str = "scene \"Free\"\nbar striker { impedance = 1, travel = 3/7, v
     observe energy = energy(line)\nobserve momentum = momentum(line)\n";
 
 fn told(network: &Network, name: &str, times: &[Rational]) -> Vec<Ball> {
-    let values = History::values(network, name, times, Limit::Right, 12).unwrap();
-    values.iter().map(ball).collect()
+    values(network, name, times, Limit::Right, 12).iter().map(ball).collect()
 }
 
 /// Times that meet no arrival, in cells and across events.
@@ -97,7 +95,7 @@ fn rational_energies_stay_exact() {
     let network = network_of(text, &[]);
     let times = times(25);
     let exact = |name| {
-        let values = History::values(&network, name, &times, Limit::Right, 12).unwrap();
+        let values = values(&network, name, &times, Limit::Right, 12);
         let exact = values.into_iter().map(|value| match value {
             Value::Exact(value) => value,
             other => panic!("{name}: {other:?}"),

@@ -2,7 +2,7 @@
 
 use crate::history::{ball, rational, shipped};
 use std::fs;
-use wavestep::evaluate::{Goal, Place, Search};
+use wavestep::evaluate::{ClosedSignal, Goal, Place, Search};
 use wavestep::history::History;
 use wavestep_polynomial::Rational;
 
@@ -19,7 +19,8 @@ fn line(ratio: i64) -> String {
     let instant = ball(&release.time).rounded().unwrap();
     let end = rational((instant * 1e3) as i64 + 1_002, 1_000);
     let strain = network.observables().iter().find(|own| own.name == "strain_fixed").unwrap();
-    let search = Search::of_scene(&network, strain, [&Rational::default(), &end]).unwrap();
+    let signal = ClosedSignal::of_scene(&network, strain, [&Rational::default(), &end]).unwrap();
+    let search = Search::new(&signal).unwrap();
     let largest = search.extremum(Goal::Smallest, DIGITS, 1 << 12).unwrap();
     let [Place::Arrival { time, .. }] = &largest.places[..] else { panic!("{:?}", largest.places) };
     let arrival = ball_of(time);

@@ -1,8 +1,8 @@
 //! What is found and drawn across the phases of contacts agrees with values, events and closed forms.
 
 use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped};
-use wavestep::evaluate::{Goal, Limit, Place, Root, Value};
-use wavestep::history::{EventKind, History, HistoryError};
+use wavestep::evaluate::{EvaluateError, Goal, Limit, Place, Root, Search, Value};
+use wavestep::history::{EventKind, FollowedSignal, History, HistoryError};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
 
@@ -31,8 +31,10 @@ fn roots_and_extrema_are_those_of_the_events() {
     let network = shipped("saint-venant", &[("mu", "1")]);
     let history = History::of(&network, None, 15).unwrap();
     let window = [rational(0, 1), rational(9, 1)];
-    let search = |name| History::search(&network, name, [&window[0], &window[1]]).unwrap();
-    let roots = search("strain_impact").roots(&rational(0, 1), 15, BITS).unwrap();
+    let signal = |name| FollowedSignal::new(&network, name, [&window[0], &window[1]]).unwrap();
+    let (force, velocity) = (signal("strain_impact"), signal("velocity"));
+    let [force, velocity] = [&force, &velocity].map(|signal| Search::new(signal).unwrap());
+    let roots = force.roots(&rational(0, 1), 15, BITS).unwrap();
     let [first, second] = &roots.all[..] else { panic!("{roots:?}") };
     let [_, left, struck, again] = &history.events[..] else { panic!("four events") };
     let told = |root: &Root| match root {
@@ -41,14 +43,14 @@ fn roots_and_extrema_are_those_of_the_events() {
     };
     assert_eq!(told(first), [left.time.to_text(15), struck.time.to_text(15)]);
     assert_eq!(told(second), [again.time.to_text(15), "9".to_owned()]);
-    let least = search("velocity").extremum(Goal::Smallest, 15, BITS).unwrap();
+    let least = velocity.extremum(Goal::Smallest, 15, BITS).unwrap();
     let [_, after] = &again.velocities;
     assert_eq!(least.value.to_text(15), after[0].to_text(15));
     // The velocity is zero once.
-    let stop = search("velocity").roots(&rational(0, 1), 15, BITS).unwrap();
+    let stop = velocity.roots(&rational(0, 1), 15, BITS).unwrap();
     let [Root::Simple { time, rises: false }] = &stop.all[..] else { panic!("{stop:?}") };
     let at = near(time);
-    let there = History::values(&network, "velocity", &[at], Limit::Right, 12).unwrap();
+    let there = crate::history::values(&network, "velocity", &[at], Limit::Right, 12);
     assert!(double(&there[0]).abs() < 1e-12);
 }
 
@@ -62,10 +64,11 @@ fn no_value_is_larger_than_the_largest() {
         let seen = network.observables().iter().map(|observed| observed.name.clone());
         let observable = seen.into_iter().find(|name| !matches!(&name[..], "energy" | "momentum"));
         let observable = observable.expect("an observable that can be searched");
-        let search = History::search(&network, &observable, [&from, &to]).unwrap();
+        let signal = FollowedSignal::new(&network, &observable, [&from, &to]).unwrap();
+        let search = Search::new(&signal).unwrap();
         let largest = search.extremum(Goal::Largest, 9, BITS).unwrap();
         let times: Vec<Rational> = (0..=40).map(|i| &to * rational(i, 40)).collect();
-        let values = History::values(&network, &observable, &times, Limit::Right, 9).unwrap();
+        let values = crate::history::values(&network, &observable, &times, Limit::Right, 9);
         let top = ball(&largest.value);
         for value in &values {
             let less = top.subtract(&ball(value), 200);
@@ -83,7 +86,7 @@ fn no_value_is_larger_than_the_largest() {
         let exact = matches!(time, wavestep::evaluate::Value::Exact(_));
         if exact || matches!(place, Place::Critical(_)) {
             let at = near(time);
-            let there = History::values(&network, &observable, &[at], side, 9).unwrap();
+            let there = crate::history::values(&network, &observable, &[at], side, 9);
             let (there, top) = (double(&there[0]), double(&largest.value));
             assert!((there - top).abs() <= 1e-8 * top.abs(), "{name} {observable}: {there} {top}");
         }
@@ -94,8 +97,12 @@ fn no_value_is_larger_than_the_largest() {
 fn empty_windows_and_energies_are_refused() {
     let network = shipped("saint-venant", &[("mu", "1")]);
     let (zero, one, early) = (rational(0, 1), rational(1, 1), rational(-1, 1));
-    let refused = |name, window| History::search(&network, name, window).err().unwrap();
-    assert_eq!(refused("velocity", [&one, &one]), HistoryError::EmptyWindow);
+    let refused = |name, window| {
+        let signal = FollowedSignal::new(&network, name, window);
+        signal.and_then(FollowedSignal::cut_at_breaks).err().unwrap()
+    };
+    let instant = FollowedSignal::new(&network, "velocity", [&one, &one]).unwrap();
+    assert_eq!(Search::new(&instant).err(), Some(EvaluateError::EmptyWindow));
     assert_eq!(refused("velocity", [&early, &one]), HistoryError::EmptyWindow);
     assert!(matches!(refused("energy", [&zero, &one]), HistoryError::Refused(_)));
     assert!(refused("speed", [&zero, &one]).to_string().contains("no observable"));
@@ -121,7 +128,8 @@ fn events_at_the_end_of_a_window_are_told() {
     let pressed = crate::history::refusals::pressed("3/2 - t");
     let network = network_of(&format!("{pressed}\nobserve wall = force(rod.right)"), &[]);
     let window = [rational(3, 2), rational(5, 2)];
-    let search = History::search(&network, "wall", [&window[0], &window[1]]).unwrap();
+    let signal = FollowedSignal::new(&network, "wall", [&window[0], &window[1]]).unwrap();
+    let search = Search::new(&signal).unwrap();
     let roots = search.roots(&rational(0, 1), 9, BITS).unwrap();
     let [Root::Arrival { time, .. } | Root::End { time }] = &roots.all[..] else {
         panic!("{roots:?}")
@@ -159,12 +167,12 @@ fn the_wall_takes_up_the_missing_momentum() {
     }
     let times: Vec<Rational> =
         points.iter().map(|(time, _)| Rational::from_float(*time).unwrap()).collect();
-    let strains = History::values(&network, "strain_fixed", &times, Limit::Right, 12).unwrap();
+    let strains = crate::history::values(&network, "strain_fixed", &times, Limit::Right, 12);
     // Impedance and wave speed are one: the force is the strain with its sign changed.
     let impulse: f64 =
         points.iter().zip(&strains).map(|((_, weight), strain)| -weight * double(strain)).sum();
     let ends = [Rational::default(), Rational::from_float(until).unwrap()];
-    let held = History::values(&network, "momentum", &ends, Limit::Right, 12).unwrap();
+    let held = crate::history::values(&network, "momentum", &ends, Limit::Right, 12);
     let lost = double(&held[0]) - double(&held[1]);
     assert!((impulse - lost).abs() < 1e-9, "{impulse} {lost}");
 }
@@ -174,7 +182,8 @@ fn the_wall_takes_up_the_missing_momentum() {
 fn finer_digits_begin_with_the_coarser() {
     let network = shipped("saint-venant", &[("mu", "2")]);
     let window = [rational(0, 1), rational(6, 1)];
-    let search = History::search(&network, "velocity", [&window[0], &window[1]]).unwrap();
+    let signal = FollowedSignal::new(&network, "velocity", [&window[0], &window[1]]).unwrap();
+    let search = Search::new(&signal).unwrap();
     let time = |digits| match &search.roots(&rational(0, 1), digits, BITS).unwrap().all[..] {
         [Root::Simple { time, .. }, ..] => ball(time),
         other => panic!("{other:?}"),

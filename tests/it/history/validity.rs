@@ -3,7 +3,7 @@
 use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped};
 use std::cmp::Ordering;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Limit, SceneEvaluator, Value};
+use wavestep::evaluate::{ClosedSignal, Limit, Value, digits};
 use wavestep::history::{EventKind, History, HistoryError, Validity};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
@@ -20,9 +20,8 @@ fn until(network: &Network) -> (Value, [String; 2]) {
 /// The sign of an observable of closed contacts.
 fn sign(network: &Network, name: &str, time: &Rational, side: Limit) -> Ordering {
     let observed = network.observables().iter().find(|own| own.name == name).unwrap();
-    let at = network.scaled_time(time);
-    let evaluator = SceneEvaluator::new(network, &at).unwrap();
-    match evaluator.value(observed, &at, side, 9, 1 << 12).unwrap() {
+    let signal = ClosedSignal::of_scene(network, observed, [time, time]).unwrap();
+    match digits(&signal.echo_by_echo(), time, side, 9, 1 << 12).unwrap() {
         Value::Exact(value) => value.cmp(&Rational::default()),
         other => other.decimal(9).0.to_rational().cmp(&Rational::default()),
     }

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use wavestep::answer::Problem;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{
-    Compiled, Evaluator, Limit, Marched, MethodError, Recogniser, SceneEvaluator, Signal, Stretch,
-    Value,
+    ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Recogniser, Stretch, Value,
+    digits,
 };
 use wavestep::language::{Kind, Source, kind, parse_number, read_recurrence, read_scene};
 use wavestep::network::Network;
@@ -19,7 +19,7 @@ const LIMIT_BITS: u64 = 1 << 14;
 /// An observable on a window.
 pub struct Subject<'a> {
     pub name: String,
-    pub signal: &'a Signal,
+    pub signal: &'a ClosedForm,
     pub recognise: &'a Recogniser<'a>,
     pub from: BigRational,
     pub to: BigRational,
@@ -77,7 +77,7 @@ fn text_of(scene: &str) -> &str {
 }
 
 /// The stretches of a window, begun earlier: what is seen just before its first time is known as well.
-fn stretches(signal: &Signal, from: &BigRational, to: &BigRational) -> Vec<Stretch> {
+fn stretches(signal: &ClosedForm, from: &BigRational, to: &BigRational) -> Vec<Stretch> {
     let earlier = from - (to - from) / BigRational::from_integer(8.into());
     signal.stretches(&earlier, to).expect("stretches")
 }
@@ -106,16 +106,18 @@ pub fn with<T>(
                 read_recurrence(&source, &values).unwrap_or_else(|error| panic!("{error}"));
             let solution = Solution::new(recurrence);
             let observation = solution.recurrence().observation(quantity).expect(quantity);
-            let evaluator = Evaluator::new(&solution).expect("numbers");
-            let signal = Signal::of_recurrence(solution.recurrence(), &observation).expect(&name);
+            let exact = ClosedSignal::of_recurrence(&solution, &observation, [&from, &to]);
+            let exact = exact.expect("numbers");
+            let signal =
+                ClosedForm::of_recurrence(solution.recurrence(), &observation).expect(&name);
             let stretches = stretches(&signal, &from, &to);
-            let by_form = |at: &BigRational, side, digits| {
-                evaluator.value(&observation, at, side, digits, LIMIT_BITS).expect("a value")
+            let by_form = |at: &BigRational, side, count| {
+                digits(&exact, at, side, count, LIMIT_BITS).expect("a value")
             };
             work(&Subject {
                 name,
                 signal: &signal,
-                recognise: &|at, side| evaluator.rational(&observation, at, side),
+                recognise: &|at, side| exact.rational(at, side),
                 from,
                 to,
                 stretches,
@@ -132,17 +134,17 @@ pub fn with<T>(
             let place = network.observables().iter().position(|known| known.name == quantity);
             let place = place.expect(quantity);
             let observed = &network.observables()[place];
-            let signal = Signal::of_scene(&network, observed, &to).expect(&name);
+            let signal = ClosedForm::of_scene(&network, observed, &to).expect(&name);
             let stretches = stretches(&signal, &from, &to);
-            let evaluator = SceneEvaluator::new(&network, &network.scaled_time(&to)).expect("one");
-            let by_form = |at: &BigRational, side, digits| {
-                let at = network.scaled_time(at);
-                evaluator.value(observed, &at, side, digits, LIMIT_BITS).expect("a value")
+            let exact = ClosedSignal::of_scene(&network, observed, [&from, &to]).expect("one");
+            let exact = exact.echo_by_echo();
+            let by_form = |at: &BigRational, side, count| {
+                digits(&exact, at, side, count, LIMIT_BITS).expect("a value")
             };
             work(&Subject {
                 name,
                 signal: &signal,
-                recognise: &|at, side| evaluator.rational(observed, &network.scaled_time(at), side),
+                recognise: &|at, side| exact.rational(at, side),
                 from,
                 to,
                 stretches,

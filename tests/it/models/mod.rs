@@ -9,7 +9,7 @@ mod steps;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use std::collections::BTreeMap;
-use wavestep::evaluate::{Limit, SceneEvaluator};
+use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::model::Model;
 use wavestep::network::{Network, ObservedValue};
@@ -41,12 +41,12 @@ fn times(last: &str, count: i64) -> Vec<BigRational> {
 
 /// The exact values of an observable.
 fn exact(network: &Network, observable: usize, times: &[BigRational]) -> Vec<f64> {
-    let last = network.scaled_time(times.iter().max().expect("a time"));
-    let evaluator = SceneEvaluator::new(network, &last).unwrap_or_else(|error| panic!("{error}"));
-    let observed = &network.observables()[observable];
+    let window = [&BigRational::default(), times.iter().max().expect("a time")];
+    let signal = ClosedSignal::of_scene(network, &network.observables()[observable], window);
+    let signal = signal.expect("a window").echo_by_echo();
     let value = |time: &BigRational| {
-        let at = network.scaled_time(time);
-        let value = evaluator.value(observed, &at, Limit::Right, 17, 1 << 13).expect("a value");
+        let value = digits(&signal, time, Limit::Right, 17, 1 << 13);
+        let value = value.unwrap_or_else(|error| panic!("{error}"));
         value.decimal(17).0.to_string().parse().expect("a number")
     };
     times.iter().map(value).collect()

@@ -2,7 +2,7 @@
 //! in two, and everything mirrored.
 
 use num_rational::BigRational;
-use wavestep::evaluate::{Limit, SceneEvaluator};
+use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::network::{Network, NetworkError};
 use wavestep::scene::{Kind, Measure, Place, Position, Scene};
@@ -414,18 +414,18 @@ fn mirrored_scenes_give_mirrored_answers() {
 }
 
 fn assert_same_numbers(one: &Network, other: &Network, last: &BigRational) {
-    let evaluators = [one, other]
-        .map(|network| SceneEvaluator::new(network, &network.scaled_time(last)).expect("values"));
+    let start = BigRational::default();
     for (own, turned) in one.observables().iter().zip(other.observables()) {
+        let signals = [(one, own), (other, turned)].map(|(network, observed)| {
+            let signal = ClosedSignal::of_scene(network, observed, [&start, last]);
+            signal.expect("a window").echo_by_echo()
+        });
         for k in 1..4 {
             let at = last * rational(k * 997, 4 * 1009);
-            let value = |evaluator: &SceneEvaluator<'_>, network: &Network, observed| {
-                let at = network.scaled_time(&at);
-                let value = evaluator.value(observed, &at, Limit::Right, 20, 1 << 13);
+            let [first, second] = signals.each_ref().map(|signal| {
+                let value = digits(signal, &at, Limit::Right, 20, 1 << 13);
                 value.unwrap_or_else(|error| panic!("{error}")).decimal(20).0.to_string()
-            };
-            let first = value(&evaluators[0], one, own);
-            let second = value(&evaluators[1], other, turned);
+            });
             assert_eq!(first, second, "{}: {} at {at}", one.scene().title, own.name);
         }
     }
@@ -446,11 +446,11 @@ fn energy_that_nothing_takes_stays() {
     for scene in kept.chain(conserving.map(|(name, parts, line, _)| special(name, parts, line))) {
         let network = network_of(&scene);
         let last = if scene.dimensional { rational(1, 1000) } else { rational(8, 1) };
-        let evaluator = SceneEvaluator::new(&network, &network.scaled_time(&last)).expect("values");
         let energy = network.observables().iter().find(|seen| seen.name == "energy").expect("one");
+        let signal = ClosedSignal::of_scene(&network, energy, [&BigRational::default(), &last]);
+        let signal = signal.expect("a window");
         let value = |at: BigRational| {
-            let at = network.scaled_time(&at);
-            let value = evaluator.value(energy, &at, Limit::Right, 30, 1 << 13);
+            let value = digits(&signal, &at, Limit::Right, 30, 1 << 13);
             value.unwrap_or_else(|error| panic!("{error}")).decimal(30).0.to_string()
         };
         let start = value(rational(0, 1));

@@ -1,7 +1,7 @@
 //! Scenes in units, with constants that are no rational numbers, and travel times without a common
 //! measure: in seconds, metres and newtons, as the march has them.
 
-use wavestep::evaluate::{EvaluateError, SceneEvaluator};
+use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, digits};
 
 use crate::scenes::numbers::assert_as_marched;
 use crate::scenes::{network_of, rational, scene_of};
@@ -198,9 +198,10 @@ fn rates_of_second_order_in_units_are_told() {
     let text: String =
         text.lines().filter(|line| !line.contains("alu")).flat_map(|line| [line, "\n"]).collect();
     let network = network_of(&scene_of(&text, &[]));
-    let last = network.scaled_time(&rational(1, 1000));
-    match SceneEvaluator::new(&network, &last).map(drop) {
-        Ok(()) => assert_as_marched(&scene_of(&text, &[]), &rational(2, 1000), 9),
+    let last = rational(1, 1000);
+    let signal = ClosedSignal::of_scene(&network, &network.observables()[0], [&last, &last]);
+    match digits(&signal.expect("a window"), &last, Limit::Right, 15, 1 << 13) {
+        Ok(_) => assert_as_marched(&scene_of(&text, &[]), &rational(2, 1000), 9),
         Err(EvaluateError::Network(error)) => {
             assert!(error.to_string().contains("rates"), "{error}");
         }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use wavestep::evaluate::{Limit, SceneEvaluator};
+use wavestep::evaluate::{ClosedSignal, Limit, digits};
 
 use crate::scenes::{built_in, network_of, rational, scene_of, usual};
 
@@ -29,13 +29,14 @@ fn work_done_is_as_recorded() {
     let mut table = String::new();
     for (name, observable, (p, q)) in TABLE {
         let network = network_of(&scene_of(built_in(name), usual(name)));
-        let at = network.scaled_time(&rational(p, q));
-        let evaluator = SceneEvaluator::new(&network, &at).expect("values");
+        let at = rational(p, q);
         let observed = network.observables().iter().find(|seen| seen.name == observable);
         let observed = observed.expect("an observable");
-        let value = evaluator.value(observed, &at, Limit::Right, 12, 1 << 12);
+        let signal = ClosedSignal::of_scene(&network, observed, [&at, &at]);
+        let signal = signal.expect("a window").echo_by_echo();
+        let value = digits(&signal, &at, Limit::Right, 12, 1 << 12);
         let digits = value.expect("a value").decimal(12).0;
-        let (expanded, needed) = (evaluator.expanded(), evaluator.needed());
+        let (expanded, needed) = signal.work().expect("echoes");
         let line = format!("{name} {observable}({p}/{q})");
         writeln!(table, "{line:<40}{digits:<24}{expanded:>5} of {needed:>5}").unwrap();
     }
@@ -68,11 +69,12 @@ fn a_long_chain_is_followed() {
     let started = std::time::Instant::now();
     let network = network_of(&scene);
     let last = rational(60, 1);
-    let evaluator = SceneEvaluator::new(&network, &network.scaled_time(&last)).expect("values");
     for observed in network.observables() {
-        let at = network.scaled_time(&(&last - rational(1, 7)));
-        let value = evaluator.value(observed, &at, Limit::Right, 15, 1 << 14).expect("a value");
-        let (expanded, needed) = (evaluator.expanded(), evaluator.needed());
+        let at = &last - rational(1, 7);
+        let signal = ClosedSignal::of_scene(&network, observed, [&at, &last]);
+        let signal = signal.expect("a window").echo_by_echo();
+        let value = digits(&signal, &at, Limit::Right, 15, 1 << 14).expect("a value");
+        let (expanded, needed) = signal.work().expect("echoes");
         eprintln!(
             "{} = {}: {expanded} of {needed} echoes, {:.1?}",
             observed.name,

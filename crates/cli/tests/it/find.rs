@@ -3,7 +3,7 @@
 use num_rational::BigRational;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use wavestep::evaluate::{Evaluator, Limit};
+use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::scenes;
 use wavestep::solution::Solution;
@@ -78,9 +78,10 @@ fn equal_extrema_meet_where_the_formula_says() {
         let source = Source::new("rigid-mass", scenes::find("rigid-mass").unwrap().text).unwrap();
         let values = [("mu".to_owned(), mu.clone())].into();
         let rigid = Solution::new(read_recurrence(&source, &values).unwrap());
-        let evaluator = Evaluator::new(&rigid).unwrap();
         let f = rigid.recurrence().observation("f").unwrap();
-        let e = evaluator.value(&f, &(mu * number("2")), Limit::Left, 30, BITS).unwrap();
+        let at = mu * number("2");
+        let f = ClosedSignal::of_recurrence(&rigid, &f, [&at, &at]).unwrap();
+        let e = digits(&f, &at, Limit::Left, 30, BITS).unwrap();
         e.decimal(30).0.to_rational() > mu * number("4")
     };
     assert!(above(&low) && !above(&high));

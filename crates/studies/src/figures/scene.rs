@@ -1,10 +1,10 @@
 //! Built-in scenes and recurrences with numbers put in.
 
 use super::FigureError;
-use crate::picture::{Sampled, sampled, sampled_search};
+use crate::picture::{Sampled, sampled};
 use std::collections::BTreeMap;
-use wavestep::evaluate::{EvaluateError, Signal};
-use wavestep::history::History;
+use wavestep::evaluate::{ClosedForm, ClosedSignal, EvaluateError};
+use wavestep::history::FollowedSignal;
 use wavestep::language::{self, Source};
 use wavestep::network::Network;
 use wavestep::recurrence::Recurrence;
@@ -37,9 +37,9 @@ pub(super) fn recurrence(name: &str, given: &[(&str, Rational)]) -> Recurrence {
 }
 
 /// An observable of a recurrence as a signal.
-pub(super) fn signal(recurrence: &Recurrence, name: &str) -> Result<Signal, EvaluateError> {
+pub(super) fn signal(recurrence: &Recurrence, name: &str) -> Result<ClosedForm, EvaluateError> {
     let observation = recurrence.observation(name).expect("a built-in observable");
-    Signal::of_recurrence(recurrence, &observation)
+    ClosedForm::of_recurrence(recurrence, &observation)
 }
 
 /// Its values on a window from 0.
@@ -48,7 +48,7 @@ pub(super) fn course(
     name: &str,
     last: &Rational,
 ) -> Result<Sampled, EvaluateError> {
-    sampled(signal(recurrence, name)?, &Rational::default(), last)
+    sampled(&ClosedSignal::of_form(signal(recurrence, name)?, [&Rational::default(), last])?)
 }
 
 /// An observable of a scene whose contacts open, on a window from 0.
@@ -57,8 +57,8 @@ pub(super) fn followed(
     name: &str,
     last: &Rational,
 ) -> Result<Sampled, FigureError> {
-    let search = History::search(network, name, [&Rational::default(), last])?;
-    Ok(sampled_search(&search)?)
+    let signal = FollowedSignal::new(network, name, [&Rational::default(), last])?;
+    Ok(sampled(&signal)?)
 }
 
 /// A caption with the command that draws the figure again, and remarks.

@@ -15,4 +15,4 @@ pub use along::along_the_line;
 pub use error::PictureError;
 pub use lagrange::lagrange;
 pub use prefix::Prefixed;
-pub use sampled::{Sampled, sampled, sampled_energy, sampled_search};
+pub use sampled::{Sampled, sampled, sampled_in_steps};

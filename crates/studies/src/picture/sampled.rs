@@ -1,10 +1,7 @@
 //! Observables sampled for a line: more densely where they bend, from both sides where they jump.
 
 use wavestep::ball::{Attempt, Ball, Precisions};
-use wavestep::evaluate::{
-    At, EvaluateError, Limit, ObservedSignal, Piecewise, SceneEvaluator, Search, Signal,
-};
-use wavestep::network::{Network, Observed};
+use wavestep::evaluate::{At, EvaluateError, Limit, Signal, digits};
 use wavestep_polynomial::Rational;
 
 /// Digits of energies.
@@ -23,23 +20,6 @@ const FLAT: f64 = 1e-3;
 const CONTINUOUS: f64 = 1e-9;
 
 /// A quantity on a window of time as points of a line and jumps.
-///
-/// ```
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep_studies::picture::sampled;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let f = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let line = sampled(f, &parse_number("0")?, &parse_number("3")?).unwrap();
-/// // From 1 down to e^{−2}; at 2 it rises by 1.
-/// assert_eq!(line.points[0], (0.0, 1.0));
-/// let [(at, before, after)] = line.jumps[..] else { panic!("one jump") };
-/// assert!(at == 2.0 && (before - (-2.0_f64).exp()).abs() < 1e-15 && (after - before - 1.0).abs() < 1e-15);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Sampled {
     /// Times and values; not a number where the line is interrupted by a jump.
@@ -48,72 +28,30 @@ pub struct Sampled {
     pub jumps: Vec<(f64, f64, f64)>,
 }
 
-/// Samples a signal from one time to another: a line through the points is off by at most about a
-/// thousandth of the range.
+/// Samples a signal on its window: a line through the points is off by at most about a thousandth of the
+/// range.
 ///
 /// # Errors
 /// [`EvaluateError`]; an empty window.
 ///
 /// # Cost
 /// A few hundred values, and at least three between two arrivals.
-///
-/// ```
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("two-bars").unwrap().text;
-/// let values = [("r".to_owned(), parse_number("1/2")?)].into();
-/// let recurrence = read_recurrence(&Source::new("two-bars", text)?, &values)?;
-/// let force = recurrence.observation("force").unwrap();
-/// let force = Signal::of_recurrence(&recurrence, &force).unwrap();
-/// let line = wavestep_studies::picture::sampled(force, &parse_number("0")?, &parse_number("5")?).unwrap();
-/// assert_eq!(line.jumps.len(), 2);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub fn sampled(signal: Signal, from: &Rational, to: &Rational) -> Result<Sampled, EvaluateError> {
+pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
+    let [from, to] = function.window();
     if from >= to {
         return Err(EvaluateError::EmptyWindow);
     }
-    sample(&ObservedSignal::of_signal(signal, [from, to])?)
-}
-
-/// Samples what roots and extrema are looked for in, as [`sampled`] does; so for observables of scenes whose
-/// contacts open.
-///
-/// # Errors
-/// [`EvaluateError`].
-///
-/// ```
-/// use wavestep::history::History;
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep_studies::picture::sampled_search;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed\n\
-///             contacts open\nobserve v = velocity(rod.at(1/2))";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let window = [parse_number("0")?, parse_number("9")?];
-/// let search = History::search(&network, "v", [&window[0], &window[1]]).unwrap();
-/// // The bar is stopped, and thrown back from the wall.
-/// assert_eq!(sampled_search(&search).unwrap().jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub fn sampled_search(search: &Search<'_>) -> Result<Sampled, EvaluateError> {
-    sample(search.function.as_ref())
-}
-
-fn sample(function: &dyn Piecewise) -> Result<Sampled, EvaluateError> {
+    let count = function.count()?;
     let ends: Result<Vec<Ends>, _> =
-        (0..function.count()).map(|stretch| Ends::of(function, stretch)).collect();
+        (0..count).map(|stretch| Ends::of(function, stretch)).collect();
     let sampler = Sampler { function, ends: ends? };
     let [first, last] = [sampler.ends.first(), sampler.ends.last()].map(|ends| {
         let ends = ends.expect("a window has a stretch");
         [double(&ends.from), double(&ends.to)]
     });
     let window = last[1] - first[0];
-    let mut coarse = Vec::with_capacity(function.count());
-    for stretch in 0..function.count() {
+    let mut coarse = Vec::with_capacity(count);
+    for stretch in 0..count {
         coarse.push(sampler.coarse(stretch, window)?);
     }
     let values = || coarse.iter().flatten().map(|point| point.1);
@@ -137,38 +75,16 @@ fn sample(function: &dyn Piecewise) -> Result<Sampled, EvaluateError> {
     Ok(found)
 }
 
-/// Samples an energy, which is no sum of waves, at equal steps; it is continuous.
+/// Samples what has no stretches, an energy, at equal steps; it is continuous.
 ///
 /// # Errors
 /// [`EvaluateError`].
-///
-/// ```
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep_studies::picture::sampled_energy;
-///
-/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let energy = network.observables().iter().find(|observed| observed.name == "energy").unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("3")?);
-/// let line = sampled_energy(&network, energy, [&from, &to], 30).unwrap();
-/// assert!(line.points.len() == 31 && line.points.iter().all(|(_, energy)| *energy == 0.5));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub fn sampled_energy(
-    network: &Network,
-    observed: &Observed,
-    [from, to]: [&Rational; 2],
-    steps: usize,
-) -> Result<Sampled, EvaluateError> {
-    let evaluator = SceneEvaluator::new(network, &network.scaled_time(to))?;
+pub fn sampled_in_steps(signal: &dyn Signal, steps: usize) -> Result<Sampled, EvaluateError> {
+    let [from, to] = signal.window();
     let mut found = Sampled::default();
     for step in 0..=steps {
         let at = from + (to - from) * Rational::new(step.into(), steps.max(1).into());
-        let scaled = network.scaled_time(&at);
-        let value = evaluator.value(observed, &scaled, Limit::Right, DIGITS, MAX_BITS)?;
+        let value = digits(signal, &at, Limit::Right, DIGITS, MAX_BITS)?;
         found.points.push((double(&at), value.to_double()));
     }
     Ok(found)
@@ -184,7 +100,7 @@ struct Ends {
 }
 
 impl Ends {
-    fn of(function: &dyn Piecewise, stretch: usize) -> Result<Ends, EvaluateError> {
+    fn of(function: &dyn Signal, stretch: usize) -> Result<Ends, EvaluateError> {
         let near = |end| -> Result<Rational, EvaluateError> {
             Ok(match function.exact_time(stretch, end) {
                 Some(time) => time,
@@ -200,7 +116,7 @@ fn double(time: &Rational) -> f64 {
 }
 
 struct Sampler<'a> {
-    function: &'a dyn Piecewise,
+    function: &'a dyn Signal,
     ends: Vec<Ends>,
 }
 

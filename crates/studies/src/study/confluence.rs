@@ -4,7 +4,7 @@ use crate::study::harness::{errors, worst};
 use crate::study::reference::{Reference, Sampling};
 use std::collections::BTreeMap;
 use wavestep::answer::{Kind, Problem};
-use wavestep::evaluate::Signal;
+use wavestep::evaluate::ClosedForm;
 use wavestep::language::{Source, read_recurrence};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
@@ -26,17 +26,6 @@ const LAST: i64 = 10;
 ///
 /// # Errors
 /// [`PlotError`], where nothing was measured.
-///
-/// ```
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::near_confluence;
-///
-/// // At a distance of 1/10 and 1/100 the formula loses digits, the polynomials do not.
-/// let chart = near_confluence(2, Caption::default()).unwrap();
-/// let [expanded, compiled] = chart.curves() else { panic!("two methods") };
-/// assert_eq!(expanded.points.len(), 3);
-/// assert!(expanded.points[2].1 > 1e3 * compiled.points[2].1);
-/// ```
 pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, PlotError> {
     let kinds = [Kind::Expanded, Kind::Compiled];
     let mut curves = kinds.map(|kind| Curve { name: kind.to_string(), points: Vec::new() });
@@ -62,7 +51,7 @@ pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, Plo
 fn at_distance(distance: Rational, kinds: &[Kind]) -> Option<Vec<f64>> {
     let values = BTreeMap::from([("d".to_owned(), distance)]);
     let recurrence = read_recurrence(&Source::new("two poles", TEXT).ok()?, &values).ok()?;
-    let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f")?).ok()?;
+    let signal = ClosedForm::of_recurrence(&recurrence, &recurrence.observation("f")?).ok()?;
     let (from, to) = (Rational::default(), Rational::from_integer(LAST.into()));
     let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
     let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST as f64);

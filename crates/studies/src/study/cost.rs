@@ -21,22 +21,6 @@ const NO_PREPARATION: f64 = 1e-6;
 ///
 /// # Errors
 /// [`ObserveError`], where the observable has no pieces.
-///
-/// ```
-/// use std::time::Duration;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep_studies::study::{Settings, derivation_cost};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let settings = Settings { runs: 1, time: Duration::ZERO };
-/// let f = recurrence.observation("f").unwrap();
-/// let cost = derivation_cost(&recurrence, &f, &[2, 20], settings).unwrap();
-/// // 20 times as many terms and more take longer.
-/// let [(2.0, few), (20.0, many)] = cost[..] else { panic!("two orders") };
-/// assert!(few > 0.0 && many > few);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn derivation_cost(
     recurrence: &Recurrence,
     observation: &Observation,
@@ -75,31 +59,6 @@ pub fn derivation_cost(
 ///
 /// # Errors
 /// [`PlotError`], where nothing was measured.
-///
-/// ```
-/// use std::time::Duration;
-/// use wavestep::answer::Problem;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::{Settings, cost_over_order};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let settings = Settings { runs: 1, time: Duration::ZERO };
-/// let caption = Caption::default();
-/// let [values, preparation] =
-///     cost_over_order(&problem, None, 2.0, &[1, 4], settings, caption).unwrap();
-/// let curve = |name: &str| preparation.curves().iter().find(|curve| curve.name == name);
-/// assert!(curve("compiled, period n").is_some());
-/// assert_eq!(curve("derivation of 0 to n, numbers set").unwrap().points.len(), 2);
-/// let certified = values.curves().iter().find(|curve| curve.name == "certified").unwrap();
-/// assert!(certified.points.iter().all(|(_, seconds)| *seconds > 0.0));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn cost_over_order(
     problem: &Problem<'_>,
     symbolic: Option<(&Recurrence, &Observation)>,

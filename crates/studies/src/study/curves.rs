@@ -8,13 +8,6 @@ use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
 
 /// The methods in doubles whose errors are followed.
-///
-/// ```
-/// use wavestep_studies::study::DOUBLES;
-///
-/// // Only one of them fails before long: the formula as printed.
-/// assert_eq!(DOUBLES[0].to_string(), "expanded");
-/// ```
 pub const DOUBLES: [Kind; 6] = [
     Kind::Expanded,
     Kind::Plain,
@@ -25,22 +18,9 @@ pub const DOUBLES: [Kind; 6] = [
 ];
 
 /// An error, in parts of the largest value, from which on a result is of no use.
-///
-/// ```
-/// use wavestep_studies::study::USELESS;
-///
-/// // A thousandth: a line that is as wide in a chart.
-/// assert_eq!(USELESS, 1.0 / 1000.0);
-/// ```
 pub const USELESS: f64 = 1e-3;
 
 /// An error at which half of the digits are lost.
-///
-/// ```
-/// use wavestep_studies::study::{HALF, USELESS};
-///
-/// assert!(HALF < USELESS && HALF > f64::EPSILON);
-/// ```
 pub const HALF: f64 = 1e-8;
 
 /// Errors above this, in parts of the largest value, stand at the upper edge of a chart.
@@ -76,31 +56,6 @@ fn levelled(
 ///
 /// # Errors
 /// [`PlotError`], where no method has values.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep_draw::{Axis, Caption};
-/// use wavestep_studies::study::{Reference, Sampling, over_time};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("60")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 60.0);
-/// let reference = Reference::new(&problem, &times).unwrap();
-/// let axis = Axis::linear("time t");
-/// let chart = over_time(&reference, &problem, axis, 10, Caption::default()).unwrap();
-/// let error = |name: &str| {
-///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
-///     curve.points.last().unwrap().1
-/// };
-/// // By n = 30 the formula as printed has lost what the stable sum keeps.
-/// assert!(error("expanded") > 1e-8 && error("stable") < 1e-13);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn over_time(
     reference: &Reference,
     problem: &Problem<'_>,
@@ -126,26 +81,6 @@ pub fn over_time(
 ///
 /// # Errors
 /// [`PlotError`], where no method has values.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::at_arrivals;
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("9")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let chart = at_arrivals(&problem, 100, Caption::default()).unwrap();
-/// // Arrivals at 2, 4, 6 and 8.
-/// let compiled = chart.curves().iter().find(|curve| curve.name == "compiled").unwrap();
-/// assert!(compiled.points.iter().map(|(n, _)| *n).eq([1.0, 2.0, 3.0, 4.0]));
-/// assert!(compiled.points.iter().all(|(_, error)| *error < 1e-15));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn at_arrivals(
     problem: &Problem<'_>,
     most: usize,
@@ -177,27 +112,6 @@ pub fn at_arrivals(
 ///
 /// # Errors
 /// [`PlotError`], where no method has values.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::over_order;
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let chart = over_order(&problem, 2.0, &[5, 40], Caption::default()).unwrap();
-/// let error = |name: &str| {
-///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
-///     curve.points.last().unwrap().1
-/// };
-/// assert!(error("expanded") > 1e-3 && error("double-double") < 1e-15);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn over_order(
     problem: &Problem<'_>,
     period: f64,
@@ -221,28 +135,6 @@ pub fn over_order(
 ///
 /// # Errors
 /// [`PlotError`], where modes have no values.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::near_jump;
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_scene};
-/// # use wavestep::network::Network;
-/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
-/// # let network = Network::new(&scene).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("9")?);
-/// # let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
-/// # let scene = Some((&network, 1));
-/// # let problem = Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to };
-/// let chart = near_jump(&problem, "", Caption::default()).unwrap();
-/// // Thirty modes miss part of the jump that three thousand follow at a distance.
-/// let [few, _, many] = chart.curves() else { panic!("three sums") };
-/// assert!(few.points.first().unwrap().1 > many.points.last().unwrap().1);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn near_jump(
     problem: &Problem<'_>,
     unit: &str,
@@ -276,32 +168,6 @@ pub fn near_jump(
 ///
 /// # Errors
 /// [`PlotError`], where finite differences have no values.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::{Reference, Sampling, over_courant};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_scene};
-/// # use wavestep::network::Network;
-/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
-/// # let network = Network::new(&scene).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
-/// # let scene = Some((&network, 1));
-/// # let problem = Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to };
-/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 8.0);
-/// let reference = Reference::new(&problem, &times).unwrap();
-/// let chart = over_courant(&problem, (&reference, 50), Caption::default()).unwrap();
-/// let mean = &chart.curves()[0];
-/// assert_eq!(mean.name, "50 cells, mean");
-/// // Best where a step of time takes a wave through one cell: at Courant's number 1.
-/// let (last, others) = mean.points.split_last().unwrap();
-/// assert!(last.0 == 1.0 && others.iter().all(|(_, error)| *error > last.1));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn over_courant(
     problem: &Problem<'_>,
     (reference, most_cells): (&Reference, usize),

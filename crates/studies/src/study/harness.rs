@@ -5,13 +5,6 @@ use std::time::{Duration, Instant};
 use wavestep::answer::{Kind, Problem, Way, WayError};
 
 /// How long is measured.
-///
-/// ```
-/// use wavestep_studies::study::Settings;
-///
-/// // The least of some runs counts, so that one run is not enough.
-/// assert!(Settings::default().runs > 1 && !Settings::default().time.is_zero());
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Settings {
     /// How often at least; the least time counts.
@@ -27,22 +20,6 @@ impl Default for Settings {
 }
 
 /// What was measured of a way. [`measure`] makes one.
-///
-/// ```
-/// use wavestep::answer::Kind;
-/// use wavestep_studies::study::Measured;
-///
-/// let measured = |error| Measured {
-///     kind: Kind::Certified,
-///     error,
-///     bound: Some(f64::EPSILON / 2.0),
-///     preparation: 0.0,
-///     seconds: 1e-6,
-/// };
-/// // A bound that is proven is kept; an error above it would refute the proof.
-/// let is_kept = |measured: Measured| measured.bound.is_none_or(|bound| measured.error <= bound);
-/// assert!(is_kept(measured(1e-16)) && !is_kept(measured(2e-16)));
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Measured {
     /// Which way.
@@ -58,13 +35,6 @@ pub struct Measured {
 }
 
 /// The largest of some errors; infinite where one is no number.
-///
-/// ```
-/// use wavestep_studies::study::worst;
-///
-/// assert_eq!(worst(&[1e-3, 2e-3, 0.0]), 2e-3);
-/// assert_eq!(worst(&[1e-3, f64::NAN]), f64::INFINITY);
-/// ```
 pub fn worst(errors: &[f64]) -> f64 {
     let larger = |worst: f64, error: &f64| match error.is_nan() {
         true => f64::INFINITY,
@@ -77,26 +47,6 @@ pub fn worst(errors: &[f64]) -> f64 {
 ///
 /// # Errors
 /// [`WayError`], where the problem is none for this way.
-///
-/// ```
-/// use wavestep::answer::{Kind, Problem};
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep_studies::study::{Reference, Sampling, errors, worst};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("100")?);
-/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let times = Sampling { points: 60, seed: 1 }.times(0.0, 100.0);
-/// let reference = Reference::new(&problem, &times).unwrap();
-/// // By n = 50 the formula as printed has lost all digits; the stable sum has not.
-/// let of = |kind: &str| worst(&errors(&problem, kind.parse().unwrap(), &reference).unwrap());
-/// assert!(of("expanded") > 1e-3 && of("stable") < 1e-14);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn errors(
     problem: &Problem<'_>,
     kind: Kind,
@@ -127,27 +77,6 @@ fn from_scratch(
 ///
 /// # Errors
 /// [`WayError`], where the problem is none for this way.
-///
-/// ```
-/// use std::time::Duration;
-/// use wavestep::answer::{Kind, Problem};
-/// use wavestep_studies::study::{Reference, Sampling, Settings, measure};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 8.0);
-/// let reference = Reference::new(&problem, &times).unwrap();
-/// let settings = Settings { runs: 1, time: Duration::ZERO };
-/// let measured = measure(&problem, (Kind::Compiled, Some(1e-9)), &reference, settings).unwrap();
-/// assert!(measured.error <= measured.bound.unwrap() && measured.bound.unwrap() <= 1e-9);
-/// assert!(measured.seconds > 0.0);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn measure(
     problem: &Problem<'_>,
     (kind, tolerance): (Kind, Option<f64>),

@@ -6,13 +6,6 @@ use wavestep::answer::{Kind, Problem};
 use wavestep_draw::{Axis, Caption, Curve, Curves, Listing, PlotError};
 
 /// The first orders at which a way has lost digits, for one value of a parameter.
-///
-/// ```
-/// use wavestep_studies::study::Loss;
-///
-/// let loss = Loss { parameter: 1.0, half: Some(24), all: Some(46) };
-/// assert!(loss.half < loss.all);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Loss {
     /// The value of the parameter.
@@ -27,25 +20,6 @@ pub struct Loss {
 ///
 /// `known` are errors at ascending orders. Between the last order below a level and the first one that is
 /// not, each order is measured.
-///
-/// ```
-/// use wavestep::answer::{Kind, Problem};
-/// use wavestep_studies::study::{errors_by_order, first_losses};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let orders = [1, 15, 40, 60];
-/// let row = &errors_by_order(&problem, 2.0, &orders, &[Kind::Expanded])[0];
-/// let loss = first_losses(&problem, Kind::Expanded, (1.0, 2.0), (&orders, &row.errors));
-/// // Half of the digits go long before all of them.
-/// assert!((20..30).contains(&loss.half.unwrap()) && (42..52).contains(&loss.all.unwrap()));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn first_losses(
     problem: &Problem<'_>,
     kind: Kind,
@@ -68,21 +42,6 @@ pub fn first_losses(
 ///
 /// # Errors
 /// [`PlotError`], where no digits are lost anywhere.
-///
-/// ```
-/// use wavestep::answer::Kind;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::{Loss, losses};
-///
-/// let rows = [
-///     Loss { parameter: 0.01, half: None, all: None },
-///     Loss { parameter: 1.0, half: Some(24), all: Some(46) },
-/// ];
-/// let (chart, listing) = losses(Kind::Expanded, "mu", 200, &rows, Caption::default())?;
-/// assert_eq!(chart.curves()[1].points, [(1.0, 46.0)]);
-/// assert_eq!(listing.rows, [["0.01", "> 200", "> 200"], ["1", "24", "46"]]);
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 pub fn losses(
     kind: Kind,
     parameter: &str,

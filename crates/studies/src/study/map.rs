@@ -14,13 +14,6 @@ const TIMES: usize = 8;
 const NEAREST: f64 = 6.0;
 
 /// What is known of one way for one value of the parameter.
-///
-/// ```
-/// use wavestep_studies::study::OrderRow;
-///
-/// let row = OrderRow { errors: vec![Some(1e-16), None], refusal: None };
-/// assert_eq!(row.errors.len(), 2);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct OrderRow {
     /// The largest error on each period; `None` where the way has no values.
@@ -30,12 +23,6 @@ pub struct OrderRow {
 }
 
 /// The law by which [`errors_by_order`] draws times.
-///
-/// ```
-/// use wavestep_studies::study::order_law;
-///
-/// assert!(order_law().starts_with("16 times on each period"));
-/// ```
 pub fn order_law() -> String {
     format!(
         "{} times on each period: {TIMES} uniform, {TIMES} whose distance from the arrival is uniform in \
@@ -59,30 +46,6 @@ fn times_on(order: usize, period: f64) -> Vec<f64> {
 
 /// The largest error on each of some periods, ascending, for each of some ways. Where a way refuses, it
 /// is asked again without the last period, until it does not.
-///
-/// ```
-/// use wavestep::answer::{Kind, Problem};
-/// use wavestep_studies::study::errors_by_order;
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let kinds = [Kind::Expanded, Kind::Compiled, Kind::Rigid];
-/// let [expanded, compiled, rigid] = &errors_by_order(&problem, 2.0, &[1, 30], &kinds)[..] else {
-///     panic!("a row for each")
-/// };
-/// // The formula as printed loses its digits with the order; polynomials do not.
-/// assert!(expanded.errors[0].unwrap() < 1e-14 && expanded.errors[1].unwrap() > 1e-8);
-/// assert!(compiled.errors.iter().all(|error| error.unwrap() < 1e-15));
-/// // A model has no values without a scene.
-/// assert_eq!(rigid.errors, [None, None]);
-/// assert!(rigid.refusal.as_ref().unwrap().to_string().contains("a scene of bars"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn errors_by_order(
     problem: &Problem<'_>,
     period: f64,
@@ -128,18 +91,6 @@ pub fn errors_by_order(
 ///
 /// # Errors
 /// [`PlotError`], where there are no rows.
-///
-/// ```
-/// use wavestep::answer::Kind;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::order_map;
-///
-/// let rows = [(0.25, vec![Some(1e-16), Some(1e-9)]), (1.0, vec![Some(1e-14), None])];
-/// let map = order_map(Kind::Expanded, "mu", &[10, 40], &rows, Caption::default())?;
-/// // Columns are orders, rows values of the parameter.
-/// assert_eq!((map.cell(1, 0), map.cell(1, 1)), (Some(1e-9), None));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 pub fn order_map(
     kind: Kind,
     parameter: &str,

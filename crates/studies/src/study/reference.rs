@@ -14,16 +14,6 @@ const MAX_BITS: u64 = 1 << 14;
 const FINENESS: f64 = 1.0 / (1_u128 << 100) as f64;
 
 /// How times are drawn.
-///
-/// ```
-/// use wavestep_studies::study::Sampling;
-///
-/// let times = Sampling { points: 4, seed: 7 }.times(1.0, 3.0);
-/// assert!(times.is_sorted() && times.iter().all(|t| (1.0..=3.0).contains(t)));
-/// // The same on every machine.
-/// assert_eq!(times, Sampling { points: 4, seed: 7 }.times(1.0, 3.0));
-/// assert!(Sampling { points: 4, seed: 7 }.law().starts_with("4 times"));
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sampling {
     /// How many.
@@ -65,29 +55,6 @@ fn split_mix(state: &mut u64) -> u64 {
 }
 
 /// Values at times, as sums of two doubles.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-/// use wavestep_studies::study::Reference;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let reference = Reference::new(&problem, &[0.0, 1.0]).unwrap();
-/// // 1/e rounded is off by 1.2e-17, the largest value is 1.6; 1 is known exactly.
-/// let errors = reference.errors(&[1.0, (-1f64).exp()]);
-/// assert!(errors[0] == 0.0 && (5e-18..2e-17).contains(&errors[1]));
-/// assert!(reference.radius() < 1e-29);
-/// // Errors are in parts of the largest value on the window.
-/// assert_eq!(reference.scale(), problem.scale().unwrap());
-/// assert_eq!(reference.times(), [0.0, 1.0]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Reference {
     times: Vec<f64>,

@@ -7,27 +7,9 @@ use wavestep::evaluate::StablePrecision;
 use wavestep_draw::{Caption, Method, PlotError, Point, Row, Table, WorkPrecision};
 
 /// One step of the ladder: a way, and the tolerance it is given in parts of the largest value.
-///
-/// ```
-/// use wavestep::answer::Kind;
-/// use wavestep_studies::study::{LADDER, Step};
-///
-/// let coarse: Step = (Kind::Compiled, Some(1e-2));
-/// assert!(LADDER.contains(&coarse));
-/// ```
 pub type Step = (Kind, Option<f64>);
 
 /// The ways that are measured, and their settings in order.
-///
-/// ```
-/// use wavestep::answer::Kind;
-/// use wavestep_studies::study::LADDER;
-///
-/// // Tolerances of one way descend, so that its line goes from coarse to fine.
-/// let compiled = LADDER.iter().filter(|(kind, _)| *kind == Kind::Compiled);
-/// let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| *tolerance).collect();
-/// assert!(tolerances.is_sorted_by(|a, b| a > b) && tolerances.len() > 5);
-/// ```
 pub const LADDER: [Step; 33] = [
     (Kind::Rigid, None),
     (Kind::Third, None),
@@ -65,15 +47,6 @@ pub const LADDER: [Step; 33] = [
 ];
 
 /// What came of one step.
-///
-/// ```
-/// use wavestep::answer::{Kind, WayError};
-/// use wavestep_studies::study::Outcome;
-///
-/// let refused = WayError::NeedsScene("rigid").to_string();
-/// let outcome = Outcome { step: (Kind::Rigid, None), result: Err(refused) };
-/// assert!(outcome.result.unwrap_err().contains("a scene of bars"));
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Outcome {
     /// The step.
@@ -117,32 +90,6 @@ fn is_heavy(kind: Kind) -> bool {
 }
 
 /// Measures all steps, or those that do not take long; `tick` is called before each.
-///
-/// ```
-/// use std::cell::Cell;
-/// use std::time::Duration;
-/// use wavestep::answer::Problem;
-/// use wavestep_studies::study::{Reference, Sampling, Settings, ladder};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 8.0);
-/// let reference = Reference::new(&problem, &times).unwrap();
-/// let settings = Settings { runs: 1, time: Duration::ZERO };
-/// let ticks = Cell::new(0);
-/// let outcomes = ladder(&problem, &reference, (settings, true), |_| ticks.set(ticks.get() + 1));
-/// assert_eq!(ticks.get(), outcomes.len());
-/// // Models refuse a recurrence; every bound of the others is kept.
-/// assert!(outcomes[0].result.is_err());
-/// let mut measured = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
-/// assert!(measured.all(|way| way.bound.is_none_or(|bound| way.error <= bound)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn ladder(
     problem: &Problem<'_>,
     reference: &Reference,
@@ -166,35 +113,6 @@ pub fn ladder(
 ///
 /// # Errors
 /// [`PlotError`], where nothing was measured.
-///
-/// ```
-/// use wavestep::answer::{Kind, Problem};
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::{Measured, Outcome, Reference, Sampling, work_precision};
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("8")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let times = Sampling { points: 40, seed: 1 }.times(0.0, 8.0);
-/// let reference = Reference::new(&problem, &times).unwrap();
-/// let measured = |kind, seconds| Outcome {
-///     step: (kind, None),
-///     result: Ok(Measured { kind, error: 1e-16, bound: None, preparation: 0.0, seconds }),
-/// };
-/// let outcomes = [measured(Kind::Compiled, 1e-9), measured(Kind::Certified, 1e-6)];
-/// let (chart, table) =
-///     work_precision("Values", &outcomes, &reference, Caption::default()).unwrap();
-/// assert_eq!(chart.methods()[0].name, "compiled");
-/// // Nothing was prepared.
-/// assert_eq!(chart.methods()[0].points[0].prepared, Some(1e-9));
-/// // A thousand times as fast as certified values.
-/// assert!((table.rows[0].speed_up.unwrap() - 1000.0).abs() < 1e-9);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn work_precision(
     title: &str,
     outcomes: &[Outcome],

@@ -4,7 +4,7 @@ use crate::study::curves::{DOUBLES, curve};
 use crate::study::harness::errors;
 use crate::study::reference::Reference;
 use wavestep::answer::Problem;
-use wavestep::evaluate::{Root, Search};
+use wavestep::evaluate::{ClosedSignal, Root, Search};
 use wavestep_draw::{Axis, Caption, Curves, PlotError};
 use wavestep_polynomial::Rational;
 
@@ -19,27 +19,10 @@ const LIMIT_BITS: u64 = 1 << 13;
 
 /// Certified simple roots in the window of a problem, rounded to doubles: at most so many, from all over
 /// the window. None where there are none, or they cannot be told.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep_studies::study::simple_roots;
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("3")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// // On the second period f = e^{−s} (1 + e^{−2} − 2s), with s = t − 2.
-/// let [root] = simple_roots(&problem, 10)[..] else { panic!("one root") };
-/// assert!((root - 2.5 - (-2f64).exp() / 2.0).abs() < 1e-15);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn simple_roots(problem: &Problem<'_>, most: usize) -> Vec<f64> {
     let window = [&problem.from, &problem.to];
-    let roots = Search::of_signal(problem.signal, window)
-        .and_then(|search| search.roots(&Rational::default(), DIGITS, LIMIT_BITS));
+    let roots = ClosedSignal::of_form(problem.signal.clone(), window)
+        .and_then(|signal| Search::new(&signal)?.roots(&Rational::default(), DIGITS, LIMIT_BITS));
     let Ok(roots) = roots else { return Vec::new() };
     let simple = roots.all.iter().filter_map(|root| match root {
         Root::Simple { time, .. } => Some(time.to_double()),
@@ -56,30 +39,6 @@ pub fn simple_roots(problem: &Problem<'_>, most: usize) -> Vec<f64> {
 ///
 /// # Errors
 /// [`PlotError`], where there is no root or no method has values.
-///
-/// ```
-/// use wavestep::answer::Problem;
-/// use wavestep_draw::Caption;
-/// use wavestep_studies::study::near_zeros;
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("20")?);
-/// # let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-/// let chart = near_zeros(&problem, 10, Caption::default()).unwrap();
-/// let points = |name: &str| {
-///     let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
-///     curve.points.clone()
-/// };
-/// // All distances are there. The error of `compiled` is absolute: next to a zero few digits are left.
-/// let compiled = points("compiled");
-/// assert_eq!(compiled.len(), 12);
-/// assert!(compiled[0].1 < 1e-13 && compiled[11].1 > 1e-7);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn near_zeros(
     problem: &Problem<'_>,
     most: usize,

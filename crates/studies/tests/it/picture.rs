@@ -1,11 +1,11 @@
 //! Lines that are drawn go through the values.
 
-use wavestep::evaluate::{Limit, Value};
-use wavestep::history::History;
+use wavestep::evaluate::{Limit, Value, value};
+use wavestep::history::FollowedSignal;
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
-use wavestep_studies::picture::sampled_search;
+use wavestep_studies::picture::sampled;
 
 fn shipped(name: &str, values: &[(&str, &str)]) -> Network {
     let number = |(name, value): &(&str, &str)| ((*name).to_owned(), parse_number(value).unwrap());
@@ -32,18 +32,15 @@ fn lines_go_through_values() {
     ] {
         let network = shipped(name, values);
         let window = [rational(0, 1), rational(5, 1)];
-        let search = History::search(&network, observable, [&window[0], &window[1]]).unwrap();
-        let line = sampled_search(&search).unwrap();
+        let signal = FollowedSignal::new(&network, observable, [&window[0], &window[1]]).unwrap();
+        let line = sampled(&signal).unwrap();
         let points = line.points.iter().filter(|(time, _)| time.is_finite());
-        for (time, value) in points.step_by(7) {
+        for (time, drawn) in points.step_by(7) {
             let at = Rational::from_float(*time).unwrap();
-            let known = [Limit::Left, Limit::Right].map(|side| {
-                let values =
-                    History::values(&network, observable, std::slice::from_ref(&at), side, 9);
-                double(&values.unwrap()[0])
-            });
-            let off = known.map(|known| (known - value).abs());
-            assert!(off[0].min(off[1]) < 1e-9, "{name} {observable} at {time}: {value} {known:?}");
+            let known = [Limit::Left, Limit::Right]
+                .map(|side| double(&value(&signal, &at, side, 9, 1 << 12).unwrap()));
+            let off = known.map(|known| (known - drawn).abs());
+            assert!(off[0].min(off[1]) < 1e-9, "{name} {observable} at {time}: {drawn} {known:?}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The harness of the charts, measured itself: a known error in is a known error out.
 
 use wavestep::answer::{Kind, Problem};
-use wavestep::evaluate::{Evaluator, Signal, StablePrecision};
+use wavestep::evaluate::{ClosedForm, ClosedSignal, StablePrecision};
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::solution::Solution;
 use wavestep_draw::Caption;
@@ -16,10 +16,10 @@ fn with_problem(work: impl FnOnce(&Problem<'_>)) {
     let source = Source::new("rigid-mass", text).unwrap();
     let solution = Solution::new(read_recurrence(&source, &values).unwrap());
     let f = solution.recurrence().observation("f").unwrap();
-    let signal = Signal::of_recurrence(solution.recurrence(), &f).unwrap();
-    let evaluator = Evaluator::new(&solution).unwrap();
-    let recognise = |at: &_, side| evaluator.rational(&f, at, side);
+    let signal = ClosedForm::of_recurrence(solution.recurrence(), &f).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number("12").unwrap());
+    let exact = ClosedSignal::of_recurrence(&solution, &f, [&from, &to]).unwrap();
+    let recognise = |at: &_, side| exact.rational(at, side);
     work(&Problem { signal: &signal, scene: None, recognise: &recognise, from, to });
 }
 
@@ -97,7 +97,7 @@ fn orders_of_loss_are_the_first_ones() {
     let source = Source::new("rigid-mass", text).unwrap();
     let recurrence = read_recurrence(&source, &values).unwrap();
     let f = recurrence.observation("f").unwrap();
-    let signal = Signal::of_recurrence(&recurrence, &f).unwrap();
+    let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number("8").unwrap());
     let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
     let all: Vec<usize> = (1..=60).collect();
@@ -122,7 +122,7 @@ fn refused_periods_leave_the_others() {
     let recurrence = read_recurrence(&Source::new("two poles", text).unwrap(), &Default::default());
     let recurrence = recurrence.unwrap();
     let f = recurrence.observation("f").unwrap();
-    let signal = Signal::of_recurrence(&recurrence, &f).unwrap();
+    let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number("8").unwrap());
     let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
     // With two poles `expanded` sums 300 echoes at most, and `stable` none.

@@ -8,7 +8,7 @@ use num_traits::{One as _, Signed as _};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use wavestep::ball::{Ball, Decimal};
-use wavestep::evaluate::{EvaluateError, Goal, Root, Search};
+use wavestep::evaluate::{ClosedSignal, EvaluateError, Goal, Root, Search};
 use wavestep::language::parse_number;
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
@@ -107,8 +107,9 @@ fn largest_strain(mass: &Rational) -> Result<Ball, Refusal> {
     let mut end = &mu * Rational::from_integer(4.into()) + Rational::from_integer(2.into());
     let start = Rational::new(1.into(), 1024.into());
     let opening = loop {
-        let search = Search::of_recurrence(&solution, &impact, [&start, &end]);
-        let search = search.map_err(|error| refused(&error))?;
+        let signal = ClosedSignal::of_recurrence(&solution, &impact, [&start, &end]);
+        let signal = signal.map_err(|error| refused(&error))?;
+        let search = Search::new(&signal).map_err(|error| refused(&error))?;
         let roots = search.roots(&Rational::default(), 20, 1 << 12).map_err(|e| refused(&e))?;
         let simple = roots.all.iter().find_map(|root| match root {
             Root::Simple { time, .. } => Some(time.to_text(15)),
@@ -120,8 +121,9 @@ fn largest_strain(mass: &Rational) -> Result<Ball, Refusal> {
         end *= Rational::from_integer(2.into());
     };
     let last = &opening + &mu;
-    let search = Search::of_recurrence(&solution, &fixed, [&mu, &last]);
-    let search = search.map_err(|error| refused(&error))?;
+    let signal = ClosedSignal::of_recurrence(&solution, &fixed, [&mu, &last]);
+    let signal = signal.map_err(|error| refused(&error))?;
+    let search = Search::new(&signal).map_err(|error| refused(&error))?;
     let smallest = search.enclose_extremum(Goal::Smallest, BITS).map_err(|e| refused(&e))?;
     Ok(smallest.multiply_rational(&Rational::from_integer((-1).into()), BITS))
 }

@@ -1,21 +1,18 @@
-//! The value of a wave or an observable at a time, certified.
+//! Exact forms of waves and observables of a recurrence at rational times.
 
-use crate::ball::{Ball, Value};
 use crate::enclosure::enclose_expression;
-use crate::evaluate::contribution::{Amount, Contribution, Parts, enclose, rational_value};
+use crate::evaluate::closed::contribution::{Amount, Contribution, Parts, enclose, rational_value};
 use crate::evaluate::error::EvaluateError;
+use crate::evaluate::signal::{Limit, Point};
 use crate::expression::{EchoSum, Expression};
-use crate::recurrence::{Observation, WaveIndex};
+use crate::recurrence::{Observation, Recurrence, WaveIndex};
 use crate::solution::{EchoRow, GeneralForm, Solution};
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::ops::Deref;
 use std::rc::Rc;
-pub use wavestep_kernels::fixed::Limit;
 use wavestep_polynomial::{Rational, Symbol, Univariate};
-
-/// The most significant digits that are certified.
-pub const MAX_DIGITS: usize = 10_000;
 
 /// The most periods before a time, where echoes have a closed form.
 pub const MAX_ORDER: usize = 2_000;
@@ -35,91 +32,87 @@ enum Echoes {
 /// The parts of an echo: rates with polynomials.
 type Row = Vec<(Rational, Rc<Univariate>)>;
 
-/// Evaluates waves and observables of a solution in which every symbol has a value.
-pub struct Evaluator<'a> {
-    solution: &'a Solution,
+/// A solution, lent or kept.
+enum Held<'a> {
+    Lent(&'a Solution),
+    Own(Box<Solution>),
+}
+
+impl Deref for Held<'_> {
+    type Target = Solution;
+
+    fn deref(&self) -> &Solution {
+        match self {
+            Held::Lent(solution) => solution,
+            Held::Own(solution) => solution,
+        }
+    }
+}
+
+/// The echoes of a solution in which every symbol has a value, exactly.
+pub(super) struct ExactEchoes<'a> {
+    solution: Held<'a>,
     period: Rational,
     /// The echoes of waves asked for, with the order they are known to.
     echoes: RefCell<BTreeMap<WaveIndex, (usize, Rc<Echoes>)>>,
 }
 
-impl<'a> Evaluator<'a> {
-    /// An evaluator of `solution`.
+impl<'a> ExactEchoes<'a> {
+    /// Of a solution that is lent.
     ///
     /// # Errors
     /// [`EvaluateError::MissingValue`] where a symbol is left.
+    pub fn lent(solution: &'a Solution) -> Result<ExactEchoes<'a>, EvaluateError> {
+        ExactEchoes::new(Held::Lent(solution))
+    }
+
+    /// Of a solution that nobody else needs.
     ///
-    /// ```
-    /// use wavestep::{evaluate::Evaluator, language, solution::Solution};
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let source = language::Source::new("rigid-mass", text)?;
-    /// let solution = Solution::new(language::read_recurrence(&source, &Default::default())?);
-    /// let error = Evaluator::new(&solution).err().unwrap();
-    /// assert_eq!(error.to_string(), "the symbol mu has no value");
-    /// # Ok::<(), language::Diagnostic>(())
-    /// ```
-    pub fn new(solution: &'a Solution) -> Result<Evaluator<'a>, EvaluateError> {
+    /// # Errors
+    /// As [`ExactEchoes::lent`].
+    pub fn own(solution: Solution) -> Result<ExactEchoes<'static>, EvaluateError> {
+        ExactEchoes::new(Held::Own(Box::new(solution)))
+    }
+
+    fn new(solution: Held<'a>) -> Result<ExactEchoes<'a>, EvaluateError> {
         let recurrence = solution.recurrence();
         if let Some(symbol) = recurrence.symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
         let period = recurrence.statement().period.as_constant();
         let period = period.expect("a period without symbols is a number");
-        Ok(Evaluator { solution, period, echoes: RefCell::new(BTreeMap::new()) })
+        Ok(ExactEchoes { solution, period, echoes: RefCell::new(BTreeMap::new()) })
     }
 
-    /// The length of a period.
-    pub fn period(&self) -> &Rational {
-        &self.period
+    /// The recurrence that is solved.
+    pub fn recurrence(&self) -> &Recurrence {
+        self.solution.recurrence()
     }
 
-    /// The value of `observation` at scene time `at`, zero before time 0: exactly where it is
-    /// rational, else correctly rounded to `digits` significant digits, with at most `limit_bits`
-    /// bits of working precision.
+    /// The value of `observation` at scene time `at`, zero before time 0. Whether it is rational is
+    /// decided.
     ///
     /// # Errors
-    /// [`EvaluateError`], with the reached radius where the precision allowed does not do.
-    ///
-    /// # Panics
-    /// Where `digits` is zero.
+    /// [`EvaluateError::TooManyPeriods`], and where an echo cannot be given exactly.
     ///
     /// # Cost
     /// O(n²) operations of the working precision for a time after n periods.
-    pub fn value(
+    pub fn point(
         &self,
         observation: &Observation,
         at: &Rational,
         side: Limit,
-        digits: usize,
-        limit_bits: u64,
-    ) -> Result<Value, EvaluateError> {
+    ) -> Result<Point<'static>, EvaluateError> {
         let parts = self.parts(observation, at, side)?;
         if !parts.algebraic.is_zero() {
-            return algebraic_value(&parts.into_expression(), digits, limit_bits);
+            return algebraic(parts.into_expression());
         }
-        if let Some(value) = rational_value(&parts.rational) {
-            return Ok(Value::Exact(value));
-        }
-        let enclosure = |bits| enclose(&parts.rational, bits).map_err(EvaluateError::Ball);
-        certified(digits, limit_bits, enclosure)
-    }
-
-    /// The value where it is a rational number, decided exactly.
-    ///
-    /// # Errors
-    /// As [`Evaluator::value`].
-    pub fn rational(
-        &self,
-        observation: &Observation,
-        at: &Rational,
-        side: Limit,
-    ) -> Result<Option<Rational>, EvaluateError> {
-        let parts = self.parts(observation, at, side)?;
-        match parts.algebraic.is_zero() {
-            true => Ok(rational_value(&parts.rational)),
-            false => Ok(parts.into_expression().as_constant()),
-        }
+        Ok(match rational_value(&parts.rational) {
+            Some(value) => Point::exact(value),
+            None => Point::irrational(move |bits| {
+                enclose(&parts.rational, bits).map_err(EvaluateError::Ball)
+            }),
+        })
     }
 
     fn parts(
@@ -259,40 +252,22 @@ fn add_row(row: &Row, slope: bool, x: Rational, contributions: &mut Vec<Contribu
     }
 }
 
-/// The digits of a number that is not rational.
-pub(crate) fn certified(
-    digits: usize,
-    limit_bits: u64,
-    enclosure: impl FnMut(u64) -> Result<Ball, EvaluateError>,
-) -> Result<Value, EvaluateError> {
-    match Value::certify(digits, limit_bits, enclosure)? {
-        Value::Enclosed(best) => {
-            Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits: limit_bits })
-        }
-        value => Ok(value),
-    }
-}
-
-/// The value of an expression without symbols but square roots.
+/// A sum that holds square roots, at one time.
 ///
 /// By the theorem of Lindemann and Weierstrass, in algebraic exponents and coefficients, it is a
 /// rational number exactly when it is one as an expression; and it is real exactly when it is its
 /// own conjugate, since the conjugates of different exponents are different.
-fn algebraic_value(
-    sum: &Expression,
-    digits: usize,
-    limit_bits: u64,
-) -> Result<Value, EvaluateError> {
+fn algebraic(sum: Expression) -> Result<Point<'static>, EvaluateError> {
     if let Some(value) = sum.as_constant() {
-        return Ok(Value::Exact(value));
+        return Ok(Point::exact(value));
     }
     let i = Symbol::square_root(-1).expect("the imaginary unit");
-    if sum.conjugate(&i) != *sum {
+    if sum.conjugate(&i) != sum {
         return Err(EvaluateError::NotReal);
     }
-    certified(digits, limit_bits, |bits| {
-        let value = enclose_expression(sum, &|_, _| None, bits)?;
+    Ok(Point::irrational(move |bits| {
+        let value = enclose_expression(&sum, &|_, _| None, bits)?;
         debug_assert!(value.imaginary().contains(&Rational::default()));
         Ok(value.real().clone())
-    })
+    }))
 }

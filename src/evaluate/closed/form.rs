@@ -6,16 +6,11 @@
 //! roots and largest values are made from. [`stretch`] tells where it is smooth, [`values`] what it is
 //! there.
 
-mod stretch;
-mod values;
-
-pub use stretch::Stretch;
-
 use crate::enclosure::Numbers;
 use crate::evaluate::cells::first_double;
+use crate::evaluate::closed::periods::Periods;
+use crate::evaluate::closed::scene::{Echoes, SceneEchoes, solve_in, whole_periods};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::periods::Periods;
-use crate::evaluate::scene::{Echoes, SceneEvaluator, solve_in, whole_periods};
 use crate::expression::{Fraction, Root};
 use crate::network::{Network, Observed, ObservedValue, Unfolded};
 use crate::recurrence::{Observation, Recurrence};
@@ -26,25 +21,10 @@ use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// The most periods whose pieces are held: their coefficients grow with the square of that.
-///
-/// ```
-/// use wavestep::evaluate::{EvaluateError, MAX_PIECES, Signal};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1/2")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let late = parse_number(&format!("{MAX_PIECES} + 2"))?;
-/// let stretches = signal.stretches(&(&late - parse_number("1/2")?), &late).unwrap();
-/// let refused = signal.enclose(&stretches[0], 0, stretches[0].from(), 64);
-/// assert!(matches!(refused, Err(EvaluateError::TooManyEchoes { limit: MAX_PIECES, .. })));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub const MAX_PIECES: usize = 2_000;
 
 /// The most stretches between arrivals of one window.
-const MAX_STRETCHES: usize = 200_000;
+pub(super) const MAX_STRETCHES: usize = 200_000;
 
 /// The most periods that are counted.
 const MAX_ORDER: usize = 1_000_000_000;
@@ -54,94 +34,42 @@ const MAX_PRECISIONS: usize = 3;
 
 /// An observable with numbers in place of all symbols, as a function of the user's time.
 ///
-/// ```
-/// use wavestep::evaluate::{Limit, Signal};
-/// use wavestep::expression::Fraction;
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// assert_eq!(signal.recurrence().statement().period.to_string(), "2");
-/// assert_eq!(signal.observation().waves.len(), 1);
-/// assert!(signal.is_on_grid() && *signal.slowness() == Fraction::one());
-/// assert_eq!(signal.period(), Some(2.0));
-///
-/// let (from, to) = (parse_number("0")?, parse_number("6")?);
-/// assert_eq!(signal.arrivals(&from, &to).unwrap(), [2.0, 4.0, 6.0]);
-/// assert_eq!(signal.order(&to), Ok(3));
-/// // One stretch for each arrival, the one at 0 included.
-/// let stretches = signal.stretches(&from, &to).unwrap();
-/// assert_eq!(stretches.len(), 4);
-/// let two = parse_number("2")?;
-/// assert_eq!(signal.stretch_at(&stretches, &two, Limit::Left), Ok(0));
-/// assert_eq!(signal.stretch_at(&stretches, &two, Limit::Right), Ok(1));
-/// // On the first one f = e^{−t}, whose derivative is −f; at 2 it rises by 1.
-/// let at = |stretch: usize, derivative, t: &str| {
-///     let time = signal.slowness().scale(&parse_number(t).unwrap());
-///     signal.enclose(&stretches[stretch], derivative, &time, 128).unwrap()
-/// };
-/// assert_eq!(at(0, 0, "1").rounded(), Some(0.36787944117144233));
-/// assert_eq!(at(0, 1, "1").rounded(), Some(-0.36787944117144233));
-/// assert!(at(1, 0, "2").subtract(&at(0, 0, "2"), 128).contains(&parse_number("1")?));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-///
 /// The observables of a scene are signals too:
 ///
-/// ```
-/// use wavestep::evaluate::Signal;
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("6")?);
-/// let signal = |place: usize| Signal::of_scene(&network, &network.observables()[place], &to);
-/// // The front reaches the far end at 1, and again every 2.
-/// assert_eq!(signal(2).unwrap().arrivals(&from, &to).unwrap(), [1.0, 3.0, 5.0]);
-/// let error = signal(4).err().unwrap();
-/// assert!(error.to_string().contains("energy"), "{error}");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-///
 /// A clone begins with nothing computed.
-pub struct Signal {
-    recurrence: Recurrence,
-    observation: Observation,
+pub struct ClosedForm {
+    pub(super) recurrence: Recurrence,
+    pub(super) observation: Observation,
     /// What 1 in the scale of the waves is.
-    unit: Root,
+    pub(super) unit: Root,
     /// Time in the scale of the waves for one unit of the user's.
-    slowness: Fraction,
-    numbers: Rc<Numbers>,
+    pub(super) slowness: Fraction,
+    pub(super) numbers: Rc<Numbers>,
     /// The echoes, where arrivals lie on no grid.
-    lattice: Option<Scattered>,
+    pub(super) lattice: Option<Scattered>,
     /// The waves, by bits.
     solved: RefCell<BTreeMap<u64, Rc<RefCell<Solved>>>>,
 }
 
 /// Echoes on a lattice of several periods.
 #[derive(Clone)]
-struct Scattered {
-    unfolded: Unfolded,
+pub(super) struct Scattered {
+    pub(super) unfolded: Unfolded,
     /// By number, with their delays.
-    arrivals: Vec<(usize, Fraction)>,
+    pub(super) arrivals: Vec<(usize, Fraction)>,
     /// Until when they are known.
-    last: Fraction,
+    pub(super) last: Fraction,
 }
 
 /// The waves, in balls.
-enum Solved {
+pub(super) enum Solved {
     Periods(Box<Periods>),
     Echoes(Rc<Echoes>),
 }
 
-impl Clone for Signal {
-    fn clone(&self) -> Signal {
-        Signal {
+impl Clone for ClosedForm {
+    fn clone(&self) -> ClosedForm {
+        ClosedForm {
             recurrence: self.recurrence.clone(),
             observation: self.observation.clone(),
             unit: self.unit.clone(),
@@ -153,7 +81,7 @@ impl Clone for Signal {
     }
 }
 
-impl Signal {
+impl ClosedForm {
     /// A wave or observable of a recurrence without symbols.
     ///
     /// # Errors
@@ -161,8 +89,8 @@ impl Signal {
     pub fn of_recurrence(
         recurrence: &Recurrence,
         observation: &Observation,
-    ) -> Result<Signal, EvaluateError> {
-        Signal::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
+    ) -> Result<ClosedForm, EvaluateError> {
+        ClosedForm::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
     }
 
     /// An observable of a scene, for times up to `last`; on a grid this may be any.
@@ -174,20 +102,20 @@ impl Signal {
         network: &Network,
         observed: &Observed,
         last: &Rational,
-    ) -> Result<Signal, EvaluateError> {
+    ) -> Result<ClosedForm, EvaluateError> {
         let ObservedValue::Linear(observation) = &observed.value else {
             return Err(EvaluateError::NotLinear(observed.name.clone()));
         };
         let (unit, slowness) = (observed.unit.clone(), network.model().slowness.clone());
         if network.lattice().periods().len() == 1 {
             let recurrence = network.recurrence()?;
-            return Signal::on_grid(&recurrence, observation, unit, slowness);
+            return ClosedForm::on_grid(&recurrence, observation, unit, slowness);
         }
         let last = slowness.scale(last);
-        let evaluator = SceneEvaluator::new(network, &last)?;
+        let evaluator = SceneEchoes::new(network, &last)?;
         let (unfolded, arrivals) = evaluator.into_parts();
-        let signal = Signal::on_grid(unfolded.recurrence(), observation, unit, slowness)?;
-        Ok(Signal { lattice: Some(Scattered { unfolded, arrivals, last }), ..signal })
+        let signal = ClosedForm::on_grid(unfolded.recurrence(), observation, unit, slowness)?;
+        Ok(ClosedForm { lattice: Some(Scattered { unfolded, arrivals, last }), ..signal })
     }
 
     fn on_grid(
@@ -195,11 +123,11 @@ impl Signal {
         observation: &Observation,
         unit: Root,
         slowness: Fraction,
-    ) -> Result<Signal, EvaluateError> {
+    ) -> Result<ClosedForm, EvaluateError> {
         if let Some(symbol) = recurrence.symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
-        Ok(Signal {
+        Ok(ClosedForm {
             numbers: Rc::new(Numbers::new(recurrence.constants())),
             recurrence: recurrence.clone(),
             observation: observation.clone(),
@@ -246,7 +174,7 @@ impl Signal {
     /// The smallest doubles that are not before the arrivals within a window, its ends apart.
     ///
     /// # Errors
-    /// As [`Signal::stretches`].
+    /// As [`ClosedForm::stretches`].
     pub fn arrivals(&self, from: &Rational, to: &Rational) -> Result<Vec<f64>, EvaluateError> {
         let stretches = self.stretches(from, to)?;
         stretches.iter().skip(1).map(|stretch| first_double(self, &stretch.from)).collect()
@@ -285,7 +213,7 @@ impl Signal {
         }
     }
 
-    fn solved(&self, bits: u64) -> Result<Rc<RefCell<Solved>>, EvaluateError> {
+    pub(super) fn solved(&self, bits: u64) -> Result<Rc<RefCell<Solved>>, EvaluateError> {
         if let Some(known) = self.solved.borrow().get(&bits) {
             return Ok(known.clone());
         }

@@ -1,9 +1,10 @@
-//! What a search needs to know of a function of time.
+//! A real function of time, cut at its breaks: what every consumer asks.
 
 use crate::ball::{Ball, Magnitude};
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
 use crate::evaluate::taylor::Taylor;
+pub use wavestep_kernels::fixed::Limit;
 use wavestep_polynomial::Rational;
 
 /// Where in a stretch.
@@ -15,6 +16,54 @@ pub enum At<'a> {
     End(Limit),
 }
 
+/// What is known of a value without enclosures.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Known {
+    /// It is this number.
+    Rational(Rational),
+    /// It is no rational number.
+    Irrational,
+    /// Exact arithmetic has not told.
+    Unknown,
+}
+
+/// `f(bits)`: an enclosure with about so many bits.
+pub(crate) type Enclosure<'a> = Box<dyn Fn(u64) -> Result<Ball, EvaluateError> + 'a>;
+
+/// One limit of a signal at one time, prepared for enclosures.
+pub struct Point<'a> {
+    pub(crate) known: Known,
+    pub(crate) enclose: Enclosure<'a>,
+    /// What exact arithmetic tells at a high cost, where a first look left it open.
+    pub(crate) decide: Box<dyn Fn() -> Known + 'a>,
+    /// A value below this is suspected to be zero.
+    pub(crate) negligible: Magnitude,
+    /// More bits than these tell no more, unless the digits themselves need them.
+    pub(crate) most_bits: u64,
+}
+
+impl<'a> Point<'a> {
+    /// A rational value.
+    pub(crate) fn exact(value: Rational) -> Point<'a> {
+        let ball = value.clone();
+        let enclose = move |bits| Ok(Ball::from_rational(&ball, bits));
+        Point { known: Known::Rational(value), ..Point::irrational(enclose) }
+    }
+
+    /// A value that is no rational number.
+    pub(crate) fn irrational(
+        enclose: impl Fn(u64) -> Result<Ball, EvaluateError> + 'a,
+    ) -> Point<'a> {
+        Point {
+            known: Known::Irrational,
+            enclose: Box::new(enclose),
+            decide: Box::new(|| Known::Unknown),
+            negligible: Magnitude::ZERO,
+            most_bits: u64::MAX,
+        }
+    }
+}
+
 /// A real function of the user's time on a window, cut into stretches, on each of which it is analytic.
 ///
 /// # Invariants
@@ -22,9 +71,21 @@ pub enum At<'a> {
 ///   the end of the window where the function jumps.
 /// - The function of a stretch goes on analytically a little beyond its ends, and enclosures hold there.
 /// - Enclosures hold for every precision in bits; with more bits they are narrower, until a limit.
-pub trait Piecewise {
-    /// How many stretches there are.
-    fn count(&self) -> usize;
+pub trait Signal {
+    /// The first time and the last.
+    fn window(&self) -> [&Rational; 2];
+
+    /// One limit at a time of the window, zero before time 0.
+    fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError>;
+
+    /// The waves that it is seen in, where these are known in closed form: what methods for doubles
+    /// that sum echoes or march from period to period need.
+    fn closed_form(&self) -> Option<&ClosedForm> {
+        None
+    }
+
+    /// How many stretches there are, with numbers from 0 on; to tell that, all breaks are found.
+    fn count(&self) -> Result<usize, EvaluateError>;
 
     /// Whether a stretch is the last instant of the window alone.
     fn is_instant(&self, stretch: usize) -> bool;

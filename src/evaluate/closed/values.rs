@@ -1,7 +1,7 @@
 //! What a signal is on a stretch: values, derivatives and Taylor polynomials in balls.
 
+use super::form::{ClosedForm, MAX_PIECES, Solved};
 use super::stretch::{Part, Stretch};
-use super::{MAX_PIECES, Signal, Solved};
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::real_part;
 use crate::evaluate::error::EvaluateError;
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
-impl Signal {
+impl ClosedForm {
     /// The function of a part, in the time since its origin.
     fn function(
         &self,
@@ -95,25 +95,6 @@ impl Signal {
     ///
     /// # Errors
     /// [`EvaluateError`] where a constant cannot be enclosed.
-    ///
-    /// ```
-    /// use wavestep::evaluate::Signal;
-    /// use wavestep::language::{Source, parse_number, read_recurrence};
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
-    /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-    /// let f = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-    /// let stretches = f.stretches(&parse_number("0")?, &parse_number("6")?).unwrap();
-    /// // A front arrives at 2.
-    /// let at = stretches[1].from();
-    /// let before = f.enclose(&stretches[0], 0, at, 80).unwrap();
-    /// let after = f.enclose(&stretches[1], 0, at, 80).unwrap();
-    /// // It rises by 1, from exp(-2).
-    /// assert!(before.to_string().starts_with("0.13533528323661269189"));
-    /// assert!(after.subtract(&before, 80).contains(&parse_number("1")?));
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn enclose(
         &self,
         stretch: &Stretch,

@@ -2,8 +2,9 @@
 //! square roots, as an expression.
 
 use crate::ball::{Ball, BallError, evaluate_divided, exp_of_rational};
+use crate::evaluate::closed::modular;
+use crate::evaluate::closed::modular::Residue;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::modular::{self, Residue};
 use crate::expression::{Expression, Fraction};
 use num_traits::Zero;
 use std::collections::BTreeMap;

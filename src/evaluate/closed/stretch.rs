@@ -1,10 +1,10 @@
 //! Stretches between arrivals, on each of which a signal is one exponential polynomial.
 
-use super::{MAX_STRETCHES, Signal};
+use super::form::{ClosedForm, MAX_STRETCHES};
 use crate::enclosure::{EnclosureError, Numbers};
+use crate::evaluate::closed::scene::{MAX_ECHOES, whole_periods};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::scene::{MAX_ECHOES, whole_periods};
+use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -21,27 +21,6 @@ pub(super) struct Part {
 }
 
 /// A time between arrivals, on which a signal is one exponential polynomial.
-///
-/// ```
-/// # use wavestep::evaluate::Signal;
-/// # use wavestep::language::{Source, parse_number, read_recurrence};
-/// # let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// # let signal = Signal::of_recurrence(&recurrence, &recurrence.observation("strain_fixed").unwrap()).unwrap();
-/// # let (from, to) = (parse_number("0")?, parse_number("6")?);
-/// let stretches = signal.stretches(&from, &to).unwrap();
-/// // The far end is at rest until the front is there, at 1.
-/// assert!(stretches[0].from().is_zero() && stretches[0].to().to_string() == "1");
-/// let silent: Vec<bool> = stretches.iter().map(|stretch| stretch.from().is_zero()).collect();
-/// assert_eq!(silent, [true, false, false, false]);
-/// // Each begins where the one before it ends.
-/// assert!(stretches.windows(2).all(|pair| pair[0].to() == pair[1].from()));
-/// // Time has begun on all of them; before 0 there is nothing.
-/// let before = signal.stretches(&parse_number("-1")?, &to).unwrap();
-/// assert!(before[0].is_silent() && !stretches[0].is_silent());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct Stretch {
     /// Its first time, in the scale of the waves.
@@ -56,7 +35,7 @@ pub struct Stretch {
 /// An arrival: which of the waves seen, the number of the piece or echo, and when.
 type Break = (Option<usize>, usize, Fraction);
 
-impl Signal {
+impl ClosedForm {
     /// The arrivals after `from`, up to `to`, ascending, and those that are there at `from`.
     fn breaks(
         &self,
@@ -154,22 +133,6 @@ impl Signal {
     ///
     /// # Errors
     /// [`EvaluateError`] where two times cannot be told apart.
-    ///
-    /// ```
-    /// use wavestep::evaluate::{Limit, Signal};
-    /// use wavestep::language::{Source, parse_number, read_recurrence};
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let values = [("mu".to_owned(), parse_number("1")?)].into();
-    /// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-    /// let f = Signal::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-    /// let stretches = f.stretches(&parse_number("0")?, &parse_number("6")?).unwrap();
-    /// // A front arrives at 2.
-    /// let at = parse_number("2")?;
-    /// let sides = [Limit::Left, Limit::Right].map(|side| f.stretch_at(&stretches, &at, side).unwrap());
-    /// assert_eq!(sides, [0, 1]);
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn stretch_at(
         &self,
         stretches: &[Stretch],

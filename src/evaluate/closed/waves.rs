@@ -5,10 +5,10 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
+use crate::evaluate::closed::scene::whole_periods;
+use crate::evaluate::closed::{ClosedForm, MAX_PIECES};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::scene::whole_periods;
-use crate::evaluate::signal::{MAX_PIECES, Signal};
+use crate::evaluate::signal::Limit;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Expression, Field as _, Fraction, Root};
 use crate::network::{Network, Observed, ObservedValue};
@@ -23,7 +23,7 @@ use wavestep_polynomial::Rational;
 /// - where there are several periods, `echoes` ascends by delay.
 pub(crate) struct Waves {
     /// Sees all of the waves at once.
-    signal: Signal,
+    signal: ClosedForm,
     places: Vec<WaveIndex>,
     period: Fraction,
     /// On a lattice: delays and numbers of echoes.
@@ -51,7 +51,7 @@ impl Waves {
             unit: Root::from(Fraction::one()),
             dimension: Dimension::NONE,
         };
-        let signal = Signal::of_scene(network, &observed, last)?;
+        let signal = ClosedForm::of_scene(network, &observed, last)?;
         let period = signal.recurrence().statement().period.clone();
         let echoes = match signal.scattered() {
             None => None,

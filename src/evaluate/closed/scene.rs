@@ -4,11 +4,12 @@
 //! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
 //! place that is observed.
 
-use crate::ball::{Attempt, Ball, BallError, Binary, ComplexBall, Magnitude, Precisions, Value};
+use crate::ball::{Ball, BallError, Binary, ComplexBall, Magnitude};
 use crate::enclosure::{Numbers, real_part};
+use crate::evaluate::closed::modular;
+use crate::evaluate::closed::modular::{Modular, Residue};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::{Limit, certified};
-use crate::evaluate::modular::{self, Modular, Residue};
+use crate::evaluate::signal::{Known, Limit, Point};
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
 use crate::network::{Network, Observed, ObservedValue, Unfolded};
@@ -22,21 +23,6 @@ use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// The most echoes of one wave that are worked out.
-///
-/// ```
-/// use wavestep::evaluate::{EvaluateError, MAX_ECHOES, SceneEvaluator};
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("pushed-bar").unwrap().text;
-/// let scene = read_scene(&Source::new("pushed-bar", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // A wave returns every 2.
-/// let late = network.scaled_time(&wavestep::language::parse_number("1e6")?);
-/// let refused = SceneEvaluator::new(&network, &late).err();
-/// assert!(matches!(refused, Some(EvaluateError::TooManyEchoes { limit: MAX_ECHOES, .. })));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub const MAX_ECHOES: usize = 20_000;
 
 /// The precision at which echoes are first worked out.
@@ -45,8 +31,8 @@ const FIRST_BITS: u64 = 128;
 /// A value that is zero but for as many bits is suspected to be zero.
 const SUSPICION_BITS: u64 = 64;
 
-/// A value that so many bits do not round is suspected to be half-way between two decimals.
-const TIE_BITS: u64 = 1 << 12;
+/// With fewer bits than these a divisor that may be zero is no error yet.
+const PATIENT_BITS: u64 = 1 << 12;
 
 /// A radius as a power of two that tells nothing.
 const WIDE: i64 = 1 << 20;
@@ -60,40 +46,7 @@ const MAX_EXACT_ECHOES_NAMED: usize = 100;
 pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
 
 /// Evaluates observables of a scene, up to a last time.
-///
-/// ```
-/// use wavestep::evaluate::{SceneEvaluator, Limit};
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-///
-/// let source = Source::new("hopkinson.wave", r#"
-///     scene "A steel bar strikes another through a specimen"
-///     material steel { modulus = 210 GPa, density = 7850 kg/m^3 }
-///     bar striker { material = steel, diameter = 20 mm, length = 300 mm, velocity = 10 m/s }
-///     spring specimen { stiffness = 40 kN/mm }
-///     bar output { material = steel, diameter = 20 mm }
-///     line free - striker | specimen - output - endless
-///     observe F = force(specimen)
-///     observe E = energy(line)
-/// "#)?;
-/// let network = Network::new(&read_scene(&source, &Default::default()).unwrap()).unwrap();
-/// let at = network.scaled_time(&parse_number("100e-6")?);
-/// let evaluator = SceneEvaluator::new(&network, &at).unwrap();
-/// let value = |i: usize| {
-///     let observed = &network.observables()[i];
-///     evaluator.value(observed, &at, Limit::Right, 9, 1 << 12).unwrap().to_text(9)
-/// };
-/// // In N, and in J: half of 0.74 kg times (10 m/s)², whatever the time.
-/// assert_eq!((value(0).as_str(), value(1).as_str()), ("29714.1576", "36.9922535"));
-/// // Nothing is felt before the strike; an energy is not linear in the waves.
-/// let start = network.scaled_time(&parse_number("0")?);
-/// let rational = |i: usize| evaluator.rational(&network.observables()[i], &start, Limit::Left);
-/// assert_eq!((rational(0), rational(1)), (Ok(Some(parse_number("0")?)), Ok(None)));
-/// // Two echoes of each wave can be there: the first, and one from the far end of the striker.
-/// assert!(evaluator.expanded() <= evaluator.needed());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub struct SceneEvaluator<'a> {
+pub struct SceneEchoes<'a> {
     network: &'a Network,
     unfolded: Unfolded,
     /// When each echo arrives, by number.
@@ -103,13 +56,13 @@ pub struct SceneEvaluator<'a> {
     /// What was asked for before.
     wanted: RefCell<Vec<Observation>>,
     demand: RefCell<Demand>,
-    known: RefCell<Known>,
+    known: RefCell<Solved>,
     expanded: Cell<usize>,
 }
 
 /// Echoes that have been worked out, as far as they are wanted.
 #[derive(Default)]
-struct Known {
+struct Solved {
     /// As enclosures, by bits.
     enclosed: BTreeMap<u64, Rc<Echoes>>,
     /// As residues; `None` within where there are none.
@@ -126,13 +79,13 @@ pub(crate) struct Arrived {
     pub since: Fraction,
 }
 
-impl<'a> SceneEvaluator<'a> {
+impl<'a> SceneEchoes<'a> {
     /// An evaluator for times up to `last`, in the scale of the scene.
     ///
     /// # Errors
     /// [`EvaluateError::MissingValue`] where a symbol is left, [`EvaluateError::TooManyEchoes`]
     /// where more echoes arrive until then than are worked out.
-    pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEvaluator<'a>, EvaluateError> {
+    pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEchoes<'a>, EvaluateError> {
         let numbers = Numbers::new(&network.model().constants);
         let mut symbols = network.model().assumptions.symbols().map(|(symbol, _)| symbol);
         if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
@@ -167,7 +120,7 @@ impl<'a> SceneEvaluator<'a> {
         let delay = |k| (k, unfolded.delay(k).expect("within the bounds"));
         let arrivals = unfolded.numbers().map(delay).collect();
         let demand = RefCell::new(Demand::none(unfolded.recurrence()));
-        Ok(SceneEvaluator {
+        Ok(SceneEchoes {
             network,
             arrivals,
             last: last.clone(),
@@ -205,135 +158,86 @@ impl<'a> SceneEvaluator<'a> {
         self.expanded.get()
     }
 
-    /// The value of an observable in its unit at a time in the scale of the scene, zero before the
-    /// start, correctly rounded to `digits` significant digits.
+    /// An observable in its unit at a time in the scale of the scene, zero before the start.
     ///
     /// # Errors
-    /// [`EvaluateError`], with the reached radius where the precision allowed does not do.
-    ///
-    /// # Panics
-    /// Where `digits` is zero.
+    /// [`EvaluateError::AfterLast`]; where two times cannot be told apart.
     ///
     /// # Cost
     /// That of the echoes that reach the place: for `n` of them in a bar O(n³) operations of the
     /// working precision, once for all times.
-    pub fn value(
+    pub fn point(
         &self,
         observed: &Observed,
         at: &Fraction,
         side: Limit,
-        digits: usize,
-        limit_bits: u64,
-    ) -> Result<Value, EvaluateError> {
+    ) -> Result<Point<'_>, EvaluateError> {
         let numbers = self.numbers();
         if numbers.compare(at, &Fraction::zero())? == Ordering::Less {
-            return Ok(Value::Exact(Rational::zero()));
+            return Ok(Point::exact(Rational::zero()));
         }
         if numbers.compare(at, &self.last)? == Ordering::Greater {
             return Err(EvaluateError::AfterLast);
         }
-        let unit = &observed.unit;
+        let unit = observed.unit.clone();
         let observation = match &observed.value {
             ObservedValue::Linear(observation) => observation,
             ObservedValue::Energy(terms) => {
-                let parts = self.energy_parts(numbers, terms, at, side)?;
+                let parts = Rc::new(self.energy_parts(numbers, terms, at, side)?);
                 if parts.is_empty() {
-                    return Ok(Value::Exact(Rational::zero()));
+                    return Ok(Point::exact(Rational::zero()));
                 }
-                let enclosure = |bits| self.enclose_energy(numbers, &parts, bits);
-                return self.told(
-                    enclosure,
-                    || self.exact_energy(&parts),
-                    unit,
-                    digits,
-                    limit_bits,
-                );
+                let known = Rc::clone(&parts);
+                let enclose = move |bits| self.enclose_energy(self.numbers(), &parts, bits);
+                return self.suspected(unit, enclose, move || self.exact_energy(&known));
             }
         };
         let arrived = self.arrived(numbers, observation, at, side)?;
         let forced = self.forcing(numbers, observation, at, side)?;
         if arrived.is_empty() && forced.is_zero() {
-            return Ok(Value::Exact(Rational::zero()));
+            return Ok(Point::exact(Rational::zero()));
         }
         self.want_until_last(numbers, observation)?;
-        if let Some(value) = self.rational_value(&arrived, &forced, unit) {
-            return Ok(Value::Exact(value));
+        if let Some(value) = self.rational_value(&arrived, &forced, &unit) {
+            return Ok(Point::exact(value));
         }
-        let enclosure = |bits| self.enclose(numbers, &arrived, &forced, bits);
-        self.told(enclosure, || self.exact(&arrived, &forced), unit, digits, limit_bits)
+        let sum = Rc::new((arrived, forced));
+        let known = Rc::clone(&sum);
+        let enclose = move |bits| self.enclose(self.numbers(), &sum.0, &sum.1, bits);
+        self.suspected(unit, enclose, move || self.exact(&known.0, &known.1))
     }
 
-    /// The value of what is linear in the waves where it is zero, or a rational number in a scene of
-    /// rational numbers, decided exactly.
-    ///
-    /// # Errors
-    /// As [`SceneEvaluator::value`].
-    pub fn rational(
-        &self,
-        observed: &Observed,
-        at: &Fraction,
-        side: Limit,
-    ) -> Result<Option<Rational>, EvaluateError> {
-        let ObservedValue::Linear(observation) = &observed.value else { return Ok(None) };
+    /// A value in its unit, of which enclosures and an exact expression in the scale of the scene can be
+    /// had.
+    fn suspected<'b>(
+        &'b self,
+        unit: Root,
+        enclose: impl Fn(u64) -> Result<Ball, EvaluateError> + 'b,
+        exact: impl Fn() -> Option<Expression> + 'b,
+    ) -> Result<Point<'b>, EvaluateError> {
         let numbers = self.numbers();
-        let arrived = self.arrived(numbers, observation, at, side)?;
-        let forced = self.forcing(numbers, observation, at, side)?;
-        if arrived.is_empty() && forced.is_zero() {
-            return Ok(Some(Rational::zero()));
-        }
-        self.want_until_last(numbers, observation)?;
-        if let Some(value) = self.rational_value(&arrived, &forced, &observed.unit) {
-            return Ok(Some(value));
-        }
-        // Terms with irrational rates cancel where a front begins at zero.
-        let enclosure = |bits| patient(self.enclose(numbers, &arrived, &forced, bits), bits);
-        let zero = may_be_zero(enclosure, TIE_BITS)?
-            && self.exact(&arrived, &forced).is_some_and(|sum| sum.is_zero());
-        Ok(zero.then(Rational::zero))
-    }
-
-    /// A value by its enclosures. What may be zero, or half-way between two decimals, is looked at
-    /// exactly.
-    fn told(
-        &self,
-        enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
-        exact: impl Fn() -> Option<Expression>,
-        unit: &Root,
-        digits: usize,
-        limit_bits: u64,
-    ) -> Result<Value, EvaluateError> {
-        let mut limit_bits = limit_bits;
-        let enclosure = |bits| patient(enclosure(bits), bits);
-        if may_be_zero(enclosure, limit_bits)? {
-            match exact() {
-                Some(sum) if sum.is_zero() => return Ok(Value::Exact(Rational::zero())),
-                Some(_) => {}
-                // No precision tells that a value is zero.
-                None => limit_bits = limit_bits.min(TIE_BITS),
-            }
-        }
-        let numbers = self.numbers();
-        let in_unit =
-            |bits| Ok(enclosure(bits)?.multiply(&numbers.enclose_root(unit, bits)?, bits));
-        let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
-        match certified(digits, tie_bits, in_unit) {
-            Err(EvaluateError::AccuracyNotReached { best, .. }) => {
-                if tie_bits == limit_bits
-                    && let Some(value) = Value::near_zero(&best, digits)
-                {
-                    return Ok(value);
-                }
-            }
-            Ok(Value::Certified { decimal, ball }) if ball.is_exact() && decimal.is_zero() => {
-                return Ok(Value::Exact(Rational::zero()));
-            }
-            told => return told,
-        }
-        let unit = unit.exact().and_then(|unit| unit.as_constant());
-        match exact().and_then(|sum| sum.as_constant()).zip(unit) {
-            Some((value, unit)) => Ok(Value::Exact(value * unit)),
-            None => certified(digits, limit_bits, in_unit),
-        }
+        let size = numbers.enclose_root(&unit, SUSPICION_BITS)?.magnitude();
+        let factor = unit.exact().and_then(|unit| unit.as_constant());
+        let decide = move || match (exact(), &factor) {
+            (Some(sum), _) if sum.is_zero() => Known::Rational(Rational::zero()),
+            (Some(sum), Some(factor)) => match sum.as_constant() {
+                Some(value) => Known::Rational(value * factor),
+                None => Known::Irrational,
+            },
+            (Some(_), None) => Known::Irrational,
+            (None, _) => Known::Unknown,
+        };
+        let in_unit = move |bits| {
+            let value = patient(enclose(bits), bits)?;
+            Ok(value.multiply(&numbers.enclose_root(&unit, bits)?, bits))
+        };
+        Ok(Point {
+            known: Known::Unknown,
+            enclose: Box::new(in_unit),
+            decide: Box::new(decide),
+            negligible: size.scale(-(SUSPICION_BITS as i64)),
+            most_bits: u64::MAX,
+        })
     }
 
     /// What is seen of the waves at a time.
@@ -406,7 +310,7 @@ impl<'a> SceneEvaluator<'a> {
             if !demand.wants(wave, number) {
                 let exists = |k| self.unfolded.counts(k).is_some();
                 demand.add_where(self.unfolded.recurrence(), wave, number, exists);
-                *self.known.borrow_mut() = Known::default();
+                *self.known.borrow_mut() = Solved::default();
             }
         }
         Ok(())
@@ -548,28 +452,10 @@ pub(crate) fn solve_in<F: Field>(
     Ok((solver.into_transforms(), expanded))
 }
 
-/// Whether a value is zero to [`SUSPICION_BITS`] bits, with precision raised until that can be told.
-fn may_be_zero(
-    enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
-    limit_bits: u64,
-) -> Result<bool, EvaluateError> {
-    let first = 2 * SUSPICION_BITS;
-    let attempt = |bits| {
-        let ball = enclosure(bits)?;
-        let is_small = ball.radius() <= &Magnitude::power_of_two(-(SUSPICION_BITS as i64));
-        Ok(match ball.contains_zero() {
-            false => Attempt::Done(false),
-            true if is_small => Attempt::Done(true),
-            true => Attempt::NotYet(false),
-        })
-    };
-    Precisions::doubling(first, limit_bits.max(first)).raise(attempt).map(Attempt::best)
-}
-
 /// Treats a division by what may be zero as unbounded, so that callers retry with more bits.
 fn patient(found: Result<Ball, EvaluateError>, bits: u64) -> Result<Ball, EvaluateError> {
     match found {
-        Err(EvaluateError::Ball(BallError::DivisorMayBeZero)) if bits < TIE_BITS => {
+        Err(EvaluateError::Ball(BallError::DivisorMayBeZero)) if bits < PATIENT_BITS => {
             Ok(Ball::new(Binary::zero(), Magnitude::power_of_two(WIDE)))
         }
         found => found,

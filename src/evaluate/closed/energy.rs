@@ -8,9 +8,9 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
+use crate::evaluate::closed::scene::{Arrived, SceneEchoes};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::evaluator::Limit;
-use crate::evaluate::scene::{Arrived, SceneEvaluator};
+use crate::evaluate::signal::Limit;
 use crate::evaluate::transforms::in_divided_powers;
 use crate::expression::{Expression, Field as _, Fraction, Transform};
 use crate::network::{EnergyTerm, Window};
@@ -45,7 +45,7 @@ impl Part {
 /// Coefficients by pole: `Σ_λ e^{λy} Σ_j c_j y^j/j!`.
 type Rows = BTreeMap<Fraction, Vec<ComplexBall>>;
 
-impl SceneEvaluator<'_> {
+impl SceneEchoes<'_> {
     /// The parts of a sum of energies at a time.
     pub(crate) fn energy_parts(
         &self,

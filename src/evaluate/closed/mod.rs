@@ -1,0 +1,26 @@
+//! Signals in closed form: pieces and echoes of a recurrence, on a grid or a lattice of delays.
+//!
+//! Between two arrivals such a signal is one exponential polynomial. [`ClosedForm`] encloses it, on a grid
+//! by one piece of each wave that is seen ([`periods`]), on a lattice by all echoes that have arrived;
+//! `stretch` tells where it is smooth, `values` what it is there. Exact values come from `exact`, where
+//! echoes of a recurrence are rational, and from `scene`, echo by echo; `energy` squares and integrates
+//! them. [`ClosedSignal`] is all of this on a window of time.
+
+mod contribution;
+mod energy;
+mod exact;
+mod form;
+mod modular;
+mod periods;
+mod scene;
+mod signal;
+mod stretch;
+mod values;
+mod waves;
+
+pub use exact::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
+pub use form::{ClosedForm, MAX_PIECES};
+pub use scene::MAX_ECHOES;
+pub use signal::ClosedSignal;
+pub use stretch::Stretch;
+pub(crate) use waves::Waves;

@@ -1,0 +1,459 @@
+//! Waves and observables in closed form on a window of time.
+
+use super::exact::ExactEchoes;
+use super::form::ClosedForm;
+use super::scene::SceneEchoes;
+use super::stretch::Stretch;
+use crate::ball::{Ball, Magnitude, Value};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::signal::{At, Known, Limit, Point, Signal};
+use crate::evaluate::taylor::Taylor;
+use crate::expression::{Field as _, Fraction, Root};
+use crate::network::{Network, Observed, ObservedValue};
+use crate::recurrence::Observation;
+use crate::solution::Solution;
+use std::borrow::Cow;
+use std::cell::OnceCell;
+use wavestep_polynomial::Rational;
+
+/// The precision in bits with which echoes that are zero are left out.
+const FIRST_BITS: u64 = 192;
+
+/// The most bits that an exact value is looked for with.
+const SIGN_BITS: u64 = 1 << 12;
+
+/// Digits of what is only compared with a rational number.
+const FEW_DIGITS: usize = 6;
+
+/// The most exact zeros that are asked for to see whether a function vanishes.
+const MAX_ZEROS: usize = 48;
+
+/// The precision of the scale of time.
+const SCALE_BITS: u64 = 64;
+
+/// A wave or an observable in closed form, on a window of the user's time; every symbol has a value.
+///
+/// It is held twice: as a [`ClosedForm`], which is enclosed in balls, and as what is asked for exact values
+/// where a ball cannot decide because the answer is zero. Either is made when it is first asked for.
+pub struct ClosedSignal<'a> {
+    source: Source<'a>,
+    window: [Rational; 2],
+    form: OnceCell<ClosedForm>,
+    stretches: OnceCell<Vec<Stretch>>,
+}
+
+/// Where exact values come from.
+enum Source<'a> {
+    /// There are none.
+    Nowhere,
+    Recurrence {
+        echoes: Box<ExactEchoes<'a>>,
+        value: Observation,
+    },
+    Scene {
+        network: &'a Network,
+        observed: Box<Observed>,
+        /// Those of its recurrence, where all that is observed has a closed form without units.
+        exact: OnceCell<Option<Box<ExactEchoes<'static>>>>,
+        /// Those until the end of the window.
+        echoes: OnceCell<Box<SceneEchoes<'a>>>,
+    },
+}
+
+impl<'a> ClosedSignal<'a> {
+    /// A wave or observable of a recurrence.
+    ///
+    /// # Errors
+    /// [`EvaluateError::EmptyWindow`]; [`EvaluateError::MissingValue`] where a symbol is left.
+    pub fn of_recurrence(
+        solution: &'a Solution,
+        observation: &Observation,
+        window: [&Rational; 2],
+    ) -> Result<Self, EvaluateError> {
+        let echoes = Box::new(ExactEchoes::lent(solution)?);
+        let value = observation.clone();
+        ClosedSignal::new(Source::Recurrence { echoes, value }, window)
+    }
+
+    /// An observable of a scene whose contacts stay closed.
+    ///
+    /// # Errors
+    /// [`EvaluateError::EmptyWindow`].
+    pub fn of_scene(
+        network: &'a Network,
+        observed: &Observed,
+        window: [&Rational; 2],
+    ) -> Result<Self, EvaluateError> {
+        let observed = Box::new(observed.clone());
+        let (exact, echoes) = (OnceCell::new(), OnceCell::new());
+        ClosedSignal::new(Source::Scene { network, observed, exact, echoes }, window)
+    }
+
+    /// What is known by enclosures alone: a root that is an arrival, or one of even order, is not told.
+    ///
+    /// # Errors
+    /// [`EvaluateError::EmptyWindow`].
+    pub fn of_form(
+        form: ClosedForm,
+        window: [&Rational; 2],
+    ) -> Result<ClosedSignal<'static>, EvaluateError> {
+        let signal = ClosedSignal::new(Source::Nowhere, window)?;
+        Ok(ClosedSignal { form: OnceCell::from(form), ..signal })
+    }
+
+    fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
+        if to < from || *from < Rational::default() {
+            return Err(EvaluateError::EmptyWindow);
+        }
+        let window = [from.clone(), to.clone()];
+        Ok(ClosedSignal { source, window, form: OnceCell::new(), stretches: OnceCell::new() })
+    }
+
+    /// The same, with exact values from single echoes alone, of which [`ClosedSignal::work`] tells.
+    #[must_use]
+    pub fn echo_by_echo(mut self) -> Self {
+        if let Source::Scene { exact, .. } = &mut self.source {
+            *exact = OnceCell::from(None);
+        }
+        self
+    }
+
+    /// How many echoes other than zero were worked out last, and how many can reach what is observed;
+    /// nothing where no value has been asked for echo by echo.
+    pub fn work(&self) -> Option<(usize, usize)> {
+        let Source::Scene { echoes, .. } = &self.source else { return None };
+        echoes.get().map(|echoes| (echoes.expanded(), echoes.needed()))
+    }
+
+    /// The closed form in balls.
+    ///
+    /// # Errors
+    /// As [`ClosedForm::of_scene`].
+    pub fn form(&self) -> Result<&ClosedForm, EvaluateError> {
+        if let Some(form) = self.form.get() {
+            return Ok(form);
+        }
+        let form = match &self.source {
+            Source::Recurrence { echoes, value } => {
+                ClosedForm::of_recurrence(echoes.recurrence(), value)?
+            }
+            Source::Scene { network, observed, .. } => {
+                ClosedForm::of_scene(network, observed, &self.window[1])?
+            }
+            Source::Nowhere => unreachable!("a form without a source is given"),
+        };
+        Ok(self.form.get_or_init(|| form))
+    }
+
+    /// The value where it is zero, or a rational number of which one look tells; nothing where exact
+    /// arithmetic cannot go so far.
+    ///
+    /// # Errors
+    /// [`EvaluateError`], where the value cannot be enclosed.
+    pub fn rational(&self, at: &Rational, limit: Limit) -> Result<Option<Rational>, EvaluateError> {
+        match self.point(at, limit) {
+            Ok(point) => point.rational(),
+            Err(
+                EvaluateError::TooManyPeriods { .. }
+                | EvaluateError::TooManyEchoes { .. }
+                | EvaluateError::Network(_)
+                | EvaluateError::NotReal,
+            ) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn known_form(&self) -> &ClosedForm {
+        self.form.get().expect("stretches were counted before they are asked for")
+    }
+
+    fn stretch(&self, stretch: usize) -> &Stretch {
+        &self.stretches.get().expect("stretches were counted before they are asked for")[stretch]
+    }
+
+    /// A time in the scale of the waves.
+    fn scaled(&self, stretch: usize, at: At<'_>) -> Cow<'_, Fraction> {
+        match at {
+            At::Time(time) => Cow::Owned(self.known_form().slowness().scale(time)),
+            At::End(Limit::Right) => Cow::Borrowed(self.stretch(stretch).from()),
+            At::End(Limit::Left) => Cow::Borrowed(self.stretch(stretch).to()),
+        }
+    }
+
+    /// The value at a time in the scale of the waves, where it is rational.
+    fn exact_value(&self, at: &Fraction, side: Limit) -> Result<Option<Rational>, EvaluateError> {
+        let digits = |point: Point<'_>| point.value(FEW_DIGITS, SIGN_BITS);
+        let value = match &self.source {
+            Source::Nowhere => return Ok(None),
+            Source::Recurrence { echoes, value } => match at.as_constant() {
+                Some(at) => echoes.point(value, &at, side).and_then(digits),
+                None => return Ok(None),
+            },
+            Source::Scene { network, observed, exact, echoes } => {
+                match (exact_form(network, observed, exact)?, at.as_constant(), &observed.value) {
+                    (Some(echoes), Some(at), ObservedValue::Linear(value)) => {
+                        echoes.point(value, &at, side).and_then(digits)
+                    }
+                    _ => {
+                        let known = self.scene_echoes(network, echoes).ok();
+                        let value =
+                            known.map(|known| known.point(observed, at, side).and_then(digits));
+                        match value {
+                            Some(value @ Ok(Value::Exact(_))) => value,
+                            // With the echoes until then alone, exact arithmetic may be within reach.
+                            _ => SceneEchoes::new(network, at)
+                                .and_then(|echoes| digits(echoes.point(observed, at, side)?)),
+                        }
+                    }
+                }
+            }
+        };
+        match value {
+            Ok(Value::Exact(value)) => Ok(Some(value)),
+            Ok(Value::Certified { .. } | Value::Enclosed(_))
+            | Err(
+                EvaluateError::TooManyPeriods { .. }
+                | EvaluateError::TooManyEchoes { .. }
+                | EvaluateError::Solve(_)
+                | EvaluateError::Network(_),
+            ) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The echoes of a scene until the end of the window.
+    fn scene_echoes<'s>(
+        &self,
+        network: &'a Network,
+        echoes: &'s OnceCell<Box<SceneEchoes<'a>>>,
+    ) -> Result<&'s SceneEchoes<'a>, EvaluateError> {
+        if let Some(known) = echoes.get() {
+            return Ok(known);
+        }
+        let made = SceneEchoes::new(network, &network.scaled_time(&self.window[1]))?;
+        Ok(echoes.get_or_init(|| Box::new(made)))
+    }
+}
+
+/// The echoes of a scene in which those of all that is observed have a closed form, without units and
+/// named constants: then any of them is had without those before.
+fn exact_form<'s>(
+    network: &Network,
+    observed: &Observed,
+    known: &'s OnceCell<Option<Box<ExactEchoes<'static>>>>,
+) -> Result<Option<&'s ExactEchoes<'static>>, EvaluateError> {
+    if known.get().is_none() {
+        let _ = known.set(made_exact(network, observed)?);
+    }
+    Ok(known.get().and_then(Option::as_deref))
+}
+
+fn made_exact(
+    network: &Network,
+    observed: &Observed,
+) -> Result<Option<Box<ExactEchoes<'static>>>, EvaluateError> {
+    let ObservedValue::Linear(observation) = &observed.value else { return Ok(None) };
+    let has_scale = network.scene().dimensional
+        || observed.unit != Root::from(Fraction::one())
+        || network.model().slowness != Fraction::one();
+    if has_scale || network.lattice().periods().len() > 1 {
+        return Ok(None);
+    }
+    let recurrence = network.recurrence()?;
+    if recurrence.symbols().next().is_some() || !recurrence.constants().is_empty() {
+        return Ok(None);
+    }
+    let solution = Solution::new(recurrence);
+    match observation.waves.iter().all(|seen| solution.general(seen.wave).is_ok()) {
+        true => Ok(Some(Box::new(ExactEchoes::own(solution)?))),
+        false => Ok(None),
+    }
+}
+
+impl Signal for ClosedSignal<'_> {
+    fn window(&self) -> [&Rational; 2] {
+        self.window.each_ref()
+    }
+
+    fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+        match &self.source {
+            Source::Recurrence { echoes, value } => echoes.point(value, at, side),
+            Source::Scene { network, observed, exact, echoes } => {
+                match (exact_form(network, observed, exact)?, &observed.value) {
+                    (Some(echoes), ObservedValue::Linear(value)) => echoes.point(value, at, side),
+                    _ => {
+                        let echoes = self.scene_echoes(network, echoes)?;
+                        echoes.point(observed, &network.scaled_time(at), side)
+                    }
+                }
+            }
+            Source::Nowhere => {
+                let form = self.form()?;
+                self.count()?;
+                let stretches = self.stretches.get().expect("stretches were counted");
+                let stretch = &stretches[form.stretch_at(stretches, at, side)?];
+                let scaled = form.slowness().scale(at);
+                let enclose = move |bits| form.enclose(stretch, 0, &scaled, bits);
+                Ok(Point::irrational(enclose))
+            }
+        }
+    }
+
+    fn closed_form(&self) -> Option<&ClosedForm> {
+        self.form().ok()
+    }
+
+    fn count(&self) -> Result<usize, EvaluateError> {
+        if let Some(stretches) = self.stretches.get() {
+            return Ok(stretches.len());
+        }
+        let (form, [from, to]) = (self.form()?, &self.window);
+        let stretches = form.audible(form.stretches(from, to)?, FIRST_BITS)?;
+        Ok(self.stretches.get_or_init(|| stretches).len())
+    }
+
+    fn is_instant(&self, stretch: usize) -> bool {
+        self.stretch(stretch).from() == self.stretch(stretch).to()
+    }
+
+    fn is_zero(&self, stretch: usize) -> bool {
+        self.stretch(stretch).is_silent()
+    }
+
+    fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
+        let at = self.scaled(stretch, At::End(end));
+        let slowness = self.known_form().slowness();
+        let own = self.window.iter().rev().find(|time| slowness.scale(time) == *at);
+        own.cloned().or_else(|| Some(at.as_constant()? / slowness.as_constant()?))
+    }
+
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
+        let numbers = self.known_form().numbers();
+        let slowness = numbers.enclose(self.known_form().slowness(), bits)?;
+        let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
+        let at = self.scaled(stretch, At::End(end));
+        Ok(numbers.enclose(&at, bits)?.multiply(&inverse, bits))
+    }
+
+    fn enclose(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: At<'_>,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let at = self.scaled(stretch, at);
+        self.known_form().enclose(self.stretch(stretch), order, &at, bits)
+    }
+
+    fn taylor(
+        &self,
+        stretch: usize,
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        self.known_form().taylor(self.stretch(stretch), order, place, terms, bits)
+    }
+
+    fn size(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: &Rational,
+        bits: u64,
+    ) -> Result<(Magnitude, Magnitude), EvaluateError> {
+        let (size, error) = self.known_form().size(self.stretch(stretch), order, at, bits)?;
+        let slowness =
+            self.known_form().numbers().enclose(self.known_form().slowness(), SCALE_BITS)?;
+        let slowness = slowness.magnitude();
+        let scaled =
+            |value| (0..order).fold(value, |value: Magnitude, _| value.multiply(&slowness));
+        Ok((scaled(size), scaled(error)))
+    }
+
+    fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
+        let side = match at {
+            At::Time(_) => Limit::Right,
+            At::End(side) => side,
+        };
+        self.exact_value(&self.scaled(stretch, at), side)
+    }
+
+    /// For observables that see no derivatives and no function of time themselves.
+    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
+        let at = self.scaled(stretch, At::End(end));
+        let value = match &self.source {
+            Source::Nowhere => return Ok(false),
+            Source::Recurrence { echoes, value } => {
+                let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
+                    return Ok(false);
+                };
+                let zero = Known::Rational(Rational::default());
+                return Ok(echoes.point(&slope, &at, end).is_ok_and(|point| point.known == zero));
+            }
+            Source::Scene { network, observed, .. } => {
+                let ObservedValue::Linear(value) = &observed.value else { return Ok(false) };
+                let Some(slope) = slope_of(value) else { return Ok(false) };
+                let slope =
+                    Observed { value: ObservedValue::Linear(slope), ..(**observed).clone() };
+                let Ok(echoes) = SceneEchoes::new(network, &at) else { return Ok(false) };
+                echoes.point(&slope, &at, end).and_then(|point| point.value(FEW_DIGITS, SIGN_BITS))
+            }
+        };
+        Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
+    }
+
+    /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which the value is one, solves
+    /// a linear equation of order N with constant real coefficients. If it is not zero everywhere, it
+    /// has at most `N − 1` roots on any interval where λ are real (Pólya and Szegő, *Problems and
+    /// Theorems* V.75), and on intervals shorter than `π/ω` with `ω = max |Im λ|` otherwise: there
+    /// each factor `(d/dx − σ)² + ω²` has solutions without two roots, and so no product of factors
+    /// of order N has one with N roots. N exact zeros therefore prove it.
+    fn equals(
+        &self,
+        stretch: usize,
+        value: &Rational,
+        [from, to]: &[Rational; 2],
+        bits: u64,
+    ) -> Result<bool, EvaluateError> {
+        let mut rates = self.known_form().rates(self.stretch(stretch), bits)?;
+        rates.entry(Fraction::zero()).or_insert(1);
+        let count: usize = rates.values().sum();
+        if count > MAX_ZEROS {
+            return Ok(false);
+        }
+        let field = self.known_form().numbers().field(bits);
+        let mut fastest = Magnitude::ZERO;
+        for rate in rates.keys() {
+            fastest = fastest.max(field.embed(&rate.clone().into())?.imaginary().magnitude());
+        }
+        // Rates are those of the waves' own time.
+        let slowness =
+            self.known_form().numbers().enclose(self.known_form().slowness(), bits)?.magnitude();
+        let fastest = Rational::from(&fastest.multiply(&slowness));
+        let mut length = to - from;
+        if fastest > Rational::default() {
+            length = length.min(Rational::from_integer(3.into()) / fastest);
+        }
+        for i in 1..=count {
+            let share = Rational::new(i.into(), (count + 1).into());
+            let at = self.known_form().slowness().scale(&(from + &length * share));
+            if self.exact_value(&at, Limit::Right)?.as_ref() != Some(value) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// The observable's derivative between arrivals.
+fn slope_of(value: &Observation) -> Option<Observation> {
+    if !value.forcing.is_zero() || value.waves.iter().any(|seen| seen.slope) {
+        return None;
+    }
+    let mut slope = value.clone();
+    slope.waves.iter_mut().for_each(|seen| seen.slope = true);
+    Some(slope)
+}

@@ -1,0 +1,126 @@
+//! Digits of a signal at a time: a rational value exactly, any other correctly rounded.
+//!
+//! What is known exactly comes first. Else enclosures of rising precision are rounded until that is
+//! certain (Ziv). They never decide zero, nor a value half-way between two decimals: where these are
+//! suspected, exact arithmetic is asked once more, at whatever cost.
+
+use crate::ball::{Attempt, Precisions, Value};
+use crate::evaluate::error::EvaluateError;
+use crate::evaluate::signal::{Known, Limit, Point, Signal};
+use wavestep_polynomial::Rational;
+
+/// The most significant digits that are certified.
+pub const MAX_DIGITS: usize = 10_000;
+
+/// A value that so many bits do not round is suspected to be half-way between two decimals.
+const TIE_BITS: u64 = 1 << 12;
+
+/// The precision with which one looks first whether a value may be zero.
+const LOOK_BITS: u64 = 128;
+
+/// The value of a signal at a time of its window, zero before time 0: exactly where it is known to be
+/// rational, else correctly rounded to `digits` significant digits, with at most `limit_bits` bits of
+/// working precision; enclosed where these do not prove the digits.
+///
+/// # Errors
+/// [`EvaluateError`], where there is no value.
+///
+/// # Panics
+/// Where `digits` is zero.
+pub fn value(
+    signal: &dyn Signal,
+    at: &Rational,
+    limit: Limit,
+    digits: usize,
+    limit_bits: u64,
+) -> Result<Value, EvaluateError> {
+    signal.point(at, limit)?.value(digits, limit_bits)
+}
+
+/// The same, where the digits are needed.
+///
+/// # Errors
+/// As [`value`]; [`EvaluateError::AccuracyNotReached`] with the best enclosure where the precision allowed
+/// does not prove the digits.
+pub fn digits(
+    signal: &dyn Signal,
+    at: &Rational,
+    limit: Limit,
+    digits: usize,
+    limit_bits: u64,
+) -> Result<Value, EvaluateError> {
+    match value(signal, at, limit, digits, limit_bits)? {
+        Value::Enclosed(best) => {
+            Err(EvaluateError::AccuracyNotReached { best: Box::new(best), bits: limit_bits })
+        }
+        value => Ok(value),
+    }
+}
+
+impl Point<'_> {
+    /// See [`value`].
+    pub(crate) fn value(&self, digits: usize, limit_bits: u64) -> Result<Value, EvaluateError> {
+        let limit_bits = limit_bits.min(self.most_bits.max(16 * digits as u64));
+        match &self.known {
+            Known::Rational(value) => Ok(Value::Exact(value.clone())),
+            Known::Irrational => Value::certify(digits, limit_bits, &self.enclose),
+            Known::Unknown => self.suspicious(digits, limit_bits),
+        }
+    }
+
+    /// The value where it is a rational number of which one look tells, or zero.
+    ///
+    /// # Errors
+    /// [`EvaluateError`], where it cannot be enclosed.
+    pub(crate) fn rational(&self) -> Result<Option<Rational>, EvaluateError> {
+        Ok(match &self.known {
+            Known::Rational(value) => Some(value.clone()),
+            Known::Irrational => None,
+            Known::Unknown => match self.may_be_zero(TIE_BITS)?.then(&self.decide) {
+                Some(Known::Rational(value)) => Some(value),
+                _ => None,
+            },
+        })
+    }
+
+    /// The digits of what may be zero, or half-way between two decimals.
+    fn suspicious(&self, digits: usize, limit_bits: u64) -> Result<Value, EvaluateError> {
+        let mut limit_bits = limit_bits;
+        if self.may_be_zero(limit_bits)? {
+            match (self.decide)() {
+                Known::Rational(value) => return Ok(Value::Exact(value)),
+                Known::Irrational => {}
+                // No precision tells that a value is zero.
+                Known::Unknown => limit_bits = limit_bits.min(TIE_BITS.max(8 * digits as u64)),
+            }
+        }
+        let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
+        match Value::certify(digits, tie_bits, &self.enclose)?.exact_if_known() {
+            Value::Enclosed(best) => {
+                if tie_bits == limit_bits
+                    && let Some(value) = Value::near_zero(&best, digits)
+                {
+                    return Ok(value);
+                }
+            }
+            told => return Ok(told),
+        }
+        match (self.decide)() {
+            Known::Rational(value) => Ok(Value::Exact(value)),
+            _ => Value::certify(digits, limit_bits, &self.enclose),
+        }
+    }
+
+    /// Whether a value is so small that it may be zero, with precision raised until that can be told.
+    fn may_be_zero(&self, limit_bits: u64) -> Result<bool, EvaluateError> {
+        let attempt = |bits| {
+            let ball = (self.enclose)(bits)?;
+            Ok(match ball.contains_zero() {
+                false => Attempt::Done(false),
+                true if *ball.radius() <= self.negligible => Attempt::Done(true),
+                true => Attempt::NotYet(false),
+            })
+        };
+        Precisions::doubling(LOOK_BITS, limit_bits.max(LOOK_BITS)).raise(attempt).map(Attempt::best)
+    }
+}

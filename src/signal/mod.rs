@@ -1,0 +1,49 @@
+//! The planner: which source of signals answers for a quantity.
+//!
+//! Nobody else asks what kind of scene it is. Where contacts stay closed, waves have a closed form, which
+//! is cheap and exact; where they open, the scene is followed from cell to cell.
+
+use crate::evaluate::{ClosedSignal, EvaluateError, Signal};
+use crate::history::{FollowedSignal, HistoryError};
+use crate::network::{Network, Observed};
+use wavestep_polynomial::Rational;
+
+/// Why there is no signal.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum SignalError {
+    /// There is no closed form.
+    #[error(transparent)]
+    Closed(#[from] EvaluateError),
+    /// The scene cannot be followed.
+    #[error(transparent)]
+    Followed(#[from] HistoryError),
+}
+
+/// What is asked of a signal, which decides what is prepared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Purpose {
+    /// Values at times.
+    Values,
+    /// Stretches between breaks, for roots, extrema and polynomials.
+    Stretches,
+}
+
+/// An observable of a scene on a window of the user's time.
+///
+/// # Errors
+/// [`SignalError`], where the scene has no such signal.
+pub fn of_scene<'a>(
+    network: &'a Network,
+    observed: &Observed,
+    window: [&Rational; 2],
+    purpose: Purpose,
+) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    if !network.scene().contacts_open {
+        return Ok(Box::new(ClosedSignal::of_scene(network, observed, window)?));
+    }
+    let followed = FollowedSignal::new(network, &observed.name, window)?;
+    Ok(match purpose {
+        Purpose::Values => Box::new(followed),
+        Purpose::Stretches => Box::new(followed.cut_at_breaks()?),
+    })
+}
