@@ -14,11 +14,11 @@ use super::syntax::Span;
 ///
 /// # Invariants
 /// All spans lie in the text and start and end between characters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic(Box<Content>);
 
 /// Boxed, so that results stay small.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct Content {
     message: String,
     source: Source,

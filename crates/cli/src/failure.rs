@@ -207,7 +207,7 @@ impl From<PlotError> for Failure {
     fn from(error: PlotError) -> Failure {
         let message = error.to_string();
         match error {
-            PlotError::NotDrawn { .. } => Failure::usage(message, "give another --width"),
+            PlotError::NotDrawn(_) => Failure::usage(message, "give another --width"),
             _ => Failure::Computation(message, "choose another quantity or window".to_owned()),
         }
     }

@@ -11,7 +11,7 @@ use wavestep::ball::Ball;
 use wavestep::language::unit_of;
 use wavestep::network::ScaledScene;
 use wavestep::scene::Dimension;
-use wavestep_studies::hertz::{ContactOfScene, HertzError, distance_from_spring};
+use wavestep_studies::hertz::{ContactOfScene, HertzError, NoContact, distance_from_spring};
 
 /// Bits beyond those of the digits.
 const SPARE_BITS: u64 = 48;
@@ -52,7 +52,7 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
             scaled.clone()
         }
         Readable::Subject(Subject::Recurrence(_)) => {
-            return Err(HertzError::Scene("a recurrence has no contact; give a scene").into());
+            return Err(HertzError::Scene(NoContact::Recurrence).into());
         }
     };
     let bits = 10 * options.digits as u64 / 3 + SPARE_BITS;

@@ -38,7 +38,7 @@ pub use caption::Caption;
 pub use chart::Chart;
 pub use curves::{Curve, Curves, Region};
 pub use diagram::{Cell, Diagram, Line, Part, Shape, Window};
-pub use error::PlotError;
+pub use error::{NotDrawn, PlotError};
 pub use figure::{Figure, Look, Panel, Series};
 pub use frontier::frontier;
 pub use map::{Level, Map};

@@ -1,6 +1,6 @@
 //! SVG to PNG, with a font that comes along: pictures look the same on machines without fonts.
 
-use super::PlotError;
+use super::{NotDrawn, PlotError};
 use resvg::{tiny_skia, usvg};
 use std::sync::Arc;
 
@@ -30,9 +30,8 @@ const MAX_WIDTH: u32 = 10_000;
 /// # Ok::<(), wavestep_draw::PlotError>(())
 /// ```
 pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, PlotError> {
-    let refuse = |reason: String| PlotError::NotDrawn { reason };
     if width == 0 || width > MAX_WIDTH {
-        return Err(refuse(format!("{width} pixels are not from 1 to {MAX_WIDTH}")));
+        return Err(PlotError::NotDrawn(NotDrawn::Width { width, limit: MAX_WIDTH }));
     }
     let mut fonts = usvg::fontdb::Database::new();
     for font in [dejavu::sans::regular(), dejavu::sans::bold()] {
@@ -44,12 +43,13 @@ pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, PlotError> {
         fontdb: Arc::new(fonts),
         ..usvg::Options::default()
     };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|error| refuse(error.to_string()))?;
+    let tree = usvg::Tree::from_str(svg, &options)
+        .map_err(|error| PlotError::NotDrawn(NotDrawn::Svg(error.to_string())))?;
     let scale = width as f32 / tree.size().width();
     let height = (tree.size().height() * scale).round().max(1.0);
     let pixels = tiny_skia::Pixmap::new(width, height as u32);
-    let mut pixels = pixels.ok_or_else(|| refuse(format!("it would be {height} pixels high")))?;
+    let mut pixels = pixels.ok_or(PlotError::NotDrawn(NotDrawn::Height(height)))?;
     let transform = tiny_skia::Transform::from_scale(scale, scale);
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| refuse(error.to_string()))
+    pixels.encode_png().map_err(|error| PlotError::NotDrawn(NotDrawn::Png(error.to_string())))
 }

@@ -52,7 +52,7 @@ fn tree(text: &str) -> Result<Tree, Refusal> {
 
 /// The parts of a text before and after a mark.
 fn split<'a>(text: &'a str, mark: &str) -> Result<(&'a str, &'a str), Refusal> {
-    let lacks = || Refusal::Text(format!("`{text}` lacks `{}`", mark.trim()));
+    let lacks = || Refusal::NoMark { text: text.to_owned(), mark: mark.trim().to_owned() };
     text.split_once(mark).map(|(left, right)| (left.trim(), right.trim())).ok_or_else(lacks)
 }
 
@@ -60,7 +60,7 @@ impl Equation {
     /// Reads `left = right`, `left = right when name = value`, or `form starts at value`.
     ///
     /// # Errors
-    /// [`Refusal::Text`] where the language cannot read a part of it.
+    /// [`Refusal::Text`] where the language cannot read a part of it, [`Refusal::NoMark`] without `=`.
     pub fn read(text: &str) -> Result<Equation, Refusal> {
         if let Ok((form, start)) = split(text, " starts at ") {
             let (left, right) = (tree(form)?, tree(start)?);
@@ -266,7 +266,7 @@ impl Section {
             match line.strip_prefix("  ") {
                 Some(item) => {
                     let entry = section.entries.last_mut();
-                    let stray = || Refusal::Text(format!("`{item}` belongs to no equation"));
+                    let stray = || Refusal::StrayItem(item.to_owned());
                     entry.ok_or_else(stray)?.read_item(item)?;
                 }
                 None if line.starts_with(|c: char| c.is_ascii_digit()) => {
@@ -321,7 +321,7 @@ impl Section {
                     setting.values.push((normalise_name(name), value));
                 }
             }
-            _ => return Err(Refusal::Text(format!("`{word}` begins no line of a section"))),
+            _ => return Err(Refusal::UnknownLine(word.to_owned())),
         }
         Ok(())
     }
@@ -344,7 +344,7 @@ impl Entry {
             ("unsure", _) => self.unsure = Some(rest.to_owned()),
             ("latex", _) => self.latex = Some(rest.to_owned()),
             ("note", _) => self.note = Some(rest.to_owned()),
-            _ => return Err(Refusal::Text(format!("`{word}` is no item of an equation"))),
+            _ => return Err(Refusal::UnknownItem(word.to_owned())),
         }
         Ok(())
     }

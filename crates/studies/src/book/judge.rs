@@ -278,7 +278,7 @@ impl Stage {
         };
         let enclose = |side: &Expression| {
             let ball = enclose_expression(side, &balls, WITNESS_BITS);
-            ball.map(|ball| ball.real().clone()).map_err(|e| Refusal::Underivable(e.to_string()))
+            ball.map(|ball| ball.real().clone()).map_err(Refusal::from)
         };
         let [left, right] = [enclose(left)?, enclose(right)?];
         Ok(Witness { period, at, left, right })

@@ -29,7 +29,6 @@ mod stage;
 mod table;
 mod verdict;
 
-use std::fmt;
 use std::sync::LazyLock;
 
 use wavestep::language::closest;
@@ -71,28 +70,12 @@ pub fn sections() -> &'static [Section] {
 }
 
 /// There is no equation of this number.
-///
-/// ```
-/// use wavestep_studies::book::find;
-///
-/// let error = find("6.28").unwrap_err();
-/// assert_eq!(error.number, "6.28");
-/// assert_eq!(error.to_string(), "there is no equation `6.28`");
-/// assert_eq!(error.remedy(), "equations 6.29 to 6.100 are known; did you mean `6.29`?");
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("there is no equation `{number}`")]
 pub struct UnknownNumber {
     /// What was asked for.
     pub number: String,
 }
-
-impl fmt::Display for UnknownNumber {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "there is no equation `{}`", self.number)
-    }
-}
-
-impl std::error::Error for UnknownNumber {}
 
 /// The place of a number in the source: `6.91a` is 91.
 fn place(number: &str) -> Option<u32> {

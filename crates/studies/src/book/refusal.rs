@@ -1,90 +1,94 @@
 //! Why a formula cannot be judged.
 
-use std::fmt;
+use crate::dispersion::DispersionError;
+use crate::hertz::HertzError;
+use wavestep::ball::BallError;
+use wavestep::enclosure::EnclosureError;
+use wavestep::evaluate::EvaluateError;
 use wavestep::language::Diagnostic;
+use wavestep::network::NetworkError;
+use wavestep::recurrence::InvalidRecurrence;
 use wavestep::solution::{ObserveError, SolveError};
 
 /// Why a formula of the source cannot be held against a scene.
-///
-/// ```
-/// use wavestep_studies::book::{Equation, Refusal, find};
-///
-/// let (section, _) = find("6.80").unwrap();
-/// let stage = section.stage().unwrap();
-/// let refused = |text| stage.judge(&Equation::read(text).unwrap()).unwrap_err();
-/// assert_eq!(refused("h[n] = 1"), Refusal::UnknownName("h".to_owned()));
-/// assert_eq!(refused("f[n]*g[n] = 1"), Refusal::NotLinear);
-/// assert!(refused("f[n] = sin(z)").to_string().contains("`sin`"));
-/// ```
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Refusal {
     /// A name that neither the source nor the scene knows.
+    #[error("`{0}` is neither a wave nor a name of this section")]
     UnknownName(String),
     /// A product of waves.
+    #[error("waves may be added, and multiplied or divided by what holds no wave; nothing else")]
     NotLinear,
     /// A value that has to be free of waves and of n is not.
+    #[error("this value must be the same on every period: leave out waves and n")]
     DependsOnPeriod,
     /// A divisor, or an exponent, that has no exact inverse here.
+    #[error(
+        "a divisor is a product of symbols and linear factors, an exponent free of exponentials; write \
+         it as such"
+    )]
     NotInvertible,
     /// A function that formulas of the source do not need.
+    #[error("the function `{0}` is not understood here; write exponentials")]
     Function(String),
     /// The text of a formula or of a scene.
-    Text(String),
+    #[error(transparent)]
+    Text(#[from] Diagnostic),
+    /// A text without a mark that parts it.
+    #[error("`{text}` lacks `{mark}`")]
+    NoMark {
+        /// The text.
+        text: String,
+        /// The mark.
+        mark: String,
+    },
+    /// An item before the first equation of a section.
+    #[error("`{0}` belongs to no equation")]
+    StrayItem(String),
+    /// A word that begins no line of a section.
+    #[error("`{0}` begins no line of a section")]
+    UnknownLine(String),
+    /// A word that begins no item of an equation.
+    #[error("`{0}` is no item of an equation")]
+    UnknownItem(String),
     /// The scene has no periods.
+    #[error("the scene `{0}` has no common period; give commensurate bars")]
     NoPeriods(String),
-    /// A piece cannot be derived.
-    Underivable(String),
     /// A symbol needs a value for a witness.
+    #[error("`{0}` has no value for a witness; list it under `values`")]
     NoValue(String),
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refusal::UnknownName(name) => {
-                write!(f, "`{name}` is neither a wave nor a name of this section")
-            }
-            Refusal::NotLinear => f.write_str(
-                "waves may be added, and multiplied or divided by what holds no wave; nothing else",
-            ),
-            Refusal::DependsOnPeriod => {
-                f.write_str("this value must be the same on every period: leave out waves and n")
-            }
-            Refusal::NotInvertible => f.write_str(
-                "a divisor is a product of symbols and linear factors, an exponent free of \
-                 exponentials; write it as such",
-            ),
-            Refusal::Function(name) => {
-                write!(f, "the function `{name}` is not understood here; write exponentials")
-            }
-            Refusal::Text(text) => f.write_str(text),
-            Refusal::NoPeriods(scene) => {
-                write!(f, "the scene `{scene}` has no common period; give commensurate bars")
-            }
-            Refusal::Underivable(reason) => f.write_str(reason),
-            Refusal::NoValue(symbol) => {
-                write!(f, "`{symbol}` has no value for a witness; list it under `values`")
-            }
-        }
-    }
-}
-
-impl std::error::Error for Refusal {}
-
-impl From<Diagnostic> for Refusal {
-    fn from(diagnostic: Diagnostic) -> Refusal {
-        Refusal::Text(diagnostic.to_string())
-    }
-}
-
-impl From<SolveError> for Refusal {
-    fn from(error: SolveError) -> Refusal {
-        Refusal::Underivable(error.to_string())
-    }
-}
-
-impl From<ObserveError> for Refusal {
-    fn from(error: ObserveError) -> Refusal {
-        Refusal::Underivable(error.to_string())
-    }
+    /// Two sides of a check that should agree.
+    #[error("{0} differs from {1}")]
+    Differs(String, String),
+    /// Two sides of a check that should differ.
+    #[error("{0} agrees with {1}")]
+    Agrees(String, String),
+    /// A piece cannot be derived.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// An observable cannot be derived.
+    #[error(transparent)]
+    Observe(#[from] ObserveError),
+    /// The scene gives no waves.
+    #[error(transparent)]
+    Network(#[from] NetworkError),
+    /// A notation does not suit its recurrence.
+    #[error(transparent)]
+    Recurrence(#[from] InvalidRecurrence),
+    /// A value cannot be computed.
+    #[error(transparent)]
+    Evaluate(#[from] EvaluateError),
+    /// A value cannot be enclosed.
+    #[error(transparent)]
+    Enclosure(#[from] EnclosureError),
+    /// Enclosures have no quotient.
+    #[error(transparent)]
+    Ball(#[from] BallError),
+    /// A contact cannot be computed.
+    #[error(transparent)]
+    Hertz(#[from] HertzError),
+    /// A velocity cannot be computed.
+    #[error(transparent)]
+    Dispersion(#[from] DispersionError),
 }

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::syntax::Expression as Tree;
-use wavestep::language::{Source, read_recurrence, read_scene};
+use wavestep::language::{Diagnostic, Source, read_recurrence, read_scene};
 use wavestep::network::Network;
 use wavestep::recurrence::{
     LinearForm, Observation, Recurrence, SourceNotation, Statement, WaveIndex,
@@ -75,12 +75,11 @@ pub(super) fn derived(
     let text = text_of(name).ok_or_else(|| Refusal::UnknownName(name.to_owned()))?;
     let source = Source::new(name, text)?;
     let scene = read_scene(&source, values);
-    let mut scene = scene.map_err(|errors| {
-        Refusal::Text(errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
-    })?;
+    let first = |errors: Vec<Diagnostic>| errors.into_iter().next().expect("at least one");
+    let mut scene = scene.map_err(first)?;
     // Energies would add waves of their own.
     scene.observables.retain(|seen| observables.contains(&seen.name.as_str()));
-    let network = Network::new(&scene).map_err(|error| Refusal::Underivable(error.to_string()))?;
+    let network = Network::new(&scene)?;
     network.recurrence().map_err(|_| Refusal::NoPeriods(name.to_owned()))
 }
 
@@ -131,8 +130,7 @@ impl Stage {
         if let Some((like, waves)) = &setting.like {
             let notation = notation(like, waves, &recurrence)?;
             let statement = Statement { notation, ..recurrence.statement().clone() };
-            let refused = |error| Refusal::Underivable(format!("{error}"));
-            recurrence = Recurrence::new(statement).map_err(refused)?;
+            recurrence = Recurrence::new(statement)?;
         }
         let mut stage = Stage {
             scene: setting.scene.clone(),

@@ -1,7 +1,5 @@
 //! What can be wrong with a dispersion relation, a pulse, or what is asked of them.
 
-use std::fmt;
-
 use wavestep_polynomial::{Rational, Symbol};
 
 use super::formula::FormulaError;
@@ -12,53 +10,53 @@ use wavestep::ball::{Ball, BallError, DecimalEnclosure};
 const PLACE_DIGITS: usize = 8;
 
 /// Why there is no answer.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, DispersionError, Pulse, Shape, peak_velocity};
-/// use wavestep_polynomial::Rational;
-///
-/// // 2 sin(k/2) never exceeds 2: nothing oscillates 2π/2 times in a unit of time.
-/// let lattice = Builtin::Lattice.relation();
-/// let pulse = Pulse::in_time(Shape::Square, &Rational::from_integer(2.into()))?;
-/// let error = peak_velocity(&lattice, &pulse, 10, 1000).unwrap_err();
-/// assert!(matches!(error, DispersionError::NoCutOff { .. }));
-/// assert!(error.to_string().starts_with("ω(k)·τ = 2π has no root"));
-/// assert!(error.remedy().contains("longer duration"));
-/// # Ok::<(), DispersionError>(())
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DispersionError {
     /// A formula for ω that does not depend on `k`.
+    #[error("the formula does not depend on the wavenumber k")]
     NoWaveNumber,
     /// A parameter without a value.
+    #[error("the parameter {0} has no value")]
     MissingValue(Symbol),
     /// A value that is given for what is no parameter of the relation.
+    #[error("the relation has no parameter `{0}`")]
     UnknownParameter(String),
     /// A value of a parameter that is not positive.
+    #[error("`{0}` is {1}, which is not positive")]
     ParameterNotPositive(String, Rational),
     /// A length, a duration or a time that is not positive.
+    #[error("{0} is {1}, which is not positive")]
     NotPositive(&'static str, Rational),
     /// A formula that has no value once values are put in.
-    Formula(FormulaError),
+    #[error("with these values there is {0}")]
+    Formula(#[from] FormulaError),
     /// ω is negative at this wavenumber: it is no frequency.
+    #[error("ω is negative at k = {0}, so it is no frequency")]
     NegativeFrequency(Box<DecimalEnclosure>),
     /// The formula has no real value at this wavenumber.
+    #[error("the formula is not real at k = {0}")]
     NotReal(Box<DecimalEnclosure>),
     /// A divisor vanishes at this wavenumber, or near it.
+    #[error("the formula divides by what may be zero at k = {0}")]
     DivisionByZero(Box<DecimalEnclosure>),
     /// A root has no derivative at this wavenumber, or near it.
+    #[error("the formula may have no derivative at k = {0}: a root of zero")]
     NotDifferentiable(Box<DecimalEnclosure>),
     /// `ω(k) τ = 2π` has no root for `0 < k ≤ through`.
+    #[error("ω(k)·τ = 2π has no root for 0 < k ≤ {through}, and none is looked for beyond")]
     NoCutOff {
         /// How far was looked, or where ω stops being positive.
         through: Box<DecimalEnclosure>,
     },
     /// Whether there is a root near this wavenumber is not decided.
+    #[error("whether ω(k)·τ = 2π has a root near k = {0} is not decided")]
     UndecidedCutOff(Box<DecimalEnclosure>),
     /// The spectrum's second moment may be zero, so no peak is defined.
+    #[error("∫ U k² dk may be zero, so the pulse has no peak to follow")]
     NoPeak,
     /// The digits asked for are not reached.
+    #[error("the digits asked for are not reached with {bits} bits{}", best_known(best.as_deref()))]
     AccuracyNotReached {
         /// The best enclosure, where there is one.
         best: Option<Box<Ball>>,
@@ -66,9 +64,11 @@ pub enum DispersionError {
         bits: u64,
     },
     /// The balls could not be computed.
+    #[error(transparent)]
     Ball(BallError),
     /// A grid that cannot hold the pulse.
-    Grid(&'static str),
+    #[error(transparent)]
+    Grid(#[from] NoGrid),
 }
 
 /// A place in a message.
@@ -118,55 +118,38 @@ impl DispersionError {
     }
 }
 
-impl fmt::Display for DispersionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoWaveNumber => f.write_str("the formula does not depend on the wavenumber k"),
-            Self::MissingValue(symbol) => write!(f, "the parameter {symbol} has no value"),
-            Self::UnknownParameter(name) => write!(f, "the relation has no parameter `{name}`"),
-            Self::ParameterNotPositive(name, value) => {
-                write!(f, "`{name}` is {value}, which is not positive")
-            }
-            Self::NotPositive(what, value) => write!(f, "{what} is {value}, which is not positive"),
-            Self::Formula(error) => write!(f, "with these values there is {error}"),
-            Self::NegativeFrequency(k) => {
-                write!(f, "ω is negative at k = {k}, so it is no frequency")
-            }
-            Self::NotReal(k) => write!(f, "the formula is not real at k = {k}"),
-            Self::DivisionByZero(k) => {
-                write!(f, "the formula divides by what may be zero at k = {k}")
-            }
-            Self::NotDifferentiable(k) => {
-                write!(f, "the formula may have no derivative at k = {k}: a root of zero")
-            }
-            Self::NoCutOff { through } => {
-                write!(
-                    f,
-                    "ω(k)·τ = 2π has no root for 0 < k ≤ {through}, and none is looked for beyond"
-                )
-            }
-            Self::UndecidedCutOff(k) => {
-                write!(f, "whether ω(k)·τ = 2π has a root near k = {k} is not decided")
-            }
-            Self::NoPeak => {
-                f.write_str("∫ U k² dk may be zero, so the pulse has no peak to follow")
-            }
-            Self::AccuracyNotReached { best: Some(best), bits } => {
-                write!(f, "the digits asked for are not reached with {bits} bits; known is {best}")
-            }
-            Self::AccuracyNotReached { best: None, bits } => {
-                write!(f, "the digits asked for are not reached with {bits} bits")
-            }
-            Self::Ball(error) => error.fmt(f),
-            Self::Grid(what) => f.write_str(what),
-        }
-    }
+fn best_known(best: Option<&Ball>) -> String {
+    best.map_or_else(String::new, |best| format!("; known is {best}"))
 }
 
-impl std::error::Error for DispersionError {}
-
-impl From<FormulaError> for DispersionError {
-    fn from(error: FormulaError) -> DispersionError {
-        DispersionError::Formula(error)
-    }
+/// Why times, lengths and counts make no grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoGrid {
+    /// A wavenumber that is infinite or no number.
+    #[error("the wavenumber is no finite number")]
+    WaveNumber,
+    /// A time of travel that is not positive.
+    #[error("the time of travel is not positive")]
+    Time,
+    /// A length that is not positive.
+    #[error("the length of the grid is not positive")]
+    Length,
+    /// A grid that is shorter than the waves in it.
+    #[error("the grid is too short: it holds fewer than four components")]
+    TooShort,
+    /// A grid that needs too many points.
+    #[error(
+        "the grid would need more than {limit} points: take a shorter time of travel, or a longer pulse"
+    )]
+    TooLong {
+        /// The most points.
+        limit: usize,
+    },
+    /// A number of points that does not suit the waves.
+    #[error("the grid needs more than two points to the shortest wave, and at most {limit} in all")]
+    Points {
+        /// The most points.
+        limit: usize,
+    },
 }

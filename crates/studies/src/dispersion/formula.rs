@@ -3,7 +3,6 @@
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 use std::sync::Arc;
 
 use num_traits::{One, Signed, ToPrimitive as _, Zero};
@@ -57,34 +56,16 @@ impl Function {
 }
 
 /// Why a formula has no value for any `k`.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Formula, FormulaError};
-///
-/// let zero = Formula::wave_number().subtract(&Formula::wave_number());
-/// let inverse = zero.power(&wavestep_polynomial::Rational::from_integer((-1).into()));
-/// assert_eq!(inverse, Err(FormulaError::DivisionByZero));
-/// assert_eq!(FormulaError::DivisionByZero.to_string(), "division by zero");
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FormulaError {
     /// Zero to a negative power.
+    #[error("division by zero")]
     DivisionByZero,
     /// A power too large to be worked out: exponents go to 4096, numbers to 32768 bits.
+    #[error("a power that is too large to be worked out")]
     TooLarge,
 }
-
-impl fmt::Display for FormulaError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::DivisionByZero => "division by zero",
-            Self::TooLarge => "a power that is too large to be worked out",
-        })
-    }
-}
-
-impl std::error::Error for FormulaError {}
 
 /// What a formula is made of.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -34,7 +34,7 @@ mod relation;
 mod series;
 
 pub use beats::{TwoWaves, two_waves};
-pub use error::DispersionError;
+pub use error::{DispersionError, NoGrid};
 pub use formula::{Formula, FormulaError, Function};
 pub use notation::{formula_latex, formula_text};
 pub use peak::{

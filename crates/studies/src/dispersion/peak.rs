@@ -7,7 +7,7 @@
 use num_traits::Zero as _;
 use wavestep_polynomial::{Rational, Symbol};
 
-use super::error::{DispersionError, place};
+use super::error::{DispersionError, NoGrid, place};
 use super::formula::{Formula, wave_number};
 use super::pulse::{Pulse, Shape};
 use super::quadrature::integrate;
@@ -248,7 +248,7 @@ pub fn peak_velocity_at(
 ) -> Result<Sample, DispersionError> {
     let exact = num_traits::FromPrimitive::from_f64(cut_off);
     let Some(exact): Option<Rational> = exact else {
-        return Err(DispersionError::Grid("the wavenumber is no finite number"));
+        return Err(NoGrid::WaveNumber.into());
     };
     let pulse = Pulse::with_cut_off(shape, &exact)?;
     refuse_negative(relation, &Ball::from_rational(&exact, BOUND_BITS))?;

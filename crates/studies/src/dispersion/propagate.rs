@@ -9,7 +9,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use wavestep_polynomial::Rational;
 
-use super::error::DispersionError;
+use super::error::{DispersionError, NoGrid};
 use super::pulse::Pulse;
 use super::relation::{Relation, value};
 use wavestep::ball::Ball;
@@ -128,12 +128,12 @@ pub fn propagate(
 ) -> Result<Seen, DispersionError> {
     let Travel { time, length, points } = travel;
     if !(time > 0.0 && time.is_finite()) {
-        return Err(DispersionError::Grid("the time of travel is not positive"));
+        return Err(NoGrid::Time.into());
     }
     let (cut_off, _) = pulse.cut_off(relation, BITS)?.to_double();
     let length = match length {
         Some(length) if length > 0.0 && length.is_finite() => length,
-        Some(_) => return Err(DispersionError::Grid("the length of the grid is not positive")),
+        Some(_) => return Err(NoGrid::Length.into()),
         None => {
             let wave = 2.0 * PI / cut_off;
             let way = 4.0 * fastest(relation, cut_off)? * time;
@@ -144,24 +144,18 @@ pub fn propagate(
     let last = (cut_off / step * (1.0 + ON_GRID)).floor();
     let on_grid = (last * step / cut_off - 1.0).abs() <= ON_GRID && last >= 8.0;
     if last < 4.0 {
-        return Err(DispersionError::Grid(
-            "the grid is too short: it holds fewer than four components",
-        ));
+        return Err(NoGrid::TooShort.into());
     }
     let wanted = length * cut_off / (2.0 * PI) * POINTS_A_WAVE;
     let points = match points {
         Some(points) => points,
         None if wanted <= MAX_POINTS as f64 => (wanted.ceil() as usize).next_power_of_two(),
         None => {
-            return Err(DispersionError::Grid(
-                "the grid would need more than 1048576 points: take a shorter time of travel, or a longer pulse",
-            ));
+            return Err(NoGrid::TooLong { limit: MAX_POINTS }.into());
         }
     };
     if points > MAX_POINTS || (points as f64) <= 2.0 * last {
-        return Err(DispersionError::Grid(
-            "the grid needs more than two points to the shortest wave, and at most 1048576 in all",
-        ));
+        return Err(NoGrid::Points { limit: MAX_POINTS }.into());
     }
     let spectrum = pulse.spectrum(relation);
     let mut waves = Vec::new();

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use num_traits::{FromPrimitive as _, Signed as _};
 use wavestep_polynomial::{Rational, Symbol};
 
-use super::error::{DispersionError, place};
+use super::error::{DispersionError, NoGrid, place};
 use super::formula::{Formula, Function, pi, wave_number};
 use super::series::Series;
 use wavestep::ball::{Ball, Value};
@@ -220,7 +220,7 @@ impl Relation {
 
     fn sample(&self, what: Quantity, k: f64) -> Result<Sample, DispersionError> {
         let Some(exact) = Rational::from_f64(k) else {
-            return Err(DispersionError::Grid("the wavenumber is no finite number"));
+            return Err(NoGrid::WaveNumber.into());
         };
         let ball = self.enclose(what, &Ball::from_rational(&exact, SAMPLE_BITS), SAMPLE_BITS)?;
         let (value, bound) = ball.to_double();

@@ -1,76 +1,58 @@
 //! What can be wrong with a contact.
 
-use std::fmt;
 use wavestep::ball::BallError;
 use wavestep::enclosure::EnclosureError;
 
 /// Why there is no answer.
-///
-/// ```
-/// use wavestep_studies::hertz::{HertzError, PowerLaw};
-/// use wavestep_polynomial::Rational;
-///
-/// let zero = Rational::from_integer(0.into());
-/// assert_eq!(PowerLaw::new(zero), Err(HertzError::Exponent("0".to_owned())));
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HertzError {
     /// The exponent m is above [`PowerLaw::MOST`](super::PowerLaw::MOST), or below the inverse of
     /// [`PowerLaw::LEAST_INVERSE`](super::PowerLaw::LEAST_INVERSE).
+    #[error(
+        "the exponent m of X = k α^m is {0}; it must be positive, from 1/10 to 100 (3/2 is Hertz's, 1 a \
+         spring)"
+    )]
     Exponent(String),
     /// A share of the largest force is not from 0 to below 1.
+    #[error(
+        "{0} of the largest force: a share must be from 0 to below 1, since the largest force is never \
+         reached"
+    )]
     Share(String),
     /// A time is negative.
+    #[error("the time {0} is before the impact, at 0")]
     Time(String),
     /// A quantity that must be positive is not: its name, and its value.
+    #[error("{0} is {1}; it must be positive")]
     NotPositive(&'static str, String),
     /// A Poisson ratio is not above −1 and at most 1/2.
+    #[error("a Poisson ratio of {0}: it must be above -1 and at most 1/2, as 3/10 for steel")]
     Poisson(String),
     /// A scene has no contact that closed forms describe.
-    Scene(&'static str),
+    #[error(transparent)]
+    Scene(#[from] NoContact),
     /// A value of the scene is not known.
-    Enclosure(EnclosureError),
+    #[error(transparent)]
+    Enclosure(#[from] EnclosureError),
     /// An enclosure failed.
-    Ball(BallError),
+    #[error(transparent)]
+    Ball(#[from] BallError),
 }
 
-impl fmt::Display for HertzError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Exponent(value) => write!(
-                f,
-                "the exponent m of X = k α^m is {value}; it must be positive, from 1/10 to 100 \
-                 (3/2 is Hertz's, 1 a spring)"
-            ),
-            Self::Share(value) => write!(
-                f,
-                "{value} of the largest force: a share must be from 0 to below 1, since the largest \
-                 force is never reached"
-            ),
-            Self::Time(value) => write!(f, "the time {value} is before the impact, at 0"),
-            Self::NotPositive(name, value) => write!(f, "{name} is {value}; it must be positive"),
-            Self::Poisson(value) => write!(
-                f,
-                "a Poisson ratio of {value}: it must be above -1 and at most 1/2, as 3/10 for steel"
-            ),
-            Self::Scene(reason) => f.write_str(reason),
-            Self::Enclosure(error) => error.fmt(f),
-            Self::Ball(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for HertzError {}
-
-impl From<BallError> for HertzError {
-    fn from(error: BallError) -> HertzError {
-        HertzError::Ball(error)
-    }
-}
-
-impl From<EnclosureError> for HertzError {
-    fn from(error: EnclosureError) -> HertzError {
-        HertzError::Enclosure(error)
-    }
+/// Why closed forms of local contact do not describe a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoContact {
+    /// A recurrence.
+    #[error("a recurrence has no contact; give a scene")]
+    Recurrence,
+    /// A scene without a local contact.
+    #[error("the scene has no `hertz` element; put one between two bars")]
+    NoElement,
+    /// A local contact beside something else than two bars without strain.
+    #[error(
+        "closed forms need a bar without strain on both sides of the `hertz` element; use `eval`"
+    )]
+    NotBetweenBars,
 }

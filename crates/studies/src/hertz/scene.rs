@@ -1,6 +1,6 @@
 //! The two bars of a scene that meet at a local contact.
 
-use super::error::HertzError;
+use super::error::{HertzError, NoContact};
 use super::impact::LongBars;
 use super::law::PowerLaw;
 use wavestep::ball::Ball;
@@ -47,9 +47,7 @@ impl ContactOfScene {
     /// for symbols without values.
     pub fn new(scaled: &ScaledScene, precision: u64) -> Result<ContactOfScene, HertzError> {
         let (scene, model) = (scaled.scene(), scaled.model());
-        let element = scaled.local_contact().ok_or(HertzError::Scene(
-            "the scene has no `hertz` element; put one between two bars",
-        ))?;
+        let element = scaled.local_contact().ok_or(NoContact::NoElement)?;
         let line = &scene.line;
         let place = line.elements.iter().position(|other| *other == element);
         let place = place.expect("an element of the line");
@@ -60,12 +58,10 @@ impl ContactOfScene {
             is_bar.then(|| &model.bars[index]).filter(|bar| bar.force.is_zero())
         };
         let [Some(left), Some(right)] = beside.map(bar) else {
-            return Err(HertzError::Scene(
-                "closed forms need a bar without strain on both sides of the `hertz` element; use `eval`",
-            ));
+            return Err(NoContact::NotBetweenBars.into());
         };
         let ModelLump::Hertz(force, compression, exponent) = &model.lumps[&element] else {
-            return Err(HertzError::Scene("the element is no local contact"));
+            unreachable!("the lump of a local contact");
         };
         let bits = precision + 32;
         let numbers = Numbers::new(&model.constants);

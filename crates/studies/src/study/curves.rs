@@ -2,7 +2,7 @@
 
 use crate::study::harness::errors;
 use crate::study::reference::Reference;
-use wavestep::answer::{Kind, Problem};
+use wavestep::answer::{Kind, Problem, WayError};
 use wavestep::evaluate::StablePrecision;
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
@@ -29,7 +29,7 @@ const CEILING: f64 = 100.0;
 /// A curve, with what a way refused as a remark.
 pub(super) fn curve(
     kind: Kind,
-    points: Result<Vec<(f64, f64)>, String>,
+    points: Result<Vec<(f64, f64)>, WayError>,
     caption: &mut Caption,
 ) -> Option<Curve> {
     match points {
@@ -67,7 +67,7 @@ pub fn over_time(
     let size = times.len().div_ceil(parts).max(1);
     let mut curves = Vec::new();
     for kind in DOUBLES {
-        let points = errors(problem, kind, reference).map_err(|error| error.to_string());
+        let points = errors(problem, kind, reference);
         let points = points.map(|errors| {
             let parts = times.chunks(size).zip(errors.chunks(size));
             parts.map(|(t, e)| (t[t.len() / 2], super::worst(e))).collect()
@@ -98,7 +98,7 @@ pub fn at_arrivals(
     let reference = Reference::new(problem, &times).map_err(|_| empty(title))?;
     let mut curves = Vec::new();
     for kind in DOUBLES {
-        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points = errors(problem, kind, &reference);
         let points = points.map(|errors| {
             let pairs = chosen.iter().zip(errors.chunks(2));
             pairs.map(|((n, _), pair)| (*n as f64 + 1.0, super::worst(pair))).collect()
@@ -154,7 +154,7 @@ pub fn near_jump(
     let mut curves = Vec::new();
     for count in [30, 300, 3000] {
         let kind = Kind::Modes { count };
-        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points = errors(problem, kind, &reference);
         let points =
             points.map(|errors| times.iter().zip(errors).map(|(t, e)| (t - at, e)).collect());
         curves.extend(curve(kind, points, &mut caption));

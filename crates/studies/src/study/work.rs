@@ -2,7 +2,7 @@
 
 use crate::study::harness::{Measured, Settings, measure};
 use crate::study::reference::Reference;
-use wavestep::answer::{Kind, Problem};
+use wavestep::answer::{Kind, Problem, WayError};
 use wavestep::evaluate::StablePrecision;
 use wavestep_draw::{Caption, Method, PlotError, Point, Row, Table, WorkPrecision};
 
@@ -52,7 +52,7 @@ pub struct Outcome {
     /// The step.
     pub step: Step,
     /// What was measured, or why the way refused.
-    pub result: Result<Measured, String>,
+    pub result: Result<Measured, WayError>,
 }
 
 impl Outcome {
@@ -101,7 +101,7 @@ pub fn ladder(
         tick(&kind);
         let absolute = tolerance.map(|tolerance| tolerance * reference.scale());
         let result = measure(problem, (kind, absolute), reference, settings);
-        Outcome { step, result: result.map_err(|error| error.to_string()) }
+        Outcome { step, result }
     };
     LADDER.into_iter().filter(|(kind, _)| !(quick && is_heavy(*kind))).map(outcome).collect()
 }

@@ -63,7 +63,7 @@ pub fn near_zeros(
     let sizes = reference.sizes();
     let mut curves = Vec::new();
     for kind in DOUBLES {
-        let points = errors(problem, kind, &reference).map_err(|error| error.to_string());
+        let points = errors(problem, kind, &reference);
         let points = points.map(|errors| {
             let relative = |i: usize| if sizes[i] == 0.0 { 0.0 } else { errors[i] / sizes[i] };
             let worst = |decade: i32| {

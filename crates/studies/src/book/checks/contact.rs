@@ -4,7 +4,7 @@ use super::{Checked, identity, read};
 use crate::book::entry::Equation;
 use crate::book::refusal::Refusal;
 use crate::book::verdict::{Verdict, Witness};
-use crate::hertz::{HertzError, PowerLaw, equal_bars_constant};
+use crate::hertz::{PowerLaw, equal_bars_constant};
 use wavestep::ball::Ball;
 use wavestep::export::{Formula, Head};
 use wavestep_polynomial::{Rational, Symbol};
@@ -14,10 +14,6 @@ const BITS: u64 = 128;
 
 fn ratio(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
-}
-
-fn refused(error: &HertzError) -> Refusal {
-    Refusal::Underivable(error.to_string())
 }
 
 /// 6.49: the stiffness is 4/3 of the effective modulus times the root of the effective radius.
@@ -65,13 +61,16 @@ pub(super) fn time() -> Result<Checked, Refusal> {
     // Values of the other derivation, by series.
     let law = PowerLaw::hertz();
     for share in [ratio(1, 10), ratio(1, 2), ratio(9, 10), ratio(999, 1000)] {
-        let closed = law.time(&share, BITS).map_err(|error| refused(&error))?;
+        let closed = law.time(&share, BITS)?;
         let deficit = ratio(1, 1) - &share;
         let [force, deficit] =
             [&share, &deficit].map(|value| Ball::from_rational(value, BITS + 32));
-        let series = law.time_by_series(&force, &deficit, BITS).map_err(|error| refused(&error))?;
+        let series = law.time_by_series(&force, &deficit, BITS)?;
         if !closed.subtract(&series, BITS).contains(&Rational::default()) {
-            return Err(Refusal::Underivable(format!("6.51 at {share}: {closed}, {series}")));
+            return Err(Refusal::Differs(
+                format!("6.51 at {share}, {closed},"),
+                format!("the series, {series}"),
+            ));
         }
     }
     let steps = vec![
@@ -88,7 +87,7 @@ pub(super) fn time() -> Result<Checked, Refusal> {
 /// 6.54: the formula follows, the number that is read for ν = 0.3 does not.
 pub(super) fn constant() -> Result<Checked, Refusal> {
     let nu = ratio(3, 10);
-    let constant = equal_bars_constant(&nu, BITS).map_err(|error| refused(&error))?;
+    let constant = equal_bars_constant(&nu, BITS)?;
     let read_value = ratio(478, 1000);
     // k = (4/3) E/(2(1 − ν²)) √(R/2), h = 2k/Z, Z = π r² E/c: h/c = constant^{3/2} √R/r².
     let square = identity("(4/3/2*2)^2/(2*pi^2)", "(2/(3*pi))^2*2")?;
@@ -99,7 +98,7 @@ pub(super) fn constant() -> Result<Checked, Refusal> {
         right: Ball::from_rational(&read_value, BITS),
     };
     if !witness.is_certain() {
-        return Err(Refusal::Underivable("the constant agrees with what is read".to_owned()));
+        return Err(Refusal::Agrees("the constant".to_owned(), "what is read".to_owned()));
     }
     let head = Head::Written("constant^3".to_owned(), "\\mathrm{constant}^{3}".to_owned());
     let pi = Symbol::new("pi").expect("a name");

@@ -8,7 +8,7 @@ use num_traits::{One as _, Signed as _};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use wavestep::ball::{Ball, Decimal};
-use wavestep::evaluate::{ClosedSignal, EvaluateError, Goal, Root, Search};
+use wavestep::evaluate::{ClosedSignal, Goal, Root, Search};
 use wavestep::language::parse_number;
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
@@ -63,7 +63,7 @@ pub(super) fn equal_bars() -> Result<Checked, Refusal> {
     ];
     match holds {
         true => Ok(Checked::proved(steps)),
-        false => Err(Refusal::Underivable(steps.join(" "))),
+        false => Err(Refusal::Differs("the force of equal bars".to_owned(), "the text".to_owned())),
     }
 }
 
@@ -82,10 +82,6 @@ pub(super) fn better_estimate() -> Result<Checked, Refusal> {
 fn root(mass: &Rational) -> Result<Ball, Refusal> {
     let square = mass + Rational::new(1.into(), 3.into());
     Ball::square_root(&square, BITS).ok_or(Refusal::NotInvertible)
-}
-
-fn refused(error: &EvaluateError) -> Refusal {
-    Refusal::Underivable(error.to_string())
 }
 
 /// The largest compressive strain at the fixed end before the mass leaves the bar, in V/c, enclosed.
@@ -107,10 +103,9 @@ fn largest_strain(mass: &Rational) -> Result<Ball, Refusal> {
     let mut end = &mu * Rational::from_integer(4.into()) + Rational::from_integer(2.into());
     let start = Rational::new(1.into(), 1024.into());
     let opening = loop {
-        let signal = ClosedSignal::of_recurrence(&solution, &impact, [&start, &end]);
-        let signal = signal.map_err(|error| refused(&error))?;
-        let search = Search::new(&signal).map_err(|error| refused(&error))?;
-        let roots = search.roots(&Rational::default(), 20, 1 << 12).map_err(|e| refused(&e))?;
+        let signal = ClosedSignal::of_recurrence(&solution, &impact, [&start, &end])?;
+        let search = Search::new(&signal)?;
+        let roots = search.roots(&Rational::default(), 20, 1 << 12)?;
         let simple = roots.all.iter().find_map(|root| match root {
             Root::Simple { time, .. } => Some(time.to_text(15)),
             _ => None,
@@ -121,10 +116,9 @@ fn largest_strain(mass: &Rational) -> Result<Ball, Refusal> {
         end *= Rational::from_integer(2.into());
     };
     let last = &opening + &mu;
-    let signal = ClosedSignal::of_recurrence(&solution, &fixed, [&mu, &last]);
-    let signal = signal.map_err(|error| refused(&error))?;
-    let search = Search::new(&signal).map_err(|error| refused(&error))?;
-    let smallest = search.enclose_extremum(Goal::Smallest, BITS).map_err(|e| refused(&e))?;
+    let signal = ClosedSignal::of_recurrence(&solution, &fixed, [&mu, &last])?;
+    let search = Search::new(&signal)?;
+    let smallest = search.enclose_extremum(Goal::Smallest, BITS)?;
     Ok(smallest.multiply_rational(&Rational::from_integer((-1).into()), BITS))
 }
 
@@ -146,7 +140,7 @@ fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, 
     for ((above, below), exact) in MASSES.into_iter().zip(largest) {
         let mass = Rational::new(above.into(), below.into());
         let estimate = of(&mass)?;
-        let ratio = exact.reciprocal(BITS).map_err(|e| Refusal::Underivable(e.to_string()))?;
+        let ratio = exact.reciprocal(BITS)?;
         let ratio = ratio.multiply(&estimate, BITS);
         let off = ratio.subtract(&Ball::from_rational(&Rational::one(), BITS), BITS);
         let percent = off.multiply_rational(&hundred, BITS).to_decimal(20);

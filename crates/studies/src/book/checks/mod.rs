@@ -77,7 +77,7 @@ fn read(text: &str) -> Result<Expression, Refusal> {
 fn identity(left: &str, right: &str) -> Result<String, Refusal> {
     match read(left)? == read(right)? {
         true => Ok(format!("{left} = {right}: the same expression in normal form")),
-        false => Err(Refusal::Underivable(format!("{left} differs from {right}"))),
+        false => Err(Refusal::Differs(left.to_owned(), right.to_owned())),
     }
 }
 
