@@ -27,20 +27,6 @@ const ENDPOINT_BITS: i64 = 1 << 20;
 /// - A precision `p` is a number of bits: it bounds the length of the midpoint, and the rounding
 ///   adds at most `2^(2−p)` of the larger operand (sums) or of the result (products, quotients).
 ///   Fewer than two bits count as two.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep::ball::Ball;
-/// let (third, seventh) =
-///     (BigRational::new(1.into(), 3.into()), BigRational::new(1.into(), 7.into()));
-/// let (x, y) = (Ball::from_rational(&third, 64), Ball::from_rational(&seventh, 64));
-/// // x (x + y) − y = 1/63, and 63 times that is 1.
-/// let ball = x.multiply(&x.add(&y, 64), 64).subtract(&y, 64);
-/// assert!(ball.contains(&BigRational::new(1.into(), 63.into())));
-/// let one = BigRational::from_integer(1.into());
-/// assert!(ball.multiply_rational(&BigRational::from_integer(63.into()), 64).contains(&one));
-/// assert!(!ball.contains(&third));
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ball {
     midpoint: Binary,
@@ -74,15 +60,6 @@ impl Ball {
     }
 
     /// The ball around zero with this radius, rounded up.
-    ///
-    /// ```
-    /// use num_rational::BigRational;
-    /// use wavestep::ball::Ball;
-    /// let third = BigRational::new(1.into(), 3.into());
-    /// let ball = Ball::symmetric(&third);
-    /// assert!(ball.contains(&third) && ball.contains(&-&third));
-    /// assert!(!ball.contains(&BigRational::new(1.into(), 2.into())));
-    /// ```
     #[must_use]
     pub fn symmetric(radius: &BigRational) -> Self {
         Self::new(Binary::zero(), Magnitude::from_rational(radius))
@@ -257,17 +234,6 @@ impl Ball {
     ///
     /// # Errors
     /// [`BallError::DivisorMayBeZero`] where zero is in the ball.
-    ///
-    /// ```
-    /// use num_rational::BigRational;
-    /// use wavestep::ball::{Ball, BallError};
-    /// let third = BigRational::new(1.into(), 3.into());
-    /// let ball = Ball::from_rational(&third, 64);
-    /// assert!(ball.reciprocal(64)?.contains(&third.recip()));
-    /// let zero = ball.subtract(&ball, 64);
-    /// assert_eq!(zero.reciprocal(64), Err(BallError::DivisorMayBeZero));
-    /// # Ok::<(), BallError>(())
-    /// ```
     pub fn reciprocal(&self, precision: u64) -> Result<Self, BallError> {
         if self.contains_zero() {
             return Err(BallError::DivisorMayBeZero);

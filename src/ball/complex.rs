@@ -13,24 +13,6 @@ use super::magnitude::Magnitude;
 /// # Invariants
 /// - A complex ball made by an operation contains the exact result for every choice of points in
 ///   its operands.
-///
-/// ```
-/// use wavestep::ball::{Ball, ComplexBall};
-/// use wavestep_polynomial::Rational;
-///
-/// // (1 + 2i)(3 − i) = 5 + 5i.
-/// let ball = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 64);
-/// let (a, b) = (ComplexBall::new(ball(1), ball(2)), ComplexBall::new(ball(3), ball(-1)));
-/// let product = a.multiply(&b, 64);
-/// assert_eq!((product.real(), product.imaginary()), (&ball(5), &ball(5)));
-/// // Divided by 3 − i it is 1 + 2i again.
-/// let quotient = product.multiply(&b.reciprocal(64)?, 64);
-/// assert!(quotient.imaginary().contains(&Rational::from_integer(2.into())));
-/// assert_eq!(a.add(&b, 64), ComplexBall::new(ball(4), ball(1)));
-/// let two = Rational::from_integer(2.into());
-/// assert_eq!(a.multiply_rational(&two, 64), a.add(&a, 64));
-/// # Ok::<(), wavestep::ball::BallError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ComplexBall {
     re: Ball,
@@ -144,18 +126,6 @@ impl ComplexBall {
     ///
     /// # Errors
     /// [`BallError::ArgumentTooLarge`] where a part may exceed `2^40` in absolute value.
-    ///
-    /// ```
-    /// use wavestep::ball::{Ball, ComplexBall};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// // e^{iπ} = −1.
-    /// let zero = Ball::from_rational(&Rational::default(), 64);
-    /// let value = ComplexBall::new(zero, Ball::pi(64)).exp(64)?;
-    /// assert!(value.real().contains(&Rational::from_integer((-1).into())));
-    /// assert!(value.imaginary().contains(&Rational::default()));
-    /// # Ok::<(), wavestep::ball::BallError>(())
-    /// ```
     pub fn exp(&self, precision: u64) -> Result<Self, BallError> {
         let size = self.re.exp(precision)?;
         if self.im.is_exact() && self.im.contains_zero() {

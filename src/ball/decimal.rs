@@ -28,17 +28,6 @@ const EXACT_EXPONENT: u64 = 1 << 16;
 /// # Invariants
 /// - At least one digit; the first is not 0 unless all are. Zero has no sign and the exponent 0.
 /// - Numbers of different counts of digits differ: `1.0` is not `1.00`.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep::ball::Decimal;
-/// let third = BigRational::new((-1).into(), 300.into());
-/// let (decimal, _) = Decimal::from_rational(&third, 4);
-/// assert_eq!(decimal.to_string(), "-0.003333");
-/// assert_eq!(format!("{decimal:e}"), "-3.333e-3");
-/// assert_eq!(decimal.to_rational(), BigRational::new((-3333).into(), 1_000_000.into()));
-/// assert!(!decimal.is_zero());
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Decimal {
     negative: bool,
@@ -47,15 +36,6 @@ pub struct Decimal {
 }
 
 /// Whether a decimal is the number it stands for.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep::ball::{Decimal, Exactness};
-/// let seventh = BigRational::new(1.into(), 7.into());
-/// assert_eq!(Decimal::from_rational(&seventh, 50).1, Exactness::Rounded);
-/// let part = BigRational::new(1.into(), 1024.into());
-/// assert_eq!(Decimal::from_rational(&part, 50).1, Exactness::Exact);
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exactness {
     /// The decimal is the number.
@@ -85,16 +65,6 @@ impl Decimal {
     ///
     /// # Cost
     /// A division of integers as long as the fraction's terms and the digits asked.
-    ///
-    /// ```
-    /// use num_rational::BigRational;
-    /// use wavestep::ball::{Decimal, Exactness};
-    /// let eighth = BigRational::new(1.into(), 8.into());
-    /// let (decimal, exactness) = Decimal::from_rational(&eighth, 10);
-    /// assert_eq!((decimal.to_string().as_str(), exactness), ("0.125", Exactness::Exact));
-    /// let (decimal, exactness) = Decimal::from_rational(&eighth, 2);
-    /// assert_eq!((decimal.to_string().as_str(), exactness), ("0.12", Exactness::Rounded));
-    /// ```
     #[must_use]
     pub fn from_rational(value: &BigRational, significant: usize) -> (Self, Exactness) {
         assert!(significant > 0, "a decimal has at least one digit");

@@ -33,15 +33,6 @@ impl Ball {
     }
 
     /// The double that all points of the ball round to, ties to even; `None` where there is no one.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let third = Rational::new(1.into(), 3.into());
-    /// assert_eq!(Ball::from_rational(&third, 100).rounded(), Some(1.0 / 3.0));
-    /// assert_eq!(Ball::from_rational(&third, 40).rounded(), None);
-    /// ```
     pub fn rounded(&self) -> Option<f64> {
         let (lower, upper) = self.endpoints();
         let (lower, upper) = (lower.to_double(), upper.to_double());

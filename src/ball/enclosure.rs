@@ -21,16 +21,6 @@ const EXACT_EXPONENT: u64 = 1 << 16;
 /// `midpoint ± radius`.
 ///
 /// The radius includes what the printing of the midpoint rounded away, and is itself rounded up.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep::ball::Ball;
-/// let ball = Ball::from_rational(&BigRational::new(2.into(), 3.into()), 32);
-/// let enclosure = ball.to_decimal(100);
-/// assert_eq!(enclosure.to_string(), "0.666666666744 ± 2.4e-10");
-/// assert_eq!(enclosure.midpoint().to_string(), "0.666666666744");
-/// assert_eq!(format!("{:e}", enclosure.radius()), "2.4e-10");
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct DecimalEnclosure {
     midpoint: Decimal,

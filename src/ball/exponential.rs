@@ -100,18 +100,6 @@ impl Ball {
     ///
     /// # Errors
     /// [`BallError::ArgumentTooLarge`] where an `x` of the ball may exceed `2^40` in absolute value.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let third = Ball::from_rational(&Rational::new(1.into(), 3.into()), 80);
-    /// let value = third.exp(80)?;
-    /// assert!(value.to_string().starts_with("1.3956124250860895286"));
-    /// // It is less than 7/5.
-    /// assert!(!value.contains(&Rational::new(7.into(), 5.into())));
-    /// # Ok::<(), wavestep::ball::BallError>(())
-    /// ```
     pub fn exp(&self, precision: u64) -> Result<Ball, BallError> {
         if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
             return Err(BallError::ArgumentTooLarge);

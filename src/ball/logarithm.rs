@@ -67,19 +67,6 @@ impl Ball {
     ///
     /// # Cost
     /// Some two exponentials of the precision asked for.
-    ///
-    /// ```
-    /// use wavestep::ball::{Ball, BallError};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let two = Ball::from_rational(&Rational::from_integer(2.into()), 100);
-    /// assert!(two.ln(100)?.to_string().starts_with("0.693147180559945309417232121"));
-    /// // It undoes the exponential.
-    /// assert!(two.ln(100)?.exp(100)?.contains(&Rational::from_integer(2.into())));
-    /// let zero = two.subtract(&two, 100);
-    /// assert_eq!(zero.ln(100), Err(BallError::NotPositive));
-    /// # Ok::<(), BallError>(())
-    /// ```
     pub fn ln(&self, precision: u64) -> Result<Ball, BallError> {
         if self.contains_zero() || self.midpoint().is_negative() {
             return Err(BallError::NotPositive);
@@ -99,16 +86,6 @@ impl Ball {
     ///
     /// # Errors
     /// Those of [`ln`](Self::ln) and [`exp`](Self::exp).
-    ///
-    /// ```
-    /// use wavestep::ball::{Ball, BallError};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let eight = Ball::from_rational(&Rational::from_integer(8.into()), 100);
-    /// let root = eight.power(&Rational::new((-2).into(), 3.into()), 100)?;
-    /// assert!(root.contains(&Rational::new(1.into(), 4.into())));
-    /// # Ok::<(), BallError>(())
-    /// ```
     pub fn power(&self, exponent: &BigRational, precision: u64) -> Result<Ball, BallError> {
         if exponent.is_zero() {
             return Ok(Ball::from_integer(&BigInt::one()));
@@ -129,17 +106,6 @@ impl Ball {
     ///
     /// # Errors
     /// None for finite balls but those of the operations it is made of.
-    ///
-    /// ```
-    /// use wavestep::ball::{Ball, BallError};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let one = Ball::from_rational(&Rational::from_integer(1.into()), 100);
-    /// let quarter = Ball::pi(110).multiply_rational(&Rational::new(1.into(), 4.into()), 110);
-    /// let both = one.arctan(100)?.subtract(&quarter, 100);
-    /// assert!(both.contains(&Rational::from_integer(0.into())));
-    /// # Ok::<(), BallError>(())
-    /// ```
     pub fn arctan(&self, precision: u64) -> Result<Ball, BallError> {
         let working = precision.max(LEAST_PRECISION) + 16;
         let one = Ball::from_integer(&BigInt::one());
@@ -168,15 +134,6 @@ impl Ball {
     }
 
     /// Whether all numbers of the ball are less than all of another one.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let third = Ball::from_rational(&Rational::new(1.into(), 3.into()), 20);
-    /// let larger = Ball::from_rational(&Rational::new(334.into(), 1000.into()), 20);
-    /// assert!(third.is_below(&larger) && !larger.is_below(&third) && !third.is_below(&third));
-    /// ```
     #[must_use]
     pub fn is_below(&self, other: &Ball) -> bool {
         self.endpoints().1 < other.endpoints().0

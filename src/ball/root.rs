@@ -14,17 +14,6 @@ impl Ball {
     ///
     /// With an integer `y = ⌊2^k √q⌋`, the root lies between `y/2^k` and `(y + 1)/2^k`, whose middle
     /// is the midpoint; `k` is such that `y` has more than `p` bits.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let square = Rational::new(3.into(), 4.into());
-    /// let root = Ball::square_root(&square, 80).unwrap();
-    /// assert!(root.to_string().starts_with("0.866025403784438646763"));
-    /// assert!(root.multiply(&root, 80).contains(&square));
-    /// assert!(Ball::square_root(&-square, 80).is_none());
-    /// ```
     #[must_use]
     pub fn square_root(q: &BigRational, precision: u64) -> Option<Ball> {
         if q.is_negative() {
@@ -47,17 +36,6 @@ impl Ball {
 impl Ball {
     /// `√x` over a ball of positive numbers, `None` where it may hold others. With the midpoint `m`
     /// and the radius `r`, `|√x − √m| = |x − m|/(√x + √m) ≤ r/√m`.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// // √(π²) = π
-    /// let pi = Ball::pi(100);
-    /// let root = pi.multiply(&pi, 100).sqrt(100).unwrap();
-    /// assert!(root.to_string().starts_with("3.14159265358979323846264338"));
-    /// assert!(Ball::from_rational(&Rational::from_integer((-1).into()), 10).sqrt(10).is_none());
-    /// ```
     #[must_use]
     pub fn sqrt(&self, precision: u64) -> Option<Ball> {
         if self.contains_zero() || self.midpoint().is_negative() {

@@ -71,15 +71,6 @@ fn cos_sin_of_small(argument: &BigInt, working: u64) -> (BigInt, BigInt, u64) {
 
 impl Ball {
     /// π: `radius ≤ 2^(2−p)` for precision `p`.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let pi = Ball::pi(100);
-    /// assert!(pi.to_string().starts_with("3.14159265358979323846264338"));
-    /// assert!(!pi.contains(&Rational::new(355.into(), 113.into())));
-    /// ```
     #[must_use]
     pub fn pi(precision: u64) -> Ball {
         let precision = precision.max(LEAST_PRECISION);
@@ -99,18 +90,6 @@ impl Ball {
     ///
     /// # Errors
     /// [`BallError::ArgumentTooLarge`] where an `x` of the ball may exceed `2^40` in absolute value.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let x = Ball::from_rational(&Rational::new(100.into(), 3.into()), 80);
-    /// let (cos, sin) = x.cos_sin(80)?;
-    /// assert!(cos.to_string().starts_with("-0.33971181"));
-    /// let one = cos.multiply(&cos, 80).add(&sin.multiply(&sin, 80), 80);
-    /// assert!(one.contains(&Rational::from_integer(1.into())));
-    /// # Ok::<(), wavestep::ball::BallError>(())
-    /// ```
     pub fn cos_sin(&self, precision: u64) -> Result<(Ball, Ball), BallError> {
         if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
             return Err(BallError::ArgumentTooLarge);

@@ -21,24 +21,6 @@ type Powers = BTreeMap<Symbol, Vec<ComplexBall>>;
 ///
 /// # Cost
 /// A product of complex balls for each symbol of each term, and an exponential for each exponent.
-///
-/// ```
-/// use wavestep::ball::Ball;
-/// use wavestep::enclosure::enclose_expression;
-/// use wavestep::expression::{Expression, Fraction};
-/// use wavestep_polynomial::{Polynomial, Symbol};
-///
-/// // e^{ix} + e^{−ix} = 2 cos x, at x = π/3 that is 1.
-/// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-/// let wave = |rate| Expression::exponential(read(rate));
-/// let sum = &wave("1/3*x*sqrt(-1)") + &wave("-1/3*x*sqrt(-1)");
-/// let x = Symbol::new("x").unwrap();
-/// let pi = |symbol: &Symbol, bits| (*symbol == x).then(|| Ball::pi(bits));
-/// let value = enclose_expression(&sum, &pi, 100).unwrap();
-/// assert!(value.real().contains(&wavestep_polynomial::Rational::from_integer(1.into())));
-/// assert!(value.imaginary().contains(&wavestep_polynomial::Rational::default()));
-/// assert!(enclose_expression(&sum, &|_, _| None, 100).is_err());
-/// ```
 pub fn enclose_expression(
     expression: &Expression,
     values: &dyn Fn(&Symbol, u64) -> Option<Ball>,

@@ -16,26 +16,6 @@ const COMPARISON_BITS: u64 = 1 << 14;
 const BOUND_BITS: u64 = 64;
 
 /// Named constants with their definitions, and `pi`.
-///
-/// ```
-/// use wavestep::enclosure::Numbers;
-/// use wavestep::expression::{Constant, Fraction, Root};
-/// use wavestep_polynomial::{Rational, Symbol};
-///
-/// let two = Fraction::constant(&Rational::from_integer(2.into()));
-/// let r = Symbol::new("r").unwrap();
-/// let constants = [Constant { symbol: r.clone(), value: Root::of(two).into() }];
-/// let numbers = Numbers::new(&constants);
-/// let ball = numbers.enclose(&Fraction::symbol(&r), 60).unwrap();
-/// assert!(ball.to_string().starts_with("1.41421356237309504"));
-/// assert!(numbers.value(&r, 60).is_some());
-/// assert!(numbers.enclose_definition(&constants[0].value, 60).is_ok());
-/// // r < pi/2
-/// let half = Rational::new(1.into(), 2.into());
-/// let quarter_turn = Fraction::symbol(&Symbol::new("pi").unwrap()).scale(&half);
-/// let order = numbers.compare(&Fraction::symbol(&r), &quarter_turn);
-/// assert_eq!(order, Ok(std::cmp::Ordering::Less));
-/// ```
 pub struct Numbers {
     constants: Vec<Constant>,
     known: RefCell<BTreeMap<(Symbol, u64), Ball>>,

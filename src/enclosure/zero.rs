@@ -70,19 +70,6 @@ fn between(low: &Rational, high: &Rational, bits: u64) -> Ball {
 ///
 /// # Errors
 /// [`ZeroError`]: no change of sign, a zero that may be double, or a symbol without a value.
-///
-/// ```
-/// use wavestep::enclosure::enclose_zero;
-/// use wavestep::expression::{Expression, Fraction};
-/// use wavestep_polynomial::{Polynomial, Rational, Symbol};
-///
-/// // x e^x = 1 has the omega constant for its solution.
-/// let x = Symbol::new("x").unwrap();
-/// let power = Expression::exponential(Fraction::symbol(&x)).times(&Fraction::symbol(&x));
-/// let bounds = [0, 1].map(|end| Rational::from_integer(end.into()));
-/// let omega = enclose_zero(&(&power - &Expression::one()), &x, &bounds, 100).unwrap();
-/// assert!(omega.to_string().starts_with("0.567143290409783872999968662"));
-/// ```
 pub fn enclose_zero(
     expression: &Expression,
     symbol: &Symbol,
@@ -176,6 +163,10 @@ mod tests {
         let root = Ball::square_root(&Rational::from_integer(2.into()), 400).unwrap();
         assert!(zero.subtract(&root, 400).contains_zero());
         assert!(*zero.radius() <= zero.magnitude().scale(-300) && !zero.contains(&ends(1, 2)[0]));
+        // x e^x = 1 has the omega constant for its solution.
+        let power = Expression::exponential(Fraction::symbol(&x())).times(&Fraction::symbol(&x()));
+        let omega = enclose_zero(&(&power - &Expression::one()), &x(), &ends(0, 1), 100).unwrap();
+        assert!(omega.to_string().starts_with("0.567143290409783872999968662"));
         // A zero in the middle, where no sign can be told.
         let zero = enclose_zero(&polynomial("x^3 + x - 2"), &x(), &ends(0, 2), 80);
         assert!(zero.unwrap().contains(&ends(1, 1)[0]));

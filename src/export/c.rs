@@ -8,20 +8,6 @@ use crate::evaluate::{Compiled, Method as _};
 use std::fmt::Write as _;
 
 /// What a C file says of itself.
-///
-/// ```
-/// use wavestep::export::CHeading;
-///
-/// let heading = CHeading {
-///     title: "Rigid mass on a fixed bar".into(),
-///     quantity: "velocity".into(),
-///     unit: "V".into(),
-///     time_unit: "L/(mu c)".into(),
-///     command: "wavestep export rigid-mass".into(),
-/// };
-/// // The function of the file is `wavestep_velocity`: a name in C.
-/// assert!(heading.quantity.chars().all(|c| c.is_alphanumeric() || c == '_'));
-/// ```
 #[derive(Clone, Debug)]
 pub struct CHeading {
     /// The title of the scene.
@@ -63,28 +49,6 @@ fn array(output: &mut String, kind: &str, name: &str, values: impl Iterator<Item
 }
 
 /// A C file with the function `double wavestep_QUANTITY(double t)` and one for many times.
-///
-/// ```
-/// use wavestep::evaluate::{Compiled, ClosedForm};
-/// use wavestep::export::{CHeading, to_c};
-/// use wavestep::language::{Source, parse_number, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &values)?;
-/// let signal = ClosedForm::of_recurrence(&recurrence, &recurrence.observation("f").unwrap()).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("4")?);
-/// let compiled = Compiled::new(&signal, &from, &to, None).unwrap();
-/// let heading = CHeading {
-///     title: "Rigid mass on a fixed bar".to_owned(),
-///     quantity: "f".to_owned(),
-///     unit: String::new(),
-///     time_unit: String::new(),
-///     command: "wavestep export rigid-mass --as c --set mu=1".to_owned(),
-/// };
-/// assert!(to_c(&compiled, &heading).contains("double wavestep_f(double t)"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn to_c(compiled: &Compiled<'_>, heading: &CHeading) -> String {
     let (pieces, table) = (compiled.pieces(), compiled.table());
     let starts: Vec<f64> = pieces.iter().map(|piece| piece.start).collect();

@@ -21,24 +21,6 @@ enum Part {
 }
 
 /// How a scene becomes a recurrence: its waves, the laws at its nodes, its scales, the recurrence.
-///
-/// ```
-/// use wavestep::export::Derivation;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// let scene = read_scene(&Source::new("mass", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let derivation = Derivation::of(&network, &network.recurrence().unwrap(), &|_| None);
-/// // Equation 6.76: the far end does not move.
-/// assert!(derivation.to_text(100).contains("g[n] = -f[n-1]"));
-/// assert!(derivation.to_latex(84).contains("g_{n} &= -f_{n-1}"));
-/// let mut longer = derivation.clone();
-/// longer.add("The first pieces", Vec::new());
-/// assert!(longer.to_text(100).starts_with(&derivation.to_text(100)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Derivation {
     parts: Vec<Part>,
@@ -242,19 +224,6 @@ impl Derivation {
 
 /// The equations of a recurrence, solved for one wave after another, waves that are given by others
 /// put in; then what is continuous from period to period, with the value at which it starts.
-///
-/// ```
-/// use wavestep::export::solved_equations;
-/// use wavestep::language::{Source, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let (equations, starts) = solved_equations(&recurrence);
-/// assert_eq!(equations[0].to_line(), "g[n] = -f[n-1]");
-/// assert_eq!(equations[1].to_line(), "f[n]' + f[n] = f[n-1]' - f[n-1]");
-/// assert_eq!(starts[0].to_line(), "f[n] - f[n-1] = 1");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[must_use]
 pub fn solved_equations(recurrence: &Recurrence) -> (Vec<Formula>, Vec<Formula>) {
     Writer::new(recurrence).solved(recurrence.statement().waves.len())
@@ -262,20 +231,6 @@ pub fn solved_equations(recurrence: &Recurrence) -> (Vec<Formula>, Vec<Formula>)
 
 /// A linear form in the waves of a recurrence on the n-th period, as text; sums over earlier periods are
 /// left out.
-///
-/// ```
-/// use wavestep::expression::Expression;
-/// use wavestep::export::form_text;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::LinearForm;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let mut form = LinearForm::slope(0, 0);
-/// form.add_scaled(&LinearForm::wave(1, 1), &Expression::integer(-2), 0);
-/// assert_eq!(form_text(&recurrence, &form), "f[n]' - 2*g[n-1]");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[must_use]
 pub fn form_text(recurrence: &Recurrence, form: &LinearForm) -> String {
     match Writer::new(recurrence).written(form) {
@@ -286,13 +241,6 @@ pub fn form_text(recurrence: &Recurrence, form: &LinearForm) -> String {
 
 /// A name as LaTeX: Greek letters as such, one letter in italics, a word upright, `a_1` with a
 /// subscript, `a_tilde` with an accent; with an index beside the subscript where one is given.
-///
-/// ```
-/// use wavestep::export::latex_name;
-///
-/// assert_eq!(latex_name("alpha_tilde", Some("n")), "\\tilde{\\alpha}_{n}");
-/// assert_eq!(latex_name("c_2", None), "c_{2}");
-/// ```
 #[must_use]
 pub fn latex_name(name: &str, index: Option<&str>) -> String {
     index.map_or_else(|| Latex::name(name), |index| Latex::indexed(name, index))

@@ -10,61 +10,12 @@ use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The width of a line of plain text.
-///
-/// ```
-/// use wavestep::export::{Formula, Head, TEXT_WIDTH};
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let f_9 = &solution.pieces(0, 9, 9).unwrap()[0];
-/// let local = solution.recurrence().statement().local.clone();
-/// let head = Head::Piece { wave: "f".to_owned(), n: 9, local: local.clone() };
-/// let formula = Formula::new(head, f_9, &local);
-/// let text = formula.to_text(TEXT_WIDTH);
-/// assert!(text.lines().count() > 1);
-/// assert!(text.lines().all(|line| line.chars().count() <= TEXT_WIDTH));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub const TEXT_WIDTH: usize = 100;
 
 /// The width of a line of LaTeX, in characters on the page.
-///
-/// ```
-/// use wavestep::export::{Formula, Head, LATEX_WIDTH, latex, latex_width};
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let f_9 = &solution.pieces(0, 9, 9).unwrap()[0];
-/// let local = solution.recurrence().statement().local.clone();
-/// let head = Head::Piece { wave: "f".to_owned(), n: 9, local: local.clone() };
-/// let formula = Formula::new(head, f_9, &local);
-/// let latex = latex(&[formula], LATEX_WIDTH);
-/// let lines = latex.lines().filter_map(|line| line.split_once('&'));
-/// assert!(lines.clone().count() > 1);
-/// assert!(lines.map(|(_, right)| latex_width(right)).all(|width| width <= LATEX_WIDTH));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub const LATEX_WIDTH: usize = 84;
 
 /// What the left-hand side of a formula names.
-///
-/// ```
-/// use wavestep::export::{Formula, Head};
-/// use wavestep::expression::Expression;
-/// use wavestep_polynomial::Symbol;
-///
-/// let s = Symbol::new("s").unwrap();
-/// let line = |head| Formula::new(head, &Expression::one(), &s).to_line();
-/// let (wave, local) = ("f".to_owned(), s.clone());
-/// assert_eq!(line(Head::Echo { wave, k: 0, local }), "phi_f[0](s) = 1");
-/// assert_eq!(line(Head::Written("v_0".to_owned(), "v_{0}".to_owned())), "v_0 = 1");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Head {
     /// `f[3](s)`: a wave on one period.
@@ -179,32 +130,6 @@ fn solid(text: &str, notation: &dyn Notation) -> Writing {
 }
 
 /// One formula: `head = right`, and a remark.
-///
-/// ```
-/// use wavestep::export::{Formula, Head};
-/// use wavestep::expression::Fraction;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let f_1 = &solution.pieces(0, 1, 1).unwrap()[0];
-/// let statement = solution.recurrence().statement();
-/// let local = statement.local.clone();
-/// let head = Head::Piece { wave: "f".to_owned(), n: 1, local };
-/// let formula = Formula::new(head, f_1, &statement.local);
-/// assert_eq!(formula.to_line(), "f[1](s) = exp(-s)*(-2*s + 1 + exp(-2*mu))");
-/// let formula = formula.on_period(1, &Fraction::zero(), statement);
-/// let remark = "    # 2*mu <= t < 4*mu, s = t - 2*mu\n";
-/// assert_eq!(formula.to_text(100), format!("{}\n{remark}", formula.to_line()));
-/// let anywhere = formula.between(&Fraction::zero(), &Fraction::one(), statement);
-/// assert_eq!(anywhere.remark.unwrap().0, "0 <= t < 1, s = t");
-/// let (time, delay) = (&statement.time, Fraction::one());
-/// let echo = Formula::of_arrival("f", &[2, 1], &delay, f_1, &statement.local, time);
-/// assert!(echo.to_text(100).starts_with("phi_f[2,1](s) = exp(-s)"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Formula {
     /// The left-hand side.
@@ -328,67 +253,21 @@ impl Formula {
 
 /// How wide LaTeX is on the page, in characters of plain text: a command counts as one, a sign with
 /// its space as two, braces and other spaces as none.
-///
-/// ```
-/// use wavestep::export::latex_width;
-/// assert_eq!(latex_width(r"2 \mu + s^{3}"), 6); // 2, μ, + and a space, s, 3
-/// ```
 pub fn latex_width(latex: &str) -> usize {
     Latex.width(latex)
 }
 
 /// An expression as plain text in one line, which the language reads back.
-///
-/// ```
-/// use wavestep::export::expression_text;
-/// use wavestep::language::{Source, read_expression};
-///
-/// let text = "1 + exp(-2*mu)*(1 - 4*mu) + exp(-4*mu)";
-/// let read = read_expression(&Source::new("B_2", text)?)?;
-/// assert_eq!(expression_text(&read), text);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn expression_text(expression: &Expression) -> String {
     write_flat(&arrange(expression, None), &Text)
 }
 
 /// Formulas as plain text, one a line; longer ones go on in further lines.
-///
-/// ```
-/// use wavestep::export::{Formula, Head, text};
-/// use wavestep::language::{Source, read_expression};
-/// use wavestep_polynomial::Symbol;
-///
-/// let s = Symbol::new("s").unwrap();
-/// let f_1 = read_expression(&Source::new("f_1", "exp(-s)*(1 + exp(-2*mu) - 2*s)")?)?;
-/// let head = Head::Piece { wave: "f".to_owned(), n: 1, local: s.clone() };
-/// let formula = Formula::new(head, &f_1, &s);
-/// let whole = "f[1](s) = exp(-s)*(-2*s + 1 + exp(-2*mu))\n";
-/// assert_eq!(text(&[formula.clone()], 80), whole);
-/// let broken = "f[1](s) = exp(-s)*(-2*s + 1\n    + exp(-2*mu))\n";
-/// assert_eq!(text(&[formula], 30), broken);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn text(formulas: &[Formula], width: usize) -> String {
     formulas.iter().map(|formula| formula.to_text(width)).collect()
 }
 
 /// Formulas in an `align*` environment; lines of at most `width` characters on the page.
-///
-/// ```
-/// use wavestep::export::{Formula, Head, LATEX_WIDTH, latex};
-/// use wavestep::language::{Source, read_expression};
-/// use wavestep_polynomial::Symbol;
-///
-/// let s = Symbol::new("s").unwrap();
-/// let f_1 = read_expression(&Source::new("f_1", "exp(-s)*(1 + exp(-2*mu) - 2*s)")?)?;
-/// let head = Head::Piece { wave: "f".to_owned(), n: 1, local: s.clone() };
-/// let formula = Formula::new(head, &f_1, &s);
-/// let line = r"f_{1}(s) &= e^{-s}\bigl[-2 s + 1 + e^{-2 \mu}\bigr]";
-/// let environment = format!("\\begin{{align*}}\n{line}\n\\end{{align*}}\n");
-/// assert_eq!(latex(&[formula], LATEX_WIDTH), environment);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn latex(formulas: &[Formula], width: usize) -> String {
     let mut out = String::from("\\begin{align*}\n");
     for (i, formula) in formulas.iter().enumerate() {
@@ -402,26 +281,6 @@ pub fn latex(formulas: &[Formula], width: usize) -> String {
 }
 
 /// Formulas with remarks as the cases of one function, `name(variable) = …`.
-///
-/// ```
-/// use wavestep::export::{Formula, Head, LATEX_WIDTH, latex_cases};
-/// use wavestep::expression::Fraction;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let f_0 = &solution.pieces(0, 0, 0).unwrap()[0];
-/// let statement = solution.recurrence().statement();
-/// let (local, time) = (statement.local.clone(), &statement.time);
-/// let head = Head::Piece { wave: "f".to_owned(), n: 0, local };
-/// let formula = Formula::new(head, f_0, &statement.local);
-/// let case = formula.on_period(0, &Fraction::zero(), statement);
-/// let cases = latex_cases("f", time, &[case], LATEX_WIDTH);
-/// assert!(cases.contains("\\begin{cases}\ne^{-s}, & 0 \\le t < 2 \\mu,\\ s = t\n"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn latex_cases(name: &str, variable: &Symbol, formulas: &[Formula], width: usize) -> String {
     let head = format!("{}({})", Latex::name(name), Latex.symbol(variable));
     let left = width.saturating_sub(Latex.width(&head) + 3);

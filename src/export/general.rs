@@ -30,20 +30,6 @@ fn echo_index(recurrence: &Recurrence) -> Symbol {
 }
 
 /// The formulas that give a wave in general n, each proved as its remark says.
-///
-/// ```
-/// use wavestep::export::general_form;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let formulas = general_form(solution.recurrence(), 0, solution.general(0).unwrap());
-/// assert_eq!(formulas[0].to_line(), "f(t) = sum(phi_f[k](t - 2*k*mu), 0 <= 2*k*mu <= t)");
-/// assert_eq!(formulas[1].to_line(), "phi_f[k](s) = exp(-s)*L[k](2*s)");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm) -> Vec<Formula> {
     let mut formulas = match form {
         GeneralForm::Geometric(form) => geometric(recurrence, wave, form),
@@ -248,19 +234,6 @@ fn scaled(coefficient: &Fraction, mut function: Vec<Node>, family: &Family) -> T
 }
 
 /// Names for the derivative and for the delay by one period, in [`operator_of`].
-///
-/// ```
-/// use wavestep::export::operator_names;
-/// use wavestep::language::{Source, read_recurrence};
-///
-/// let text = "recurrence \"A symbol p\"\nsymbol p > 0\nperiod 1, local s, time t\nwave f\n\
-///     equation f[n] = p*f[n-1] + 1\n";
-/// let recurrence = read_recurrence(&Source::new("p", text)?, &Default::default())?;
-/// // p and s have a meaning already.
-/// let (derivative, delay) = operator_names(&recurrence);
-/// assert_eq!((derivative.name(), delay.name()), ("P", "q"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn operator_names(recurrence: &Recurrence) -> (Symbol, Symbol) {
     let p = free_name(recurrence, &["p", "s", "P", "S"]);
     (p, free_name(recurrence, &["q", "z", "Q", "Z"]))
@@ -268,20 +241,6 @@ pub fn operator_names(recurrence: &Recurrence) -> (Symbol, Symbol) {
 
 /// The equation for which no closed form was found, in the names of [`operator_names`]:
 /// `(p + 1 + (1 - p)*q)*f = 0`.
-///
-/// ```
-/// use wavestep::export::operator_of;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = "recurrence \"Two lags\"\nperiod 1, local s, time t\nwave f\n\
-///     equation f[n]' + f[n-1] + 3*f[n-2] = 0\ncontinuous f[n] starts at 1\n";
-/// let recurrence = read_recurrence(&Source::new("two lags", text)?, &Default::default())?;
-/// let solution = Solution::new(recurrence);
-/// let unknown = solution.general(0).unwrap_err();
-/// assert_eq!(operator_of(solution.recurrence(), unknown), "(3*q^2 + q + p)*f = 0");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
     let (p, q) = operator_names(recurrence);
     let (slope, delay) = (Expression::symbol(&p), Expression::symbol(&q));
@@ -304,17 +263,6 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
 }
 
 /// The factors of more than one term that are taken to be non-zero, as text.
-///
-/// ```
-/// use wavestep::export::assumed_factors;
-/// use wavestep::language::{Source, read_recurrence};
-///
-/// let text = "recurrence \"Two rates\"\nsymbol a > 0, b > 0\nnonzero a - b\n\
-///     period 1, local s, time t\nwave f\nequation f[n] = f[n-1]/(a - b) + 1\n";
-/// let recurrence = read_recurrence(&Source::new("two rates", text)?, &Default::default())?;
-/// assert_eq!(assumed_factors(&recurrence.statement().assumptions), ["a - b"]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn assumed_factors(assumptions: &Assumptions) -> Vec<String> {
     let factor = |p: &Polynomial| write_flat(&arrange(&p.clone().into(), None), &Text);
     assumptions.factors().filter(|p| p.term_count() > 1).map(factor).collect()

@@ -13,20 +13,6 @@ use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// How the source of a recurrence writes its waves.
-///
-/// ```
-/// use wavestep::export::{SourceForm, latex};
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let rigid_mass = wavestep::scenes::find("rigid-mass").unwrap();
-/// let source = Source::new(rigid_mass.name, rigid_mass.text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let f_0 = &solution.pieces(0, 0, 0).unwrap()[0];
-/// let formulas = SourceForm::new(solution.recurrence(), None).piece(0, 0, f_0);
-/// assert_eq!(formulas[0].to_line(), "f[0] = V/c*exp(-mu*z/L)");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct SourceForm<'a> {
     recurrence: &'a Recurrence,
     names: Arc<Names>,
@@ -92,21 +78,6 @@ impl<'a> SourceForm<'a> {
 
     /// A wave in general n, in the source's symbols: single values, and last the one for every n.
     /// `None` where the wave is a sum of echoes.
-    ///
-    /// ```
-    /// use wavestep::export::SourceForm;
-    /// use wavestep::language::{Source, read_recurrence};
-    /// use wavestep::solution::Solution;
-    ///
-    /// let text = wavestep::scenes::find("constant-force").unwrap().text;
-    /// let source = Source::new("constant-force", text)?;
-    /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-    /// let recurrence = solution.recurrence();
-    /// let form = solution.general(0).unwrap();
-    /// let written = SourceForm::new(recurrence, None).general(0, form).unwrap();
-    /// assert_eq!(written[0].to_line(), "f_prime[n] = (n + 1)*X/(E*A)");
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn general(&self, wave: WaveIndex, form: &GeneralForm) -> Option<Vec<Formula>> {
         let GeneralForm::Geometric(sequence) = form else { return None };
         let unit = self.recurrence.statement().notation.units.get(&wave);

@@ -8,16 +8,6 @@ use std::fmt;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// How a symbol compares with a number.
-///
-/// ```
-/// use wavestep::expression::{Condition, Relation};
-/// use wavestep_polynomial::Rational;
-///
-/// let bound = Rational::new(1.into(), 2.into());
-/// for (relation, text) in [(Relation::Greater, "> 1/2"), (Relation::Unequal, "!= 1/2")] {
-///     assert_eq!(Condition { relation, bound: bound.clone() }.to_string(), text);
-/// }
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Relation {
     /// `>`
@@ -33,15 +23,6 @@ pub enum Relation {
 }
 
 /// A condition on the value of one symbol, such as `> 0`.
-///
-/// ```
-/// use wavestep::expression::{Condition, Relation};
-/// use wavestep_polynomial::Rational;
-///
-/// let [one, two] = [1, 2].map(|value| Rational::from_integer(value.into()));
-/// let condition = Condition { relation: Relation::AtMost, bound: one.clone() };
-/// assert!(condition.holds(&one) && !condition.holds(&two));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Condition {
     /// The comparison.
@@ -95,27 +76,6 @@ impl fmt::Display for Condition {
 /// Only declared factors, and such as cannot vanish under the conditions, are divided by. A
 /// symbolic answer therefore holds wherever the conditions hold and no factor vanishes; other
 /// values are put in before anything is derived.
-///
-/// ```
-/// use wavestep::expression::{Assumptions, Condition, Fraction, Relation};
-/// use wavestep::language::{Source, read_expression};
-/// use wavestep_polynomial::{Polynomial, Rational, Symbol};
-///
-/// let mut known = Assumptions::default();
-/// let zero = Rational::from_integer(0.into());
-/// let positive = Condition { relation: Relation::Greater, bound: zero };
-/// known.declare_symbol(Symbol::new("r").unwrap(), Some(positive));
-/// assert_eq!(known.symbols().count(), 1);
-/// // 1 + r cannot vanish where r > 0; r − 1 can, until it is declared not to.
-/// let polynomial = |text: &str| text.parse::<Polynomial>().unwrap();
-/// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-/// assert!(known.is_positive(&polynomial("1 + r").into()));
-/// assert_eq!(known.invert(&read("(1 + r)*exp(-r)")), Ok(read("exp(r)/(1 + r)")));
-/// assert!(known.invert(&read("r - 1")).is_err());
-/// known.declare_factors(&Fraction::reciprocal(&polynomial("r - 1")).unwrap());
-/// assert_eq!(known.invert(&read("r - 1")), Ok(read("1/(r - 1)")));
-/// assert!(known.factors().eq(&[polynomial("r"), polynomial("r - 1")]));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Assumptions {
     conditions: BTreeMap<Symbol, Option<Condition>>,
@@ -163,17 +123,6 @@ impl Assumptions {
 
     /// Declares positive numbers between which the value of a symbol lies.
     ///
-    /// ```
-    /// use wavestep::expression::{Assumptions, Fraction};
-    /// use wavestep_polynomial::{Polynomial, Rational, Symbol};
-    ///
-    /// let number = |value: i64| Rational::from_integer(value.into());
-    /// let mut known = Assumptions::default();
-    /// known.declare_bounds(Symbol::new("k").unwrap(), number(3), number(4));
-    /// let value = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-    /// assert!(known.is_positive(&value("k*k - 2*k")) && !known.is_positive(&value("k*k - 4*k")));
-    /// ```
-    ///
     /// # Panics
     /// Where the lower bound is not positive, or above the upper one.
     pub fn declare_bounds(&mut self, symbol: Symbol, lower: Rational, upper: Rational) {
@@ -197,25 +146,6 @@ impl Assumptions {
     }
 
     /// Declares the square of a symbol, free of the symbol itself.
-    ///
-    /// ```
-    /// use wavestep::expression::{Assumptions, Condition, Fraction, Relation};
-    /// use wavestep::language::{Source, read_expression};
-    /// use wavestep_polynomial::{Polynomial, Rational, Symbol};
-    ///
-    /// let positive = Condition { relation: Relation::Greater, bound: Rational::default() };
-    /// let symbol = |name| Symbol::new(name).unwrap();
-    /// let mut known = Assumptions::default();
-    /// known.declare_symbol(symbol("k"), Some(positive.clone()));
-    /// known.declare_symbol(symbol("w"), Some(positive));
-    /// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-    /// // This is not known to have an inverse, until w² is known to be k − k².
-    /// let value = read("w^3 + w*k^2 + k^3");
-    /// assert!(known.invert(&value).is_err());
-    /// known.declare_square(symbol("w"), read("k - k^2").as_fraction().unwrap());
-    /// assert_eq!(known.invert(&value), Ok(read("1/(k*(w + k^2))")));
-    /// assert_eq!(known.reduced(&read("w^3")), read("(k - k^2)*w"));
-    /// ```
     pub fn declare_square(&mut self, symbol: Symbol, square: Fraction) {
         self.squares.insert(symbol, square);
     }
@@ -264,17 +194,6 @@ impl Assumptions {
     ///
     /// An algebraic number that is not zero can always be inverted. Where `c` holds square roots and
     /// symbols, it is its norm that must be such a product, or a power of one.
-    ///
-    /// ```
-    /// use wavestep::expression::{Assumptions, Expression};
-    /// use wavestep_polynomial::Polynomial;
-    ///
-    /// // 1/(1 + i√3) = (1 − i√3)/4: nothing need be declared.
-    /// let read = |text: &str| Expression::from(text.parse::<Polynomial>().unwrap());
-    /// let inverse = Assumptions::default().invert(&read("1 + sqrt(-1)*sqrt(3)"));
-    /// assert_eq!(inverse, Ok(read("1/4 - 1/4*sqrt(-1)*sqrt(3)")));
-    /// assert!(Assumptions::default().invert(&read("x + sqrt(3)")).is_err());
-    /// ```
     ///
     /// # Errors
     /// [`NotInvertible`] with the part that stands in the way.

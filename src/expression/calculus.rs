@@ -28,21 +28,6 @@ impl Expression {
     ///
     /// # Panics
     /// Where an exponent is not linear in `x`, or `x` stands in a denominator.
-    ///
-    /// ```
-    /// use wavestep::expression::Assumptions;
-    /// use wavestep::language::{Source, read_expression};
-    /// use wavestep_polynomial::Symbol;
-    ///
-    /// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-    /// let (s, nothing) = (Symbol::new("s").unwrap(), Assumptions::default());
-    /// let integral = read("s*exp(-s)").antiderivative(&s, &nothing).unwrap();
-    /// assert_eq!(integral, read("1 - (1 + s)*exp(-s)"));
-    /// assert_eq!(integral.derivative(&s), read("s*exp(-s)"));
-    /// assert!(integral.at_zero(&s).is_zero());
-    /// // Nothing says that a is not zero.
-    /// assert!(read("exp(a*s)").antiderivative(&s, &nothing).is_err());
-    /// ```
     pub fn antiderivative(
         &self,
         x: &Symbol,
@@ -86,19 +71,6 @@ impl Expression {
     ///
     /// # Panics
     /// As for [`Expression::antiderivative`].
-    ///
-    /// ```
-    /// use wavestep::expression::{Assumptions, Expression, Fraction};
-    /// use wavestep::language::{Source, read_expression};
-    /// use wavestep_polynomial::Symbol;
-    ///
-    /// // y' + y = −2e^{−s}, y(0) = 1: forced at its own rate.
-    /// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-    /// let (s, one) = (Symbol::new("s").unwrap(), Fraction::one());
-    /// let y = read("-2*exp(-s)")
-    ///     .solve_first_order(&s, &one, &Expression::one(), &Assumptions::default());
-    /// assert_eq!(y, Ok(read("(1 - 2*s)*exp(-s)")));
-    /// ```
     pub fn solve_first_order(
         self,
         x: &Symbol,

@@ -7,20 +7,6 @@ use wavestep_polynomial::{Rational, Symbol};
 
 /// A value `factor · √radicand`, the radicand positive. Impedances `A √(Eρ)` and travel times
 /// `L √(ρ/E)` are such values.
-///
-/// ```
-/// use wavestep::expression::{Fraction, Root};
-/// use wavestep_polynomial::Rational;
-///
-/// let number = |p: i64, q: i64| Fraction::constant(&Rational::new(p.into(), q.into()));
-/// // √8/√2 = 2: a ratio of roots may be rational.
-/// let ratio = Root::of(number(8, 1)).over(&Root::of(number(2, 1))).unwrap();
-/// assert_eq!(ratio.exact(), Some(number(2, 1)));
-/// let root = Root::of(number(2, 1));
-/// assert_eq!(root.exact(), None);
-/// assert_eq!((root.factor(), root.radicand()), (&Fraction::one(), &number(2, 1)));
-/// assert_eq!(Root::from(number(3, 2)).times(&ratio).exact(), Some(number(3, 1)));
-/// ```
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Root {
     factor: Fraction,
@@ -101,19 +87,6 @@ fn rational_square_root(value: &Rational) -> Option<Rational> {
 }
 
 /// What a named constant is.
-///
-/// ```
-/// use wavestep::expression::{Definition, Fraction, Root};
-/// use wavestep_polynomial::Rational;
-///
-/// let number = |value: i64| Rational::from_integer(value.into());
-/// let two = Fraction::constant(&number(2));
-/// assert_eq!(Definition::from(Root::of(two.clone())), Definition::Root(Root::of(two.clone())));
-/// // x³ − 2 = 0 between 1 and 2.
-/// let polynomial = vec![Fraction::one(), Fraction::zero(), Fraction::zero(), -&two];
-/// let cube_root = Definition::Zero { polynomial, between: (number(1), number(2)) };
-/// assert_ne!(cube_root, Definition::Root(Root::of(two)));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Definition {
     /// A factor times a square root.
@@ -146,15 +119,6 @@ impl From<Root> for Definition {
 
 /// A real constant that is named, because it is no rational number: formulas hold its symbol, and
 /// numbers come from its definition.
-///
-/// ```
-/// use wavestep::expression::{Constant, Definition, Fraction, Root};
-/// use wavestep_polynomial::{Rational, Symbol};
-///
-/// let two = Fraction::constant(&Rational::from_integer(2.into()));
-/// let ratio = Constant { symbol: Symbol::new("r").unwrap(), value: Root::of(two).into() };
-/// assert!(matches!(ratio.value, Definition::Root(_)));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Constant {
     /// Its name in formulas.

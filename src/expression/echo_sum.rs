@@ -12,20 +12,6 @@ use wavestep_polynomial::{Rational, Symbol};
 /// ```
 ///
 /// One short polynomial an echo, and no symbol of the period in it.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let f = Solution::new(recurrence).echoes(0, 1).unwrap();
-/// // f[1](s) = φ_0(s + 2*mu) + φ_1(s)
-/// let read = |text| read_expression(&Source::new("text", text).unwrap());
-/// assert_eq!(f.echoes(), [read("exp(-s)")?, read("exp(-s)*(1 - 2*s)")?]);
-/// assert_eq!(f.piece(1), Ok(read("exp(-s - 2*mu) + exp(-s)*(1 - 2*s)")?));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EchoSum {
     period: Fraction,

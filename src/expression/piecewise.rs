@@ -13,23 +13,6 @@ use wavestep_polynomial::Symbol;
 ///
 /// The value at `nD` is that of the piece that starts there, the right-hand limit; the left-hand
 /// limit is the piece before at `s = D`.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::PeriodByPeriod;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let mut solver = PeriodByPeriod::new(&recurrence);
-/// (0..2).for_each(|_| solver.advance().unwrap());
-/// let f = &solver.waves()[recurrence.wave("f").unwrap()];
-/// // At the first return the front of height 1 is back: f jumps from exp(-2*mu) by 1.
-/// let read = |text| read_expression(&Source::new("text", text).unwrap());
-/// assert_eq!(f.pieces()[0], read("exp(-s)")?);
-/// assert_eq!(f.end(0), Ok(read("exp(-2*mu)")?));
-/// assert_eq!(f.start(1), read("1 + exp(-2*mu)")?);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Piecewise {
     period: Fraction,

@@ -10,28 +10,11 @@ const TRIAL_LIMIT: u64 = 1_000_000;
 
 impl Fraction {
     /// The square roots that occur, ascending by name.
-    ///
-    /// ```
-    /// use wavestep::expression::Fraction;
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    ///
-    /// let pole = Fraction::from("-1/2 + 1/2*sqrt(-1)*sqrt(3)".parse::<Polynomial>().unwrap());
-    /// assert!(pole.roots().eq([-1, 3].map(|n| Symbol::square_root(n).unwrap()).iter()));
-    /// ```
     pub fn roots(&self) -> impl Iterator<Item = &Symbol> + '_ {
         self.numerator().roots()
     }
 
     /// The value with `−root` in place of the square root `root`.
-    ///
-    /// ```
-    /// use wavestep::expression::Fraction;
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    ///
-    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-    /// let conjugate = read("mu + sqrt(2)").conjugate(&Symbol::square_root(2).unwrap());
-    /// assert_eq!(conjugate, read("mu - sqrt(2)"));
-    /// ```
     pub fn conjugate(&self, root: &Symbol) -> Fraction {
         match self.roots().any(|own| own == root) {
             true => self.with_numerator(self.numerator().conjugate(root)),
@@ -46,16 +29,6 @@ impl Fraction {
     /// `None` where there is none of this kind: for what is no rational times a square, for what
     /// holds square roots itself, and for a `c` whose factors are not found. All primes up to
     /// `10⁶` are tried; what is left may be a square, or a prime below `10¹²`.
-    ///
-    /// ```
-    /// use wavestep::expression::Fraction;
-    /// use wavestep_polynomial::Polynomial;
-    ///
-    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-    /// assert_eq!(read("-3/4").square_root(), Some(read("1/2*sqrt(-1)*sqrt(3)")));
-    /// assert_eq!(read("24*x^2").square_root(), Some(read("2*sqrt(2)*sqrt(3)*x")));
-    /// assert_eq!(read("x^2 + 1").square_root(), None);
-    /// ```
     pub fn square_root(&self) -> Option<Fraction> {
         if self.is_zero() {
             return Some(Fraction::zero());
@@ -75,18 +48,6 @@ impl Fraction {
 
 impl Expression {
     /// `cos angle = (e^{i angle} + e^{−i angle})/2`.
-    ///
-    /// ```
-    /// use wavestep::expression::{Expression, Fraction};
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    ///
-    /// let s = Symbol::new("s").unwrap();
-    /// let angle = Fraction::from("2*s".parse::<Polynomial>().unwrap());
-    /// let (cos, sin) = (Expression::cosine(&angle), Expression::sine(&angle));
-    /// assert!((&cos.pow(2) + &sin.pow(2)).is_one());
-    /// let two = wavestep_polynomial::Rational::from_integer(2.into());
-    /// assert_eq!(sin.derivative(&s), cos.scale(&two));
-    /// ```
     pub fn cosine(angle: &Fraction) -> Expression {
         let half = Fraction::constant(&Rational::new(1.into(), 2.into()));
         Expression::pair(angle, half.clone(), half)
@@ -108,15 +69,6 @@ impl Expression {
     }
 
     /// The square roots that occur, ascending by name.
-    ///
-    /// ```
-    /// use wavestep::expression::{Expression, Fraction};
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    ///
-    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-    /// let wave = Expression::exponential(read("sqrt(2)*s")).times(&read("s + 1"));
-    /// assert_eq!(wave.roots(), [Symbol::square_root(2).unwrap()]);
-    /// ```
     pub fn roots(&self) -> Vec<Symbol> {
         let both = self.terms().flat_map(|(exponent, p)| exponent.roots().chain(p.roots()));
         let mut roots: Vec<Symbol> = both.cloned().collect();
@@ -127,19 +79,6 @@ impl Expression {
 
     /// The value with `−root` in place of the square root `root`: for the root of −1 the complex
     /// conjugate, where the symbols are real.
-    ///
-    /// ```
-    /// use wavestep::expression::{Expression, Fraction};
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    ///
-    /// let read = |text: &str| Fraction::from(text.parse::<Polynomial>().unwrap());
-    /// let wave = |rate| Expression::exponential(read(rate));
-    /// let (i, up, down) = (Symbol::square_root(-1).unwrap(), "sqrt(-1)*s", "-sqrt(-1)*s");
-    /// assert_eq!(wave(up).conjugate(&i), wave(down));
-    /// // 2 cos s is real.
-    /// let sum = &wave(up) + &wave(down);
-    /// assert_eq!(sum.conjugate(&i), sum);
-    /// ```
     pub fn conjugate(&self, root: &Symbol) -> Expression {
         let mut conjugate = Expression::zero();
         for (exponent, p) in self.terms() {

@@ -30,22 +30,6 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 ///
 /// # Invariants
 /// - exponents pairwise different, no coefficient zero.
-///
-/// ```
-/// use wavestep::expression::{Expression, Fraction};
-/// use wavestep_polynomial::{Rational, Symbol};
-///
-/// // The product of 1 + e^{−s} and 1 − e^{−s} is 1 − e^{−2s}.
-/// let s = Symbol::new("s").unwrap();
-/// let decay = |rate| {
-///     let rate = Fraction::constant(&Rational::from_integer(rate));
-///     Expression::exponential(&-&rate * &Fraction::symbol(&s))
-/// };
-/// let (one, e) = (Expression::one(), decay(1.into()));
-/// assert_eq!(&(&one + &e) * &(&one - &e), &one - &decay(2.into()));
-/// assert_eq!(e.pow(2), decay(2.into()));
-/// assert_eq!(e.symbols(), [s]);
-/// ```
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Expression {
     terms: BTreeMap<Fraction, Fraction>,
@@ -54,18 +38,6 @@ pub struct Expression {
 /// A number `Σ_j r_j e^{λ_j}`: rational exponents (pairwise different) with rational, non-zero
 /// coefficients. By the theorem of Lindemann and Weierstrass it is rational exactly when no
 /// exponent but 0 is left.
-///
-/// ```
-/// use wavestep::expression::ExponentialSum;
-/// use wavestep::language::{Source, read_expression};
-/// use wavestep_polynomial::Rational;
-///
-/// let number = |value: i64| Rational::from_integer(value.into());
-/// let value = read_expression(&Source::new("text", "2 - 3*exp(-1) + exp(-1)")?)?;
-/// let expected = ExponentialSum::from([(number(0), number(2)), (number(-1), number(-2))]);
-/// assert_eq!(value.evaluate(&|_| None), Ok(expected));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub type ExponentialSum = BTreeMap<Rational, Rational>;
 
 impl Expression {
@@ -80,20 +52,6 @@ impl Expression {
     }
 
     /// A rational constant.
-    ///
-    /// ```
-    /// use wavestep::expression::Expression;
-    /// use wavestep_polynomial::{Rational, Symbol};
-    ///
-    /// let half = Expression::constant(&Rational::new(1.into(), 2.into()));
-    /// assert!((&half * &Expression::integer(2)).is_one());
-    /// assert!((&half - &half).is_zero() && Expression::zero().is_zero());
-    /// // Numbers are told from what holds a symbol, and fractions from exponentials.
-    /// let mu = Symbol::new("mu").unwrap();
-    /// let value = &half + &Expression::symbol(&mu);
-    /// assert!(value.contains(&mu) && value.as_constant().is_none());
-    /// assert_eq!(value.as_fraction().map(|value| value.to_string()).as_deref(), Some("mu + 1/2"));
-    /// ```
     pub fn constant(value: &Rational) -> Expression {
         Fraction::constant(value).into()
     }
@@ -124,20 +82,6 @@ impl Expression {
     }
 
     /// The terms: exponent and coefficient, in the order of the exponents' representation.
-    ///
-    /// ```
-    /// use wavestep::expression::{Expression, Fraction};
-    /// use wavestep::language::{Source, read_expression};
-    ///
-    /// let f = read_expression(&Source::new("text", "exp(-s)*(2 - s) + 1")?)?;
-    /// let terms: Vec<String> = f.terms().map(|(e, p)| format!("({p}) exp({e})")).collect();
-    /// assert_eq!(terms, ["(1) exp(0)", "(-s + 2) exp(-s)"]);
-    /// // The same, put together term by term.
-    /// let mut sum = Expression::zero();
-    /// f.terms().for_each(|(e, p)| sum.add_term(e.clone(), p.clone()));
-    /// assert_eq!(sum, f);
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Fraction, &Fraction)> + '_ {
         self.terms.iter()
     }
@@ -210,20 +154,6 @@ impl Expression {
     }
 
     /// The product with `e^{exponent}`: coefficients are moved, not computed.
-    ///
-    /// ```
-    /// use wavestep::expression::Fraction;
-    /// use wavestep::language::{Source, read_expression};
-    /// use wavestep_polynomial::{Rational, Symbol};
-    ///
-    /// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-    /// let (f, mu) = (read("s*exp(-s)"), Fraction::symbol(&Symbol::new("mu").unwrap()));
-    /// assert_eq!(f.times(&mu), read("mu*s*exp(-s)"));
-    /// let two = Rational::from_integer(2.into());
-    /// assert_eq!(f.scale(&two), read("2*s*exp(-s)"));
-    /// assert_eq!(f.scale(&two).proportion(&f), Some(two));
-    /// assert_eq!(f.times_exponential(&mu), read("s*exp(mu - s)"));
-    /// ```
     pub fn times_exponential(self, exponent: &Fraction) -> Expression {
         if exponent.is_zero() {
             return self;
@@ -291,18 +221,6 @@ impl Expression {
     ///
     /// # Errors
     /// As for [`Expression::substitute`].
-    ///
-    /// ```
-    /// use wavestep::expression::Fraction;
-    /// use wavestep::language::{Source, read_expression};
-    /// use wavestep_polynomial::Symbol;
-    ///
-    /// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-    /// let [s, mu] = ["s", "mu"].map(|name| Symbol::new(name).unwrap());
-    /// let (f, mu) = (read("s*exp(-s)"), Fraction::symbol(&mu));
-    /// assert_eq!(f.substitute(&s, &mu), Ok(read("mu*exp(-mu)")));
-    /// assert_eq!(f.shift(&s, &mu), Ok(read("(s + mu)*exp(-s - mu)")));
-    /// ```
     pub fn shift(&self, x: &Symbol, step: &Fraction) -> Result<Expression, NotAUnit> {
         if step.is_zero() {
             return Ok(self.clone());
@@ -322,19 +240,6 @@ impl Expression {
     ///
     /// # Panics
     /// Where a denominator is zero there.
-    ///
-    /// ```
-    /// use wavestep::language::{Source, read_expression};
-    /// use wavestep_polynomial::{Rational, Symbol};
-    ///
-    /// let s = Symbol::new("s").unwrap();
-    /// let f = read_expression(&Source::new("text", "exp(-s)*(1 - 2*s)")?)?;
-    /// // At 1/2 the coefficient vanishes: f is 0 there, exactly.
-    /// let half = Rational::new(1.into(), 2.into());
-    /// assert!(f.evaluate(&|x| (*x == s).then(|| half.clone())).unwrap().is_empty());
-    /// assert_eq!(f.evaluate(&|_| None), Err(s));
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn evaluate(
         &self,
         values: &impl Fn(&Symbol) -> Option<Rational>,

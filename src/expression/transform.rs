@@ -17,26 +17,6 @@ use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, factorial};
 ///
 /// # Invariants
 /// - the last coefficient of every pole is not zero; poles without coefficients are absent.
-///
-/// ```
-/// use wavestep::expression::{Assumptions, Expression, Fraction, Transform};
-/// use wavestep::language::{Source, read_expression};
-/// use wavestep_polynomial::Symbol;
-///
-/// let read = |text| read_expression(&Source::new("text", text).unwrap()).unwrap();
-/// let s = Symbol::new("s").unwrap();
-/// // s e^{−s} ↔ 1/(p + 1)²: it starts at 0, and its derivative at 1.
-/// let echo = Transform::of(&read("s*exp(-s)"), &s);
-/// assert_eq!(echo.poles().next().unwrap().1, [Expression::zero(), Expression::one()]);
-/// assert!(echo.initial_value().is_zero() && !echo.is_zero());
-/// assert!(echo.derivative().initial_value().is_one());
-/// // Divided by p + 1 it is 1/(p + 1)³ ↔ s²/2 e^{−s}.
-/// let minus_one = -&Fraction::one();
-/// let mut later = echo.divide_by_pole(&minus_one, &Assumptions::default()).unwrap();
-/// assert_eq!(later.function(&s), read("s^2/2*exp(-s)"));
-/// later.add_scaled(&echo, &read("2"));
-/// assert_eq!(later.function(&s), read("(s^2/2 + 2*s)*exp(-s)"));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Transform<V = Expression> {
     poles: BTreeMap<Fraction, Vec<V>>,
@@ -44,20 +24,6 @@ pub struct Transform<V = Expression> {
 
 /// What the coefficients of a [`Transform`] are computed in: exact expressions, or enclosures of a
 /// given precision. Poles are exact in either case, so that equal ones are recognised.
-///
-/// ```
-/// use wavestep::expression::{Assumptions, Exact, Expression, Field, Fraction};
-///
-/// let nothing = Assumptions::default();
-/// let field = Exact::new(&nothing);
-/// let two = Expression::integer(2);
-/// let half = field.inverse(&two.as_fraction().unwrap()).unwrap();
-/// assert!(field.product(&two, &half).is_one());
-/// let mut sum = field.zero();
-/// field.add_product(&mut sum, &two, &half);
-/// field.add(&mut sum, &half);
-/// assert!(!field.is_zero(&sum) && field.embed(&sum).as_ref() == Ok(&sum));
-/// ```
 pub trait Field {
     /// A coefficient.
     type Value: Clone;
@@ -89,13 +55,6 @@ pub trait Field {
 }
 
 /// Exact coefficients.
-///
-/// ```
-/// use wavestep::expression::{Assumptions, Exact, Expression, Field};
-///
-/// let nothing = Assumptions::default();
-/// assert_eq!(Exact::new(&nothing).zero(), Expression::zero());
-/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Exact<'a> {
     assumptions: &'a Assumptions,

@@ -13,13 +13,6 @@ use crate::network::{Extent, FieldBar};
 use wavestep_polynomial::Rational;
 
 /// A part of a wave between two times at the end of the bar at which it enters.
-///
-/// ```
-/// use wavestep::field::Strip;
-///
-/// let strip = Strip { from: 0.0, to: 1.0, value: 0.5 };
-/// assert!(strip.from < strip.to);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Strip {
     /// When it enters.
@@ -31,13 +24,6 @@ pub struct Strip {
 }
 
 /// A front: when it enters a bar, and what jumps there.
-///
-/// ```
-/// use wavestep::field::Front;
-///
-/// let front = Front { at: 2.0, jumps: true };
-/// assert!(front.jumps);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Front {
     /// When it enters.
@@ -53,26 +39,6 @@ pub struct Front {
 ///
 /// # Invariants
 /// - strips follow one another without gaps.
-///
-/// ```
-/// # use wavestep::field::FieldEvaluator;
-/// # use wavestep::language::{Source, parse_number, read_scene};
-/// # use wavestep::network::Network;
-/// # let text = wavestep::scenes::find("striker-on-long-bar").unwrap().text;
-/// # let values = [("r".to_owned(), parse_number("1")?)].into();
-/// # let scene = read_scene(&Source::new("striker-on-long-bar", text)?, &values).unwrap();
-/// # let network = Network::new(&scene).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("3")?);
-/// let evaluator = FieldEvaluator::new(&network, &to).unwrap();
-/// let bars = evaluator.waves([&from, &to], 40).unwrap();
-/// // Equal bars: half of the velocity goes on; a front leaves the free end at 1 and all comes to rest.
-/// let striker = &bars[0];
-/// assert_eq!((striker.name.as_str(), striker.length, striker.velocity), ("striker", 1.0, 1.0));
-/// assert!(striker.left.iter().all(|strip| [0.0, -0.5].contains(&strip.value)));
-/// assert_eq!(striker.right_fronts[0].at, 1.0);
-/// assert!(bars[1].is_endless && bars[1].left.iter().all(|strip| strip.value == 0.0));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct BarWaves {
     /// What the bar is called.

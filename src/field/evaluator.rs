@@ -34,30 +34,6 @@ const SPARE_BITS: i64 = 75;
 const NEGLIGIBLE_BITS: i64 = 400;
 
 /// The fields of a scene in numbers, up to a last time.
-///
-/// ```
-/// use wavestep::field::{FieldEvaluator, Mesh, Quantity};
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let at = parse_number("5/4")?;
-/// let evaluator = FieldEvaluator::new(&network, &at).unwrap();
-/// assert_eq!(evaluator.bars().collect::<Vec<_>>(), ["rod"]);
-/// assert_eq!(evaluator.network().scene(), network.scene());
-/// // The mean strain of a cell is the difference of the displacements at its ends over its length.
-/// let mesh = Mesh::new(20).unwrap();
-/// let nodes = evaluator.at(&at, &mesh).unwrap();
-/// let means = evaluator.at(&at, &mesh.averages()).unwrap();
-/// let (u, strain) = (nodes.bars[0].of(Quantity::Displacement), means.bars[0].of(Quantity::Strain));
-/// for (u, strain) in u.windows(2).zip(strain) {
-///     assert!((20.0 * (u[1].value - u[0].value) - strain.value).abs() < 1e-13);
-/// }
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct FieldEvaluator {
     network: Network,
     pub(super) bars: Vec<FieldBar>,
@@ -119,24 +95,6 @@ impl FieldEvaluator {
     ///
     /// # Errors
     /// [`FieldError::NegativeReach`] for a length that is not above zero.
-    ///
-    /// ```
-    /// use wavestep::field::FieldEvaluator;
-    /// use wavestep::language::{Source, parse_number, read_scene};
-    /// use wavestep::network::Network;
-    ///
-    /// let text = wavestep::scenes::find("striker-on-long-bar").unwrap().text;
-    /// let values = [("r".to_owned(), parse_number("1")?)].into();
-    /// let scene = read_scene(&Source::new("striker-on-long-bar", text)?, &values).unwrap();
-    /// let evaluator = FieldEvaluator::new(&Network::new(&scene).unwrap(), &parse_number("2")?);
-    /// let evaluator = evaluator.unwrap().looking(&parse_number("4")?).unwrap();
-    /// let profiles = evaluator.profiles(&parse_number("2")?, 10).unwrap();
-    /// // The pulse fills half of the part of the long bar that is looked at.
-    /// let [pulse, rest] = &profiles[1].stretches[..] else { panic!("two stretches") };
-    /// assert_eq!((pulse[0].1[0], pulse.last().unwrap().0), (0.5, 2.0));
-    /// assert_eq!((rest[0].1[0], rest.last().unwrap().0), (0.0, 4.0));
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn looking(self, reach: &Rational) -> Result<FieldEvaluator, FieldError> {
         match *reach > Rational::default() {
             true => Ok(FieldEvaluator { reach: Some(reach.clone()), ..self }),

@@ -5,22 +5,9 @@ use crate::evaluate::Limit;
 use wavestep_polynomial::Rational;
 
 /// The most cells of one bar.
-///
-/// ```
-/// use wavestep::field::{MAX_CELLS, Mesh};
-///
-/// assert!(Mesh::new(MAX_CELLS).is_ok() && Mesh::new(MAX_CELLS + 1).is_err());
-/// ```
 pub const MAX_CELLS: usize = 100_000;
 
 /// What is given of each field.
-///
-/// ```
-/// use wavestep::field::{Mesh, Sampling};
-///
-/// assert_eq!(Mesh::new(8)?.averages().sampling(), Sampling::Averages);
-/// # Ok::<(), wavestep::field::FieldError>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sampling {
     /// The values at the N + 1 nodes `x_j = jL/N`.
@@ -34,17 +21,6 @@ pub enum Sampling {
 /// # Invariants
 /// - from 1 to [`MAX_CELLS`] cells;
 /// - a reach is above zero.
-///
-/// ```
-/// use wavestep::evaluate::Limit;
-/// use wavestep::field::{Mesh, Sampling};
-///
-/// let mesh = Mesh::new(100)?.only("rod").with_limit(Limit::Left);
-/// assert_eq!((mesh.cells(), mesh.limit(), mesh.sampling()), (100, Limit::Left, Sampling::Nodes));
-/// let two = wavestep::language::parse_number("2").unwrap();
-/// assert_eq!(mesh.reaching(&two)?.cells(), 100);
-/// # Ok::<(), wavestep::field::FieldError>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mesh {
     cells: usize,

@@ -13,24 +13,6 @@ use wavestep_polynomial::Rational;
 ///
 /// # Invariants
 /// - stretches ascend, each from one front to the next, or to an end of the bar.
-///
-/// ```
-/// # use wavestep::field::{FieldEvaluator, Quantity};
-/// # use wavestep::language::{Source, parse_number, read_scene};
-/// # use wavestep::network::Network;
-/// # let text = wavestep::scenes::find("mass-on-fixed-bar").unwrap().text;
-/// # let values = [("mu".to_owned(), parse_number("1")?)].into();
-/// # let scene = read_scene(&Source::new("mass-on-fixed-bar", text)?, &values).unwrap();
-/// # let network = Network::new(&scene).unwrap();
-/// let at = parse_number("1/4")?;
-/// let profiles = FieldEvaluator::new(&network, &at).unwrap().profiles(&at, 50).unwrap();
-/// // Behind the front the rod moves, at the front with 1; before it, not yet.
-/// let [behind, before] = &profiles[0].stretches[..] else { panic!("two stretches") };
-/// let velocity = Quantity::Velocity as usize;
-/// let (x, fields) = behind.last().unwrap();
-/// assert_eq!((*x, fields[velocity], before[0].1[velocity]), (0.25, 1.0, 0.0));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Profile {
     /// What the bar is called.

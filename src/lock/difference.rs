@@ -14,18 +14,6 @@ const MAX_SHOWN: usize = 10;
 ///
 /// It is shown in lines: what differs, and for a piece every term with what is locked and what is
 /// derived now.
-///
-/// ```
-/// use wavestep::language::Source;
-/// use wavestep::lock::Lock;
-///
-/// let read = |piece: &str| {
-///     let text = format!("# wavestep lock 1\nholds 0 statements, 1 pieces, 0 values\nf[1](s) = {piece}\n");
-///     Lock::read(&Source::new("f.lock", text).unwrap()).unwrap()
-/// };
-/// let differences = read("2*s*exp(-s) + 1").differences(&read("3*s*exp(-s) + 1"));
-/// assert_eq!(differences[0].to_string(), "f[1] differs\n  s*exp(-s): locked 2, now 3\n");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Difference {
     what: String,

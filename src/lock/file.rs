@@ -30,20 +30,12 @@ use wavestep_polynomial::Rational;
 
 /// The newest version of the format, that of histories; pieces are written in version 1, which says all of
 /// them. Every version up to it is read.
-///
-/// ```
-/// assert_eq!(wavestep::lock::FORMAT_VERSION, 2);
-/// ```
 pub const FORMAT_VERSION: u32 = history_file::VERSION;
 
 /// The version of files of pieces.
 pub(super) const VERSION: u32 = 1;
 
 /// The most bytes of a file that is read.
-///
-/// ```
-/// assert_eq!(wavestep::lock::MAX_FILE_BYTES, 16 << 20);
-/// ```
 pub const MAX_FILE_BYTES: usize = 16 << 20;
 
 pub(super) const HEADING: &str = "# wavestep lock ";
@@ -103,17 +95,6 @@ impl Lock {
     }
 
     /// Reads a lock.
-    ///
-    /// ```
-    /// use wavestep::language::Source;
-    /// use wavestep::lock::Lock;
-    ///
-    /// let text = "# wavestep lock 1\nthrough 0\ndigits 20\n\
-    ///             holds 0 statements, 1 pieces, 0 values\n\nf[0](s) = exp(-s)\n";
-    /// let lock = Lock::read(&Source::new("mine.lock", text)?)?;
-    /// assert_eq!(lock.to_text(), text);
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     ///
     /// # Errors
     /// The first line that is none of a lock, with its place.

@@ -27,28 +27,6 @@ const MOST_TIMES: u64 = 4;
 
 /// What is locked of a history.
 ///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::lock::{HistoryLock, HistoryRequest};
-/// use wavestep::network::Network;
-///
-/// let derive = |text: &str| {
-///     let scene = read_scene(&Source::new("mine", text).unwrap(), &Default::default()).unwrap();
-///     HistoryLock::derive(&Network::new(&scene).unwrap(), &HistoryRequest::default()).unwrap()
-/// };
-/// let text = "scene \"A bar strikes a wall\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\n\
-///             line free - rod | fixed\ncontacts open\nobserve v = velocity(rod.left)\n";
-/// let lock = derive(text);
-/// let read = HistoryLock::read(&Source::new("mine.lock", lock.to_text())?)?;
-/// assert!(read.differences(&derive(text)).is_empty());
-/// // An impact and an opening, and no values.
-/// assert_eq!((read.request().digits, read.counts()), (20, (2, 0)));
-///
-/// let differences = read.differences(&derive(&text.replace("travel = 1", "travel = 2")));
-/// assert_eq!(differences[0].to_string(), "event 2 differs\n  time: locked 2, now 4\n");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-///
 /// # Invariants
 /// Events and contacts are numbered from 1, and each of their facts has a name of its own.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -68,11 +46,6 @@ pub struct HistoryLock {
 pub(super) struct Facts(pub(super) Vec<(String, String)>);
 
 /// What to lock of a history.
-///
-/// ```
-/// let request = wavestep::lock::HistoryRequest::default();
-/// assert_eq!((request.until, request.digits), (None, 20));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct HistoryRequest {
     /// The scene time until which contacts are followed; without it until nothing can meet again, as in

@@ -77,17 +77,6 @@ impl HistoryLock {
 
     /// Reads a lock.
     ///
-    /// ```
-    /// use wavestep::language::Source;
-    /// use wavestep::lock::HistoryLock;
-    ///
-    /// let text = "# wavestep lock 2\ndigits 20\nholds 0 statements, 1 events, 0 contacts, 0 values\n\n\
-    ///             event 1 kind = opening\nevent 1 time = 3.0676676416183063459\n\nending = parted\n";
-    /// let lock = HistoryLock::read(&Source::new("mine.lock", text)?)?;
-    /// assert_eq!(lock.to_text(), text);
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
-    ///
     /// # Errors
     /// The first line that is none of a lock of a history, with its place.
     pub fn read(source: &Source) -> Result<HistoryLock, Diagnostic> {

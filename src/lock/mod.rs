@@ -31,29 +31,6 @@ pub use history::{HistoryLock, HistoryRequest};
 const LIMIT_BITS: u64 = 1 << 18;
 
 /// What is locked of a recurrence.
-///
-/// ```
-/// use std::collections::BTreeMap;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::lock::{Lock, Request};
-/// use wavestep::solution::Solution;
-///
-/// let derive = |text: &str| {
-///     let source = Source::new("mine.wave", text).unwrap();
-///     let solution = Solution::new(read_recurrence(&source, &BTreeMap::new()).unwrap());
-///     Lock::derive(&solution, &Request { through: 2, ..Request::default() }).unwrap()
-/// };
-/// let text = "recurrence \"Mine\"\nperiod 1, local s, time t\nwave f\n\
-///             equation f[n]' + f[n] = f[n-1]' - f[n-1]\ncontinuous f[n] starts at 1\n";
-/// let lock = derive(text);
-/// let read = Lock::read(&Source::new("mine.lock", lock.to_text())?)?;
-/// assert!(read.differences(&derive(text)).is_empty());
-/// assert_eq!((read.request().through, read.counts()), (2, (3, 0)));
-///
-/// let differences = read.differences(&derive(&text.replace("- f[n-1]", "- 2*f[n-1]")));
-/// assert!(differences[0].to_string().contains("s*exp(-s): locked -2, now -3"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lock {
     /// What the recurrence states of itself: title, period, symbols, observables.
@@ -64,11 +41,6 @@ pub struct Lock {
 }
 
 /// What to lock.
-///
-/// ```
-/// let request = wavestep::lock::Request::default();
-/// assert_eq!((request.through, request.digits), (0, 20));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Request {
     /// The last period of which the pieces are locked.
@@ -89,17 +61,6 @@ impl Default for Request {
 }
 
 /// What a file of locked results holds.
-///
-/// ```
-/// use wavestep::language::Source;
-/// use wavestep::lock::Locked;
-///
-/// let text = "# wavestep lock 2\ndigits 20\nholds 0 statements, 0 events, 0 contacts, 0 values\n\n\
-///             ending = parted\n";
-/// let locked = Locked::read(&Source::new("mine.lock", text)?)?;
-/// assert!(matches!(locked, Locked::History(lock) if lock.counts() == (0, 0)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Locked {
     /// Pieces and values of a recurrence.

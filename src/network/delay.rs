@@ -10,20 +10,6 @@ use wavestep_polynomial::{Integer, Rational};
 ///
 /// Whether two times are commensurate is decided exactly: their quotient is a rational number, or
 /// it is not.
-///
-/// ```
-/// use wavestep::expression::Fraction;
-/// use wavestep::network::Lattice;
-/// use wavestep_polynomial::{Rational, Symbol};
-///
-/// let [a, b] = ["a", "b"].map(|name| Fraction::symbol(&Symbol::new(name).unwrap()));
-/// let half = a.scale(&Rational::new(3.into(), 2.into()));
-/// // a and 3a/2 are multiples of a/2; b is not.
-/// let (lattice, counts) = Lattice::spanned_by(&[a.clone(), half, b.clone()]);
-/// assert_eq!(lattice.periods(), [a.scale(&Rational::new(1.into(), 2.into())), b]);
-/// assert_eq!(counts, [vec![2, 0], vec![3, 0], vec![0, 1]]);
-/// assert_eq!(lattice.delay(&[2, 0]), a);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Lattice {
     periods: Vec<Fraction>,

@@ -18,21 +18,6 @@ use num_integer::Integer as _;
 use wavestep_polynomial::Rational;
 
 /// What a wave of a network is.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::Role;
-///
-/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
-/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let [striker, cushion, long] = network.scene().line.elements[..] else { panic!() };
-/// let roles: Vec<Role> = network.waves().iter().map(|wave| wave.role).collect();
-/// let waves = [Role::Right(striker), Role::Left(striker), Role::Right(long)];
-/// assert_eq!(roles, [&waves[..], &[Role::Compression(cushion)]].concat());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Role {
     /// The velocity wave to the right in a bar.
@@ -50,18 +35,6 @@ pub enum Role {
 }
 
 /// A wave of a network.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
-/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let names: Vec<&str> = network.waves().iter().map(|wave| wave.name.as_str()).collect();
-/// assert_eq!(names, ["f_striker", "g_striker", "f_long", "cushion"]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct WaveRole {
     /// What it is called.
@@ -71,29 +44,6 @@ pub struct WaveRole {
 }
 
 /// A scene as nodes, bars and waves, with the delays between them.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep_polynomial::Rational;
-///
-/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
-/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // The striker is passed in mu/2, so that a wave returns after mu.
-/// assert_eq!(network.lattice().periods()[0].to_string(), "mu");
-/// assert_eq!(network.scene().title, "Pulse shape: two equal bars with a contact spring, from its parts");
-/// assert!(network.model().constants.is_empty() && network.observables()[0].name == "force");
-/// // The contact is where things begin; the clock of the free end is ahead by one passage.
-/// assert_eq!(network.place_in_words(1), "between `striker` and `long`");
-/// assert_eq!(network.place_of_waves(&["cushion".to_owned()]), network.place_in_words(1));
-/// let late: Vec<String> = network.leads().map(ToString::to_string).collect();
-/// assert_eq!(late, ["1/2*mu", "0"]);
-/// // Without units times are what they are.
-/// let three = Rational::from_integer(3.into());
-/// assert_eq!(network.scaled_time(&three).as_constant(), Some(three));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Network {
     pub(crate) scaled: ScaledScene,

@@ -14,21 +14,6 @@ use std::ops::Range;
 use wavestep_polynomial::Symbol;
 
 /// What a law says.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::Rule;
-///
-/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
-/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let rules: Vec<Rule> = network.laws().into_iter().map(|law| law.rule).collect();
-/// let [_, cushion, _] = network.scene().line.elements[..] else { panic!() };
-/// let contact = [Rule::Force, Rule::Spring(cushion), Rule::Shortening(cushion)];
-/// assert!(rules[0] == Rule::FreeEnd && contact[1..].iter().all(|rule| rules.contains(rule)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Rule {
     /// What is joined moves together.
@@ -54,28 +39,6 @@ pub enum Rule {
 }
 
 /// A law at a node: `left = right`.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::{Law, Rule};
-/// use wavestep::recurrence::LinearForm;
-///
-/// let text = wavestep::scenes::find("cushioned-impact").unwrap().text;
-/// let scene = read_scene(&Source::new("cushioned-impact", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // a' = 1 + f_striker + g_striker − f_long shortens the spring.
-/// let shortens = |law: &Law| matches!(law.rule, Rule::Shortening(_));
-/// let law = network.laws().into_iter().find(shortens).unwrap();
-/// assert_eq!(law.left, LinearForm::slope(3, 0));
-/// assert_eq!(law.right.operators().count(), 3);
-/// assert_eq!(law.node, Some(1));
-/// // The laws are the equations of the recurrence.
-/// let recurrence = network.recurrence().unwrap();
-/// assert_eq!(recurrence.statement().equations.len(), network.laws().len());
-/// assert_eq!(recurrence.statement().local, network.local());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Law {
     /// The node, counted from the left; none for what belongs to no node.

@@ -16,29 +16,6 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// What the units of a model are, in metres, kilograms and seconds.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // c = 5000 m/s: Z = EA/c = 20000 kg/s, T = 1/5000 s, and 5 kN move the end with F/Z = 1/4 m/s.
-/// let scale = &network.model().scale;
-/// let told = [&scale.impedance, &scale.time, &scale.velocity, &scale.force()]
-///     .map(|root| root.exact().unwrap().to_string());
-/// assert_eq!(told, ["20000", "1/5000", "1/4", "5000"]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Scale {
     /// The unit `Z` of impedance.
@@ -54,27 +31,6 @@ pub struct Scale {
 }
 
 /// A bar without units.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let rod = network.model().bars.values().next().unwrap();
-/// assert!(rod.impedance.is_one() && rod.travel.as_ref().unwrap().is_one());
-/// assert!(rod.velocity.is_zero() && rod.force.is_zero());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ModelBar {
     /// Its impedance.
@@ -88,29 +44,6 @@ pub struct ModelBar {
 }
 
 /// A lumped element without units.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::ModelLump;
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // k T/Z = 20e6/(5000 · 20000)
-/// let end = network.model().lumps.values().last().unwrap();
-/// let ModelLump::Spring(stiffness, damping) = end else { panic!("a spring") };
-/// assert_eq!((stiffness.to_string().as_str(), damping.is_zero()), ("1/5", true));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ModelLump {
     /// A mass with its velocity at the start.
@@ -127,30 +60,6 @@ pub enum ModelLump {
 }
 
 /// A scene in scales of its own.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::Model;
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let model = Model::of(&scene).unwrap();
-/// assert_eq!(&model, network.model());
-/// // All ratios are rational here: nothing had to be named.
-/// assert!(model.constants.is_empty());
-/// assert_eq!(model.slowness.to_string(), "5000");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Model {
     /// What is known of the symbols, and of the constants that were named.

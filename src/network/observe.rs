@@ -13,30 +13,6 @@ use crate::scene::{Body, Dimension, ElementIndex, Kind, Measure, Place, Position
 use wavestep_polynomial::Rational;
 
 /// An observable of a scene: what it is in the waves, and its unit.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::scene::Dimension;
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let [force, energy] = network.observables() else { panic!("two observables") };
-/// assert_eq!((force.name.as_str(), force.dimension), ("F", Dimension::FORCE));
-/// // Forces are in those of the load, energies in F V T.
-/// assert_eq!(force.unit.exact().unwrap().to_string(), "5000");
-/// assert_eq!(energy.unit.exact().unwrap().to_string(), "1/4");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Observed {
     /// What it is called.
@@ -50,29 +26,6 @@ pub struct Observed {
 }
 
 /// An observable in the scales of its scene.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::ObservedValue;
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // The force in the spring is k times its compression.
-/// let ObservedValue::Linear(force) = &network.observables()[0].value else { panic!("linear") };
-/// assert_eq!(network.waves()[force.waves[0].wave].name, "end");
-/// assert!(matches!(network.observables()[1].value, ObservedValue::Energy(_)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum ObservedValue {
     /// Linear in the waves.
@@ -82,28 +35,6 @@ pub enum ObservedValue {
 }
 
 /// One part of an energy: `c q²`, or `c ∫ q² dt` over the time that a wave needs to leave a bar.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::{EnergyTerm, ObservedValue};
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let ObservedValue::Energy(terms) = &network.observables()[1].value else { panic!("an energy") };
-/// let EnergyTerm { of, before, .. } = &terms[0];
-/// assert!(of.waves.len() == 1 && before.is_zero());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EnergyTerm {
     /// The coefficient `c`.
@@ -117,29 +48,6 @@ pub struct EnergyTerm {
 }
 
 /// The time over which the square of a wave is integrated.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep::network::{EnergyTerm, ObservedValue, Window};
-///
-/// let source = Source::new("rod.wave", r#"
-///     scene "A steel rod is pushed"
-///     load push { force = 5 kN }
-///     bar rod { modulus = 200 GPa, density = 8000 kg/m^3, area = 5 cm^2, length = 1 m }
-///     spring end { stiffness = 20 MN/m }
-///     line free - push - rod - end - fixed
-///     observe F = force(end)
-///     observe E = energy(end)
-/// "#)?;
-/// let scene = read_scene(&source, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// // k α²/2, now.
-/// let ObservedValue::Energy(terms) = &network.observables()[1].value else { panic!("an energy") };
-/// let [EnergyTerm { coefficient, window: Window::Now, .. }] = &terms[..] else { panic!() };
-/// assert_eq!(coefficient.to_string(), "1/10");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Window {
     /// None: its value at the time itself.

@@ -14,25 +14,6 @@ use wavestep_polynomial::Rational;
 ///
 /// # Invariants
 /// The model is that of the scene, and of nothing else.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::{Network, NetworkError, ScaledScene};
-/// use wavestep_polynomial::Rational;
-///
-/// let text = "scene \"A\"\nmass ram { mass = 1, velocity = 1 }\nhertz tip { stiffness = 2 }\nbar rod { impedance = 1 }\nline free - ram - tip - rod - endless";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let scaled = ScaledScene::of(&scene).unwrap();
-/// assert_eq!((scaled.scene(), scaled.model().bars.len()), (&scene, 1));
-/// assert_eq!(scaled.local_contact(), Some(1));
-/// // Without units times are what they are.
-/// let three = Rational::from_integer(3.into());
-/// assert_eq!(scaled.scaled_time(&three).as_constant(), Some(three));
-/// // There are scales, and no recurrence.
-/// assert_eq!(scaled.clone().network(), Err(NetworkError::NotLinear("tip".to_owned())));
-/// assert_eq!(Network::new(&scene), scaled.network());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ScaledScene {
     pub(in crate::network) scene: Scene,

@@ -11,32 +11,6 @@ use crate::network::error::NetworkError;
 use crate::recurrence::Recurrence;
 
 /// A recurrence in which the lag `k` stands for counts on a lattice, up to a bound for each.
-///
-/// ```
-/// use std::collections::BTreeMap;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let source = Source::new("steps.wave", r#"
-///     scene "Two bars whose travel times have no common measure"
-///     symbol a > 0, b > 0
-///     bar left  { impedance = 1, travel = a, velocity = 1 }
-///     bar right { impedance = 2, travel = b }
-///     line free - left | right - free
-/// "#)?;
-/// let scene = read_scene(&source, &BTreeMap::new()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let unfolded = network.unfold(&[3, 2]).unwrap();
-/// let k = unfolded.number(&[2, 1]).unwrap();
-/// assert_eq!(unfolded.counts(k), Some(vec![2, 1]));
-/// assert_eq!(unfolded.delay(k).unwrap().to_string(), "4*a + 2*b");
-/// assert_eq!(unfolded.number(&[4, 0]), None);
-/// // 4 · 3 echoes of each of the four waves.
-/// assert_eq!(unfolded.numbers().count(), 12);
-/// assert_eq!(unfolded.recurrence().wave_count(), 4);
-/// assert_eq!(unfolded.lattice(), network.lattice());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Unfolded {
     recurrence: Recurrence,

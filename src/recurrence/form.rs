@@ -14,21 +14,6 @@ use wavestep_polynomial::Symbol;
 ///
 /// # Invariants
 /// - coefficients are free of time; trailing zeros are dropped.
-///
-/// ```
-/// use wavestep::expression::Expression;
-/// use wavestep::recurrence::LinearForm;
-///
-/// // w' + 2 w[n−1] + Σ_{i<n} w[i] for the wave of place 0.
-/// let mut form = LinearForm::slope(0, 0);
-/// form.add_scaled(&LinearForm::wave(0, 1), &Expression::integer(2), 0);
-/// form.add_scaled(&LinearForm::sum(0, 0), &Expression::one(), 0);
-/// let (wave, operator) = form.operators().next().unwrap();
-/// assert_eq!(wave, 0);
-/// assert_eq!(operator.value(), [Expression::zero(), Expression::integer(2)]);
-/// assert_eq!(operator.slope(), [Expression::one()]);
-/// assert_eq!(operator.sum(), [Expression::one()]);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Operator {
     pub(crate) value: Vec<Expression>,
@@ -101,22 +86,6 @@ impl Operator {
 /// ```
 ///
 /// with `t` the scene time: like a wave, forcing at lag `j` is the function of lag 0, `jD` later.
-///
-/// ```
-/// use wavestep::expression::Expression;
-/// use wavestep::recurrence::LinearForm;
-///
-/// // f[n] − f[n−1] − 1: f is the wave of place 0, and 1 acts from the start.
-/// let (f, minus_one) = (LinearForm::wave(0, 0), Expression::integer(-1));
-/// let mut form = LinearForm::zero();
-/// form.add_scaled(&f, &Expression::one(), 0);
-/// form.add_scaled(&f, &minus_one, 1);
-/// form.add_scaled(&LinearForm::forcing(Expression::one()), &minus_one, 0);
-/// assert_eq!(form.forcing_terms(), [minus_one.clone()]);
-/// assert_eq!(-&form, form.scaled(&minus_one));
-/// form.add_scaled(&-&form.clone(), &Expression::one(), 0);
-/// assert!(form.is_zero());
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct LinearForm {
     pub(crate) operators: BTreeMap<WaveIndex, Operator>,

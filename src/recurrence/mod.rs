@@ -24,15 +24,4 @@ pub use statement::{
 };
 
 /// The place of a wave among the waves of a recurrence.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::WaveIndex;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let g: WaveIndex = recurrence.wave("g").unwrap();
-/// assert_eq!((g, recurrence.statement().waves[g].as_str()), (1, "g"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub type WaveIndex = usize;

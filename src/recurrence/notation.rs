@@ -8,19 +8,6 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// The notation of a source, beside the one that a statement uses. It changes how formulas look,
 /// never what is derived.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// let rigid_mass = wavestep::scenes::find("rigid-mass").unwrap();
-/// let source = Source::new(rigid_mass.name, rigid_mass.text)?;
-/// let recurrence = read_recurrence(&source, &Default::default())?;
-/// let notation = &recurrence.statement().notation;
-/// let names = notation.units[&0].powers().iter().map(|(symbol, power)| (symbol.name(), *power));
-/// assert!(names.eq([("V", 1), ("c", -1)]));
-/// assert_eq!(notation.constants[&0], "B");
-/// assert!(!notation.is_empty());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct SourceNotation {
     /// What a wave is measured in: the source's wave is the unit times ours.
@@ -48,19 +35,6 @@ impl SourceNotation {
 /// # Invariants
 /// - the coefficient is not zero;
 /// - the symbols are pairwise different, no power is zero.
-///
-/// ```
-/// use wavestep::recurrence::SourceProduct;
-/// use wavestep_polynomial::{Rational, Symbol};
-/// let mut strain = SourceProduct::one();
-/// for (name, power) in [("X", 1), ("E", -1), ("A", -1)] {
-///     strain.multiply(Symbol::new(name).unwrap(), power);
-/// }
-/// strain.scale(&Rational::from_integer(2.into()));
-/// assert_eq!((strain.powers().len(), strain.coefficient().is_integer()), (3, true));
-/// let strain = strain.without_number();
-/// assert_eq!(strain.to_fraction().to_string(), "(X)/(A)/(E)");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SourceProduct {
     coefficient: Rational,

@@ -13,21 +13,6 @@ use crate::recurrence::statement::{Continuity, Fault, InvalidRecurrence, Part, S
 use std::collections::BTreeSet;
 
 /// The equation of one wave on the n-th period.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::LinearForm;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// // First g[n] = −f[n−1], algebraic; then f, by a differential equation.
-/// let [g, f] = recurrence.steps() else { panic!("two steps") };
-/// let mut expected = LinearForm::wave(g.wave, 0);
-/// expected.add_scaled(&LinearForm::wave(f.wave, 1), &wavestep::expression::Expression::one(), 0);
-/// assert_eq!(g.equation, expected);
-/// assert!(g.start.is_none() && f.start.is_some());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Step {
     /// The wave that this step determines.
@@ -41,22 +26,6 @@ pub struct Step {
 }
 
 /// How a differential step starts on each period.
-///
-/// ```
-/// use wavestep::expression::{Expression, Fraction};
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::LinearForm;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// // f' + f + … = 0, and f[n] + g[n] goes on from 1.
-/// let start = recurrence.steps()[1].start.clone().unwrap();
-/// assert_eq!((start.rate, start.initial), (Fraction::one(), Expression::one()));
-/// let mut velocity = LinearForm::wave(0, 0);
-/// velocity.add_scaled(&LinearForm::wave(0, 1), &Expression::integer(-1), 0);
-/// assert_eq!(start.continuous, velocity); // g[n] = −f[n−1] is put in
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Start {
     /// The rate `a` in `w' + a w`.
@@ -98,26 +67,6 @@ pub(crate) struct Ordered {
 
 /// Waves whose differential equations are coupled, and the rates `a` at which they decay together:
 /// they are sums of `e^{−at}` where nothing else arrives.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-///
-/// let source = Source::new("cushion.wave", r#"
-///     recurrence "A mass, a spring of stiffness 1 and an endless bar"
-///     period 1, local s, time t
-///     wave a, v
-///     equation a[n]' = v[n] - a[n]
-///     equation v[n]' = -2/9*a[n]
-///     continuous a[n] starts at 0
-///     continuous v[n] starts at 1
-/// "#)?;
-/// let recurrence = read_recurrence(&source, &Default::default())?;
-/// let [coupled] = recurrence.coupled() else { panic!("one system") };
-/// // λ² − λ + 2/9 = 0
-/// let rates: Vec<String> = coupled.rates.iter().map(ToString::to_string).collect();
-/// assert_eq!((coupled.waves.len(), &rates[..]), (2, &["2/3".to_owned(), "1/3".to_owned()][..]));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Coupled {
     /// The waves.

@@ -16,27 +16,6 @@ use wavestep_polynomial::{Polynomial, Symbol};
 /// - `steps` holds one step a wave, and each uses on the current period only waves of steps
 ///   before it. Where equations are coupled by derivatives, waves are added that uncouple them;
 ///   these are numbered after those stated.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::Recurrence;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// assert_eq!(recurrence.statement().title, "Rigid mass on a fixed bar");
-/// assert!(recurrence.symbols().map(|symbol| symbol.name()).eq(["mu"]));
-/// // g follows from f before f itself on the same period is asked for: g[n] = −f[n−1].
-/// let order: Vec<_> = recurrence.steps().iter().map(|step| step.wave).collect();
-/// assert_eq!(order, [recurrence.wave("g").unwrap(), recurrence.wave("f").unwrap()]);
-/// // Waves and observables may be observed; only the latter are observables.
-/// assert!(recurrence.observation("f").is_some() && recurrence.observable("f").is_none());
-/// // Nothing is coupled, no wave had to be added, and no rate had to be named.
-/// assert!(recurrence.coupled().is_empty() && recurrence.constants().is_empty());
-/// assert!(!recurrence.has_named_rates());
-/// assert_eq!((recurrence.wave_count(), recurrence.wave_name(1).as_str()), (2, "g"));
-/// assert_eq!(Recurrence::new(recurrence.statement().clone()), Ok(recurrence));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Recurrence {
     statement: Statement,

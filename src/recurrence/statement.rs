@@ -8,21 +8,6 @@ use wavestep_polynomial::Symbol;
 
 /// A form that is continuous over all arrivals and starts at a value:
 /// `form[n](0) = form[n−1](D)`, `form[0](0) = start`.
-///
-/// ```
-/// use wavestep::expression::Expression;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::{Continuity, LinearForm};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// // The velocity of the mass, f[n] + g[n], starts at 1.
-/// let mut form = LinearForm::wave(0, 0);
-/// form.add_scaled(&LinearForm::wave(1, 0), &Expression::one(), 0);
-/// let rule = Continuity { form, start: Expression::one() };
-/// assert_eq!(recurrence.statement().continuity, [rule]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Continuity {
     /// The continuous form.
@@ -32,18 +17,6 @@ pub struct Continuity {
 }
 
 /// A named quantity, linear in the waves.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let [_, _, last] = &recurrence.statement().observables[..] else { panic!("three of them") };
-/// assert_eq!(last.name, "strain_fixed");
-/// let velocity = recurrence.observable("velocity").unwrap();
-/// assert_eq!(recurrence.observation("velocity"), Some(velocity.observation.clone()));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Observable {
     /// Its name.
@@ -57,22 +30,6 @@ pub struct Observable {
 /// ```text
 /// Σ_i coefficient_i · w_i(t − delay_i) + forcing(t),     with w_i' in place of w_i where asked for
 /// ```
-///
-/// ```
-/// use wavestep::expression::{Expression, Fraction};
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::{Observation, ObservedWave};
-/// use wavestep_polynomial::Symbol;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// // The strain at the fixed end is −2 f, one passage later.
-/// let (f, mu) = (recurrence.wave("f").unwrap(), Fraction::symbol(&Symbol::new("mu").unwrap()));
-/// let seen = ObservedWave { coefficient: Expression::integer(-2), wave: f, slope: false, delay: mu };
-/// let strain = Observation { waves: vec![seen], forcing: Expression::zero() };
-/// assert_eq!(recurrence.observation("strain_fixed"), Some(strain));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Observation {
     /// The delayed waves.
@@ -82,18 +39,6 @@ pub struct Observation {
 }
 
 /// One wave in an [`Observation`]: `coefficient · w(t − delay)`, or `coefficient · w'(t − delay)`.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-///
-/// let scene = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("power", format!("{scene}observe rate = 3*f[n-1]'\n"))?;
-/// let recurrence = read_recurrence(&source, &Default::default())?;
-/// let rate = &recurrence.observation("rate").unwrap().waves[0];
-/// assert_eq!((rate.wave, rate.slope), (recurrence.wave("f").unwrap(), true));
-/// assert_eq!(rate.delay, recurrence.statement().period);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ObservedWave {
     /// The coefficient, free of time.
@@ -107,33 +52,6 @@ pub struct ObservedWave {
 }
 
 /// All that a person states of a recurrence.
-///
-/// ```
-/// use wavestep::expression::{Assumptions, Expression, Fraction};
-/// use wavestep::recurrence::{LinearForm, Recurrence, SourceNotation, Statement};
-/// use wavestep::solution::Solution;
-/// use wavestep_polynomial::{Rational, Symbol};
-///
-/// // A constant force pushes a bar with a fixed end: f[n] − f[n−1] − 1 = 0.
-/// let mut equation = LinearForm::wave(0, 0);
-/// equation.add_scaled(&LinearForm::wave(0, 1), &Expression::integer(-1), 0);
-/// equation.add_scaled(&LinearForm::forcing(Expression::one()), &Expression::integer(-1), 0);
-/// let statement = Statement {
-///     title: "Constant force".to_owned(),
-///     assumptions: Assumptions::default(),
-///     constants: Vec::new(),
-///     period: Fraction::constant(&Rational::from_integer(2.into())),
-///     local: Symbol::new("s").unwrap(),
-///     time: Symbol::new("t").unwrap(),
-///     waves: vec!["f".to_owned()],
-///     equations: vec![equation],
-///     continuity: Vec::new(),
-///     observables: Vec::new(),
-///     notation: SourceNotation::default(),
-/// };
-/// let solution = Solution::new(Recurrence::new(statement).unwrap());
-/// assert_eq!(solution.pieces(0, 0, 2).unwrap(), [1, 2, 3].map(Expression::integer));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Statement {
     /// What is modelled, in words.
@@ -161,19 +79,6 @@ pub struct Statement {
 }
 
 /// A part of a statement, by its place in the list of its kind.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::{Part, Recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// // Stated twice, an equation determines nothing the second time, and one is too many.
-/// let mut statement = recurrence.statement().clone();
-/// statement.equations.push(statement.equations[0].clone());
-/// assert_eq!(Recurrence::new(statement).unwrap_err().part, Part::Equation(2));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Part {
     /// The period.
@@ -187,18 +92,6 @@ pub enum Part {
 }
 
 /// Why a statement is no recurrence that can be solved step by step.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::recurrence::{Fault, Recurrence};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let mut statement = recurrence.statement().clone();
-/// statement.continuity.clear();
-/// assert_eq!(Recurrence::new(statement).unwrap_err().fault, Fault::NoStart("f".to_owned()));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Fault {
     /// The period is not certainly positive.

@@ -23,27 +23,6 @@ impl Solution {
     ///
     /// `false` says that this found no proof, not that the form is not zero.
     ///
-    /// ```
-    /// use wavestep::expression::Expression;
-    /// use wavestep::language::{Source, read_recurrence};
-    /// use wavestep::recurrence::LinearForm;
-    /// use wavestep::solution::Solution;
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let source = Source::new("rigid-mass", text)?;
-    /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-    /// // f[n]' + f[n] = f[n-1]' - f[n-1], with g put in.
-    /// let mut form = LinearForm::slope(0, 0);
-    /// form.add_scaled(&LinearForm::slope(0, 1), &Expression::integer(-1), 0);
-    /// for lag in 0..2 {
-    ///     form.add_scaled(&LinearForm::wave(0, lag), &Expression::one(), 0);
-    /// }
-    /// assert!(solution.is_always_zero(&form));
-    /// form.add_scaled(&LinearForm::wave(1, 3), &Expression::one(), 0);
-    /// assert!(!solution.is_always_zero(&form));
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
-    ///
     /// # Cost
     /// A product for each pair of coefficients; the recurrence is not solved.
     #[must_use]

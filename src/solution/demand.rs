@@ -3,21 +3,6 @@
 use crate::recurrence::{LinearForm, Recurrence, WaveIndex};
 
 /// A set of echoes, by wave and number: with an echo, all those that its equation names.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Demand;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let [f, g] = ["f", "g"].map(|name| recurrence.wave(name).unwrap());
-/// // g[n] = −f[n−1]: for the fourth echo of g three of f are needed, and with them three of g.
-/// let mut demand = Demand::none(&recurrence);
-/// demand.add(&recurrence, g, 3);
-/// assert!(demand.wants(f, 2) && !demand.wants(f, 3) && demand.wants(g, 3));
-/// assert_eq!((demand.last(), demand.count()), (Some(3), 7));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Demand {
     /// `wanted[wave][k]`

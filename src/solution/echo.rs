@@ -15,23 +15,6 @@ use crate::solution::error::{SolveError, check_degree};
 use crate::solution::step::{FieldForm, FieldStep};
 
 /// The solution of a recurrence, echo by echo.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::EchoByEcho;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let mut solver = EchoByEcho::new(&recurrence);
-/// (0..2).for_each(|_| solver.advance().unwrap());
-/// // Each time the mass reflects f by (p − 1)/(p + 1): the echo of e^{−s} is e^{−s} (1 − 2s).
-/// let read = |text| read_expression(&Source::new("text", text).unwrap());
-/// assert_eq!(solver.sum(0).echoes(), [read("exp(-s)")?, read("exp(-s)*(1 - 2*s)")?]);
-/// // Its transform 1/(p + 1) − 2/(p + 1)² has one pole.
-/// let (_, coefficients) = solver.transforms(0)[1].poles().next().unwrap();
-/// assert_eq!(coefficients, [read("1")?, read("-2")?]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct EchoByEcho<'a, F: Field = Exact<'a>> {
     recurrence: &'a Recurrence,
     field: F,

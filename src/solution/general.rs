@@ -10,21 +10,6 @@ use crate::solution::template::{EchoTemplate, OnePole, multiplier};
 use wavestep_polynomial::{Polynomial, Symbol};
 
 /// A wave in general n.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::{GeneralForm, Proof, Solution};
-///
-/// let text = wavestep::scenes::find("two-bars").unwrap().text;
-/// let source = Source::new("two-bars", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let f = solution.general(0).unwrap();
-/// let GeneralForm::Geometric(sequence) = f else { panic!("f is constant on each period") };
-/// let expected = Source::new("f[9]", "-1/2 + ((r - 1)/(r + 1))^9/2")?;
-/// assert_eq!(sequence.value(9), read_expression(&expected)?);
-/// assert_eq!(f.proof(), Proof::Substitution);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum GeneralForm {
     /// Its values are constant on each period, and this sequence.
@@ -37,20 +22,6 @@ pub enum GeneralForm {
 const MAX_FIRST: usize = 32;
 
 /// How a general form was proved.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{GeneralForm, Proof, Solution};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// // The echoes of f are e^{−s} L_k(2s).
-/// let f = solution.general(0).unwrap();
-/// assert!(matches!(f, GeneralForm::Echoes(_)));
-/// assert_eq!(f.proof(), Proof::CoefficientIdentity);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Proof {
     /// It satisfies the recurrence with each `λ^n` a symbol of its own, and the first values.
@@ -62,23 +33,6 @@ pub enum Proof {
 }
 
 /// No closed form in n was found: the equation that stood in the way.
-///
-/// ```
-/// use wavestep::expression::Expression;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = "recurrence \"Two lags\"\nperiod 1, local s, time t\nwave f\n\
-///     equation f[n]' + f[n-1] + 3*f[n-2] = 0\ncontinuous f[n] starts at 1\n";
-/// let source = Source::new("two lags", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let equation = &solution.general(0).unwrap_err().equation;
-/// let (_, operator) = equation.operators().next().unwrap();
-/// // f' + 0 f[n] + 1 f[n-1] + 3 f[n-2]: a closed form is known for one lag only.
-/// let values = [0, 1, 3].map(Expression::integer);
-/// assert_eq!(operator.value(), values);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Unknown {
     /// The equation, a form that is zero, after elimination of explicit waves.

@@ -9,21 +9,6 @@ use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 const MAX_RATIOS: usize = 16;
 
 /// One term `coefficient · n^power · ratio^n`.
-///
-/// ```
-/// use wavestep::expression::Expression;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{GeneralForm, GeometricTerm, Solution};
-///
-/// let text = wavestep::scenes::find("constant-force").unwrap().text;
-/// let source = Source::new("constant-force", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let Ok(GeneralForm::Geometric(f)) = solution.general(0) else { panic!("f[n] = n + 1") };
-/// let one = Expression::one;
-/// let term = |power| GeometricTerm { coefficient: one(), power, ratio: one() };
-/// assert_eq!(f.terms(), [term(0), term(1)]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct GeometricTerm {
     /// The constant in front.
@@ -39,23 +24,6 @@ pub struct GeometricTerm {
 /// ```text
 /// w[n] = first[n]                      for n < first.len()
 ///      = Σ_i c_i n^{j_i} λ_i^n         for n ≥ first.len()
-/// ```
-///
-/// ```
-/// use wavestep::expression::Expression;
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{GeneralForm, Solution};
-///
-/// let text = "recurrence \"Doubled\"\nperiod 1, local s, time t\nwave f, g\n\
-///     equation f[n] = 2*f[n-1] + 1\nequation g[n] = f[n-2] + 5\n";
-/// let source = Source::new("doubled", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// // f[n] = 2·2^n − 1, so g[n] = 2^n/2 + 4, but g[0] = 5.
-/// let Ok(GeneralForm::Geometric(g)) = solution.general(1) else { panic!("a sequence") };
-/// assert_eq!(g.first(), [Expression::integer(5)]);
-/// assert_eq!(g.terms().len(), 2);
-/// assert_eq!(g.value(10), Expression::integer(516));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Geometric {

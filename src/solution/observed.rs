@@ -15,23 +15,6 @@ use wavestep_polynomial::Rational;
 /// ```
 ///
 /// It is zero before the offset.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// // strain_fixed = −2 f(t − mu): at the fixed end, one passage later.
-/// let strain = solution.recurrence().observation("strain_fixed").unwrap();
-/// let observed = solution.observed(&strain, 0, 0).unwrap();
-/// let read = |text| read_expression(&Source::new("text", text).unwrap());
-/// assert_eq!(observed.pieces, [read("-2*exp(-s)")?]);
-/// assert_eq!(Some(observed.offset.clone()), read("mu")?.as_fraction());
-/// assert_eq!(solution.offset(&strain), Some(observed.offset));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ObservedPieces {
     /// When the first period begins.
@@ -41,15 +24,6 @@ pub struct ObservedPieces {
 }
 
 /// An observable between two of its arrivals: `q(from + s) = value(s)`, `0 ≤ s < to − from`.
-///
-/// ```
-/// use wavestep::expression::{Expression, Fraction};
-/// use wavestep::solution::ObservedStretch;
-///
-/// let (from, to) = (Fraction::zero(), Fraction::one());
-/// let at_rest = ObservedStretch { from, to, value: Expression::zero() };
-/// assert!(at_rest.value.is_zero());
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ObservedStretch {
     /// When it begins.
@@ -116,22 +90,6 @@ impl Solution {
     ///
     /// # Cost
     /// That of the pieces of the waves, and a shift of them for each term and arrival.
-    ///
-    /// ```
-    /// use wavestep::language::{Source, read_expression, read_recurrence};
-    /// use wavestep::solution::Solution;
-    ///
-    /// let scene = wavestep::scenes::find("constant-force").unwrap().text;
-    /// let source = Source::new("middle", format!("{scene}observe middle = f(t - 1/2) + f(t - 3/2)"))?;
-    /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-    /// let middle = solution.recurrence().observation("middle").unwrap();
-    /// let stretches = solution.observed_between_arrivals(&middle, 0, 0).unwrap();
-    /// let told: Vec<_> = stretches.iter().map(|s| (s.from.to_string(), s.value.as_constant())).collect();
-    /// let number = |value: i64| Some(wavestep_polynomial::Rational::from_integer(value.into()));
-    /// assert_eq!(told, [("1/2".to_owned(), number(1)), ("3/2".to_owned(), number(2))]);
-    /// assert_eq!(stretches[1].to.to_string(), "5/2");
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn observed_between_arrivals(
         &self,
         observation: &Observation,

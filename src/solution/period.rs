@@ -19,21 +19,6 @@ use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The solution of a recurrence, period by period.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::PeriodByPeriod;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &Default::default())?;
-/// let mut solver = PeriodByPeriod::new(&recurrence);
-/// (0..2).for_each(|_| solver.advance().unwrap());
-/// let read = |text| read_expression(&Source::new("text", text).unwrap());
-/// let [f, g] = solver.waves() else { panic!("two waves") };
-/// assert_eq!(f.pieces()[1], read("exp(-s)*(-2*s + 1 + exp(-2*mu))")?);
-/// assert_eq!(g.pieces(), [read("0")?, read("-exp(-s)")?]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct PeriodByPeriod<'a> {
     recurrence: &'a Recurrence,
     waves: Vec<Piecewise>,
@@ -45,22 +30,6 @@ pub struct PeriodByPeriod<'a> {
 
 /// Symbols that stand for values of waves at the ends of periods, so that a piece is given by
 /// those of the pieces before it, as in textbooks: `a_2 = e^{−t}(−t²/2 + t(1 − a_0(μ)) + a_1(μ))`.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("pulse-shape").unwrap().text;
-/// let source = Source::new("pulse-shape", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let (pieces, ends) = solution.pieces_by_ends(1, &[0].into()).unwrap();
-/// // The first symbol stands for a_0(mu).
-/// let (symbol, wave, n) = ends.symbols().next().unwrap();
-/// assert_eq!((wave, n), (0, 0));
-/// let a_1 = format!("exp(-t)*(t + {symbol})");
-/// assert_eq!(pieces[0][1], read_expression(&Source::new("a_1", a_1)?)?);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct KeptEnds {
     waves: BTreeSet<WaveIndex>,

@@ -18,24 +18,6 @@ use wavestep_polynomial::{Integer, Rational, Univariate};
 ///
 /// Pieces and echoes are derived echo by echo; where the echoes have a closed form in k, that is
 /// used, and nothing depends on which scene it is.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let f = solution.recurrence().wave("f").unwrap();
-/// assert!(solution.general(f).is_ok());
-/// let read = |text| read_expression(&Source::new("text", text).unwrap());
-/// // The wave on period 1 is what is left of the first echo, and the second.
-/// let echoes = solution.echoes(f, 1).unwrap();
-/// assert_eq!(echoes.echoes()[1], read("exp(-s)*(1 - 2*s)")?);
-/// let pieces = solution.pieces(f, 1, 1).unwrap();
-/// assert_eq!(pieces, [read("exp(-s - 2*mu) + exp(-s)*(1 - 2*s)")?]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub struct Solution {
     recurrence: Recurrence,
     general: Vec<OnceCell<Result<GeneralForm, Unknown>>>,
@@ -130,20 +112,6 @@ impl Solution {
     ///
     /// # Cost
     /// That of [`PeriodByPeriod::advance`] for each period.
-    ///
-    /// ```
-    /// use wavestep::language::{Source, read_expression, read_recurrence};
-    /// use wavestep::solution::Solution;
-    ///
-    /// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    /// let source = Source::new("rigid-mass", text)?;
-    /// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-    /// let (pieces, ends) = solution.pieces_by_ends(1, &[0].into()).unwrap();
-    /// let (f_0, ..) = ends.symbols().next().unwrap(); // f[0] at s = 2*mu
-    /// let f_1 = Source::new("f[1]", format!("exp(-s)*(-2*s + 1 + {f_0})"))?;
-    /// assert_eq!(pieces[0][1], read_expression(&f_1)?);
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn pieces_by_ends(
         &self,
         last: usize,
@@ -165,19 +133,6 @@ impl Solution {
     ///
     /// # Cost
     /// A product and a sum for each coefficient where the echoes have a closed form.
-    ///
-    /// ```
-    /// use wavestep::language::{Source, read_recurrence};
-    /// use wavestep::solution::Solution;
-    ///
-    /// let solution = |name| {
-    ///     let text = wavestep::scenes::find(name).unwrap().text;
-    ///     read_recurrence(&Source::new(name, text)?, &Default::default()).map(Solution::new)
-    /// };
-    /// assert_eq!(solution("rigid-mass")?.table(0, 9).unwrap().unwrap().rows().len(), 10);
-    /// assert_eq!(solution("two-bars")?.table(0, 9), Ok(None)); // r is a symbol
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn table(&self, wave: WaveIndex, through: usize) -> Result<Option<EchoTable>, SolveError> {
         let Some(template) = self.template(wave) else {
             let solver = self.expanded(wave, through)?;

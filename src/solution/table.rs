@@ -11,21 +11,6 @@ use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate,
 /// ```
 ///
 /// with each `P_i` a row of integers in divided powers.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-/// use wavestep_polynomial::{Rational, Univariate};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let table = solution.table(0, 2).unwrap().expect("the constants are numbers");
-/// // e^{−x} (1 − 4x + 2x²)
-/// let row = Univariate::new([1, -4, 4].map(Into::into), 1.into());
-/// assert_eq!(table.rows()[2].parts(), [(Rational::from_integer((-1).into()), row)]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct EchoRow {
     parts: Vec<(Rational, Univariate)>,
@@ -53,25 +38,6 @@ impl EchoRow {
 /// ```text
 /// numerator/denominator · e^{λ (s + mD)} · s^i/i! · D^l/l!
 /// ```
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let table = solution.table(0, 2).unwrap().expect("the constants are numbers");
-/// // f[2](s) = e^{−s} (1 − 4s + 2s²) + e^{−s−D} (1 − 2s − 2D) + e^{−s−2D}
-/// let mut terms = Vec::new();
-/// table.for_each_term(2, |term| {
-///     terms.push((term.age, term.local_power, term.period_power, term.numerator.to_integer()));
-/// });
-/// assert_eq!(terms.len(), 7);
-/// assert!(terms.contains(&(0, 2, 0, 4.into()))); // 2s² = 4 s²/2!
-/// assert!(terms.contains(&(1, 0, 1, (-2).into())));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ExpandedTerm<'a> {
     /// The exponent `λ`.
@@ -94,25 +60,6 @@ pub struct ExpandedTerm<'a> {
 /// ```text
 /// value · e^{λ (s + mD)} · s^i · x^l
 /// ```
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::Solution;
-/// use wavestep_polynomial::Rational;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let table = solution.table(0, 2).unwrap().expect("the constants are numbers");
-/// // With D = 2μ: f[2](s) = e^{−s} (1 − 4s + 2s²) + e^{−s−2μ} (1 − 2s − 4μ) + e^{−s−4μ}
-/// let mut found = Vec::new();
-/// table.to_ordinary().for_each_ordinary_term(2, 2, |c| {
-///     found.push((c.age, c.local_power, c.symbol_power, c.value.to_rational()));
-/// });
-/// let number = |value: i64| Rational::from_integer(value.into());
-/// assert!(found.contains(&(0, 2, 0, number(2))) && found.contains(&(1, 0, 1, number(-4))));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct OrdinaryTerm<'a> {
     /// The exponent `λ`.
@@ -130,22 +77,6 @@ pub struct OrdinaryTerm<'a> {
 /// The echoes `φ_0 … φ_N` of a wave whose constants are all rational numbers: the factored form of
 /// all its pieces up to the N-th, about N²/2 integers from which the N³/6 terms of a piece follow
 /// by a product each.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{EchoTable, Solution};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let table: EchoTable = solution.table(0, 80).unwrap().expect("the constants are numbers");
-/// let held: usize = table.rows().iter().map(|row| row.parts()[0].1.coefficients().len()).sum();
-/// assert_eq!(held, 3321);
-/// let mut count = 0;
-/// table.for_each_term(80, |_| count += 1);
-/// assert_eq!(count, 88_641);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EchoTable {
     rows: Vec<EchoRow>,
@@ -219,25 +150,6 @@ impl EchoTable {
 }
 
 /// The coefficients of an [`EchoTable`] in ordinary powers, reduced.
-///
-/// ```
-/// use wavestep::language::{Source, read_recurrence};
-/// use wavestep::solution::{OrdinaryTable, Solution};
-/// use wavestep_polynomial::Rational;
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let table = solution.table(0, 3).unwrap().expect("the constants are numbers");
-/// let ordinary: OrdinaryTable = table.to_ordinary();
-/// // f[3](s) = e^{−s} (−4/3 s³ + …) + …
-/// let mut cubic = Vec::new();
-/// ordinary.for_each_ordinary_term(3, 2, |c| {
-///     cubic.extend((c.local_power == 3).then(|| c.value.to_rational()));
-/// });
-/// assert_eq!(cubic, [Rational::new((-4).into(), 3.into())]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct OrdinaryTable {
     rows: Vec<Vec<(Rational, Vec<WordRatio>)>>,

@@ -21,22 +21,6 @@ use wavestep_polynomial::{
 };
 
 /// The family of functions `T_k` that the echoes are made of.
-///
-/// ```
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::{Family, GeneralForm, Solution};
-///
-/// let text = "recurrence \"One pole\"\nperiod 1, local s, time t\nwave f\n\
-///     equation f[n]' + f[n] = f[n-1]\ncontinuous f[n] starts at 1\n";
-/// let source = Source::new("one pole", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let Ok(GeneralForm::Echoes(f)) = solution.general(0) else { panic!("1/(p + 1)^(k + 1)") };
-/// assert_eq!(f.family(), &Family::Power);
-/// let local = &solution.recurrence().statement().local;
-/// let third = Source::new("text", "exp(-s)*s^3/6")?;
-/// assert_eq!(f.echo(3, local), read_expression(&third)?);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Family {
     /// `T_k(x) = L_k(c x)`, Laguerre polynomials, with `c = a + b`.
@@ -53,25 +37,6 @@ pub enum Family {
 /// ```
 ///
 /// with `i` at most `first.len()` for every term.
-///
-/// ```
-/// use wavestep::expression::Fraction;
-/// use wavestep::language::{Source, read_expression, read_recurrence};
-/// use wavestep::solution::{Family, GeneralForm, Solution};
-///
-/// let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-/// let source = Source::new("rigid-mass", text)?;
-/// let solution = Solution::new(read_recurrence(&source, &Default::default())?);
-/// let Ok(GeneralForm::Echoes(f)) = solution.general(0) else { panic!("e^(-s) L_k(2s)") };
-/// let one = Fraction::one();
-/// assert_eq!(f.family(), &Family::Laguerre(&one + &one));
-/// assert_eq!((f.rate(), f.ratio()), (&one, &one));
-/// assert_eq!((f.first(), f.terms()), (&[][..], &[(0, one.clone())][..]));
-/// let second = Source::new("L_2(2s)", "exp(-s)*(1 - 4*s + 2*s^2)")?;
-/// let local = &solution.recurrence().statement().local;
-/// assert_eq!(f.echo(2, local), read_expression(&second)?);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EchoTemplate {
     family: Family,

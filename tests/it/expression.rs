@@ -434,3 +434,23 @@ fn conditions_tell_what_is_positive_and_what_is_not_zero() {
         assert!(known.invert(&fraction(refused).into()).is_err(), "{refused}");
     }
 }
+
+/// `k` between 3 and 4, and `w` with a square that is known.
+#[test]
+fn bounds_and_squares_tell_what_is_inverted() {
+    let mut known = Assumptions::default();
+    known.declare_bounds(symbol("k"), rational(3, 1), rational(4, 1));
+    assert!(
+        known.is_positive(&fraction("k*k - 2*k")) && !known.is_positive(&fraction("k*k - 4*k"))
+    );
+    let positive = Some(Condition { relation: Relation::Greater, bound: rational(0, 1) });
+    let mut known = Assumptions::default();
+    known.declare_symbol(symbol("k"), positive.clone());
+    known.declare_symbol(symbol("w"), positive);
+    let value = Expression::from(fraction("w^3 + w*k^2 + k^3"));
+    assert!(known.invert(&value).is_err());
+    known.declare_square(symbol("w"), fraction("k - k^2"));
+    let product = &value * &known.invert(&value).unwrap();
+    assert!(known.reduced(&product).is_one());
+    assert_eq!(known.reduced(&fraction("w^3").into()), fraction("k*w - k^2*w").into());
+}

@@ -452,3 +452,21 @@ fn ill_formed_statements_are_refused() {
     statement.continuity[0].start = expression("t");
     assert_eq!(Recurrence::new(statement).unwrap_err().part, Part::Continuity(0));
 }
+
+// ---- Observables -------------------------------------------------------------------------------
+
+/// Lags that differ by no whole period cut a period into stretches.
+#[test]
+fn arrivals_cut_a_period_into_stretches() {
+    let text = scenes::find("constant-force").expect("a scene of the library").text;
+    let body = text.lines().filter(|line| !line.starts_with("recurrence"));
+    let body = body.collect::<Vec<_>>().join("\n");
+    let solution =
+        Solution::new(read(&format!("{body}\nobserve middle = f(t - 1/2) + f(t - 3/2)")));
+    let middle = solution.recurrence().observation("middle").expect("an observable");
+    let stretches = solution.observed_between_arrivals(&middle, 0, 0).expect("two stretches");
+    let told: Vec<_> = stretches.iter().map(|s| (s.from.to_string(), s.value.clone())).collect();
+    let number = Expression::integer;
+    assert_eq!(told, [("1/2".to_owned(), number(1)), ("3/2".to_owned(), number(2))]);
+    assert_eq!(stretches[1].to.to_string(), "5/2");
+}
