@@ -93,15 +93,9 @@ impl Ball {
         self.radius.is_zero()
     }
 
-    /// Whether the midpoint is positive.
-    #[must_use]
-    pub(crate) fn midpoint_is_positive(&self) -> bool {
-        !self.midpoint.is_negative() && !self.midpoint.is_zero()
-    }
-
     /// The sign of all points of the ball, where they have one.
     #[must_use]
-    pub(crate) fn sign(&self) -> Option<Ordering> {
+    pub fn sign(&self) -> Option<Ordering> {
         match self.contains_zero() {
             true => self.is_exact().then_some(Ordering::Equal),
             false if self.midpoint().is_negative() => Some(Ordering::Less),

@@ -248,6 +248,15 @@ impl From<&Binary> for BigRational {
     }
 }
 
+impl Magnitude {
+    /// The bound itself as an exact binary number.
+    #[must_use]
+    pub fn to_binary(self) -> Binary {
+        let (mantissa, exponent) = self.parts();
+        Binary::new(BigInt::from(mantissa), exponent)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;

@@ -7,7 +7,6 @@ use num_traits::{ToPrimitive as _, Zero as _};
 impl Ball {
     /// A double near the midpoint, and a bound on its distance from every point of the ball.
     /// Infinite where the midpoint is beyond all doubles.
-    ///
     pub fn to_double(&self) -> (f64, Magnitude) {
         let (double, rest) = self.split();
         (double, rest.magnitude())
@@ -106,7 +105,6 @@ impl Magnitude {
     }
 
     /// The least double that is at least as large, or infinity.
-    ///
     pub fn to_double(self) -> f64 {
         match self.top() {
             None => 0.0,

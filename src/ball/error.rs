@@ -1,6 +1,7 @@
 //! What can be wrong with the operands of an operation on balls.
 
-use super::exponential::ARGUMENT_BITS;
+/// The logarithm of the largest argument of exponentials, sines and cosines: `2^40`.
+pub(super) const ARGUMENT_BITS: u32 = 40;
 
 /// An operation that has no result that is supported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]

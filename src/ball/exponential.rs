@@ -11,11 +11,8 @@ use num_traits::{One, Zero};
 
 use super::ball::Ball;
 use super::binary::{Binary, LEAST_PRECISION};
-use super::error::BallError;
+use super::error::{ARGUMENT_BITS, BallError};
 use super::magnitude::Magnitude;
-
-/// Arguments up to `2^40` in absolute value are supported.
-pub(super) const ARGUMENT_BITS: u32 = 40;
 
 /// How an argument of size below `2^t` is reduced for a result of `p` bits.
 #[derive(Clone, Copy)]

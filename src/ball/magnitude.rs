@@ -11,8 +11,6 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
-use super::binary::Binary;
-
 /// Bits of a mantissa.
 const BITS: u32 = 32;
 
@@ -177,10 +175,9 @@ impl Magnitude {
         (!self.is_zero()).then(|| shifted(self.exponent, i64::from(BITS)))
     }
 
-    /// The bound itself as an exact binary number.
-    #[must_use]
-    pub fn to_binary(self) -> Binary {
-        Binary::new(BigInt::from(self.mantissa), self.exponent)
+    /// The mantissa and the exponent.
+    pub(super) const fn parts(self) -> (u64, i64) {
+        (self.mantissa, self.exponent)
     }
 }
 

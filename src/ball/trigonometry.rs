@@ -9,8 +9,7 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use super::ball::Ball;
 use super::binary::{Binary, LEAST_PRECISION};
-use super::error::BallError;
-use super::exponential::ARGUMENT_BITS;
+use super::error::{ARGUMENT_BITS, BallError};
 use super::magnitude::Magnitude;
 
 /// `(A, ε)` with `|arctan(1/n)·2^w − A| ≤ ε`, for `n ≥ 2`.

@@ -15,6 +15,7 @@ use crate::lock::scene::stated;
 use crate::network::Network;
 use num_bigint::BigInt;
 use num_traits::Zero;
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use wavestep_polynomial::Rational;
 
@@ -247,9 +248,8 @@ impl Teller {
         let places = u32::try_from(self.digits).unwrap_or(u32::MAX);
         let bound = Rational::new(1.into(), BigInt::from(10).pow(places));
         let [low, high] = [-&bound, bound].map(|end| Ball::from_rational(&end, 64));
-        let sign = |ball: Ball| (!ball.contains_zero()).then(|| ball.midpoint_is_positive());
-        let above = sign(ball.subtract(&low, 64)) == Some(true);
-        let below = sign(ball.subtract(&high, 64)) == Some(false);
+        let above = ball.subtract(&low, 64).sign() == Some(Ordering::Greater);
+        let below = ball.subtract(&high, 64).sign() == Some(Ordering::Less);
         match above && below && ball.contains(&Rational::zero()) {
             true => Ok(format!("0 ± 1e-{}", self.digits)),
             false => Err(LockError::AccuracyNotReached(what())),

@@ -51,11 +51,6 @@ impl Unfolded {
         &self.recurrence
     }
 
-    /// The lattice.
-    pub fn lattice(&self) -> &Lattice {
-        &self.lattice
-    }
-
     /// The number of an echo; `None` beyond the bounds.
     pub fn number(&self, counts: &[usize]) -> Option<usize> {
         let within = counts.iter().zip(&self.bounds).all(|(count, bound)| count <= bound);

@@ -106,7 +106,7 @@ impl Naming {
         let (sigma, omega) = (part(false), part(true));
         let positive = |definition: &Definition| {
             let ball = numbers.enclose_definition(definition, GUESS_BITS).ok()?;
-            (!ball.contains_zero() && ball.midpoint_is_positive()).then_some(())
+            (ball.sign() == Some(Ordering::Greater)).then_some(())
         };
         positive(&omega)?;
         let growing = positive(&sigma).is_none();
