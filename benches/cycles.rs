@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Term};
-use wavestep_kernels::{Level, Piece, Table};
+use wavestep_kernels::{Level, Limit, Piece, Table};
 
 /// Points of a table. With their times they fill more than a cache of the second level.
 const POINTS: usize = 1_000_000;
@@ -140,7 +140,7 @@ fn main() {
     for n in [1, 10, 50, 200] {
         let (sum, times) = rigid_mass(n);
         measure(&format!("echoes, n = {n}"), times.len(), || {
-            sum.fill(black_box(&times), true, &mut out[..ECHO_POINTS]).expect("in range");
+            sum.fill(black_box(&times), Limit::Right, &mut out[..ECHO_POINTS]).expect("in range");
         });
     }
 }

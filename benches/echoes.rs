@@ -2,6 +2,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use wavestep_kernels::Limit;
 use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Method, Term, Time};
 
 /// `μ = 1`, echoes to `n`, and times that fill the period of echo `n`.
@@ -21,7 +22,8 @@ fn side_by_side(criterion: &mut Criterion) {
         let mut values = vec![0.0; times.len()];
         group.throughput(Throughput::Elements(times.len() as u64));
         group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
-            bencher.iter(|| sum.fill(black_box(&times), true, &mut values).expect("in range"));
+            bencher
+                .iter(|| sum.fill(black_box(&times), Limit::Right, &mut values).expect("in range"));
         });
     }
     group.finish();
@@ -35,8 +37,9 @@ fn one_by_one(criterion: &mut Criterion) {
             group.throughput(Throughput::Elements(times.len() as u64));
             group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
                 bencher.iter(|| {
-                    let value =
-                        |&time| sum.value(method, Time::from(time), true).expect("in range");
+                    let value = |&time| {
+                        sum.value(method, Time::from(time), Limit::Right).expect("in range")
+                    };
                     black_box(&times).iter().map(value).sum::<f64>()
                 });
             });

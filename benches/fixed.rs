@@ -7,8 +7,9 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
+use wavestep_kernels::Limit;
 use wavestep_kernels::fixed::{
-    DelayEquation, Limit, March, MarchOptions, Position, Reduction, Tap, certified,
+    DelayEquation, March, MarchOptions, Position, Reduction, Tap, certified,
 };
 
 const PERIODS: u32 = 200;

@@ -4,7 +4,7 @@ use crate::ball::{Ball, Magnitude};
 use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taylor::Taylor;
-pub use wavestep_kernels::fixed::Limit;
+pub use wavestep_kernels::Limit;
 use wavestep_polynomial::Rational;
 
 /// Where in a stretch.

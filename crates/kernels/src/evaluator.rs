@@ -15,31 +15,6 @@ use crate::{Level, Table};
 /// of doubles and a proven bound, see [`Table::certified_bound`]. Where the bound does not tell to
 /// which of two doubles the value rounds, as close to zeros, they return the index of the point, and
 /// leave a double next to the value. Points outside the table are not reported.
-///
-/// ```
-/// use wavestep_kernels::{Level, Piece, Table};
-/// let piece = |start: f64, coefficients: &[f64]| Piece {
-///     start,
-///     centre: start + 0.5,
-///     scale: 2.0,
-///     coefficients: coefficients.to_vec(),
-///     low: vec![],
-///     error: 0.0,
-/// };
-/// // 3 t² on [0, 1], a line from there.
-/// let table = Table::new(&[piece(0.0, &[0.75, 1.5, 0.75]), piece(1.0, &[6.0, 0.1])], 2.0).unwrap();
-/// let mut grid = [0.0; 5];
-/// table.evaluator().grid(0.0, 0.25, &mut grid);
-/// assert_eq!(grid, [0.0, 0.1875, 0.75, 1.6875, 5.9]);
-///
-/// let mut baseline = [0.0; 5];
-/// table.evaluator().with_level(Level::Baseline).with_threads(2).grid(0.0, 0.25, &mut baseline);
-/// assert_eq!(grid, baseline);
-///
-/// let undecided = table.evaluator().rounded_sorted(&[0.0, 0.3, 1.0, 1.7], &mut grid[..4]);
-/// assert_eq!(grid[2], 6.0 - 0.1);
-/// assert_eq!(undecided, [0], "at 0 the value is 0, where no bound is small");
-/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Evaluator<'a> {
     table: &'a Table,

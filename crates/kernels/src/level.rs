@@ -4,13 +4,6 @@
 ///
 /// `Avx2` and `Avx512` give the same doubles bit for bit. `Baseline` has no fused multiply-add, so
 /// its values can differ from theirs, within the same bound.
-///
-/// ```
-/// use wavestep_kernels::Level;
-/// assert!(Level::Baseline.is_available());
-/// assert!(Level::best().is_available());
-/// assert_eq!(Level::available().last(), Some(Level::best()));
-/// ```
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 pub enum Level {
     /// What every machine has: pairs of doubles (SSE2) on x86-64, single doubles elsewhere.

@@ -20,13 +20,14 @@ pub mod fixed;
 mod heads;
 mod lanes;
 mod level;
+mod limit;
 mod lookup;
 pub mod march;
-pub mod rounding;
 mod rows;
 mod table;
 mod vector;
 
 pub use evaluator::Evaluator;
 pub use level::Level;
+pub use limit::Limit;
 pub use table::{MAX_DEGREE, Piece, Table, TableError};

@@ -24,21 +24,6 @@ const MAX_ENTRIES: usize = i32::MAX as usize;
 /// ```text
 /// p(u) = Σ_k (coefficients[k] + low[k]) u^k,   u = (t − centre) · scale
 /// ```
-///
-/// ```
-/// use wavestep_kernels::{Piece, Table};
-/// // 1 + t + t²/2 for eᵗ on [−1/16, 1/16], off by 5e-5 at most.
-/// let piece = Piece {
-///     start: -0.0625,
-///     centre: 0.0,
-///     scale: 16.0,
-///     coefficients: vec![1.0, 1.0 / 16.0, 1.0 / 512.0],
-///     low: vec![],
-///     error: 5e-5,
-/// };
-/// let table = Table::new(&[piece], 0.0625).unwrap();
-/// assert!((table.evaluator().value(0.05) - 0.05_f64.exp()).abs() <= table.bound());
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// The least double that belongs to the piece.
@@ -56,12 +41,6 @@ pub struct Piece {
 }
 
 /// Why pieces do not make a table. Pieces are numbered from 0.
-///
-/// ```
-/// use wavestep_kernels::{Table, TableError};
-/// assert_eq!(Table::new(&[], 1.0).unwrap_err(), TableError::Empty);
-/// assert_eq!(TableError::Empty.to_string(), "a table needs at least one piece");
-/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum TableError {
     /// No pieces.
@@ -137,24 +116,6 @@ impl std::error::Error for TableError {}
 /// - Scales are powers of two, `centre · scale` is exact, and `|u| ≤ 1` for every double of a piece.
 /// - Coefficients, low parts and bounds are finite; all rows have one length, padded with zeros.
 /// - [`bound`](Self::bound) holds for every double from the first start to the end, at every level.
-///
-/// ```
-/// use wavestep_kernels::{Piece, Table};
-/// let constant = |start: f64, value: f64| Piece {
-///     start,
-///     centre: start + 0.5,
-///     scale: 1.0,
-///     coefficients: vec![value],
-///     low: vec![],
-///     error: 0.0,
-/// };
-/// let steps = Table::new(&[constant(0.0, 3.0), constant(1.0, 5.0)], 2.0).unwrap();
-/// let at = |t: f64| steps.evaluator().value(t);
-/// assert_eq!([at(0.0), at(1.0_f64.next_down()), at(1.0), at(2.0)], [3.0, 3.0, 5.0, 5.0]);
-/// assert!(at(-1e-300).is_nan() && at(2.0_f64.next_up()).is_nan());
-/// assert_eq!((steps.pieces(), steps.start(), steps.end(), steps.degree()), (2, 0.0, 2.0, 0));
-/// assert!(steps.bound() < 1e-300);
-/// ```
 #[derive(Clone, Debug)]
 pub struct Table {
     pub(crate) lookup: Lookup,

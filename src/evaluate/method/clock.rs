@@ -8,7 +8,7 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;
 use num_traits::{Signed as _, ToPrimitive as _};
-use wavestep_kernels::fixed::{self, FixedError, Reduction};
+use wavestep_kernels::fixed::{FixedError, Reduction};
 use wavestep_polynomial::Rational;
 
 /// The most periods that are marched through.
@@ -70,7 +70,7 @@ impl DoublePlaces {
         let (period, delay) = match self {
             DoublePlaces::Whole { period, delay } => (*period, *delay as usize),
             DoublePlaces::Any(reduction) => {
-                let place = reduction.of_double(time, fixed::Limit::Right)?;
+                let place = reduction.of_double(time, Limit::Right)?;
                 return Ok(place.map(|place| (place.period() as usize, place.local())));
             }
         };

@@ -183,7 +183,6 @@ impl EchoSums {
         let [rate, rest] = self.slowness;
         let time = high * rate;
         let low = high.mul_add(rate, -time) + (high * rest + low * rate);
-        let arriving = side == Limit::Right;
         // Waves can cancel: their sum is rounded once.
         let mut sum = DoubleDouble::default();
         for Seen { weight, delay, exact_delay, sum: echoes } in &self.seen {
@@ -194,9 +193,9 @@ impl EchoSums {
             if since.high() < 0.0 || (since.high() == 0.0 && since.low() < 0.0) {
                 continue;
             }
-            sum = sum + *weight * echoes.pair(method, since, arriving)?;
+            sum = sum + *weight * echoes.pair(method, since, side)?;
         }
-        if time > 0.0 || (time == 0.0 && arriving) {
+        if time > 0.0 || (time == 0.0 && side == Limit::Right) {
             for part in &self.added {
                 let horner = |value: f64, c: &Expansion| value * time + c.parts()[0];
                 let polynomial = part.coefficients.iter().rev().fold(0.0, horner);
@@ -224,14 +223,14 @@ impl EchoSums {
             values.fill(0.0);
             return Ok(());
         };
-        first.sum.fill(at, true, values)?;
+        first.sum.fill(at, Limit::Right, values)?;
         let weight = (first.weight * self.unit).high();
         if weight != 1.0 {
             values.iter_mut().for_each(|value| *value *= weight);
         }
         let mut part = if others.is_empty() { Vec::new() } else { vec![0.0; at.len()] };
         for seen in others {
-            seen.sum.fill(at, true, &mut part)?;
+            seen.sum.fill(at, Limit::Right, &mut part)?;
             let weight = (seen.weight * self.unit).high();
             values.iter_mut().zip(&part).for_each(|(value, part)| *value += weight * part);
         }

@@ -27,7 +27,7 @@ impl Response {
 
     /// What encloses the value at a double.
     pub fn at(&self, time: f64) -> (BigRational, BigRational) {
-        let position = self.reduction.of_double(time, fixed::Limit::Right);
+        let position = self.reduction.of_double(time, Limit::Right);
         self.ends(position.expect("a position").expect("a time after the start"))
     }
 
@@ -35,7 +35,7 @@ impl Response {
     pub fn at_exactly(&self, time: &BigRational, side: Limit) -> (BigRational, BigRational) {
         let side = match side {
             Limit::Left => fixed::Limit::Left,
-            Limit::Right => fixed::Limit::Right,
+            Limit::Right => Limit::Right,
         };
         match self.reduction.of_rational(time, side).expect("a position") {
             Some(position) => self.ends(position),

@@ -1,13 +1,15 @@
 //! Echoes at many points, side by side: a block of points shares every loop, and is so large that
 //! no step of the recurrence waits for the one before.
 
-use super::delay::{Delays, counts, since};
+use super::delay::{Delays, Time, counts, since};
 use super::description::{Echoes, Family};
-use super::double_double::first_rounded;
+use super::error::EchoError;
 use super::exponential::exponential_lanes;
+use super::stable::first_rounded;
 use super::sum::EchoSum;
+use crate::Limit;
 use crate::double_double::DoubleDouble;
-use crate::lanes::{Lanes, WIDTH, Work};
+use crate::lanes::{Lanes, WIDTH, Work, widest};
 use std::array::from_fn;
 
 /// Lanes are used while the exponents of `e^{−bx}` and of a bound of the polynomials are within this:
@@ -18,15 +20,67 @@ const LARGEST_EXPONENT: f64 = 600.0;
 /// up to `10^10`, are below `2^−1040` times their coefficients.
 const NOTHING: f64 = -760.0;
 
+/// Arguments of which nothing is left beside their leading part.
+const EXACT: bool = false;
+/// Arguments of which something is left: polynomials are corrected by their slope.
+const CORRECTED: bool = true;
+
 /// `V` vectors of points: what one block holds.
 type Vectors<L, const V: usize> = [L; V];
 
+impl EchoSum {
+    /// `f(T)` at many times, into `values`, as [`Method::Scaled`](super::Method::Scaled) sums it; the
+    /// last bits may differ, because points are summed side by side in the widest registers of the
+    /// machine.
+    ///
+    /// Times may come in any order; neighbours of the same period are fastest, because one
+    /// exponential then serves all their echoes.
+    ///
+    /// # Errors
+    /// When the lengths differ, or as for [`EchoSum::value`]; then no value is written.
+    pub fn fill(&self, times: &[f64], limit: Limit, values: &mut [f64]) -> Result<(), EchoError> {
+        if times.len() != values.len() {
+            return Err(EchoError::LengthsDiffer { times: times.len(), values: values.len() });
+        }
+        let Some(latest) = widest(Latest(times)) else { return Err(EchoError::NotFinite) };
+        if times.is_empty() {
+            return Ok(());
+        }
+        self.admit(Time::from(latest), limit)?;
+        widest(Fill { sum: self, times, limit, values });
+        Ok(())
+    }
+}
+
+/// The latest of some times, none if one of them is not finite. Lanes run side by side, so that no
+/// comparison waits for the one before.
+struct Latest<'a>(&'a [f64]);
+
+impl Work for Latest<'_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Option<f64> {
+        let (mut latest, mut zeros) = (L::splat(f64::MIN), L::splat(0.0));
+        let (vectors, rest) = self.0.as_chunks();
+        let mut padded = [f64::MIN; WIDTH];
+        padded[..rest.len()].copy_from_slice(rest);
+        for vector in vectors.iter().chain([&padded]) {
+            let vector = L::from_array(*vector);
+            latest = latest.greater(vector);
+            // What is not finite times 0 is no number, and stays so in a sum.
+            zeros = zeros + vector * L::splat(0.0);
+        }
+        (zeros.sum() == 0.0).then(|| latest.to_array().into_iter().fold(f64::MIN, f64::max))
+    }
+}
+
 /// The values of the wave at some times.
-pub(super) struct Fill<'a> {
-    pub sum: &'a EchoSum,
-    pub times: &'a [f64],
-    pub include_arriving: bool,
-    pub values: &'a mut [f64],
+struct Fill<'a> {
+    sum: &'a EchoSum,
+    times: &'a [f64],
+    limit: Limit,
+    values: &'a mut [f64],
 }
 
 impl Work for Fill<'_> {
@@ -46,7 +100,7 @@ impl Fill<'_> {
     /// Block by block.
     #[inline(always)]
     fn blocks<L: Lanes, const V: usize>(self) {
-        let Fill { sum, times, include_arriving, values } = self;
+        let Fill { sum, times, limit, values } = self;
         let size = V * WIDTH;
         for (times, values) in times.chunks(size).zip(values.chunks_mut(size)) {
             // A block that is not full is filled up with its last point.
@@ -59,8 +113,8 @@ impl Fill<'_> {
                 }
             };
             let result = match sum.echoes.family {
-                Family::Laguerre => Block::<L, V>::new(sum, block, include_arriving).sum::<false>(),
-                Family::Powers => Block::<L, V>::new(sum, block, include_arriving).sum::<true>(),
+                Family::Laguerre => Block::<L, V>::new(sum, block, limit).sum::<Laguerre>(),
+                Family::Powers => Block::<L, V>::new(sum, block, limit).sum::<Powers>(),
             };
             for (values, lanes) in values.chunks_mut(WIDTH).zip(result) {
                 let lanes = lanes.to_array();
@@ -78,7 +132,7 @@ struct Block<'a, L: Lanes, const V: usize> {
     sum: &'a EchoSum,
     echoes: &'a Echoes,
     delays: &'a Delays,
-    include_arriving: bool,
+    limit: Limit,
     times: Vectors<L, V>,
     /// So many echoes have arrived at every point, for sure.
     full: usize,
@@ -92,7 +146,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     /// `T/D` in doubles is off by less than `2^−51` of itself: where it is further from an integer,
     /// its floor is right for sure.
     #[inline(always)]
-    fn new(sum: &'a EchoSum, times: Vectors<L, V>, include_arriving: bool) -> Self {
+    fn new(sum: &'a EchoSum, times: Vectors<L, V>, limit: Limit) -> Self {
         let lesser = times.into_iter().fold(times[0], L::lesser);
         let greater = times.into_iter().fold(times[0], L::greater);
         let earliest = lesser.to_array().into_iter().fold(f64::INFINITY, f64::min);
@@ -105,7 +159,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
             sum,
             echoes: &sum.echoes,
             delays: &sum.delays,
-            include_arriving,
+            limit,
             times,
             full: count(early - early.abs() * margin - f64::MIN_POSITIVE),
             some: count(latest * frequency * (1.0 + margin)),
@@ -117,7 +171,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     /// The sum of all echoes. Those that have arrived at every point share one exponential; the
     /// few others are masked.
     #[inline(always)]
-    fn sum<const POWERS: bool>(&self) -> Vectors<L, V> {
+    fn sum<P: Polynomials>(&self) -> Vectors<L, V> {
         let mut total = [L::splat(0.0); V];
         let first = self.echoes.first.len().min(self.some);
         for k in 0..first {
@@ -125,11 +179,11 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
             self.add_lane_by_lane(k, echo, &mut total);
         }
         if first < self.full {
-            self.add_arrived::<POWERS>(first, &mut total);
+            self.add_arrived::<P>(first, &mut total);
         }
         for k in first.max(self.full)..self.some {
             if self.is_within(k, k) {
-                self.add_masked::<POWERS>(k, &mut total);
+                self.add_masked::<P>(k, &mut total);
             } else {
                 self.add_scaled(k, &mut total);
             }
@@ -141,7 +195,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     /// `s + (R−k)D` ago, a sum of what is not negative, and its exponential is that of `s` times a
     /// tabulated one.
     #[inline(always)]
-    fn add_arrived<const POWERS: bool>(&self, first: usize, total: &mut Vectors<L, V>) {
+    fn add_arrived<P: Polynomials>(&self, first: usize, total: &mut Vectors<L, V>) {
         let latest = self.full - 1;
         let zero = L::splat(0.0);
         let (mut lead, mut rest, mut decay) = ([zero; V], [zero; V], [zero; V]);
@@ -149,11 +203,11 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
             let (high, low) = since_lanes(self.times[v], self.delays.of(latest));
             let (product, error) = times_pair(high, low, -self.echoes.rate.pair());
             decay[v] = exponential_lanes(product, error);
-            (lead[v], rest[v]) = times_pair(high, low, self.scale::<POWERS>());
+            (lead[v], rest[v]) = times_pair(high, low, self.scale::<P>());
         }
         // The last echo may have arrived this very moment: its argument is not split.
         let newest = Arguments { lead, rest, is_exact: false };
-        let anchor = Anchor::above(self.latest * self.scale::<POWERS>().high);
+        let anchor = Anchor::above(self.latest * self.scale::<P>().high);
         let split = newest.split(anchor);
         let mut sum = [zero; V];
         let mut nothing = true;
@@ -166,12 +220,12 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
                 let factor = self.sum.decays[periods] * self.sum.ratio_powers[k];
                 let arguments = match periods {
                     0 => newest,
-                    _ => split.plus(anchor.split(signed::<POWERS>(self.sum.arguments[periods]))),
+                    _ => split.plus(anchor.split(P::signed(self.sum.arguments[periods]))),
                 };
                 if arguments.is_exact {
-                    self.add_echo::<POWERS, false>(k, &arguments, factor, &mut sum);
+                    self.add_echo::<P, EXACT>(k, &arguments, factor, &mut sum);
                 } else {
-                    self.add_echo::<POWERS, true>(k, &arguments, factor, &mut sum);
+                    self.add_echo::<P, CORRECTED>(k, &arguments, factor, &mut sum);
                 }
                 nothing = false;
             } else if !self.is_nothing(k) {
@@ -188,13 +242,13 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
 
     /// The scale of the arguments.
     #[inline(always)]
-    fn scale<const POWERS: bool>(&self) -> DoubleDouble {
-        signed::<POWERS>(self.echoes.scale.pair())
+    fn scale<P: Polynomials>(&self) -> DoubleDouble {
+        P::signed(self.echoes.scale.pair())
     }
 
-    /// Adds `factor` times the polynomial of echo `k`, `CORRECTED` by what is left of its arguments.
+    /// Adds `factor` times the polynomial of echo `k`, corrected by what is left of its arguments.
     #[inline(always)]
-    fn add_echo<const POWERS: bool, const CORRECTED: bool>(
+    fn add_echo<P: Polynomials, const ARGUMENTS: bool>(
         &self,
         k: usize,
         arguments: &Arguments<L, V>,
@@ -203,7 +257,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     ) {
         let Arguments { lead: argument, rest, .. } = arguments;
         let mut relative = *rest;
-        if CORRECTED {
+        if ARGUMENTS == CORRECTED {
             for v in 0..V {
                 relative[v] = rest[v] * argument[v].rough_reciprocal();
             }
@@ -215,15 +269,15 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
             for &reciprocal in &self.sum.reciprocals[index..target] {
                 let reciprocal = L::splat(reciprocal);
                 for v in 0..V {
-                    step::<L, POWERS>(argument[v], reciprocal, &mut value[v], &mut slope[v]);
+                    P::step(argument[v], reciprocal, &mut value[v], &mut slope[v]);
                 }
             }
             index = target;
             let coefficient = L::splat(term.coefficient.high() * factor);
             for v in 0..V {
                 let mut corrected = value[v];
-                if CORRECTED {
-                    let slope = if POWERS { value[v] * L::splat(index as f64) } else { slope[v] };
+                if ARGUMENTS == CORRECTED {
+                    let slope = P::slope(value[v], slope[v], index);
                     corrected = slope.fused(relative[v], corrected);
                 }
                 sum[v] = corrected.fused(coefficient, sum[v]);
@@ -233,21 +287,24 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
 
     /// Adds an echo of which not all points have heard.
     #[inline(always)]
-    fn add_masked<const POWERS: bool>(&self, k: usize, total: &mut Vectors<L, V>) {
+    fn add_masked<P: Polynomials>(&self, k: usize, total: &mut Vectors<L, V>) {
         let zero = L::splat(0.0);
         let (mut lead, mut rest, mut weight) = ([zero; V], [zero; V], [zero; V]);
         let ratio = L::splat(self.sum.ratio_powers[k]);
         for v in 0..V {
             let since = since_lanes(self.times[v], self.delays.of(k));
-            let counted = |lanes: L| lanes.where_positive(since.0, self.include_arriving);
+            let counted = |lanes: L| match self.limit {
+                Limit::Left => lanes.where_positive(since.0),
+                Limit::Right => lanes.where_not_negative(since.0),
+            };
             let (high, low) = (counted(since.0), counted(since.1));
             let (product, error) = times_pair(high, low, -self.echoes.rate.pair());
             weight[v] = exponential_lanes(product, error) * counted(ratio);
-            (lead[v], rest[v]) = times_pair(high, low, self.scale::<POWERS>());
+            (lead[v], rest[v]) = times_pair(high, low, self.scale::<P>());
         }
         let mut sum = [zero; V];
         let arguments = Arguments { lead, rest, is_exact: false };
-        self.add_echo::<POWERS, true>(k, &arguments, 1.0, &mut sum);
+        self.add_echo::<P, CORRECTED>(k, &arguments, 1.0, &mut sum);
         for v in 0..V {
             total[v] = weight[v].fused(sum[v], total[v]);
         }
@@ -270,7 +327,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
             let mut sums = total.to_array();
             for (time, sum) in times.to_array().into_iter().zip(&mut sums) {
                 let since = since(self.delays.of(k), DoubleDouble::from(time));
-                if counts(since.high, self.include_arriving) {
+                if counts(since.high, self.limit) {
                     *sum += echo(since);
                 }
             }
@@ -319,21 +376,53 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
     }
 }
 
-/// One index further, as in the scalar recurrence; powers form their slope at the end.
-#[inline(always)]
-fn step<L: Lanes, const POWERS: bool>(argument: L, reciprocal: L, value: &mut L, slope: &mut L) {
-    if POWERS {
-        *value = *value * (argument * reciprocal);
-    } else {
+/// A family of polynomials, as lanes step through it.
+trait Polynomials {
+    /// The scale of arguments, with the sign with which the recurrence takes it.
+    fn signed(scale: DoubleDouble) -> DoubleDouble;
+    /// One index further.
+    fn step<L: Lanes>(argument: L, reciprocal: L, value: &mut L, slope: &mut L);
+    /// `X q_j'(X)`.
+    fn slope<L: Lanes>(value: L, slope: L, index: usize) -> L;
+}
+
+struct Laguerre;
+
+impl Polynomials for Laguerre {
+    #[inline(always)]
+    fn signed(scale: DoubleDouble) -> DoubleDouble {
+        -scale
+    }
+
+    #[inline(always)]
+    fn step<L: Lanes>(argument: L, reciprocal: L, value: &mut L, slope: &mut L) {
         *slope = argument.fused(*value, *slope);
         *value = slope.fused(reciprocal, *value);
     }
+
+    #[inline(always)]
+    fn slope<L: Lanes>(_: L, slope: L, _: usize) -> L {
+        slope
+    }
 }
 
-/// Laguerre polynomials ask for arguments with their sign turned.
-#[inline(always)]
-fn signed<const POWERS: bool>(number: DoubleDouble) -> DoubleDouble {
-    if POWERS { number } else { -number }
+struct Powers;
+
+impl Polynomials for Powers {
+    #[inline(always)]
+    fn signed(scale: DoubleDouble) -> DoubleDouble {
+        scale
+    }
+
+    #[inline(always)]
+    fn step<L: Lanes>(argument: L, reciprocal: L, value: &mut L, _: &mut L) {
+        *value = *value * (argument * reciprocal);
+    }
+
+    #[inline(always)]
+    fn slope<L: Lanes>(value: L, _: L, index: usize) -> L {
+        value * L::splat(index as f64)
+    }
 }
 
 /// Arguments of polynomials, one a point, as sums of two doubles.
@@ -428,7 +517,7 @@ fn since_lanes<L: Lanes>(time: L, [lead, middle, last]: [f64; 3]) -> (L, L) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::echoes::{Echoes, Expansion, Family, Method, Term, Time};
+    use crate::echoes::{Expansion, Method, Term};
     use crate::lanes::each_way;
 
     /// Values at times of a sum, by any lanes; the size of a block does not change them.
@@ -442,7 +531,7 @@ mod tests {
             let filled = |by_three: bool| {
                 let mut values = vec![f64::NAN; self.1.len()];
                 let Values(sum, times) = self;
-                let fill = Fill { sum, times, include_arriving: true, values: &mut values };
+                let fill = Fill { sum, times, limit: Limit::Right, values: &mut values };
                 if by_three {
                     fill.blocks::<L, 3>()
                 } else {
@@ -478,7 +567,8 @@ mod tests {
             for version in each_way(&Values(&sum, &times)) {
                 for (&time, value) in times.iter().zip(&version) {
                     let method = Method::Scaled;
-                    let right = sum.value(method, Time::from(time), true).expect("in range");
+                    let right =
+                        sum.value(method, Time::from(time), Limit::Right).expect("in range");
                     assert!((value - right).abs() < 1e-14, "{time}: {value} and not {right}");
                 }
             }

@@ -3,22 +3,13 @@
 
 use super::error::EchoError;
 use super::expansion::Expansion;
+use crate::Limit;
 use crate::double_double::{DoubleDouble, fast_two_sum, two_sum};
 
 /// A time as the sum of two doubles.
 ///
 /// # Invariants
 /// - both parts are finite, and the second is at most half an ulp of the first.
-///
-/// ```
-/// use wavestep_kernels::echoes::Time;
-///
-/// let time = Time::new(1.0, 2f64.powi(-80))?;
-/// assert_eq!((time.high(), time.low()), (1.0, 2f64.powi(-80)));
-/// assert_eq!(Time::from(2.5).low(), 0.0);
-/// assert!(Time::new(f64::NAN, 0.0).is_err());
-/// # Ok::<(), wavestep_kernels::echoes::EchoError>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Time(DoubleDouble);
 
@@ -82,16 +73,16 @@ impl Delays {
         since(self.0[k], time.pair())
     }
 
-    /// Whether echo `k` has arrived; one that arrives at this very time has, if `include_arriving`.
-    pub fn has_arrived(&self, k: usize, time: Time, include_arriving: bool) -> bool {
-        counts(self.since(k, time).high, include_arriving)
+    /// Whether echo `k` has arrived; one that arrives at this very time has, in the limit from the right.
+    pub fn has_arrived(&self, k: usize, time: Time, limit: Limit) -> bool {
+        counts(self.since(k, time).high, limit)
     }
 }
 
 /// Whether an echo counts that arrived `since` ago.
 #[inline(always)]
-pub(super) fn counts(since: f64, include_arriving: bool) -> bool {
-    since > 0.0 || (include_arriving && since == 0.0)
+pub(super) fn counts(since: f64, limit: Limit) -> bool {
+    since > 0.0 || (limit == Limit::Right && since == 0.0)
 }
 
 /// `T − delay`.
@@ -128,11 +119,12 @@ mod tests {
         assert_eq!(c, 0.0);
         let exact = Time::new(a, b).expect("a time");
         assert_eq!(delays.since(200, exact).high, 0.0);
-        assert!(delays.has_arrived(200, exact, true) && !delays.has_arrived(200, exact, false));
+        assert!(delays.has_arrived(200, exact, Limit::Right));
+        assert!(!delays.has_arrived(200, exact, Limit::Left));
         let after = Time::new(a, b.next_up()).expect("a time");
         assert_eq!(delays.since(200, after).high, b.next_up() - b);
         let before = Time::new(a, b.next_down()).expect("a time");
-        assert!(!delays.has_arrived(200, before, true));
+        assert!(!delays.has_arrived(200, before, Limit::Right));
     }
 
     #[test]

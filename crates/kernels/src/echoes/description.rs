@@ -6,11 +6,6 @@ use super::expansion::Expansion;
 use crate::double_double::DoubleDouble;
 
 /// The polynomials `q_j` that echoes are made of; those of negative index are 0.
-///
-/// ```
-/// use wavestep_kernels::echoes::Family;
-/// assert_ne!(Family::Laguerre, Family::Powers);
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Family {
     /// The Laguerre polynomials `L_j(X) = Σ_i C(j,i) (−X)^i / i!`: a reflection `((p−a)/(p+b))^k`
@@ -21,12 +16,6 @@ pub enum Family {
 }
 
 /// One term `coefficient · q_{k−lag}(cx)` of every echo `k`.
-///
-/// ```
-/// use wavestep_kernels::echoes::{Expansion, Term};
-/// let term = Term { lag: 1, coefficient: Expansion::ONE };
-/// assert_eq!(term.lag, 1);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Term {
     /// By how much the index of the polynomial is below that of the echo.
@@ -36,16 +25,6 @@ pub struct Term {
 }
 
 /// `e^{−rate·x} Σ_j coefficients[j] x^j`: a part of an echo that does not follow the rule.
-///
-/// ```
-/// use wavestep_kernels::echoes::{Expansion, ExponentialPolynomial};
-/// // 1 − e^{−x} is the sum of two.
-/// let one = ExponentialPolynomial { rate: Expansion::ZERO, coefficients: vec![Expansion::ONE] };
-/// let minus = Expansion::try_from(-1.0)?;
-/// let decay = ExponentialPolynomial { rate: Expansion::ONE, coefficients: vec![minus] };
-/// assert_ne!(one, decay);
-/// # Ok::<(), wavestep_kernels::echoes::EchoError>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct ExponentialPolynomial {
     /// How fast it decays.
@@ -65,21 +44,7 @@ pub struct ExponentialPolynomial {
 /// - the period is positive;
 /// - numbers that are not 0 lie between `2^−200` and `2^201`, so that products of them are exact
 ///   sums of doubles;
-/// - terms stand in order of falling lag, one a lag, and no lag is beyond [`LARGEST_LAG`].
-///
-/// ```
-/// use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Method, Term, Time};
-///
-/// // A rigid mass on a fixed bar, μ = 1: φ_k(x) = e^{−x} L_k(2x), D = 2.
-/// let two = Expansion::try_from(2.0)?;
-/// let terms = [Term { lag: 0, coefficient: Expansion::ONE }];
-/// let wave = Echoes::new(Family::Laguerre, Expansion::ONE, two, Expansion::ONE, &terms, two)?;
-/// let sum = EchoSum::new(wave, 1)?;
-/// let value = sum.value(Method::Scaled, Time::from(3.0), true)?;
-/// // e^{−3} + e^{−1} (1 − 2)
-/// assert!((value - ((-3f64).exp() - (-1f64).exp())).abs() < 1e-16);
-/// # Ok::<(), wavestep_kernels::echoes::EchoError>(())
-/// ```
+/// - terms stand in order of falling lag, one a lag, and no lag is beyond 1024.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Echoes {
     pub(super) family: Family,
@@ -142,11 +107,6 @@ impl Echoes {
         }
         self.first = first;
         Ok(self)
-    }
-
-    /// The time from one echo to the next, `D`.
-    pub fn period(&self) -> Expansion {
-        self.period
     }
 
     /// The larger of `|b|` and `|c|`, and of the rates of the first echoes.

@@ -3,14 +3,6 @@
 use std::fmt;
 
 /// Why echoes cannot be described or summed.
-///
-/// ```
-/// use wavestep_kernels::echoes::{EchoError, Expansion};
-///
-/// let error = Expansion::try_from(f64::INFINITY).unwrap_err();
-/// assert_eq!(error, EchoError::NotFinite);
-/// assert_eq!(error.to_string(), "a number is not finite; give finite doubles");
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EchoError {
     /// A number is infinite or not a number.
@@ -19,12 +11,12 @@ pub enum EchoError {
     PeriodNotPositive,
     /// A rate, scale, ratio, period or coefficient is beyond `2^±200`.
     BeyondRange,
-    /// A lag is beyond [`LARGEST_LAG`](super::LARGEST_LAG).
+    /// A lag is beyond 1024.
     LagTooLarge {
         /// The lag.
         lag: isize,
     },
-    /// More echoes were asked for than [`LARGEST_ECHO`](super::LARGEST_ECHO).
+    /// More echoes were asked for than 2²⁰.
     TooManyEchoes {
         /// The last echo asked for.
         last: usize,
@@ -42,11 +34,6 @@ pub enum EchoError {
         times: usize,
         /// How many values were asked for.
         values: usize,
-    },
-    /// There is no row of coefficients for a period.
-    NoRow {
-        /// The period.
-        period: usize,
     },
 }
 
@@ -77,9 +64,6 @@ impl fmt::Display for EchoError {
             }
             EchoError::LengthsDiffer { times, values } => {
                 write!(f, "{times} times but room for {values} values; give as many of both")
-            }
-            EchoError::NoRow { period } => {
-                write!(f, "no coefficients for period {period}; give a row for each period")
             }
         }
     }

@@ -14,19 +14,6 @@ use std::cmp::Ordering;
 ///
 /// A real number is kept with a relative error of at most `2^−158`; a number with at most 159 bits,
 /// exactly, unless something underflows.
-///
-/// ```
-/// use wavestep_kernels::echoes::Expansion;
-///
-/// // One third: what the first double lacks stands in the second.
-/// let third = 1.0 / 3.0;
-/// let rest = third / 2f64.powi(54);
-/// let number = Expansion::new([third, rest, 0.0])?;
-/// assert_eq!(number.parts(), [third, rest, 0.0]);
-/// assert_eq!(Expansion::new([1.0, 1.0, 1.0])?.parts(), [3.0, 0.0, 0.0]);
-/// assert!(Expansion::new([f64::NAN, 0.0, 0.0]).is_err());
-/// # Ok::<(), wavestep_kernels::echoes::EchoError>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Expansion([f64; 3]);
 

@@ -81,9 +81,9 @@ pub(super) fn exponential_lanes<L: Lanes>(y: L, low: L) -> L {
 mod tests {
     use super::*;
     use crate::exponent::scale;
-    use crate::lanes::Portable;
+    use crate::lanes::OneByOne;
 
-    type Eight = Portable<true>;
+    type Eight = OneByOne<true>;
 
     #[test]
     fn the_two_agree_and_keep_the_low_part() {

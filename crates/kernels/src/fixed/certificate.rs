@@ -4,13 +4,9 @@
 //! derivation is in the documentation of [`fixed`](super).
 
 use super::error::FixedError;
-use super::march::FRACTION_BITS;
-use super::scheme::{Forcing, MOST_TERMS, Reflection, Scheme};
+use super::scheme::{Forcing, LARGEST_SUM, MOST_TERMS, Reflection, Scheme};
+use super::value::FRACTION_BITS;
 
-/// The most that the sizes of the coefficients of a piece may add up to, in units: 64.
-///
-/// `(m + 1) |w_{m+1}| ≤ 64 · 2 · 2^118 = 2^125` then fits, and two products with it.
-pub(super) const LARGEST_SUM: u128 = 1 << (FRACTION_BITS + 6);
 /// The most units of residual and mismatch with which a bound is proven: `2^−12`.
 const LARGEST_FAULT: u128 = 1 << (FRACTION_BITS - 12);
 /// Fraction bits of the largest value, as it is multiplied with.

@@ -5,32 +5,17 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::equation::DelayEquation;
 use super::error::FixedError;
-use super::march::FRACTION_BITS;
 use super::multiplier::Multiplier;
-use super::position::{ExactTime, Limit, Position, Reduction};
+use super::position::{ExactTime, Position, Reduction};
 use super::scheme::Scheme;
-use super::value::{round_to_double, scaled};
+use super::value::{FRACTION_BITS, round_to_double, scaled};
 use super::walk::Walk;
+use crate::Limit;
 
 /// The most taps of a sum.
 const MOST_TAPS: usize = 8;
 
 /// A delayed solution with a weight: `w·Y(T − d)`.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, Limit, Tap, certified};
-/// let one = BigRational::from(num_bigint::BigInt::from(1));
-/// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
-/// // Twice the solution, delayed by half a period, with the opposite sign.
-/// let tap = Tap {
-///     weight: -(&one + &one),
-///     delay: BigRational::new(1.into(), 2.into()),
-/// };
-/// let results = certified(&equation, &[tap], &[0.25, 0.5, 1.0], Limit::Right).unwrap();
-/// assert_eq!(results.values[..2], [0.0, -2.0]);
-/// assert!((results.values[2] + 2.0 * (-0.5f64).exp()).abs() < 1e-15);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Tap {
     /// The weight w, a pure number.
@@ -40,18 +25,6 @@ pub struct Tap {
 }
 
 /// Doubles, and which of them are not certain.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, Limit, Tap, certified};
-/// let one = BigRational::from(num_bigint::BigInt::from(1));
-/// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
-/// let now = Tap { weight: one.clone(), delay: BigRational::default() };
-/// let before = Tap { weight: -&one, delay: one };
-/// let difference = certified(&equation, &[now, before], &[0.5, 1.0], Limit::Left).unwrap();
-/// assert!(difference.undecided.is_empty());
-/// assert_eq!(difference.values, [0.6065306597126334, 0.36787944117144233]);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct CertifiedDoubles {
     /// One value a time: the double nearest to the exact sum, unless the place is listed in
@@ -83,18 +56,6 @@ struct Prepared {
 /// # Cost
 /// A march up to the last time, of which two periods are held, and for each tap and time a reduction
 /// and some forty products.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, Limit, Tap, certified};
-/// // The strain at the fixed end, -2 Y(T - mu), for mu = 1: the source has -2 e^(-1) at T = 2.
-/// let [one, two] = [1, 2].map(|value| BigRational::from(num_bigint::BigInt::from(value)));
-/// let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
-/// let strain = Tap { weight: -two, delay: one };
-/// let strains = certified(&equation, &[strain], &[0.5, 1.0, 2.0], Limit::Right).unwrap();
-/// assert_eq!(strains.values, [0.0, -2.0, -0.7357588823428847]);
-/// assert!(strains.undecided.is_empty());
-/// ```
 pub fn certified<T: ExactTime>(
     equation: &DelayEquation,
     taps: &[Tap],

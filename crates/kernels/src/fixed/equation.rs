@@ -13,20 +13,6 @@ use super::error::FixedError;
 ///
 /// # Invariants
 /// - `D > 0`, `b > 0`, `−1 ≤ ρ ≤ 1`; a is any rational.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, MarchOptions, March, Position};
-/// let one = BigRational::from(num_bigint::BigInt::from(1));
-/// let half = BigRational::new(1.into(), 2.into());
-/// let equation = DelayEquation::new(&one, &one, &one, &half).unwrap();
-/// assert_eq!(equation.period(), &one);
-/// assert_eq!(equation.reflection(), &half);
-/// // The second period begins with the end of the first, e^(−1), and half a jump.
-/// let march = March::new(&equation, 2, &MarchOptions::default()).unwrap();
-/// let value = march.value(&Position::exact(1, 0).unwrap()).unwrap();
-/// assert!((value.to_f64() - (0.5 + (-1f64).exp())).abs() < 1e-15);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct DelayEquation {
     period: BigRational,

@@ -3,20 +3,6 @@
 use std::fmt;
 
 /// Why a march, a position or a value is refused.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, FixedError};
-/// let integer = |value: i64| BigRational::from(num_bigint::BigInt::from(value));
-/// let [zero, one, two] = [0, 1, 2].map(integer);
-/// let refused = DelayEquation::new(&one, &one, &one, &two).unwrap_err();
-/// assert_eq!(refused, FixedError::ReflectionTooLarge);
-/// assert_eq!(
-///     refused.to_string(),
-///     "the reflection is not between -1 and 1; larger ones are not supported here"
-/// );
-/// assert_eq!(DelayEquation::new(&zero, &one, &one, &one), Err(FixedError::PeriodNotPositive));
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum FixedError {

@@ -3,8 +3,8 @@
 //! Nothing here is proven, and nothing needs to be: what is made of the coefficients is compared with the
 //! function afterwards.
 
-use super::march::FRACTION_BITS;
 use super::multiplier::{Fraction, Multiplier};
+use super::value::FRACTION_BITS;
 use crate::double_double::DoubleDouble;
 use std::f64::consts::PI;
 

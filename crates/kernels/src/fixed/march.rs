@@ -4,17 +4,8 @@ use super::equation::DelayEquation;
 use super::error::FixedError;
 use super::position::Position;
 use super::scheme::{MarchOptions, Scheme};
-use super::value::FixedValue;
+use super::value::{FRACTION_BITS, FixedValue};
 use super::walk::{Period, Proof, Walk};
-
-/// Fraction bits of coefficients and values: their unit is `2^−112`.
-///
-/// ```
-/// use wavestep_kernels::fixed::{FRACTION_BITS, FixedValue};
-/// let half = FixedValue { midpoint: 1 << (FRACTION_BITS - 1), radius: 0 };
-/// assert_eq!(half.to_f64(), 0.5);
-/// ```
-pub const FRACTION_BITS: u32 = 112;
 
 /// The solution Y of a [`DelayEquation`] on its first periods: on every piece a polynomial in
 /// `u ∈ [−1, 1]` whose coefficients are integers, in units of `2^−112`.
@@ -23,29 +14,6 @@ pub const FRACTION_BITS: u32 = 112;
 /// - On every piece of period n, `|p − Y| ≤ bound_of(n)`; at both ends, p is compared with the
 ///   limits of Y from inside the period.
 /// - The sizes of the coefficients of a piece add up to at most 64.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, FRACTION_BITS, March, MarchOptions, Position};
-/// // A rigid mass that strikes a fixed bar, mu = 1: D = 2, a = b = rho = 1.
-/// let [one, two] = [1, 2].map(|value| BigRational::from(num_bigint::BigInt::from(value)));
-/// let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
-/// let march = March::new(&equation, 200, &MarchOptions::default()).unwrap();
-/// assert!(march.bound() < 1e-27);
-/// assert_eq!((march.periods(), march.pieces_per_period()), (200, 16));
-/// assert!(march.bound_of(0).unwrap() < 1e-2 * march.bound());
-///
-/// // The first piece of the first period is exp(-x), x = (1 + u)/16: its slope is -1/16 of it.
-/// let unit = (FRACTION_BITS as f64).exp2();
-/// let piece = march.piece(0, 0).unwrap();
-/// assert!((piece[0] as f64 / unit - (-0.0625f64).exp()).abs() < 1e-15);
-/// assert!((piece[1] + piece[0] / 16).abs() < 100);
-///
-/// // In the middle of the second period, Y = e^(-3) + e^(-1) L_1(2).
-/// let middle = Position::exact(1, 1 << 119).unwrap();
-/// let value = march.value(&middle).unwrap();
-/// assert!((value.to_f64() - ((-3f64).exp() - (-1f64).exp())).abs() < 1e-15);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct March {
     scheme: Scheme,

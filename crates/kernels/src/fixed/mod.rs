@@ -64,19 +64,6 @@
 //! # Sizes
 //! For the rigid mass, `ρ = 1`, `a = b = 1`, `D = 2μ`, with `μ = 1` and 200 periods: 16 pieces a
 //! period of 37 terms, a bound of `6e−28`.
-//!
-//! ```
-//! use num_rational::BigRational;
-//! use wavestep_kernels::fixed::{DelayEquation, March, MarchOptions, Reduction, Limit};
-//! let [one, two] = [1, 2].map(|value| BigRational::from(num_bigint::BigInt::from(value)));
-//! let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
-//! let march = March::new(&equation, 200, &MarchOptions::default()).unwrap();
-//! assert!(march.bound() < 6e-28);
-//! let reduction = Reduction::new(equation.period(), &BigRational::default()).unwrap();
-//! let position = reduction.of_double(2.5, Limit::Right).unwrap().unwrap();
-//! // In the second period, Y = e^(-T) + e^(-x) (1 - 2 x), x = T - 2: here the second term is 0.
-//! assert_eq!(march.value(&position).unwrap().to_double(), Some(0.0820849986238988));
-//! ```
 
 mod certificate;
 mod certified;
@@ -99,9 +86,9 @@ mod walk;
 pub use certified::{CertifiedDoubles, Tap, certified};
 pub use equation::DelayEquation;
 pub use error::FixedError;
-pub use march::{FRACTION_BITS, March};
+pub use march::March;
 pub use part::Part;
-pub use position::{ExactTime, Limit, Position, Reduction};
+pub use position::{ExactTime, Position, Reduction};
 pub use scheme::MarchOptions;
 pub use spans::{Interpolant, Spans};
-pub use value::{FixedValue, round_to_double};
+pub use value::{FRACTION_BITS, FixedValue, round_to_double};

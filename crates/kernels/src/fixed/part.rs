@@ -6,22 +6,6 @@ use super::march::March;
 use super::multiplier::Multiplier;
 
 /// A polynomial on a part of a piece, in units of `2^−112`.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, FRACTION_BITS, March, MarchOptions};
-/// let one = BigRational::from(num_bigint::BigInt::from(1));
-/// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
-/// let march = March::new(&equation, 1, &MarchOptions { pieces: Some(8), terms: None }).unwrap();
-/// // The left half of the first piece is exp(−x) on [0, 1/16]: in its middle e^(−1/32).
-/// let half = BigRational::new(1.into(), 2.into());
-/// let part = march.part(0, 0, &-&half, &half).unwrap();
-/// let unit = (FRACTION_BITS as f64).exp2();
-/// assert!((part.coefficients[0] as f64 / unit - (-1.0 / 32.0_f64).exp()).abs() < 1e-15);
-/// assert!(part.radius < 1 << 20);
-/// // A part that is no smaller than the piece is none.
-/// assert_eq!(march.part(0, 0, &half, &one), None);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Part {
     /// The coefficients of powers of u.

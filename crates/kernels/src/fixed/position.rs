@@ -6,32 +6,12 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::error::FixedError;
+use crate::Limit;
 
 /// Fraction bits of a place in a period.
 pub(super) const POSITION_BITS: u32 = 120;
 /// The place at the end of a period.
 const END: u128 = 1 << POSITION_BITS;
-
-/// Which one-sided limit of a function is meant at a jump.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{Reduction, Limit};
-/// let one = BigRational::from(num_bigint::BigInt::from(1));
-/// let reduction = Reduction::new(&one, &BigRational::default()).unwrap();
-/// let right = reduction.of_double(3.0, Limit::Right).unwrap().unwrap();
-/// let left = reduction.of_double(3.0, Limit::Left).unwrap().unwrap();
-/// assert_eq!((right.period(), right.fraction()), (3, 0));
-/// assert_eq!((left.period(), left.fraction()), (2, 1 << 120));
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Limit {
-    /// From earlier times, or from smaller `x`.
-    Left,
-    /// From later times, or from larger `x`.
-    #[default]
-    Right,
-}
 
 /// A place in a period: `n + x` periods after the start.
 ///
@@ -39,13 +19,6 @@ pub enum Limit {
 /// - An exact position has `x = fraction·2^−120`, from 0 to 1; at 0 and 1 the limit from inside the
 ///   period is meant.
 /// - One that is not has `fraction·2^−120 < x < (fraction + 1)·2^−120`, with `fraction < 2^120`.
-///
-/// ```
-/// use wavestep_kernels::fixed::{FixedError, Position};
-/// let quarter = Position::exact(7, 1 << 118).unwrap();
-/// assert_eq!((quarter.period(), quarter.fraction(), quarter.is_exact()), (7, 1 << 118, true));
-/// assert_eq!(Position::exact(7, (1 << 120) + 1), Err(FixedError::PositionOutside));
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Position {
     period: u32,
@@ -103,26 +76,6 @@ impl Position {
 ///
 /// # Invariants
 /// - `D > 0`.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{Reduction, Limit};
-/// let third = BigRational::new(1.into(), 3.into());
-/// let half = BigRational::new(1.into(), 2.into());
-/// let reduction = Reduction::new(&third, &half).unwrap();
-/// // (2.75 − 1/2)/(1/3) = 6 + 3/4.
-/// let position = reduction.of_double(2.75, Limit::Right).unwrap().unwrap();
-/// assert_eq!((position.period(), position.fraction()), (6, 3 << 118));
-/// assert!(position.is_exact());
-/// // The double 0.6 is not 3/5, and 0.3 periods is no sum of powers of two.
-/// let double = reduction.of_double(0.6, Limit::Right).unwrap().unwrap();
-/// let rational = BigRational::new(3.into(), 5.into());
-/// let rational = reduction.of_rational(&rational, Limit::Right).unwrap().unwrap();
-/// assert!(double.is_exact() && !rational.is_exact() && double.fraction() < rational.fraction());
-/// // Before the start there is no position.
-/// assert_eq!(reduction.of_double(0.25, Limit::Right).unwrap(), None);
-/// assert_eq!(reduction.of_double(0.5, Limit::Left).unwrap(), None);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Reduction {
     period: BigRational,
@@ -202,16 +155,6 @@ impl Reduction {
 }
 
 /// A time that is taken as the exact number it is: a double or a rational number.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{ExactTime as _, Reduction, Limit};
-/// let half = BigRational::new(1.into(), 2.into());
-/// let reduction = Reduction::new(&half, &BigRational::default()).unwrap();
-/// let rational = BigRational::new(3.into(), 4.into());
-/// let position = rational.position(&reduction, Limit::Left).unwrap();
-/// assert_eq!(0.75.position(&reduction, Limit::Left).unwrap(), position);
-/// ```
 pub trait ExactTime {
     /// Whether it is a number.
     fn is_finite(&self) -> bool;

@@ -6,9 +6,14 @@ use num_traits::{Signed, ToPrimitive};
 use super::equation::DelayEquation;
 use super::error::FixedError;
 use super::multiplier::{Fraction, Multiplier};
+use super::value::FRACTION_BITS;
 
 /// The most terms of a piece.
 pub(super) const MOST_TERMS: u32 = 64;
+/// The most that the sizes of the coefficients of a piece may add up to, in units: 64.
+///
+/// `(m + 1) |w_{m+1}| ≤ 64 · 2 · 2^118 = 2^125` then fits, and two products with it.
+pub(super) const LARGEST_SUM: u128 = 1 << (FRACTION_BITS + 6);
 /// The fewest pieces of a period: so many are worked on at once.
 pub(super) const FEWEST_PIECES: u32 = 4;
 /// The most pieces of a period.
@@ -28,19 +33,6 @@ const SMALLEST_TERM_LOGARITHM: f64 = -80.5;
 
 /// How a march cuts its periods. What is left open is chosen from the equation and the count of
 /// periods; the choice affects cost and bound, never the truth of the bound.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{DelayEquation, FixedError, March, MarchOptions};
-/// let one = BigRational::from(num_bigint::BigInt::from(1));
-/// let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
-/// let few = MarchOptions { terms: Some(12), ..MarchOptions::default() };
-/// let coarse = March::new(&equation, 3, &few).unwrap();
-/// let fine = March::new(&equation, 3, &MarchOptions::default()).unwrap();
-/// assert!(fine.bound() < 1e-6 * coarse.bound() && coarse.bound() < 1e-12);
-/// let odd = MarchOptions { pieces: Some(3), ..MarchOptions::default() };
-/// assert_eq!(March::new(&equation, 3, &odd).unwrap_err(), FixedError::InvalidPieces(3));
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct MarchOptions {
     /// Pieces of a period: a power of two from 4 to `2^20`.

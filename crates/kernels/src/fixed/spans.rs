@@ -6,10 +6,10 @@
 //! about the middle of the part, in integers, and the sizes of the differences are added up.
 
 use super::interpolation::Interpolation;
-use super::march::FRACTION_BITS;
 use super::multiplier::{Fraction, MULTIPLIER_BITS, Multiplier};
 use super::part::shifted;
 use super::product::upper_product;
+use super::value::FRACTION_BITS;
 use num_bigint::BigInt;
 use num_integer::Integer as _;
 use num_rational::BigRational;
@@ -41,26 +41,6 @@ const MOST_UNITS: u128 = 1 << 120;
 ///   `2^−94`, for the quotient itself by less than `2^−100`, and for the units by which parts of spans
 ///   are widened by less than `2^−89`: all in all by less than `2^−88`.
 /// - The sizes of the coefficients of a span add up to less than `2^120` units.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{FRACTION_BITS, Spans};
-/// // t² on [0, 1] and [1, 2]: (v + 1)²/4 and (v + 3)²/4.
-/// let quarter = 1_i128 << (FRACTION_BITS - 2);
-/// let square = |a: i128| vec![a * a * quarter, 2 * a * quarter, quarter];
-/// let one = BigRational::from(num_bigint::BigInt::from(1));
-/// let spans = Spans::new(&BigRational::default(), &one, vec![square(1), square(3)], 0, 2).unwrap();
-/// // On [1/2, 7/4] it is one polynomial in (t − 9/8), scaled.
-/// let cell = spans.interpolated(0.5, 1.75).unwrap();
-/// assert_eq!((cell.middle, cell.scale), (1.125, 1.0));
-/// let near = |a: f64, b: f64| (a - b).abs() < 1e-15;
-/// assert!(near(cell.coefficients[0], 1.265625) && near(cell.coefficients[1], 2.25));
-/// assert!(spans.distance(&cell).unwrap() < 1e-15);
-/// // What is wrong is seen.
-/// let mut wrong = cell.clone();
-/// wrong.coefficients[1] += 1e-6;
-/// assert!((0.6e-6..0.7e-6).contains(&spans.distance(&wrong).unwrap()));
-/// ```
 #[derive(Clone, Debug)]
 pub struct Spans {
     spans: Vec<Span>,
@@ -83,19 +63,6 @@ struct Span {
 }
 
 /// A polynomial in doubles on a cell: `Σ_k coefficients[k] u^k`, `u = (t − middle)/scale`.
-///
-/// ```
-/// use num_rational::BigRational;
-/// use wavestep_kernels::fixed::{FRACTION_BITS, Spans};
-/// // The function 5 + v on [−1, 1], where v = t.
-/// let line = vec![5_i128 << FRACTION_BITS, 1 << FRACTION_BITS];
-/// let whole = |n: i64| BigRational::from(num_bigint::BigInt::from(n));
-/// let spans = Spans::new(&whole(-1), &whole(2), vec![line], 0, 1).unwrap();
-/// let cell = spans.interpolated(0.25, 0.75).unwrap();
-/// assert_eq!((cell.first, cell.last, cell.middle), (0.25, 0.75, 0.5));
-/// let at = |t: f64| cell.coefficients[0] + cell.coefficients[1] * (t - cell.middle) / cell.scale;
-/// assert!((at(0.625) - 5.625).abs() < 1e-14);
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interpolant {
     /// The least double of the cell.
@@ -355,7 +322,8 @@ fn scaled_down(value: i128, bits: i32) -> Option<Multiplier> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixed::{DelayEquation, Limit, March, MarchOptions, Reduction};
+    use crate::Limit;
+    use crate::fixed::{DelayEquation, March, MarchOptions, Reduction};
 
     fn rational(numerator: i64, denominator: i64) -> BigRational {
         BigRational::new(numerator.into(), denominator.into())

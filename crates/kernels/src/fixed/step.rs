@@ -3,11 +3,10 @@
 //! Nothing here is trusted: the certificate reads the polynomials themselves. Rounding is kept to
 //! a few units nevertheless, because the bound counts it.
 
-use super::certificate::LARGEST_SUM;
 use super::error::FixedError;
-use super::march::FRACTION_BITS;
 use super::multiplier::{Fraction, Multiplier};
-use super::scheme::{FEWEST_PIECES, Forcing, Scheme};
+use super::scheme::{FEWEST_PIECES, Forcing, LARGEST_SUM, Scheme};
+use super::value::FRACTION_BITS;
 
 /// Pieces worked on at once: a product takes longer than the processor needs to begin the next.
 const LANES: usize = FEWEST_PIECES as usize;

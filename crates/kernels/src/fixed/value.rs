@@ -1,6 +1,7 @@
 //! Values in fixed point with a radius, and the doubles that they certify.
 
-use super::march::FRACTION_BITS;
+/// Fraction bits of coefficients and values: their unit is `2^−112`.
+pub const FRACTION_BITS: u32 = 112;
 
 /// The digits of a double's significand.
 const SIGNIFICAND: i64 = 53;
@@ -10,15 +11,6 @@ const LEAST_PLACE: i64 = -1074;
 const LARGEST_PLACE: i64 = 1024;
 
 /// A real number within `radius` of `midpoint`, both in units of `2^−112`.
-///
-/// ```
-/// use wavestep_kernels::fixed::FixedValue;
-/// let third = FixedValue { midpoint: (1 << 112) / 3, radius: 1 };
-/// assert_eq!(third.to_double(), Some(1.0 / 3.0));
-/// assert_eq!(third.to_f64(), 1.0 / 3.0);
-/// let wide = FixedValue { radius: 1 << 60, ..third };
-/// assert_eq!(wide.to_double(), None);
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct FixedValue {
     /// The middle of the interval.
@@ -70,21 +62,6 @@ pub(super) fn scaled(value: i128, fraction_bits: i64) -> f64 {
 ///
 /// # Cost
 /// Some ten instructions on words of 128 bits.
-///
-/// ```
-/// use wavestep_kernels::fixed::round_to_double;
-/// // Below 1, half a step is 2^-54; above it, 2^-53. Either is a tie.
-/// assert_eq!(round_to_double(1 << 60, (1 << 6) - 1, 60), Some(1.0));
-/// assert_eq!(round_to_double(1 << 60, 1 << 6, 60), None);
-/// assert_eq!(round_to_double((1 << 60) + (1 << 7), 0, 60), None);
-/// assert_eq!(round_to_double((1 << 60) + (1 << 7) + 1, 0, 60), Some(1f64.next_up()));
-/// assert_eq!(round_to_double(0, 0, 112), Some(0.0));
-/// assert_eq!(round_to_double(0, 1, 112), None);
-/// // The smallest double, and what rounds to zero.
-/// assert_eq!(round_to_double(-3, 0, 1075), None);
-/// assert_eq!(round_to_double(-5, 0, 1076), Some(-f64::from_bits(1)));
-/// assert_eq!(round_to_double(1, 0, 1076).map(f64::to_bits), Some(0));
-/// ```
 #[must_use]
 pub fn round_to_double(value: i128, radius: u128, fraction_bits: i64) -> Option<f64> {
     let size = value.unsigned_abs();

@@ -98,26 +98,6 @@ const LAST_PERIOD: usize = 1 << 28;
 ///
 /// # Invariants
 /// The bounds never decrease from period to period.
-///
-/// ```
-/// use wavestep_kernels::march::{Bounds, Certificate, March, MarchOptions, Reflection};
-///
-/// let wave = Reflection::exact(2.0, 2.0, 1.0)?;
-/// let options = MarchOptions { bounds: Bounds::None, ..Default::default() };
-/// let mut march = March::new(&wave, options)?;
-/// let mut honest = Certificate::new(&wave);
-/// let mut perturbed = Certificate::new(&wave);
-/// for period in 0..10 {
-///     let mut wrong = march.coefficients().to_vec();
-///     wrong[3] += if period == 5 { 1e-9 } else { 0.0 };
-///     honest.record(march.increment(), march.coefficients());
-///     perturbed.record(march.increment(), &wrong);
-///     march.advance()?;
-/// }
-/// assert!(honest.bound().unwrap() < 1e-13);
-/// assert!(perturbed.bound().unwrap() > 1e-9);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 pub struct Certificate {
     ratio: Parameter,
     /// `B/4` and `C/4`, middles and radii.

@@ -7,13 +7,6 @@ use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
 
 /// The value of the series at `x` in `[0, 1]`, within [`evaluation_error`]. O(N). An empty series
 /// is zero.
-///
-/// ```
-/// use wavestep_kernels::march::chebyshev;
-///
-/// // T_2(t) = 2t² − 1 at t = 2x − 1 = 1/2.
-/// assert_eq!(chebyshev::value(&[0.0, 0.0, 1.0], 0.75), -0.5);
-/// ```
 pub fn value(coefficients: &[f64], x: f64) -> f64 {
     let mut found = [0.0];
     values(coefficients, &[x], &mut found);
@@ -25,26 +18,11 @@ pub fn value(coefficients: &[f64], x: f64) -> f64 {
 ///
 /// # Panics
 /// Where `points` and `values` differ in length.
-///
-/// ```
-/// use wavestep_kernels::march::chebyshev;
-///
-/// let mut values = [0.0; 3];
-/// chebyshev::values(&[1.0, 1.0], &[0.0, 0.5, 1.0], &mut values);
-/// assert_eq!(values, [0.0, 1.0, 2.0]);
-/// ```
 pub fn values(coefficients: &[f64], points: &[f64], values: &mut [f64]) {
     values_of([Samples { coefficients, points, values }]);
 }
 
 /// A series, points of `[0, 1]`, and where the values there go.
-///
-/// ```
-/// use wavestep_kernels::march::chebyshev::Samples;
-/// let mut values = [0.0; 2];
-/// let line = Samples { coefficients: &[1.0, 1.0], points: &[0.0, 1.0], values: &mut values };
-/// assert_eq!(line.points.len(), line.values.len());
-/// ```
 #[derive(Debug)]
 pub struct Samples<'a> {
     /// The coefficients of the series.
@@ -60,17 +38,6 @@ pub struct Samples<'a> {
 ///
 /// # Panics
 /// Where points and values of one differ in length.
-///
-/// ```
-/// use wavestep_kernels::march::chebyshev::{Samples, values_of};
-///
-/// let (mut line, mut parabola) = ([0.0; 2], [0.0]);
-/// values_of([
-///     Samples { coefficients: &[1.0, 1.0], points: &[0.0, 1.0], values: &mut line },
-///     Samples { coefficients: &[0.0, 0.0, 1.0], points: &[0.75], values: &mut parabola },
-/// ]);
-/// assert_eq!((line, parabola), ([0.0, 2.0], [-0.5]));
-/// ```
 pub fn values_of<'a>(series: impl IntoIterator<Item = Samples<'a>>) {
     let groups = series.into_iter().flat_map(|samples| {
         let Samples { coefficients, points, values } = samples;
@@ -142,29 +109,12 @@ fn store<L: Lanes>(lanes: L, values: &mut [f64]) {
 /// are larger by the factor `1 + 9Nε` at most. That, and the rounding of this sum itself, are far within
 /// `9/8.25`. Below the normal doubles a
 /// product is off by at most `2⁻¹⁰⁷⁵`: `1e−290` covers all of them. ∎
-///
-/// ```
-/// use wavestep_kernels::march::chebyshev;
-///
-/// let c = [0.3, -0.2, 0.1];
-/// // p(0.7) = 0.3 − 0.2 · 0.4 + 0.1 · (2 · 0.16 − 1).
-/// let error = (chebyshev::value(&c, 0.7) - 0.152).abs();
-/// assert!(error <= chebyshev::evaluation_error(&c) && chebyshev::evaluation_error(&c) < 2e-15);
-/// ```
 pub fn evaluation_error(coefficients: &[f64]) -> f64 {
     sizes(coefficients).evaluation_error()
 }
 
 /// Sums of the sizes of coefficients. For fewer than 2²⁰ of them each is off by less than `2⁻³⁴` of
 /// itself: no term takes part in more than 2¹⁸ + 8 roundings.
-///
-/// ```
-/// use wavestep_kernels::march::chebyshev::{Sizes, sizes};
-///
-/// // The slope of T_2(2x − 1) is 8 at x = 1.
-/// let expected = Sizes { absolute: 1.0, weighted: 3.0, slope: 8.0 };
-/// assert_eq!(sizes(&[0.0, 0.0, -1.0]), expected);
-/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sizes {
     /// `Σ |c_k|`: no value of the series is larger.
@@ -177,25 +127,12 @@ pub struct Sizes {
 
 impl Sizes {
     /// A bound of the error of evaluation, see [`evaluation_error`].
-    ///
-    /// ```
-    /// use wavestep_kernels::march::chebyshev::{evaluation_error, sizes};
-    /// let c = [0.3, -0.2, 0.1];
-    /// assert_eq!(sizes(&c).evaluation_error(), evaluation_error(&c));
-    /// ```
     pub fn evaluation_error(&self) -> f64 {
         9.0 * (f64::EPSILON / 2.0) * self.weighted + 1e-290
     }
 }
 
 /// The sums of sizes of a series. O(N).
-///
-/// ```
-/// use wavestep_kernels::march::chebyshev::sizes;
-///
-/// let found = sizes(&[1.0, -2.0, 3.0, -4.0, 5.0]);
-/// assert_eq!((found.absolute, found.weighted, found.slope), (15.0, 55.0, 260.0));
-/// ```
 pub fn sizes(coefficients: &[f64]) -> Sizes {
     widest(Measure(coefficients))
 }

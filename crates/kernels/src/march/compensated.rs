@@ -47,7 +47,7 @@ pub(crate) fn ends<L: Lanes>(coefficients: &[f64]) -> Ends {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::Portable;
+    use crate::lanes::OneByOne;
 
     #[test]
     fn cancelled_terms_leave_the_small_ones() {
@@ -56,7 +56,7 @@ mod tests {
         let mut coefficients = [0.0; 17];
         (coefficients[0], coefficients[8], coefficients[16]) = (1.0, small, -1.0);
         coefficients[1] = odd;
-        let found = ends::<Portable<false>>(&coefficients);
+        let found = ends::<OneByOne<false>>(&coefficients);
         assert_eq!(found.right.high, small + odd);
         assert_eq!(found.left.high, small - odd);
         assert_eq!(found.absolute, 2.0 + odd);

@@ -7,16 +7,6 @@ use std::fmt;
 ///
 /// # Invariants
 /// `value` and `radius` are finite and `radius ≥ 0`.
-///
-/// ```
-/// use wavestep_kernels::march::Parameter;
-///
-/// let third = Parameter::within(1.0 / 3.0, 1e-17)?;
-/// assert!(third.magnitude() >= 1.0 / 3.0);
-/// assert_eq!(Parameter::exact(2.0)?.radius(), 0.0);
-/// assert!(Parameter::exact(f64::NAN).is_err());
-/// # Ok::<(), wavestep_kernels::march::ReflectionError>(())
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     value: f64,
@@ -90,17 +80,6 @@ impl Parameter {
 ///
 /// # Invariants
 /// Every number within the radius of the rate is positive.
-///
-/// ```
-/// use wavestep_kernels::march::{Parameter, Reflection};
-///
-/// let rigid_mass = Reflection::exact(2.0, 2.0, 1.0)?;
-/// assert!(rigid_mass.is_passive());
-/// // A reflection that multiplies by 1.5 gives energy to the wave.
-/// assert!(!Reflection::exact(2.0, 2.0, 1.5)?.is_passive());
-/// assert!(Reflection::exact(-1.0, 2.0, 1.0).is_err());
-/// # Ok::<(), wavestep_kernels::march::ReflectionError>(())
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflection {
     rate: Parameter,
@@ -161,14 +140,6 @@ impl Reflection {
 }
 
 /// Why numbers do not describe a reflection.
-///
-/// ```
-/// use wavestep_kernels::march::{Reflection, ReflectionError};
-///
-/// let refused = Reflection::exact(0.0, 1.0, 1.0).unwrap_err();
-/// assert_eq!(refused, ReflectionError::RateNotPositive { rate: 0.0 });
-/// assert!(refused.to_string().contains("positive"));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ReflectionError {

@@ -18,15 +18,6 @@ use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
 use std::fmt;
 
 /// Whether a march proves bounds as it goes, at some two or three times the cost.
-///
-/// ```
-/// use wavestep_kernels::march::{Bounds, March, MarchOptions, Reflection};
-///
-/// let wave = Reflection::exact(2.0, 2.0, 1.0)?;
-/// let plain = March::new(&wave, MarchOptions { bounds: Bounds::None, ..Default::default() })?;
-/// assert_eq!(plain.bound(), None);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Bounds {
     /// No bounds: values only.
@@ -42,13 +33,6 @@ pub enum Bounds {
 const RESTORE: f64 = 1.0 / 64.0;
 
 /// How a march is run.
-///
-/// ```
-/// use wavestep_kernels::march::MarchOptions;
-///
-/// let options = MarchOptions::default();
-/// assert!(options.threshold < 1e-18 && options.limit >= 1000);
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarchOptions {
     /// Whether bounds are proven.
@@ -71,19 +55,6 @@ impl Default for MarchOptions {
 ///
 /// # Invariants
 /// At least one coefficient and at most the limit; all of them finite.
-///
-/// ```
-/// use wavestep_kernels::march::{March, MarchOptions, Reflection};
-///
-/// // A rigid mass: y_0 = e^{−2x}, and y_1 = e^{−2(x+1)} + e^{−2x} (1 − 4x).
-/// let mut march = March::new(&Reflection::exact(2.0, 2.0, 1.0)?, MarchOptions::default())?;
-/// assert!((march.value(0.5) - (-1f64).exp()).abs() <= march.bound().unwrap());
-/// march.advance()?;
-/// let exact = (-3f64).exp() - (-1f64).exp();
-/// assert!((march.value(0.5) - exact).abs() <= march.bound().unwrap());
-/// assert!(march.bound().unwrap() < 1e-13);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 pub struct March {
     ratio: f64,
     options: MarchOptions,
@@ -261,14 +232,6 @@ impl March {
     }
 
     /// The same from the sizes of the coefficients, for who has them already. O(1).
-    ///
-    /// ```
-    /// use wavestep_kernels::march::{March, MarchOptions, Reflection, chebyshev};
-    ///
-    /// let march = March::new(&Reflection::exact(2.0, 2.0, 1.0)?, MarchOptions::default())?;
-    /// assert_eq!(march.bound_by(&chebyshev::sizes(march.coefficients())), march.bound());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn bound_by(&self, sizes: &chebyshev::Sizes) -> Option<f64> {
         if self.failed.is_some() {
             return None;
@@ -342,16 +305,6 @@ fn advance_wave<L: Lanes>(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f6
 }
 
 /// Why a march cannot go on.
-///
-/// ```
-/// use wavestep_kernels::march::{March, MarchError, MarchOptions, Reflection};
-///
-/// let options = MarchOptions { limit: 20, ..Default::default() };
-/// let mut march = March::new(&Reflection::exact(2.0, 2.0, 1.0)?, options)?;
-/// let stopped = (0..20).find_map(|_| march.advance().err()).unwrap();
-/// assert!(matches!(stopped, MarchError::TooManyCoefficients { limit: 20, .. }));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MarchError {

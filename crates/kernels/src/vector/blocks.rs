@@ -8,9 +8,8 @@
 //! lie in one piece are counted beforehand, and are not looked at one by one.
 
 use super::Simd;
-use super::horner::{Blended, Broadcast, Rows, Transposed};
+use super::horner::{Blended, Broadcast, Evaluate, Transposed};
 use super::points::Points;
-use crate::rows::AlignedRows;
 use crate::table::Table;
 
 /// Longer outputs are streamed past the caches: they are larger than a second-level cache.
@@ -18,26 +17,6 @@ const STREAMED: usize = 1 << 18;
 
 /// Blocks that touch more pieces than this gather their coefficients.
 const NEIGHBOURS: usize = 6;
-
-/// A way to evaluate polynomials.
-pub(crate) trait Evaluate: Copy + Sync {
-    /// Vectors a block with 32 vector registers.
-    const MANY_IN_FLIGHT: usize;
-    /// Vectors a block with 16 vector registers.
-    const FEW_IN_FLIGHT: usize;
-
-    /// The rows that are read.
-    fn rows(table: &Table) -> &AlignedRows;
-
-    /// Values of the polynomials of the given rows, and one bit for every lane that is in doubt.
-    fn evaluate<S: Simd, R: Rows<S, N>, const N: usize>(
-        self,
-        simd: S,
-        table: &Table,
-        rows: R,
-        times: &[S::Values; N],
-    ) -> ([S::Values; N], [u32; N]);
-}
 
 /// What is evaluated, and how.
 pub(super) struct Job<'a, S, P, E> {

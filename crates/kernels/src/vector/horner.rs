@@ -3,7 +3,6 @@
 //! The roundings of both are bounded in `bounds`.
 
 use super::Simd;
-use super::blocks::Evaluate;
 use crate::rows::AlignedRows;
 use crate::table::{PAIRS_ANCHOR, PAIRS_BOUND, PAIRS_HEAD, ROW_HEAD, ROW_OFFSET, ROW_SCALE, Table};
 
@@ -102,6 +101,26 @@ impl<S: Simd, const N: usize> Rows<S, N> for Transposed<'_, S> {
         }
         entries
     }
+}
+
+/// A way to evaluate polynomials.
+pub(crate) trait Evaluate: Copy + Sync {
+    /// Vectors a block with 32 vector registers.
+    const MANY_IN_FLIGHT: usize;
+    /// Vectors a block with 16 vector registers.
+    const FEW_IN_FLIGHT: usize;
+
+    /// The rows that are read.
+    fn rows(table: &Table) -> &AlignedRows;
+
+    /// Values of the polynomials of the given rows, and one bit for every lane that is in doubt.
+    fn evaluate<S: Simd, R: Rows<S, N>, const N: usize>(
+        self,
+        simd: S,
+        table: &Table,
+        rows: R,
+        times: &[S::Values; N],
+    ) -> ([S::Values; N], [u32; N]);
 }
 
 /// Values in doubles: Horner's scheme, one multiply-add a coefficient.

@@ -1,8 +1,9 @@
 //! The instructions of x86-64, and the choice of a level at run time.
 //!
 //! This is the only file with unsafe code. Two things need it: instructions may be used only where
-//! the machine has them, which a witness type of each level proves; and pointers may be read and
-//! written only within their slices, which is asserted before.
+//! the machine has them, which holds in all code that is generic over a level's type, because only the
+//! two functions below name these types; and pointers may be read and written only within their slices,
+//! which is asserted before.
 #![allow(unsafe_code)]
 
 use super::points::Parts;
@@ -15,7 +16,7 @@ pub(crate) fn dispatch<T: Task>(level: Level, task: T) -> T::Output {
     let level = level.min(Level::best());
     #[cfg(target_arch = "x86_64")]
     match level {
-        Level::Baseline => task.run(x86::Pair(())),
+        Level::Baseline => task.run(x86::Pair),
         // SAFETY: the level is available: the machine has AVX2 and fused multiply-add.
         Level::Avx2 => unsafe { x86::with_avx2(task) },
         // SAFETY: the level is available: the machine has AVX-512F, AVX2 and fused multiply-add.
@@ -43,19 +44,20 @@ pub(crate) fn dispatch_scalar<T: Task>(level: Level, task: T) -> T::Output {
 mod x86 {
     use super::{Parts, Scalar, Simd, Task};
     use crate::double_double::SPLITTER;
+    use crate::lanes::Eight;
     use std::arch::x86_64::*;
 
     /// Two doubles: SSE2, which every x86-64 has.
     #[derive(Clone, Copy)]
-    pub(super) struct Pair(pub(super) ());
+    pub(super) struct Pair;
 
-    /// Four doubles. A value exists only in functions that enable AVX2 and fused multiply-add.
+    /// Four doubles, used only in functions that enable AVX2 and fused multiply-add.
     #[derive(Clone, Copy)]
-    pub(super) struct Quad(());
+    struct Quad;
 
-    /// Eight doubles. A value exists only in functions that enable AVX-512F and what `Quad` has.
+    /// Eight doubles, used only in functions that enable AVX-512F and what `Quad` has.
     #[derive(Clone, Copy)]
-    pub(super) struct Octet(());
+    struct Octet;
 
     #[target_feature(enable = "fma")]
     pub(super) fn with_fused<T: Task>(task: T) -> T::Output {
@@ -64,12 +66,12 @@ mod x86 {
 
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn with_avx2<T: Task>(task: T) -> T::Output {
-        task.run(Quad(()))
+        task.run(Quad)
     }
 
     #[target_feature(enable = "avx512f,avx2,fma")]
     pub(super) fn with_avx512<T: Task>(task: T) -> T::Output {
-        task.run(Octet(()))
+        task.run(Octet)
     }
 
     /// Indices that are less than `limit`.
@@ -97,18 +99,29 @@ mod x86 {
         indices
     }
 
-    /// A call of an instruction in a method of a witness type.
+    /// A call of an instruction in a method of a level's type.
     macro_rules! instruction {
         ($call:expr) => {
-            // SAFETY: `self` exists, so the machine has the instructions; no pointer is followed.
+            // SAFETY: this is a method of a level's type, so the machine has the instructions; no
+            // pointer is followed.
             unsafe { $call }
         };
     }
 
-    /// The methods that are one instruction each, and those that touch memory.
-    macro_rules! common_methods {
-        ($lanes:literal, splat $splat:ident, load $load:ident, store $store:ident,
-         stream $stream:ident, add $add:ident, subtract $subtract:ident, multiply $multiply:ident) => {
+    /// The methods of two vectors that are one instruction each.
+    macro_rules! operations {
+        ($($result:ident: $($name:ident $call:path),*;)*) => {$($(
+            #[inline(always)]
+            fn $name(self, a: Self::Values, b: Self::Values) -> Self::$result {
+                instruction!($call(a, b))
+            }
+        )*)*};
+    }
+
+    /// The methods that touch memory, and that make a vector of one double.
+    macro_rules! memory {
+        ($lanes:literal, $splat:ident, $load:ident, $store:ident, $stream:ident) => {
+            type Eight = Eight<Self, { 8 / $lanes }>;
             const LANES: usize = $lanes;
 
             #[inline(always)]
@@ -146,27 +159,35 @@ mod x86 {
             fn fence(self) {
                 instruction!(_mm_sfence());
             }
+        };
+    }
 
+    /// `a · 2^n` in the integers of a vector.
+    macro_rules! times_power {
+        ($bits:ident, $shift:path, $add:ident, $splat:ident, $doubles:ident) => {
             #[inline(always)]
-            fn add(self, a: Self::Values, b: Self::Values) -> Self::Values {
-                instruction!($add(a, b))
-            }
-
-            #[inline(always)]
-            fn subtract(self, a: Self::Values, b: Self::Values) -> Self::Values {
-                instruction!($subtract(a, b))
-            }
-
-            #[inline(always)]
-            fn multiply(self, a: Self::Values, b: Self::Values) -> Self::Values {
-                instruction!($multiply(a, b))
+            fn times_power(self, a: Self::Values, shifted: Self::Values) -> Self::Values {
+                let power = instruction!({
+                    let exponent = $shift($bits(shifted));
+                    $doubles($add(exponent, $splat(1023 << 52)))
+                });
+                self.multiply(a, power)
             }
         };
     }
 
     /// The methods of levels with fused multiply-add.
     macro_rules! fused_methods {
-        ($multiply_add:ident, $multiply_subtract:ident) => {
+        ($multiply_add:ident, $multiply_subtract:ident, $truncate:ident) => {
+            #[inline(always)]
+            fn offsets(self, values: Self::Values, limit: usize) -> Self::Offsets {
+                assert!(limit >= 1 && limit <= i32::MAX as usize);
+                // The greater of NaN and a second operand is the second operand.
+                let low = self.greater(values, self.splat(0.0));
+                let clamped = self.lesser(low, self.splat((limit - 1) as f64));
+                Offsets { lanes: instruction!($truncate(clamped)), limit }
+            }
+
             #[inline(always)]
             fn multiply_add(
                 self,
@@ -246,10 +267,38 @@ mod x86 {
         type Values = __m128d;
         type Mask = __m128d;
         type Offsets = [usize; 2];
+        const HERE: Self = Pair;
         const MANY_REGISTERS: bool = false;
+        const EIGHTS_IN_FLIGHT: usize = 1;
 
-        common_methods!(2, splat _mm_set1_pd, load _mm_loadu_pd, store _mm_storeu_pd,
-            stream _mm_stream_pd, add _mm_add_pd, subtract _mm_sub_pd, multiply _mm_mul_pd);
+        memory!(2, _mm_set1_pd, _mm_loadu_pd, _mm_storeu_pd, _mm_stream_pd);
+        operations! {
+            Values: add _mm_add_pd, subtract _mm_sub_pd, multiply _mm_mul_pd, divide _mm_div_pd,
+                lesser _mm_min_pd, greater _mm_max_pd;
+            Mask: at_least _mm_cmpge_pd, less _mm_cmplt_pd, equal _mm_cmpeq_pd, both _mm_and_pd;
+        }
+        times_power!(
+            _mm_castpd_si128,
+            _mm_slli_epi64::<52>,
+            _mm_add_epi64,
+            _mm_set1_epi64x,
+            _mm_castsi128_pd
+        );
+
+        #[inline(always)]
+        fn abs(self, a: __m128d) -> __m128d {
+            instruction!(_mm_andnot_pd(_mm_set1_pd(-0.0), a))
+        }
+
+        #[inline(always)]
+        fn offsets(self, values: __m128d, limit: usize) -> [usize; 2] {
+            assert!(limit >= 1 && limit <= i32::MAX as usize);
+            // The greater of NaN and a second operand is the second operand.
+            let low = self.greater(values, self.splat(0.0));
+            let clamped = self.lesser(low, self.splat((limit - 1) as f64));
+            let both = instruction!(_mm_cvtsi128_si64(_mm_cvttpd_epi32(clamped))).cast_unsigned();
+            [both & u64::from(u32::MAX), both >> 32].map(|lane| lane as usize)
+        }
 
         #[inline(always)]
         fn multiply_add(self, a: __m128d, b: __m128d, c: __m128d) -> __m128d {
@@ -267,26 +316,6 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn at_least(self, a: __m128d, b: __m128d) -> __m128d {
-            instruction!(_mm_cmpge_pd(a, b))
-        }
-
-        #[inline(always)]
-        fn less(self, a: __m128d, b: __m128d) -> __m128d {
-            instruction!(_mm_cmplt_pd(a, b))
-        }
-
-        #[inline(always)]
-        fn equal(self, a: __m128d, b: __m128d) -> __m128d {
-            instruction!(_mm_cmpeq_pd(a, b))
-        }
-
-        #[inline(always)]
-        fn both(self, a: __m128d, b: __m128d) -> __m128d {
-            instruction!(_mm_and_pd(a, b))
-        }
-
-        #[inline(always)]
         fn select(self, mask: __m128d, a: __m128d, b: __m128d) -> __m128d {
             instruction!(_mm_or_pd(_mm_and_pd(mask, a), _mm_andnot_pd(mask, b)))
         }
@@ -294,18 +323,6 @@ mod x86 {
         #[inline(always)]
         fn bits(self, mask: __m128d) -> u32 {
             instruction!(_mm_movemask_pd(mask)).cast_unsigned()
-        }
-
-        #[inline(always)]
-        fn offsets(self, values: __m128d, limit: usize) -> [usize; 2] {
-            assert!(limit >= 1 && limit <= i32::MAX as usize);
-            // The maximum of NaN and a second operand is the second operand.
-            let both = instruction!({
-                let low = _mm_max_pd(values, _mm_setzero_pd());
-                let lanes = _mm_cvttpd_epi32(_mm_min_pd(low, self.splat((limit - 1) as f64)));
-                _mm_cvtsi128_si64(lanes).cast_unsigned()
-            });
-            [both & u64::from(u32::MAX), both >> 32].map(|lane| lane as usize)
         }
 
         #[inline(always)]
@@ -362,31 +379,29 @@ mod x86 {
         type Values = __m256d;
         type Mask = __m256d;
         type Offsets = Offsets<__m128i>;
+        const HERE: Self = Quad;
         const MANY_REGISTERS: bool = false;
+        const EIGHTS_IN_FLIGHT: usize = 2;
 
-        common_methods!(4, splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
-            stream _mm256_stream_pd, add _mm256_add_pd, subtract _mm256_sub_pd,
-            multiply _mm256_mul_pd);
-        fused_methods!(_mm256_fmadd_pd, _mm256_fmsub_pd);
-
-        #[inline(always)]
-        fn at_least(self, a: __m256d, b: __m256d) -> __m256d {
-            instruction!(_mm256_cmp_pd::<_CMP_GE_OQ>(a, b))
+        memory!(4, _mm256_set1_pd, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_stream_pd);
+        operations! {
+            Values: add _mm256_add_pd, subtract _mm256_sub_pd, multiply _mm256_mul_pd,
+                divide _mm256_div_pd, lesser _mm256_min_pd, greater _mm256_max_pd;
+            Mask: at_least _mm256_cmp_pd::<_CMP_GE_OQ>, less _mm256_cmp_pd::<_CMP_LT_OQ>,
+                equal _mm256_cmp_pd::<_CMP_EQ_OQ>, both _mm256_and_pd;
         }
+        times_power!(
+            _mm256_castpd_si256,
+            _mm256_slli_epi64::<52>,
+            _mm256_add_epi64,
+            _mm256_set1_epi64x,
+            _mm256_castsi256_pd
+        );
+        fused_methods!(_mm256_fmadd_pd, _mm256_fmsub_pd, _mm256_cvttpd_epi32);
 
         #[inline(always)]
-        fn less(self, a: __m256d, b: __m256d) -> __m256d {
-            instruction!(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b))
-        }
-
-        #[inline(always)]
-        fn equal(self, a: __m256d, b: __m256d) -> __m256d {
-            instruction!(_mm256_cmp_pd::<_CMP_EQ_OQ>(a, b))
-        }
-
-        #[inline(always)]
-        fn both(self, a: __m256d, b: __m256d) -> __m256d {
-            instruction!(_mm256_and_pd(a, b))
+        fn abs(self, a: __m256d) -> __m256d {
+            instruction!(_mm256_andnot_pd(_mm256_set1_pd(-0.0), a))
         }
 
         #[inline(always)]
@@ -397,17 +412,6 @@ mod x86 {
         #[inline(always)]
         fn bits(self, mask: __m256d) -> u32 {
             instruction!(_mm256_movemask_pd(mask)).cast_unsigned()
-        }
-
-        #[inline(always)]
-        fn offsets(self, values: __m256d, limit: usize) -> Offsets<__m128i> {
-            assert!(limit >= 1 && limit <= i32::MAX as usize);
-            // The maximum of NaN and a second operand is the second operand.
-            let lanes = instruction!({
-                let low = _mm256_max_pd(values, _mm256_setzero_pd());
-                _mm256_cvttpd_epi32(_mm256_min_pd(low, _mm256_set1_pd((limit - 1) as f64)))
-            });
-            Offsets { lanes, limit }
         }
 
         #[inline(always)]
@@ -452,26 +456,35 @@ mod x86 {
         type Values = __m512d;
         type Mask = __mmask8;
         type Offsets = Offsets<__m256i>;
+        const HERE: Self = Octet;
         const MANY_REGISTERS: bool = true;
+        const EIGHTS_IN_FLIGHT: usize = 8;
 
-        common_methods!(8, splat _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd,
-            stream _mm512_stream_pd, add _mm512_add_pd, subtract _mm512_sub_pd,
-            multiply _mm512_mul_pd);
-        fused_methods!(_mm512_fmadd_pd, _mm512_fmsub_pd);
+        memory!(8, _mm512_set1_pd, _mm512_loadu_pd, _mm512_storeu_pd, _mm512_stream_pd);
+        operations! {
+            Values: add _mm512_add_pd, subtract _mm512_sub_pd, multiply _mm512_mul_pd,
+                divide _mm512_div_pd, lesser _mm512_min_pd, greater _mm512_max_pd;
+            Mask: at_least _mm512_cmp_pd_mask::<_CMP_GE_OQ>,
+                less _mm512_cmp_pd_mask::<_CMP_LT_OQ>, equal _mm512_cmp_pd_mask::<_CMP_EQ_OQ>;
+        }
+        times_power!(
+            _mm512_castpd_si512,
+            _mm512_slli_epi64::<52>,
+            _mm512_add_epi64,
+            _mm512_set1_epi64,
+            _mm512_castsi512_pd
+        );
+        fused_methods!(_mm512_fmadd_pd, _mm512_fmsub_pd, _mm512_cvttpd_epi32);
 
         #[inline(always)]
-        fn at_least(self, a: __m512d, b: __m512d) -> __mmask8 {
-            instruction!(_mm512_cmp_pd_mask::<_CMP_GE_OQ>(a, b))
+        fn abs(self, a: __m512d) -> __m512d {
+            instruction!(_mm512_abs_pd(a))
         }
 
         #[inline(always)]
-        fn less(self, a: __m512d, b: __m512d) -> __mmask8 {
-            instruction!(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b))
-        }
-
-        #[inline(always)]
-        fn equal(self, a: __m512d, b: __m512d) -> __mmask8 {
-            instruction!(_mm512_cmp_pd_mask::<_CMP_EQ_OQ>(a, b))
+        fn rough_reciprocal(self, a: __m512d) -> __m512d {
+            let away = self.at_least(self.abs(a), self.splat(1e-30));
+            instruction!(_mm512_maskz_rcp14_pd(away, a))
         }
 
         #[inline(always)]
@@ -487,17 +500,6 @@ mod x86 {
         #[inline(always)]
         fn bits(self, mask: __mmask8) -> u32 {
             u32::from(mask)
-        }
-
-        #[inline(always)]
-        fn offsets(self, values: __m512d, limit: usize) -> Offsets<__m256i> {
-            assert!(limit >= 1 && limit <= i32::MAX as usize);
-            // The maximum of NaN and a second operand is the second operand.
-            let lanes = instruction!({
-                let low = _mm512_max_pd(values, _mm512_setzero_pd());
-                _mm512_cvttpd_epi32(_mm512_min_pd(low, _mm512_set1_pd((limit - 1) as f64)))
-            });
-            Offsets { lanes, limit }
         }
 
         #[inline(always)]

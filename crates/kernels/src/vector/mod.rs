@@ -1,7 +1,7 @@
 //! Evaluation with vectors of doubles.
 //!
 //! One generic program serves all levels: it is written in the operations of [`Simd`], of which there
-//! is one implementation a level. Instructions, and all unsafe code, are in `instructions`.
+//! is one implementation a level. Instructions, and all unsafe code of the crate, are in `instructions`.
 
 mod blocks;
 mod horner;
@@ -10,17 +10,21 @@ mod points;
 mod scalar;
 mod tasks;
 
-pub(crate) use blocks::Evaluate;
-pub(crate) use horner::{Certified, Plain};
+pub(crate) use horner::{Certified, Evaluate, Plain};
 pub(crate) use instructions::{dispatch, dispatch_scalar};
-pub(crate) use points::Parts;
 pub(crate) use points::{Grid, Times};
+#[cfg(test)]
+pub(crate) use scalar::Scalar;
 pub(crate) use tasks::{Many, Single};
+
+use crate::lanes::Lanes;
+use points::Parts;
 
 /// The operations of a vector of doubles.
 ///
-/// A value of an implementing type is a witness that the machine has the instructions. All methods
-/// are inlined into a function that enables them.
+/// Code that is generic over implementing types runs where the machine has their instructions: only
+/// [`dispatch`] and [`dispatch_scalar`] can name the types. All methods are inlined into functions that
+/// enable the instructions.
 pub(crate) trait Simd: Copy {
     /// A vector of doubles.
     type Values: Copy;
@@ -28,10 +32,16 @@ pub(crate) trait Simd: Copy {
     type Mask: Copy;
     /// Checked indices.
     type Offsets: Copy;
+    /// Eight doubles in such vectors.
+    type Eight: Lanes;
+    /// The value of the type.
+    const HERE: Self;
     /// Doubles a vector, at most 8.
     const LANES: usize;
     /// Whether there are 32 vector registers, not 16.
     const MANY_REGISTERS: bool;
+    /// How many [`Eight`](Self::Eight)s leave registers for what a step needs.
+    const EIGHTS_IN_FLIGHT: usize;
 
     /// The same double in all lanes.
     fn splat(self, value: f64) -> Self::Values;
@@ -46,6 +56,14 @@ pub(crate) trait Simd: Copy {
     fn add(self, a: Self::Values, b: Self::Values) -> Self::Values;
     fn subtract(self, a: Self::Values, b: Self::Values) -> Self::Values;
     fn multiply(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn divide(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    /// `a` where `a < b`, else `b`.
+    fn lesser(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    /// `a` where `a > b`, else `b`.
+    fn greater(self, a: Self::Values, b: Self::Values) -> Self::Values;
+    fn abs(self, a: Self::Values) -> Self::Values;
+    /// `a · 2^n`, where `n` stands in the last bits of `shifted`.
+    fn times_power(self, a: Self::Values, shifted: Self::Values) -> Self::Values;
     /// `a b + c`, rounded once above the baseline, else twice.
     fn multiply_add(self, a: Self::Values, b: Self::Values, c: Self::Values) -> Self::Values;
     /// `a ≥ b`, false with NaN.
@@ -76,6 +94,13 @@ pub(crate) trait Simd: Copy {
         step: f64,
         parts: &Parts,
     ) -> [Self::Values; N];
+
+    /// `1/a` to at least 13 bits for `10^−30 ≤ |a| ≤ 10^30`, 0 where `|a|` is smaller.
+    #[inline(always)]
+    fn rough_reciprocal(self, a: Self::Values) -> Self::Values {
+        let away = self.at_least(self.abs(a), self.splat(1e-30));
+        self.select(away, self.divide(self.splat(1.0), a), self.splat(0.0))
+    }
 
     /// `first, first + 1, …` in doubles, one a lane, exact below `2⁵²`.
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The evaluation of many points, or of one, as tasks for whatever vectors there are.
 
-use super::blocks::{Evaluate, Job};
-use super::horner::Broadcast;
+use super::blocks::Job;
+use super::horner::{Broadcast, Evaluate};
 use super::points::Points;
 use super::{Simd, Task};
 use crate::table::Table;

@@ -165,37 +165,6 @@ impl Reference {
             (0..k).fold(multiply(&value, decay), |value, _| multiply(&value, &big(ratio)))
         })
     }
-
-    /// The coefficients of `P_n` for the rigid mass: with `m = n − k` and `i = j + l`, that of
-    /// `E^m s^j/j! (mD)^l/l!` is `C(k,i) (−2)^i`, where `E = e^{−D}`. Terms of one sign each `i`, in 320
-    /// bits, rounded at the end.
-    pub fn period_row(&mut self, n: usize, period: f64) -> Vec<f64> {
-        let decay = self.exponential(&big(-period));
-        let mut row = vec![big(0.0); n + 1];
-        let mut power = big(1.0);
-        for m in 0..=n {
-            let k = n - m;
-            let delay = big(m as f64 * period);
-            // C(k,i) (−2)^i / i!, from the monomials of L_k(2x).
-            let mut coefficient = big(1.0);
-            for i in 0..=k {
-                // x^i = Σ_j C(i,j) s^j (mD)^{i−j}.
-                let mut term = multiply(&coefficient, &power);
-                for j in (0..=i).rev() {
-                    row[j] = add(&row[j], &term);
-                    if j == 0 {
-                        break;
-                    }
-                    let factor = divide(&big(j as f64), &big((i - j + 1) as f64));
-                    term = multiply(&multiply(&term, &factor), &delay);
-                }
-                let step = divide(&big(-2.0 * (k - i) as f64), &big(((i + 1) * (i + 1)) as f64));
-                coefficient = multiply(&coefficient, &step);
-            }
-            power = multiply(&power, &decay);
-        }
-        row.iter().map(rounded).collect()
-    }
 }
 
 /// A linear congruential sequence: the same numbers in every run.

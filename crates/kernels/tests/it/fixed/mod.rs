@@ -7,9 +7,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use support::{Echoes, Samples, integer, ratio};
+use wavestep_kernels::Limit;
 use wavestep_kernels::fixed::{
-    DelayEquation, FRACTION_BITS, FixedError, FixedValue, Limit, March, MarchOptions, Position,
-    Reduction, Tap, certified, round_to_double,
+    DelayEquation, FRACTION_BITS, FixedError, FixedValue, March, MarchOptions, Position, Reduction,
+    Tap, certified, round_to_double,
 };
 
 /// What comparisons have seen.

@@ -4,18 +4,14 @@
 //! The count is the same everywhere, so that sums of lanes have the same terms in the same order on every
 //! machine; only what is [fused](Lanes::fused) is rounded twice where there is no instruction for it.
 //! Work in lanes is inlined whole into a function that is compiled for the registers: it has loops where
-//! others have closures, which compilers may leave outside.
+//! others have closures, which compilers may leave outside. Loops over arrays of doubles would do the
+//! same, but compilers unroll them before they look for vectors.
 //!
-//! Tables are evaluated by `vector`, whose vectors are as long as the registers are: their values do not
+//! Tables are evaluated in the vectors themselves, as long as the registers are: their values do not
 //! depend on how many points go together, and memory is their limit.
-//! Loops over arrays would do the same, but compilers unroll them before they look for vectors.
 
-mod portable;
-#[cfg(target_arch = "x86_64")]
-mod x86;
-
-#[cfg(test)]
-pub(crate) use portable::Portable;
+use crate::Level;
+use crate::vector::{Simd, Task, dispatch};
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// How many doubles lie side by side.
@@ -37,37 +33,26 @@ pub(crate) trait Lanes:
     fn lesser(self, other: Self) -> Self;
     /// The greater of each two.
     fn greater(self, other: Self) -> Self;
+    /// Absolute values.
+    fn abs(self) -> Self;
 
     /// `self · factor + addend`, rounded once where the machine has the instruction, else twice.
     fn fused(self, factor: Self, addend: Self) -> Self;
-
     /// The product and its rounding, without error.
-    #[inline(always)]
-    fn product(self, factor: Self) -> (Self, Self) {
-        let product = self * factor;
-        (product, self.fused(factor, -product))
-    }
-
+    fn product(self, factor: Self) -> (Self, Self);
     /// The sum and its rounding, without error.
-    #[inline(always)]
-    fn two_sum(self, other: Self) -> (Self, Self) {
-        let sum = self + other;
-        let part = sum - self;
-        (sum, (self - (sum - part)) + (other - part))
-    }
+    fn two_sum(self, other: Self) -> (Self, Self);
 
     /// `1/x` to at least 13 bits for `10^−30 ≤ |x| ≤ 10^30`; where `|x|` is smaller, at most `1.01 · 10^30`.
     fn rough_reciprocal(self) -> Self;
-
     /// `self · 2^n`, where `n` stands in the last bits of `shifted`, added to `1.5 · 2^52`, and both
     /// `2^n` and the result are normal.
     fn times_power(self, shifted: Self) -> Self;
 
-    /// The lanes in which another number is positive, or 0 if `or_zero`, and 0 in the others.
-    fn where_positive(self, other: Self, or_zero: bool) -> Self;
-
-    /// Absolute values.
-    fn abs(self) -> Self;
+    /// The lanes in which another number is positive, and 0 in the others.
+    fn where_positive(self, other: Self) -> Self;
+    /// The lanes in which another number is positive or 0, and 0 in the others.
+    fn where_not_negative(self, other: Self) -> Self;
 
     /// The first eight of some doubles, of which there are as many.
     #[inline(always)]
@@ -83,6 +68,130 @@ pub(crate) trait Lanes:
     }
 }
 
+/// Eight doubles in `N` vectors.
+#[derive(Clone, Copy)]
+pub(crate) struct Eight<S: Simd, const N: usize>([S::Values; N]);
+
+/// Functions of lanes that are those of vectors, one after the other.
+macro_rules! vector_by_vector {
+    ($($name:ident($($other:ident),*);)*) => {$(
+        #[inline(always)]
+        fn $name(mut self, $($other: Self),*) -> Self {
+            for i in 0..N {
+                self.0[i] = S::HERE.$name(self.0[i], $($other.0[i]),*);
+            }
+            self
+        }
+    )*};
+}
+
+impl<S: Simd, const N: usize> Lanes for Eight<S, N> {
+    const IN_FLIGHT: usize = S::EIGHTS_IN_FLIGHT;
+
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Eight([S::HERE.splat(value); N])
+    }
+
+    #[inline(always)]
+    fn from_array(array: [f64; WIDTH]) -> Self {
+        let mut vectors = [S::HERE.splat(0.0); N];
+        for i in 0..N {
+            vectors[i] = S::HERE.load(&array[i * S::LANES..]);
+        }
+        Eight(vectors)
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f64; WIDTH] {
+        let mut array = [0.0; WIDTH];
+        for i in 0..N {
+            S::HERE.store(self.0[i], &mut array[i * S::LANES..]);
+        }
+        array
+    }
+
+    vector_by_vector! {
+        lesser(other);
+        greater(other);
+        abs();
+        rough_reciprocal();
+        times_power(shifted);
+    }
+
+    #[inline(always)]
+    fn fused(mut self, factor: Self, addend: Self) -> Self {
+        for i in 0..N {
+            self.0[i] = S::HERE.multiply_add(self.0[i], factor.0[i], addend.0[i]);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn product(mut self, mut factor: Self) -> (Self, Self) {
+        for i in 0..N {
+            (self.0[i], factor.0[i]) = S::HERE.two_product(self.0[i], factor.0[i]);
+        }
+        (self, factor)
+    }
+
+    #[inline(always)]
+    fn two_sum(mut self, mut other: Self) -> (Self, Self) {
+        for i in 0..N {
+            (self.0[i], other.0[i]) = S::HERE.two_sum(self.0[i], other.0[i]);
+        }
+        (self, other)
+    }
+
+    #[inline(always)]
+    fn where_positive(mut self, other: Self) -> Self {
+        let zero = S::HERE.splat(0.0);
+        for i in 0..N {
+            let positive = S::HERE.less(zero, other.0[i]);
+            self.0[i] = S::HERE.select(positive, self.0[i], zero);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn where_not_negative(mut self, other: Self) -> Self {
+        let zero = S::HERE.splat(0.0);
+        for i in 0..N {
+            let counts = S::HERE.at_least(other.0[i], zero);
+            self.0[i] = S::HERE.select(counts, self.0[i], zero);
+        }
+        self
+    }
+}
+
+macro_rules! operator {
+    ($operator:ident, $name:ident, $instruction:ident) => {
+        impl<S: Simd, const N: usize> $operator for Eight<S, N> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $name(mut self, other: Self) -> Self {
+                for i in 0..N {
+                    self.0[i] = S::HERE.$instruction(self.0[i], other.0[i]);
+                }
+                self
+            }
+        }
+    };
+}
+operator!(Add, add, add);
+operator!(Sub, sub, subtract);
+operator!(Mul, mul, multiply);
+
+impl<S: Simd, const N: usize> Neg for Eight<S, N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::splat(-0.0) - self
+    }
+}
+
 /// Work that is written in lanes.
 pub(crate) trait Work {
     /// What it gives.
@@ -92,16 +201,21 @@ pub(crate) trait Work {
     fn run<L: Lanes>(self) -> Self::Output;
 }
 
+/// Work in lanes as a task for vectors.
+struct InLanes<W>(W);
+
+impl<W: Work> Task for InLanes<W> {
+    type Output = W::Output;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) -> W::Output {
+        self.0.run::<S::Eight>()
+    }
+}
+
 /// Does work with the widest registers that the machine has.
 pub(crate) fn widest<W: Work>(work: W) -> W::Output {
-    #[cfg(target_arch = "x86_64")]
-    {
-        x86::widest(work)
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    {
-        work.run::<portable::Native>()
-    }
+    dispatch(Level::Avx512, InLanes(work))
 }
 
 /// Fewer than eight doubles, filled up with zeros.
@@ -112,14 +226,16 @@ pub(crate) fn padded(rest: &[f64]) -> [f64; WIDTH] {
     lanes
 }
 
+/// Eight doubles one by one, for tests that need no machine.
+#[cfg(test)]
+pub(crate) type OneByOne<const FUSED: bool> = Eight<crate::vector::Scalar<FUSED>, WIDTH>;
+
 /// Does work in every way that this machine has, the plainest first.
 #[cfg(test)]
 pub(crate) fn each_way<W: Work + Clone>(work: &W) -> Vec<W::Output> {
-    let mut outputs =
-        vec![work.clone().run::<Portable<false>>(), work.clone().run::<Portable<true>>()];
-    #[cfg(target_arch = "x86_64")]
-    x86::each_way(work, &mut outputs);
-    outputs
+    let one_by_one = [work.clone().run::<OneByOne<false>>(), work.clone().run::<OneByOne<true>>()];
+    let levels = Level::available().map(|level| dispatch(level, InLanes(work.clone())));
+    one_by_one.into_iter().chain(levels).collect()
 }
 
 #[cfg(test)]
@@ -148,8 +264,8 @@ mod tests {
                 L::splat(0.0).abs(),
                 a.lesser(b),
                 a.greater(b),
-                a.where_positive(b, false),
-                a.where_positive(b, true),
+                a.where_positive(b),
+                a.where_not_negative(b),
                 a.times_power(exponents + L::splat(6755399441055744.0)),
                 sum,
                 rest,
