@@ -5,7 +5,7 @@ use crate::methods::exact;
 use num_rational::BigRational;
 use wavestep::evaluate::Limit;
 use wavestep_kernels::fixed::{
-    self, DelayEquation, FRACTION_BITS, March, MarchOptions, Position, Reduction,
+    DelayEquation, FRACTION_BITS, March, MarchOptions, Position, Reduction,
 };
 
 /// `f` of the recurrence `rigid-mass`: `f' + f = f[n−1]' − f[n−1]`, of period 2μ.
@@ -33,10 +33,6 @@ impl Response {
 
     /// What encloses the value at an exact time.
     pub fn at_exactly(&self, time: &BigRational, side: Limit) -> (BigRational, BigRational) {
-        let side = match side {
-            Limit::Left => fixed::Limit::Left,
-            Limit::Right => Limit::Right,
-        };
         match self.reduction.of_rational(time, side).expect("a position") {
             Some(position) => self.ends(position),
             // Before the start.
