@@ -65,7 +65,7 @@ impl Numbers {
             Definition::Zero { polynomial, between } => {
                 self.enclose_zero(polynomial, between, bits)
             }
-            Definition::Part { polynomial, near, imaginary } => {
+            Definition::ComplexZero { polynomial, near, imaginary } => {
                 let zero = self.enclose_complex_zero(polynomial, near, bits)?;
                 Ok(if *imaginary { zero.imaginary().clone() } else { zero.real().clone() })
             }
@@ -286,7 +286,7 @@ mod tests {
         let number = |value: i64| Fraction::constant(&Rational::from_integer(value.into()));
         let polynomial: Vec<Fraction> = [1, 0, 0, 1, 1].map(number).into();
         let near = (Rational::new(7.into(), 10.into()), Rational::new(9.into(), 10.into()));
-        let part = |imaginary| Definition::Part {
+        let part = |imaginary| Definition::ComplexZero {
             polynomial: polynomial.clone(),
             near: near.clone(),
             imaginary,

@@ -6,211 +6,14 @@
 //! denominator stands outside, a common integer factor stays inside. Conjugate exponentials are
 //! written as cosines and sines.
 
-use crate::export::oscillation::{Oscillation, Wave, oscillations};
+use crate::export::oscillation::{Oscillation, oscillations};
+use crate::export::terms::{divided_terms, fraction_terms, monomials};
+use crate::export::tree::{Sign, Term, Tree, positive_first};
 use crate::expression::{Expression, Fraction};
 use num_integer::Integer as _;
-use num_traits::{One, Signed, Zero};
-use smallvec::SmallVec;
+use num_traits::{One, Zero};
 use std::collections::BTreeMap;
-use std::sync::Arc;
-use wavestep_polynomial::{Integer, Ordinary, Polynomial, Rational, Symbol, factorial};
-
-/// The sign in front of a term.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Sign {
-    /// `+`
-    Plus,
-    /// `−`
-    Minus,
-}
-
-impl Sign {
-    /// The sign of a number, `+` for zero.
-    pub fn of(value: &Rational) -> Sign {
-        if value.is_negative() { Sign::Minus } else { Sign::Plus }
-    }
-
-    /// The sign of a product.
-    pub fn times(self, other: Sign) -> Sign {
-        if self == other { Sign::Plus } else { Sign::Minus }
-    }
-}
-
-/// A formula as it is to be written.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum Node {
-    /// A number, not negative.
-    Number(Rational),
-    /// A name.
-    Symbol(Symbol),
-    /// A sum of at least two terms.
-    Sum(Vec<(Sign, Node)>),
-    /// The bracket of a wave function, after its exponential.
-    Bracket(Vec<(Sign, Node)>),
-    /// A number times powers of symbols, at least two factors: what sums have most of.
-    Monomial(Monomial),
-    /// A product of at least two factors.
-    Product(Vec<Node>),
-    /// A quotient.
-    Quotient(Box<Node>, Box<Node>),
-    /// A power.
-    Power(Box<Node>, Box<Node>),
-    /// `e^{…}`, with the exponent's sign.
-    Exponential(Sign, Box<Node>),
-    /// `cos(…)` or `sin(…)`.
-    Oscillation(Wave, Box<Node>),
-    /// The square root of a positive integer, times the imaginary unit where that is said.
-    Root(Integer, bool),
-    /// `L_k(x)`, a Laguerre polynomial: index and argument.
-    Laguerre(Box<Node>, Box<Node>),
-    /// `k!`
-    Factorial(Box<Node>),
-}
-
-/// A positive number times powers of symbols.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Monomial {
-    /// The number.
-    pub coefficient: Rational,
-    /// The symbols.
-    pub symbols: Arc<[Symbol]>,
-    /// The exponent of each symbol.
-    pub exponents: Exponents,
-}
-
-/// Roots are written as one root of a product below this: its factors are found again by trial.
-const LARGEST_RADICAND: i64 = 1_000_000_000_000;
-
-/// Exponents of a few symbols.
-pub(crate) type Exponents = SmallVec<[u32; 4]>;
-
-impl Monomial {
-    /// As a node, of the simplest kind.
-    fn into_node(self) -> Node {
-        let mut powers = self.exponents.iter().enumerate().filter(|(_, e)| **e > 0);
-        match (powers.next(), powers.next()) {
-            (None, _) => Node::Number(self.coefficient),
-            (Some((i, exponent)), None) if self.coefficient.is_one() => {
-                Node::power(Node::Symbol(self.symbols[i].clone()), *exponent)
-            }
-            _ => Node::Monomial(self),
-        }
-    }
-
-    /// The degree in the symbols that are no roots, and the number of roots.
-    fn degrees(&self) -> (u32, u32) {
-        self.powers().fold((0, 0), |(degree, roots), (x, e)| match x.square() {
-            None => (degree + e, roots),
-            Some(_) => (degree, roots + e),
-        })
-    }
-
-    /// As a node that shows its roots together with the number: `3*sqrt(6)/4*x`.
-    fn with_roots_apart(mut self) -> Node {
-        let (mut roots, mut radicand, mut imaginary) = (Vec::new(), Integer::one(), false);
-        for (symbol, exponent) in self.symbols.iter().zip(&mut self.exponents) {
-            let Some(square) = symbol.square().filter(|_| *exponent > 0) else { continue };
-            *exponent = 0;
-            let longer = &radicand * square;
-            match square {
-                -1 => imaginary = true,
-                _ if longer < Integer::from(LARGEST_RADICAND) => radicand = longer,
-                _ => roots.push(Node::Root(square.into(), false)),
-            }
-        }
-        if !radicand.is_one() || imaginary {
-            roots.insert(0, Node::Root(radicand, imaginary));
-        }
-        if roots.is_empty() {
-            return self.into_node();
-        }
-        let (top, bottom) = self.coefficient.clone().into_raw();
-        self.coefficient = Rational::one();
-        if !top.is_one() {
-            roots.insert(0, Node::Number(top.into()));
-        }
-        let mut factors = match bottom.is_one() {
-            true => roots,
-            false => {
-                let (top, bottom) = (Node::product(roots), Node::Number(bottom.into()));
-                vec![Node::Quotient(Box::new(top), Box::new(bottom))]
-            }
-        };
-        factors.extend(self.into_node().into_factors());
-        Node::product(factors)
-    }
-
-    /// The symbols that occur, with their exponents.
-    pub fn powers(&self) -> impl Iterator<Item = (&Symbol, u32)> {
-        self.symbols.iter().zip(self.exponents.iter().copied()).filter(|(_, e)| *e > 0)
-    }
-}
-
-/// A term: sign and what follows it.
-pub(crate) type Term = (Sign, Node);
-
-impl Node {
-    /// Whether it is higher than a line.
-    pub(crate) fn is_tall(&self) -> bool {
-        match self {
-            Node::Number(value) => !value.is_integer(),
-            Node::Monomial(monomial) => !monomial.coefficient.is_integer(),
-            Node::Quotient(..) => true,
-            Node::Sum(terms) | Node::Bracket(terms) => terms.iter().any(|term| term.1.is_tall()),
-            Node::Product(factors) => factors.iter().any(Node::is_tall),
-            Node::Power(base, _) => base.is_tall(),
-            Node::Oscillation(_, angle) => angle.is_tall(),
-            Node::Symbol(_)
-            | Node::Root(..)
-            | Node::Exponential(..)
-            | Node::Laguerre(..)
-            | Node::Factorial(_) => false,
-        }
-    }
-
-    /// Whether this is an exponential, a cosine or a sine.
-    fn is_wave(&self) -> bool {
-        matches!(self, Node::Exponential(..) | Node::Oscillation(..))
-    }
-
-    /// A product, of what there is.
-    pub fn product(mut factors: Vec<Node>) -> Node {
-        match factors.len() {
-            0 => Node::Number(Rational::one()),
-            1 => factors.remove(0),
-            _ => Node::Product(factors),
-        }
-    }
-
-    /// The factors of a product; none for 1.
-    pub fn into_factors(self) -> Vec<Node> {
-        match self {
-            Node::Product(factors) => factors,
-            Node::Number(one) if one.is_one() => Vec::new(),
-            other => vec![other],
-        }
-    }
-
-    /// A sum with its sign, of what there is.
-    pub fn sum(mut terms: Vec<Term>) -> Term {
-        match terms.len() {
-            0 => (Sign::Plus, Node::Number(Rational::zero())),
-            1 => terms.remove(0),
-            _ => (Sign::Plus, Node::Sum(terms)),
-        }
-    }
-
-    /// A power, of what there is.
-    pub fn power(base: Node, exponent: u32) -> Node {
-        match exponent {
-            1 => base,
-            _ => Node::Power(
-                Box::new(base),
-                Box::new(Node::Number(Rational::from_integer(exponent.into()))),
-            ),
-        }
-    }
-}
+use wavestep_polynomial::{Integer, Ordinary, Rational, Symbol, factorial};
 
 /// How an expression is arranged.
 #[derive(Clone, Default, Debug)]
@@ -236,7 +39,7 @@ impl Arrangement {
     pub fn terms(&self, expression: &Expression) -> (Vec<Term>, Option<Vec<Term>>) {
         let Some(x) = &self.variable else {
             let parts = oscillations(expression).into_iter();
-            let mut parts: Vec<Part> = parts.map(|(wave, p)| (wave, p.into_owned())).collect();
+            let mut parts: Vec<Summand> = parts.map(|(wave, p)| (wave, p.into_owned())).collect();
             parts.sort_by_cached_key(|(exponent, _)| exponent.key());
             return (Coefficient::new(0, parts).terms(), None);
         };
@@ -248,7 +51,7 @@ impl Arrangement {
                 match (power, &self.constant) {
                     (0, Some(name)) if i == 0 && coefficient.is_nested() => {
                         apart = Some(coefficient.terms());
-                        inner.push((Sign::Plus, Node::Symbol(name.clone())));
+                        inner.push((Sign::Plus, Tree::Symbol(name.clone())));
                     }
                     (0, _) => inner.extend(coefficient.terms()),
                     _ => inner.push(coefficient.times_power(x, self.factored)),
@@ -264,8 +67,8 @@ impl Arrangement {
                 1 => with_factors(inner, factors),
                 // Here signs stay inside: the bracket is the polynomial of the wave function.
                 _ => {
-                    factors.push(Node::Bracket(inner));
-                    (Sign::Plus, Node::Product(factors))
+                    factors.push(Tree::Bracket(inner));
+                    (Sign::Plus, Tree::Product(factors))
                 }
             });
         }
@@ -277,11 +80,11 @@ impl Arrangement {
 struct Coefficient {
     power: u32,
     divisor: Integer,
-    parts: Vec<Part>,
+    parts: Vec<Summand>,
 }
 
 /// An exponential, cosine or sine with its coefficient.
-type Part = (Oscillation, Fraction);
+type Summand = (Oscillation, Fraction);
 
 /// The coefficients of an expression by the rate of the variable in the exponent and by the angle
 /// that holds the variable, then by its power.
@@ -300,7 +103,7 @@ fn by_rate_and_power(
     let terms = oscillations(expression).into_iter();
     let mut terms: Vec<_> = terms.map(|(exponent, p)| (split(exponent), p)).collect();
     terms.sort_by_cached_key(|((base, _), _)| base.key());
-    let mut groups = BTreeMap::<Oscillation, BTreeMap<u32, Vec<Part>>>::new();
+    let mut groups = BTreeMap::<Oscillation, BTreeMap<u32, Vec<Summand>>>::new();
     for ((base, rate), p) in terms {
         let group = groups.entry(rate).or_default();
         for (power, part) in p.numerator().divided_coefficients(x) {
@@ -317,60 +120,61 @@ fn by_rate_and_power(
 }
 
 /// The exponential, and the cosine or sine, of those that there are.
-fn wave_factors(oscillation: &Oscillation) -> Vec<Node> {
+fn wave_factors(oscillation: &Oscillation) -> Vec<Tree> {
     let mut factors = Vec::new();
     if !oscillation.growth.is_zero() {
-        let (sign, exponent) = Node::sum(fraction_terms(&oscillation.growth));
-        factors.push(Node::Exponential(sign, Box::new(exponent)));
+        let (sign, exponent) = Tree::sum(fraction_terms(&oscillation.growth));
+        factors.push(Tree::Exponential(sign, Box::new(exponent)));
     }
     if let Some((wave, angle)) = &oscillation.angle {
-        let (_, angle) = Node::sum(fraction_terms(angle));
-        factors.push(Node::Oscillation(*wave, Box::new(angle)));
+        let (_, angle) = Tree::sum(fraction_terms(angle));
+        factors.push(Tree::Oscillation(*wave, Box::new(angle)));
     }
     factors
 }
 
 impl Coefficient {
-    fn new(power: u32, parts: Vec<Part>) -> Coefficient {
+    fn new(power: u32, parts: Vec<Summand>) -> Coefficient {
         Coefficient { power, divisor: factorial(power), parts }
     }
 
     /// Whether writing it takes a bracket inside a bracket.
     fn is_nested(&self) -> bool {
-        let bracket = |(exponent, p): &Part| !exponent.is_one() && p.numerator().term_count() > 1;
+        let bracket =
+            |(exponent, p): &Summand| !exponent.is_one() && p.numerator().term_count() > 1;
         self.parts.iter().any(bracket)
     }
 
     /// The terms, ascending.
     fn terms(&self) -> Vec<Term> {
-        let part = |(exponent, p): &Part| (exponent.clone(), divided_terms(p, &self.divisor));
+        let part = |(exponent, p): &Summand| (exponent.clone(), divided_terms(p, &self.divisor));
         sum_of_parts(self.parts.iter().map(part))
     }
 
     /// `coefficient · x^power`, as `−(1/2) x² (1 + e^{−μ})`.
     fn times_power(&self, x: &Symbol, factored: bool) -> Term {
-        let power = Node::power(Node::Symbol(x.clone()), self.power);
+        let power = Tree::power(Tree::Symbol(x.clone()), self.power);
         if let [(_, p)] = &self.parts[..]
             && (p.as_polynomial().is_none() || p.numerator().term_count() == 1)
         {
-            let (sign, node) = self.terms().remove(0);
-            let mut factors = node.into_factors();
-            let place = factors.iter().position(Node::is_wave);
+            let (sign, tree) = self.terms().remove(0);
+            let mut factors = tree.into_factors();
+            let place = factors.iter().position(Tree::is_wave);
             factors.insert(place.unwrap_or(factors.len()), power);
-            return (sign, Node::product(factors));
+            return (sign, Tree::product(factors));
         }
         let (front, terms) = self.over_common_denominator(factored);
         let (sign, inner) = positive_first(terms);
         let mut factors = Vec::new();
         if !front.is_one() {
-            factors.push(Node::Number(front));
+            factors.push(Tree::Number(front));
         }
         factors.push(power);
-        match Node::sum(inner) {
-            (_, Node::Product(inner)) => factors.extend(inner),
+        match Tree::sum(inner) {
+            (_, Tree::Product(inner)) => factors.extend(inner),
             (_, inner) => factors.push(inner),
         }
-        (sign, Node::product(factors))
+        (sign, Tree::product(factors))
     }
 
     /// `front · (terms)` with integers in the terms: their common factor stays with them unless
@@ -385,7 +189,7 @@ impl Coefficient {
             false => Integer::one(),
         };
         let front = Rational::new(content.clone(), ordinary.denominator().clone());
-        let part = |(i, (exponent, p)): (usize, &Part)| {
+        let part = |(i, (exponent, p)): (usize, &Summand)| {
             let terms = match p.as_polynomial() {
                 Some(polynomial) => {
                     let whole = |value: &Integer| match content.is_one() {
@@ -418,143 +222,22 @@ fn sum_of_parts(parts: impl Iterator<Item = (Oscillation, Vec<Term>)>) -> Vec<Te
 }
 
 /// `waves · (inner)`: the waves before a bracket, or among the factors of a single term.
-fn with_factors(mut inner: Vec<Term>, mut waves: Vec<Node>) -> Term {
+fn with_factors(mut inner: Vec<Term>, mut waves: Vec<Tree>) -> Term {
     if inner.len() == 1 {
-        let (sign, node) = inner.remove(0);
-        let mut factors = node.into_factors();
+        let (sign, tree) = inner.remove(0);
+        let mut factors = tree.into_factors();
         // A number and symbols stand before the exponentials, cosines and brackets after them.
         for wave in waves {
-            let follows = |f: &Node| match (&wave, f) {
-                (Node::Exponential(..), Node::Exponential(..)) => true,
-                (_, f) => matches!(f, Node::Sum(_) | Node::Oscillation(..)),
+            let follows = |f: &Tree| match (&wave, f) {
+                (Tree::Exponential(..), Tree::Exponential(..)) => true,
+                (_, f) => matches!(f, Tree::Sum(_) | Tree::Oscillation(..)),
             };
             let place = factors.iter().position(follows);
             factors.insert(place.unwrap_or(factors.len()), wave);
         }
-        return (sign, Node::product(factors));
+        return (sign, Tree::product(factors));
     }
     let (sign, inner) = positive_first(inner);
-    waves.push(Node::Sum(inner));
-    (sign, Node::Product(waves))
-}
-
-/// Takes the sign out of a sum, so that what is left starts positive.
-fn positive_first(mut terms: Vec<Term>) -> (Sign, Vec<Term>) {
-    let sign = terms.first().map_or(Sign::Plus, |term| term.0);
-    terms.iter_mut().for_each(|term| term.0 = term.0.times(sign));
-    (sign, terms)
-}
-
-/// The terms of a fraction: those of the numerator, ascending in the symbols, or one quotient
-/// with what is common to the terms of the numerator in front of them.
-pub(crate) fn fraction_terms(fraction: &Fraction) -> Vec<Term> {
-    divided_terms(fraction, &Integer::one())
-}
-
-/// The terms of a fraction over a number.
-fn divided_terms(fraction: &Fraction, divisor: &Integer) -> Vec<Term> {
-    match fraction.as_polynomial() {
-        Some(p) => monomials(p, coefficients(p, divisor)),
-        None => vec![quotient(&fraction.scale(&Rational::new(Integer::one(), divisor.clone())))],
-    }
-}
-
-fn quotient(fraction: &Fraction) -> Term {
-    let mut sign = Sign::Plus;
-    let positive = |p: &Polynomial| {
-        let (own, terms) = positive_first(polynomial_terms(p));
-        (own, Node::sum(terms).1)
-    };
-    // Factors are stored with a positive leading term, and shown with a positive first term.
-    let mut power_of = |base: &Polynomial, power: u32| {
-        let (own, base) = positive(base);
-        if power % 2 == 1 {
-            sign = sign.times(own);
-        }
-        Node::power(base, power)
-    };
-    let (content, common, rest) = common_factors(fraction.numerator());
-    let mut top = common;
-    let rest = match linear_power(&rest) {
-        Some((base, power)) => power_of(&base, power),
-        None => power_of(&rest, 1),
-    };
-    top.extend(rest.into_factors());
-    if !content.numer().is_one() {
-        top.insert(0, Node::Number(Rational::from_integer(content.numer().clone())));
-    }
-    let mut bottom = Vec::new();
-    if !content.denom().is_one() {
-        bottom.push(Node::Number(Rational::from_integer(content.denom().clone())));
-    }
-    bottom.extend(fraction.factors().map(|(factor, power)| power_of(factor, power)));
-    (sign, Node::Quotient(Box::new(Node::product(top)), Box::new(Node::product(bottom))))
-}
-
-/// A polynomial of content 1 in one symbol as a power of a linear one, `±(a x + b)^n` with n > 1,
-/// where it is one. The leading coefficients `a^n` and `n a^{n−1} b` give `b/a`.
-fn linear_power(p: &Polynomial) -> Option<(Polynomial, u32)> {
-    let [x] = p.symbols() else { return None };
-    let n = p.degree(x);
-    if n < 2 || p.term_count() != n as usize + 1 {
-        return None;
-    }
-    let leading: Vec<Rational> = p.terms().take(2).map(|(_, value)| value).collect();
-    let ratio = &leading[1] / (&leading[0] * Rational::from_integer(n.into()));
-    let base = (&Polynomial::symbol(x) + &Polynomial::constant(&ratio)).primitive_part().1;
-    let power = base.pow(n);
-    let minus = -&base;
-    match power == *p {
-        true => Some((base, n)),
-        // Odd powers take the sign in; an even one cannot.
-        false => (n % 2 == 1 && minus.pow(n) == *p).then_some((minus, n)),
-    }
-}
-
-/// The content of a polynomial, the powers of symbols common to its terms, and the rest.
-fn common_factors(p: &Polynomial) -> (Rational, Vec<Node>, Polynomial) {
-    let content = p.content();
-    let mut rest = p / &content;
-    let mut common = Vec::new();
-    for symbol in p.symbols() {
-        let lowest = rest.coefficients(symbol).last().map_or(0, |(power, _)| *power);
-        if lowest > 0 {
-            let power = Polynomial::symbol(symbol).pow(lowest);
-            rest = rest.divide(&power).expect("the power divides every term");
-            common.push(Node::power(Node::Symbol(symbol.clone()), lowest));
-        }
-    }
-    (content, common, rest)
-}
-
-/// The terms of a polynomial by ascending total degree; of one degree, those without roots first.
-pub(crate) fn polynomial_terms(p: &Polynomial) -> Vec<Term> {
-    monomials(p, coefficients(p, &Integer::one()))
-}
-
-/// The reduced coefficients of a polynomial over a number, in the order of its terms.
-fn coefficients(p: &Polynomial, divisor: &Integer) -> Vec<Rational> {
-    Ordinary::new([p], divisor).coefficients(0).map(|(_, value)| value).collect()
-}
-
-/// Terms with the exponents of a polynomial, put in the order of ascending total degree.
-fn monomials(p: &Polynomial, coefficients: impl IntoIterator<Item = Rational>) -> Vec<Term> {
-    let symbols: Arc<[Symbol]> = p.symbols().into();
-    let has_roots = p.roots().next().is_some();
-    let (_, terms) = p.divided_terms();
-    let mut terms: Vec<((u32, u32), Term)> = terms
-        .zip(coefficients)
-        .map(|((exponents, _), coefficient)| {
-            let sign = Sign::of(&coefficient);
-            let coefficient = if sign == Sign::Minus { -coefficient } else { coefficient };
-            let (symbols, exponents) = (symbols.clone(), Exponents::from_slice(exponents));
-            let monomial = Monomial { coefficient, symbols, exponents };
-            if has_roots {
-                return (monomial.degrees(), (sign, monomial.with_roots_apart()));
-            }
-            ((monomial.exponents.iter().sum(), 0), (sign, monomial.into_node()))
-        })
-        .collect();
-    terms.sort_by_key(|(degree, _)| *degree);
-    terms.into_iter().map(|(_, term)| term).collect()
+    waves.push(Tree::Sum(inner));
+    (sign, Tree::Product(waves))
 }

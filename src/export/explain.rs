@@ -1,9 +1,10 @@
 //! The derivation of a scene's recurrence as a text to be read: sentences and equations.
 
-use crate::export::arrangement::{Sign, Term, arrange};
+use crate::export::arrangement::arrange;
 use crate::export::formula::{Formula, Head, Right, latex, text};
 use crate::export::names::{Name, Names};
 use crate::export::notation::{Latex, Text, write_flat};
+use crate::export::tree::{Sign, Term};
 use crate::expression::{Constant, Definition, Expression, Fraction, Root};
 use crate::network::{Law, Network, Role, Rule};
 use crate::recurrence::{LinearForm, Recurrence, Statement};
@@ -13,7 +14,7 @@ use wavestep_polynomial::{Rational, Symbol};
 
 /// A part of a derivation.
 #[derive(Clone, PartialEq, Eq, Debug)]
-enum Part {
+enum Block {
     Heading(&'static str),
     /// In text, and in LaTeX.
     Sentence(String, String),
@@ -23,7 +24,7 @@ enum Part {
 /// How a scene becomes a recurrence: its waves, the laws at its nodes, its scales, the recurrence.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Derivation {
-    parts: Vec<Part>,
+    parts: Vec<Block>,
 }
 
 /// Writes forms in waves with their index on the n-th period.
@@ -50,8 +51,8 @@ impl Derivation {
 
     /// Adds formulas under a heading.
     pub fn add(&mut self, heading: &'static str, formulas: Vec<Formula>) {
-        self.parts.push(Part::Heading(heading));
-        self.parts.push(Part::Equations(formulas));
+        self.parts.push(Block::Heading(heading));
+        self.parts.push(Block::Equations(formulas));
     }
 
     fn sentence(&mut self, sentence: impl AsRef<str>) {
@@ -63,7 +64,7 @@ impl Derivation {
         let terms = value.map(|value| arrange(&value.clone().into(), None)).unwrap_or_default();
         let text = sentence.replace("{}", &write_flat(&terms, &Text));
         let latex = prose(sentence).replace("{}", &format!("${}$", write_flat(&terms, &Latex)));
-        self.parts.push(Part::Sentence(text, latex));
+        self.parts.push(Block::Sentence(text, latex));
     }
 
     /// In which units the scene is written, and the constants that got names.
@@ -78,7 +79,7 @@ impl Derivation {
             element.map_or("the scene", |element| &scene.elements[element].name)
         };
         if scene.dimensional {
-            self.parts.push(Part::Heading("Scales"));
+            self.parts.push(Block::Heading("Scales"));
             let (of, moving) = (name(model.scale.reference), name(model.scale.moving));
             let mut units = vec![("Z", "kg/s", &model.scale.impedance, "impedance", of)];
             units.push(("T", "s", &model.scale.time, "time", of));
@@ -103,13 +104,13 @@ impl Derivation {
             });
             let constants = constants.collect();
             self.sentence("In these units, what is no rational number has a name:");
-            self.parts.push(Part::Equations(constants));
+            self.parts.push(Block::Equations(constants));
         }
     }
 
     /// The waves in each bar, and what else is followed.
     fn waves(&mut self, network: &Network) {
-        self.parts.push(Part::Heading("Waves"));
+        self.parts.push(Block::Heading("Waves"));
         let scene = network.scene();
         let wave = |role: Role| network.waves().iter().find(|wave| wave.role == role);
         for element in &scene.line.elements {
@@ -139,7 +140,7 @@ impl Derivation {
                 right: Right::Terms(terms),
                 remark: None,
             };
-            self.parts.push(Part::Equations(vec![
+            self.parts.push(Block::Equations(vec![
                 equation(("v", "v"), velocity),
                 equation(("X", "X"), force),
             ]));
@@ -161,7 +162,7 @@ impl Derivation {
 
     /// The laws at the nodes.
     fn laws(&mut self, network: &Network, writer: &Writer<'_>) {
-        self.parts.push(Part::Heading("Laws at ends and joints"));
+        self.parts.push(Block::Heading("Laws at ends and joints"));
         self.sentence_with(
             "A period lasts D = {}. On the n-th, from n D to (n+1) D by the clock of each place, the laws are, \
              with waves that are zero for n < 0:",
@@ -172,19 +173,19 @@ impl Derivation {
                 continue;
             }
             self.sentence(told(network, &law));
-            self.parts.push(Part::Equations(vec![writer.equation(&law.left, &law.right)]));
+            self.parts.push(Block::Equations(vec![writer.equation(&law.left, &law.right)]));
         }
     }
 
     /// The recurrence, solved for one wave after another.
     fn recurrence(&mut self, network: &Network, writer: &Writer<'_>) {
-        self.parts.push(Part::Heading("The recurrence"));
+        self.parts.push(Block::Heading("The recurrence"));
         self.sentence("Solved for one wave after another:");
         let (equations, starts) = writer.solved(network.waves().len());
-        self.parts.push(Part::Equations(equations));
+        self.parts.push(Block::Equations(equations));
         if !starts.is_empty() {
             self.sentence("These are continuous from period to period, and start at");
-            self.parts.push(Part::Equations(starts));
+            self.parts.push(Block::Equations(starts));
         }
     }
 
@@ -193,13 +194,13 @@ impl Derivation {
         let mut out = String::new();
         for part in &self.parts {
             match part {
-                Part::Heading(heading) => {
+                Block::Heading(heading) => {
                     let gap = if out.is_empty() { "" } else { "\n" };
                     let line = "-".repeat(heading.len());
                     out.push_str(&format!("{gap}{heading}\n{line}\n"));
                 }
-                Part::Sentence(text, _) => out.push_str(&wrapped(text, width)),
-                Part::Equations(formulas) => {
+                Block::Sentence(text, _) => out.push_str(&wrapped(text, width)),
+                Block::Equations(formulas) => {
                     let lines = text(formulas, width.saturating_sub(4));
                     lines.lines().for_each(|line| out.push_str(&format!("    {line}\n")));
                 }
@@ -213,9 +214,9 @@ impl Derivation {
         let mut out = String::new();
         for part in &self.parts {
             match part {
-                Part::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
-                Part::Sentence(_, latex) => out.push_str(&format!("{latex}\n")),
-                Part::Equations(formulas) => out.push_str(&latex(formulas, width)),
+                Block::Heading(heading) => out.push_str(&format!("\\subsection*{{{heading}}}\n")),
+                Block::Sentence(_, latex) => out.push_str(&format!("{latex}\n")),
+                Block::Equations(formulas) => out.push_str(&latex(formulas, width)),
             }
         }
         out
@@ -421,7 +422,7 @@ fn sum(parts: &[Expression]) -> Vec<Term> {
 }
 
 fn negated(part: &Expression) -> Vec<Term> {
-    let flip = |(sign, node): Term| (sign.times(Sign::Minus), node);
+    let flip = |(sign, tree): Term| (sign.times(Sign::Minus), tree);
     arrange(part, None).into_iter().map(flip).collect()
 }
 
@@ -470,7 +471,7 @@ fn capitalised(text: &str) -> String {
 fn definition(value: &Definition) -> Right {
     match value {
         Definition::Root(value) => root(value),
-        Definition::Part { polynomial, imaginary, .. } => {
+        Definition::ComplexZero { polynomial, imaginary, .. } => {
             let part = if *imaginary { "imaginary" } else { "real" };
             let (text, latex) = written_polynomial(polynomial);
             Right::Written(

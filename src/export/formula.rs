@@ -1,9 +1,10 @@
 //! Formulas with their heads, one a line, as text or LaTeX.
 
-use crate::export::arrangement::{Term, arrange};
+use crate::export::arrangement::arrange;
 use crate::export::lines::Writing;
 use crate::export::names::Names;
 use crate::export::notation::{Latex, Notation, Text, write, write_flat, write_named};
+use crate::export::tree::Term;
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::Statement;
 use std::sync::Arc;

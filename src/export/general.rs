@@ -1,8 +1,9 @@
 //! General forms, and the equations for which none was found, as formulas.
 
-use crate::export::arrangement::{Node, Sign, Term, arrange};
+use crate::export::arrangement::arrange;
 use crate::export::formula::{Formula, Head, Right};
 use crate::export::notation::{Latex, Notation, Text, write_flat};
+use crate::export::tree::{Sign, Term, Tree};
 use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::{
@@ -92,43 +93,43 @@ fn geometric_term(term: &GeometricTerm, n: &Symbol) -> Term {
         _ => (term.coefficient.clone(), 0),
     };
     let exponent = &Polynomial::symbol(n) + &Polynomial::integer(more);
-    let exponent = Node::sum(arrange(&exponent.into(), Some(n))).1;
-    let base = ratio_node(&term.ratio);
-    let power = Node::Power(Box::new(base), Box::new(exponent));
-    let (sign, coefficient) = Node::sum(arrange(&coefficient, None));
+    let exponent = Tree::sum(arrange(&exponent.into(), Some(n))).1;
+    let base = ratio_tree(&term.ratio);
+    let power = Tree::Power(Box::new(base), Box::new(exponent));
+    let (sign, coefficient) = Tree::sum(arrange(&coefficient, None));
     let mut factors = coefficient.into_factors();
     if term.power > 0 {
-        factors.push(Node::power(Node::Symbol(n.clone()), term.power));
+        factors.push(Tree::power(Tree::Symbol(n.clone()), term.power));
     }
     factors.push(power);
-    (sign, Node::product(factors))
+    (sign, Tree::product(factors))
 }
 
 /// A ratio as the base of a power, without a sign in front where a sum can take it:
 /// `(r - 1)/(r + 1)` rather than `-(1 - r)/(1 + r)`.
-fn ratio_node(ratio: &Expression) -> Node {
+fn ratio_tree(ratio: &Expression) -> Tree {
     let terms = arrange(ratio, None);
     match &terms[..] {
-        [(Sign::Minus, Node::Quotient(top, bottom))] => match &**top {
-            Node::Sum(top) => {
-                let minus = |(sign, node): &Term| (sign.times(Sign::Minus), node.clone());
+        [(Sign::Minus, Tree::Quotient(top, bottom))] => match &**top {
+            Tree::Sum(top) => {
+                let minus = |(sign, tree): &Term| (sign.times(Sign::Minus), tree.clone());
                 let reversed = top.iter().rev().map(minus).collect();
                 let bottom = match &**bottom {
-                    Node::Sum(bottom) => Node::Sum(bottom.iter().rev().cloned().collect()),
+                    Tree::Sum(bottom) => Tree::Sum(bottom.iter().rev().cloned().collect()),
                     other => other.clone(),
                 };
-                Node::Quotient(Box::new(Node::Sum(reversed)), Box::new(bottom))
+                Tree::Quotient(Box::new(Tree::Sum(reversed)), Box::new(bottom))
             }
-            _ => negative(Node::Quotient(top.clone(), bottom.clone())),
+            _ => negative(Tree::Quotient(top.clone(), bottom.clone())),
         },
         [(Sign::Minus, other)] => negative(other.clone()),
-        _ => Node::sum(terms).1,
+        _ => Tree::sum(terms).1,
     }
 }
 
 /// `−x` as a base: a sum of one term, which is written with brackets.
-fn negative(node: Node) -> Node {
-    Node::Sum(vec![(Sign::Minus, node)])
+fn negative(tree: Tree) -> Tree {
+    Tree::Sum(vec![(Sign::Minus, tree)])
 }
 
 fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> Vec<Formula> {
@@ -177,60 +178,60 @@ fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> 
     let mut sum = Vec::new();
     for (lag, coefficient) in template.terms() {
         let index = &Polynomial::symbol(k) - &Polynomial::integer(*lag);
-        let index = Node::sum(arrange(&index.into(), Some(k))).1;
+        let index = Tree::sum(arrange(&index.into(), Some(k))).1;
         let function = match template.family() {
             Family::Laguerre(c) => {
                 let argument = Expression::from(c * &Fraction::symbol(x));
                 vec![laguerre(index, &argument, x)]
             }
             Family::Power => vec![
-                Node::Power(Box::new(Node::Symbol(x.clone())), Box::new(index.clone())),
-                Node::Factorial(Box::new(index)),
+                Tree::Power(Box::new(Tree::Symbol(x.clone())), Box::new(index.clone())),
+                Tree::Factorial(Box::new(index)),
             ],
         };
         sum.push(scaled(coefficient, function, template.family()));
     }
     let mut front = Vec::new();
     if !template.ratio().is_one() {
-        let base = ratio_node(&template.ratio().clone().into());
-        front.push(Node::Power(Box::new(base), Box::new(Node::Symbol(k.clone()))));
+        let base = ratio_tree(&template.ratio().clone().into());
+        front.push(Tree::Power(Box::new(base), Box::new(Tree::Symbol(k.clone()))));
     }
     if !template.rate().is_zero() {
         let exponent = -&(template.rate() * &Fraction::symbol(x));
-        let (sign, exponent) = Node::sum(arrange(&exponent.into(), Some(x)));
-        front.push(Node::Exponential(sign, Box::new(exponent)));
+        let (sign, exponent) = Tree::sum(arrange(&exponent.into(), Some(x)));
+        front.push(Tree::Exponential(sign, Box::new(exponent)));
     }
-    let (sign, body) = Node::sum(sum);
+    let (sign, body) = Tree::sum(sum);
     match body {
-        Node::Product(factors) => front.extend(factors),
-        Node::Number(value) if value.is_zero() => return Vec::new(),
-        Node::Number(value) if value.is_one() => {}
-        Node::Sum(terms) => front.push(Node::Bracket(terms)),
+        Tree::Product(factors) => front.extend(factors),
+        Tree::Number(value) if value.is_zero() => return Vec::new(),
+        Tree::Number(value) if value.is_one() => {}
+        Tree::Sum(terms) => front.push(Tree::Bracket(terms)),
         other => front.push(other),
     }
-    vec![(sign, Node::product(front))]
+    vec![(sign, Tree::product(front))]
 }
 
-fn laguerre(index: Node, argument: &Expression, x: &Symbol) -> Node {
+fn laguerre(index: Tree, argument: &Expression, x: &Symbol) -> Tree {
     let argument = match &arrange(argument, Some(x))[..] {
-        [(Sign::Plus, node)] => node.clone(),
-        [] => Node::Number(Rational::zero()),
-        terms => Node::Sum(terms.to_vec()),
+        [(Sign::Plus, tree)] => tree.clone(),
+        [] => Tree::Number(Rational::zero()),
+        terms => Tree::Sum(terms.to_vec()),
     };
-    Node::Laguerre(Box::new(index), Box::new(argument))
+    Tree::Laguerre(Box::new(index), Box::new(argument))
 }
 
 /// `coefficient · function`, where the function's last factor divides for powers (`x^k/k!`).
-fn scaled(coefficient: &Fraction, mut function: Vec<Node>, family: &Family) -> Term {
-    let (sign, factor) = Node::sum(arrange(&coefficient.clone().into(), None));
+fn scaled(coefficient: &Fraction, mut function: Vec<Tree>, family: &Family) -> Term {
+    let (sign, factor) = Tree::sum(arrange(&coefficient.clone().into(), None));
     let mut factors = factor.into_factors();
     if *family == Family::Power {
         let bottom = function.pop().expect("a power over a factorial");
         let top = function.pop().expect("a power over a factorial");
-        function.push(Node::Quotient(Box::new(top), Box::new(bottom)));
+        function.push(Tree::Quotient(Box::new(top), Box::new(bottom)));
     }
     factors.extend(function);
-    (sign, Node::product(factors))
+    (sign, Tree::product(factors))
 }
 
 /// Names for the derivative and for the delay by one period, in [`operator_of`].

@@ -14,6 +14,8 @@ mod names;
 mod notation;
 mod oscillation;
 mod source;
+mod terms;
+mod tree;
 
 pub use c::{CHeading, to_c};
 pub use explain::{Derivation, form_text, latex_name, solved_equations};

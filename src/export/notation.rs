@@ -1,8 +1,8 @@
 //! One walk over an arranged formula, in two notations.
 
-use crate::export::arrangement::{Monomial, Node, Sign, Term};
 use crate::export::lines::Writing;
 use crate::export::names::{Name, Names};
+use crate::export::tree::{Monomial, Sign, Term, Tree};
 use num_traits::One;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Integer, Rational, Symbol, decimal};
@@ -32,11 +32,11 @@ pub(crate) trait Notation {
     /// The name of a symbol that has one of its own, in this notation.
     fn choose<'a>(&self, name: &'a Name) -> &'a str;
     /// What stands between two factors.
-    fn times(&self, left: &Node, right: &Node) -> &'static str;
+    fn times(&self, left: &Tree, right: &Tree) -> &'static str;
     /// Brackets that grow with what is in them.
     fn enclosed(&self, text: &str) -> String;
     /// Brackets that lines may be broken in.
-    fn brackets(&self, of: &Node) -> (&'static str, &'static str);
+    fn brackets(&self, of: &Tree) -> (&'static str, &'static str);
     /// How wide a piece of writing is on the page.
     fn width(&self, text: &str) -> usize;
 }
@@ -91,7 +91,7 @@ impl<'a> Writer<'a> {
     }
 
     fn sum(&mut self, terms: &[Term], depth: usize) {
-        for (i, (sign, node)) in terms.iter().enumerate() {
+        for (i, (sign, tree)) in terms.iter().enumerate() {
             match (i, sign) {
                 (0, Sign::Plus) => {}
                 (0, Sign::Minus) => self.push("-"),
@@ -102,13 +102,13 @@ impl<'a> Writer<'a> {
                     self.push(if *sign == Sign::Plus { "+ " } else { "- " });
                 }
             }
-            self.term(node, depth);
+            self.term(tree, depth);
         }
     }
 
-    fn term(&mut self, node: &Node, depth: usize) {
-        let factors = match node {
-            Node::Product(factors) => &factors[..],
+    fn term(&mut self, tree: &Tree, depth: usize) {
+        let factors = match tree {
+            Tree::Product(factors) => &factors[..],
             other => std::slice::from_ref(other),
         };
         for (i, factor) in factors.iter().enumerate() {
@@ -117,14 +117,14 @@ impl<'a> Writer<'a> {
             }
             let last = i + 1 == factors.len();
             match factor {
-                Node::Sum(terms) | Node::Bracket(terms) => {
+                Tree::Sum(terms) | Tree::Bracket(terms) => {
                     let (open, close) = self.notation.brackets(factor);
                     self.push(open);
                     self.sum(terms, depth + 1);
                     self.push(close);
                 }
-                Node::Monomial(monomial) => self.monomial(monomial, i == 0, last),
-                Node::Symbol(symbol) => self.power(symbol, 1, i == 0, last),
+                Tree::Monomial(monomial) => self.monomial(monomial, i == 0, last),
+                Tree::Symbol(symbol) => self.power(symbol, 1, i == 0, last),
                 other => {
                     let text = self.flat(other);
                     self.push(&text);
@@ -166,8 +166,8 @@ impl<'a> Writer<'a> {
             known.resize(exponent as usize + 1, None);
         }
         let (text, width) = known[exponent as usize].get_or_insert_with(|| {
-            let node = Node::power(Node::Symbol(symbol.clone()), exponent);
-            let text = Writer::new(n, self.names).flat(&node);
+            let tree = Tree::power(Tree::Symbol(symbol.clone()), exponent);
+            let text = Writer::new(n, self.names).flat(&tree);
             let width = n.width(&text);
             (text, width)
         });
@@ -181,54 +181,54 @@ impl<'a> Writer<'a> {
         writer.writing.text().to_owned()
     }
 
-    /// A node in one line.
-    fn flat(&self, node: &Node) -> String {
+    /// A tree in one line.
+    fn flat(&self, tree: &Tree) -> String {
         let n = self.notation;
-        match node {
-            Node::Number(value) => n.number(value),
-            Node::Symbol(symbol) => self.symbol(symbol),
-            Node::Root(radicand, imaginary) => n.root(radicand, *imaginary),
-            Node::Oscillation(wave, angle) => n.function(wave.name(), &self.flat(angle)),
-            Node::Sum(terms) | Node::Bracket(terms) => self.inner(terms),
-            Node::Monomial(_) | Node::Product(_) => {
+        match tree {
+            Tree::Number(value) => n.number(value),
+            Tree::Symbol(symbol) => self.symbol(symbol),
+            Tree::Root(radicand, imaginary) => n.root(radicand, *imaginary),
+            Tree::Oscillation(wave, angle) => n.function(wave.name(), &self.flat(angle)),
+            Tree::Sum(terms) | Tree::Bracket(terms) => self.inner(terms),
+            Tree::Monomial(_) | Tree::Product(_) => {
                 let mut writer = Writer::new(self.notation, self.names);
-                writer.term(node, 0);
+                writer.term(tree, 0);
                 writer.writing.text().to_owned()
             }
-            Node::Quotient(top, bottom) => {
-                let side = |node: &Node| self.flat(node);
-                let top_brackets = matches!(**top, Node::Sum(_));
+            Tree::Quotient(top, bottom) => {
+                let side = |tree: &Tree| self.flat(tree);
+                let top_brackets = matches!(**top, Tree::Sum(_));
                 let bottom_brackets = match &**bottom {
-                    Node::Sum(_) | Node::Product(_) | Node::Monomial(_) | Node::Quotient(..) => {
+                    Tree::Sum(_) | Tree::Product(_) | Tree::Monomial(_) | Tree::Quotient(..) => {
                         true
                     }
-                    Node::Symbol(symbol) => self.is_compound(symbol),
+                    Tree::Symbol(symbol) => self.is_compound(symbol),
                     _ => false,
                 };
                 n.quotient((&side(top), top_brackets), (&side(bottom), bottom_brackets))
             }
-            Node::Power(base, exponent) => {
+            Tree::Power(base, exponent) => {
                 let text = self.flat(base);
                 let simple = match &**base {
-                    Node::Symbol(symbol) => !self.is_compound(symbol),
-                    Node::Number(value) => value.denom().is_one(),
-                    Node::Root(radicand, imaginary) => radicand.is_one() || !imaginary,
+                    Tree::Symbol(symbol) => !self.is_compound(symbol),
+                    Tree::Number(value) => value.denom().is_one(),
+                    Tree::Root(radicand, imaginary) => radicand.is_one() || !imaginary,
                     _ => false,
                 };
                 let base = if simple { text } else { n.enclosed(&text) };
                 let text = self.flat(exponent);
                 n.power(&base, &text)
             }
-            Node::Exponential(sign, exponent) => {
+            Tree::Exponential(sign, exponent) => {
                 let minus = if *sign == Sign::Minus { "-" } else { "" };
-                let brackets = matches!(**exponent, Node::Sum(_)) && *sign == Sign::Minus;
+                let brackets = matches!(**exponent, Tree::Sum(_)) && *sign == Sign::Minus;
                 let text = self.flat(exponent);
                 let text = if brackets { n.enclosed(&text) } else { text };
                 n.exponential(&format!("{minus}{text}"))
             }
-            Node::Laguerre(index, argument) => n.laguerre(&self.flat(index), &self.flat(argument)),
-            Node::Factorial(of) => {
-                n.factorial(&self.flat(of), matches!(**of, Node::Symbol(_) | Node::Number(_)))
+            Tree::Laguerre(index, argument) => n.laguerre(&self.flat(index), &self.flat(argument)),
+            Tree::Factorial(of) => {
+                n.factorial(&self.flat(of), matches!(**of, Tree::Symbol(_) | Tree::Number(_)))
             }
         }
     }
@@ -290,7 +290,7 @@ impl Notation for Text {
         "*"
     }
 
-    fn times(&self, _: &Node, _: &Node) -> &'static str {
+    fn times(&self, _: &Tree, _: &Tree) -> &'static str {
         "*"
     }
 
@@ -298,7 +298,7 @@ impl Notation for Text {
         format!("({text})")
     }
 
-    fn brackets(&self, _: &Node) -> (&'static str, &'static str) {
+    fn brackets(&self, _: &Tree) -> (&'static str, &'static str) {
         ("(", ")")
     }
 
@@ -437,10 +437,10 @@ impl Notation for Latex {
         " "
     }
 
-    fn times(&self, left: &Node, right: &Node) -> &'static str {
+    fn times(&self, left: &Tree, right: &Tree) -> &'static str {
         match (left, right) {
-            (Node::Exponential(..) | Node::Oscillation(..), Node::Sum(_) | Node::Bracket(_)) => "",
-            (_, Node::Sum(_)) => "\\,",
+            (Tree::Exponential(..) | Tree::Oscillation(..), Tree::Sum(_) | Tree::Bracket(_)) => "",
+            (_, Tree::Sum(_)) => "\\,",
             _ => " ",
         }
     }
@@ -450,10 +450,10 @@ impl Notation for Latex {
         if tall { format!("\\left({text}\\right)") } else { format!("({text})") }
     }
 
-    fn brackets(&self, of: &Node) -> (&'static str, &'static str) {
+    fn brackets(&self, of: &Tree) -> (&'static str, &'static str) {
         match of {
-            Node::Bracket(_) if of.is_tall() => ("\\Bigl[", "\\Bigr]"),
-            Node::Bracket(_) => ("\\bigl[", "\\bigr]"),
+            Tree::Bracket(_) if of.is_tall() => ("\\Bigl[", "\\Bigr]"),
+            Tree::Bracket(_) => ("\\bigl[", "\\bigr]"),
             of if of.is_tall() => ("\\Bigl(", "\\Bigr)"),
             _ => ("(", ")"),
         }

@@ -1,29 +1,11 @@
 //! Sums of conjugate exponentials as cosines and sines.
 
-use crate::export::arrangement::{Sign, fraction_terms};
+use crate::export::terms::fraction_terms;
+use crate::export::tree::{Circular, Sign};
 use crate::expression::{Expression, Fraction};
 use num_traits::{One, Zero};
 use std::borrow::Cow;
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
-
-/// A function that oscillates.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) enum Wave {
-    /// `cos`
-    Cosine,
-    /// `sin`
-    Sine,
-}
-
-impl Wave {
-    /// The name of the function.
-    pub fn name(self) -> &'static str {
-        match self {
-            Wave::Cosine => "cos",
-            Wave::Sine => "sin",
-        }
-    }
-}
 
 /// `e^{growth}`, times the cosine or the sine of an angle where there is one.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -31,7 +13,7 @@ pub(crate) struct Oscillation {
     /// The exponent; real where there is an angle.
     pub growth: Fraction,
     /// The function and its angle, which is written without a sign in front.
-    pub angle: Option<(Wave, Fraction)>,
+    pub angle: Option<(Circular, Fraction)>,
 }
 
 impl Oscillation {
@@ -106,7 +88,7 @@ pub(crate) fn oscillations(expression: &Expression) -> Vec<(Oscillation, Cow<'_,
         }
         let two = Rational::from_integer(2.into());
         let values =
-            [(Wave::Cosine, real(p).scale(&two)), (Wave::Sine, -&imaginary(p).scale(&two))];
+            [(Circular::Cosine, real(p).scale(&two)), (Circular::Sine, -&imaginary(p).scale(&two))];
         for (wave, value) in values.into_iter().filter(|(_, value)| !value.is_zero()) {
             let growth = real(exponent);
             let angle = Some((wave, angle.clone()));
@@ -141,8 +123,8 @@ mod tests {
                 assert_eq!(&p.conjugate(&i), &*p);
                 let wave = match &oscillation.angle {
                     None => Expression::one(),
-                    Some((Wave::Cosine, angle)) => Expression::cosine(angle),
-                    Some((Wave::Sine, angle)) => Expression::sine(angle),
+                    Some((Circular::Cosine, angle)) => Expression::cosine(angle),
+                    Some((Circular::Sine, angle)) => Expression::sine(angle),
                 };
                 sum += &wave.times(&p).times_exponential(&oscillation.growth);
             }

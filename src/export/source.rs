@@ -1,16 +1,17 @@
 //! The source's form: its symbols, its units, its constants stated apart, its shorthand.
 
-use crate::export::arrangement::{Arrangement, Node, Sign, Term, arrange};
+use crate::export::arrangement::{Arrangement, arrange};
 use crate::export::formula::{Formula, Head, Right};
 use crate::export::general::general_form;
-use crate::export::names::{Name, Names, product_node};
-use crate::export::notation::{Latex, Text, write_named};
+use crate::export::names::{Name, Names};
+use crate::export::notation::{Latex, Notation, Text, write_flat, write_named};
+use crate::export::tree::{Sign, Term, Tree};
 use crate::expression::Expression;
 use crate::recurrence::{Recurrence, SourceProduct, WaveIndex};
 use crate::solution::{GeneralForm, KeptEnds};
-use num_traits::One;
+use num_traits::{One, Signed};
 use std::sync::Arc;
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::{Integer, Rational, Symbol};
 
 /// How the source of a recurrence writes its waves.
 pub struct SourceForm<'a> {
@@ -27,7 +28,7 @@ impl<'a> SourceForm<'a> {
             .notation
             .symbols
             .iter()
-            .map(|(symbol, value)| (symbol.clone(), Name::of(value)))
+            .map(|(symbol, value)| (symbol.clone(), name_of(value)))
             .collect();
         let period = arrange(&statement.period.clone().into(), None);
         let (end, latex_end) =
@@ -106,27 +107,27 @@ fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
     if unit.powers().is_empty() {
         return terms;
     }
-    let unit = product_node(&unit);
+    let unit = product_tree(&unit);
     match &terms[..] {
         [] => terms,
-        [(_, Node::Sum(_))] | [_, _, ..] => {
-            vec![(Sign::Plus, Node::product(vec![Node::Sum(terms), unit]))]
+        [(_, Tree::Sum(_))] | [_, _, ..] => {
+            vec![(Sign::Plus, Tree::product(vec![Tree::Sum(terms), unit]))]
         }
         [_] => {
-            let (sign, node) = terms.remove(0);
-            let mut rest = node.into_factors();
+            let (sign, tree) = terms.remove(0);
+            let mut rest = tree.into_factors();
             let mut factors = Vec::new();
             match rest.first_mut() {
-                Some(Node::Number(_)) => factors.push(rest.remove(0)),
-                Some(Node::Monomial(monomial)) => {
+                Some(Tree::Number(_)) => factors.push(rest.remove(0)),
+                Some(Tree::Monomial(monomial)) => {
                     let number = std::mem::replace(&mut monomial.coefficient, Rational::one());
-                    factors.extend(Node::Number(number).into_factors());
+                    factors.extend(Tree::Number(number).into_factors());
                 }
                 _ => {}
             }
             factors.push(unit);
             factors.extend(rest);
-            vec![(sign, Node::product(factors))]
+            vec![(sign, Tree::product(factors))]
         }
     }
 }
@@ -136,4 +137,45 @@ fn head(recurrence: &Recurrence, wave: WaveIndex, index: &str) -> (String, Strin
     let statement = recurrence.statement();
     let name = statement.notation.waves.get(&wave).unwrap_or(&statement.waves[wave]);
     (format!("{name}[{index}]"), Latex::indexed(name, index))
+}
+
+/// A product in place of a symbol. In LaTeX a quotient stays on the line: `μz/L`.
+fn name_of(product: &SourceProduct) -> Name {
+    let tree = product_tree(product);
+    let minus = if product.coefficient().is_negative() { "-" } else { "" };
+    let flat =
+        |tree: &Tree, notation: &dyn Notation| write_flat(&[(Sign::Plus, tree.clone())], notation);
+    let latex = match &tree {
+        Tree::Quotient(top, bottom) => {
+            let single = matches!(**bottom, Tree::Symbol(_) | Tree::Number(_));
+            let (top, bottom) = (flat(top, &Latex), flat(bottom, &Latex));
+            if single { format!("{top}/{bottom}") } else { format!("{top}/({bottom})") }
+        }
+        tree => flat(tree, &Latex),
+    };
+    let simple = matches!(tree, Tree::Symbol(_)) && minus.is_empty();
+    let text = flat(&tree, &Text);
+    Name {
+        text: format!("{minus}{text}"),
+        latex: format!("{minus}{latex}"),
+        compound: !simple,
+        leads: !minus.is_empty() || text.starts_with(|first: char| first.is_ascii_digit()),
+    }
+}
+
+/// A product in its own order and without its sign, as one quotient.
+fn product_tree(product: &SourceProduct) -> Tree {
+    let side = |number: &Integer, sign: i32| {
+        let number = (!number.is_one()).then(|| Tree::Number(Rational::from(number.clone())));
+        let powers = product.powers().iter().filter(|(_, power)| power.signum() == sign);
+        let powers =
+            powers.map(|(x, power)| Tree::power(Tree::Symbol(x.clone()), power.unsigned_abs()));
+        number.into_iter().chain(powers).collect::<Vec<Tree>>()
+    };
+    let coefficient = product.coefficient().abs();
+    let top = Tree::product(side(coefficient.numer(), 1));
+    match side(coefficient.denom(), -1) {
+        bottom if bottom.is_empty() => top,
+        bottom => Tree::Quotient(Box::new(top), Box::new(Tree::product(bottom))),
+    }
 }

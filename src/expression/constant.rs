@@ -101,7 +101,7 @@ pub enum Definition {
     },
     /// The real or imaginary part of a complex zero of a polynomial, coefficients from the highest
     /// power down: the zero that the method of Newton finds from a starting point.
-    Part {
+    ComplexZero {
         /// The coefficients.
         polynomial: Vec<Fraction>,
         /// The starting point, as real and imaginary part.

@@ -98,7 +98,7 @@ impl Naming {
         let guesses = approximate_roots(&coefficients)?;
         let (re, im) = guesses.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let near = (Rational::from_float(re)?, Rational::from_float(im)?);
-        let part = |imaginary| Definition::Part {
+        let part = |imaginary| Definition::ComplexZero {
             polynomial: polynomial.to_vec(),
             near: near.clone(),
             imaginary,
