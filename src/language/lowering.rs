@@ -13,8 +13,8 @@ use super::syntax::{self, Span, Spanned, StatementKind};
 use super::written;
 use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::{
-    Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation, ObservedWave, Part,
-    Recurrence, SourceNotation, Statement,
+    Clause, Continuity, Fault, InvalidRecurrence, LinearForm, Observable, Observation,
+    ObservedWave, Recurrence, SourceNotation, Statement,
 };
 
 type Outcome<T> = Result<T, Diagnostic>;
@@ -295,11 +295,11 @@ impl<'a> Lowering<'a> {
 
     /// What the recurrence refused, at its place in the text.
     fn refusal(&self, invalid: &InvalidRecurrence, spans: &Spans) -> Diagnostic {
-        let span = match invalid.part {
-            Part::Period => spans.period,
-            Part::Equation(i) => spans.equations[i],
-            Part::Continuity(i) => spans.continuity[i],
-            Part::Wave(i) => spans.waves[i],
+        let span = match invalid.clause {
+            Clause::Period => spans.period,
+            Clause::Equation(i) => spans.equations[i],
+            Clause::Continuity(i) => spans.continuity[i],
+            Clause::Wave(i) => spans.waves[i],
         };
         let (label, remedy) = match &invalid.fault {
             Fault::PeriodNotPositive => (

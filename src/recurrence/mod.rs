@@ -7,6 +7,7 @@
 
 mod coupled;
 mod form;
+mod guess;
 mod naming;
 mod notation;
 mod ordering;
@@ -20,7 +21,7 @@ pub use notation::{SourceNotation, SourceProduct};
 pub use ordering::{Coupled, Start, Step};
 pub use recurrence::Recurrence;
 pub use statement::{
-    Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Part, Statement,
+    Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Statement,
 };
 
 /// The place of a wave among the waves of a recurrence.

@@ -2,7 +2,7 @@
 
 use crate::enclosure::Numbers;
 use crate::expression::{Assumptions, Condition, Constant, Definition, Fraction, Relation, Root};
-use crate::recurrence::roots::approximate_roots;
+use crate::recurrence::guess::approximate_roots;
 use crate::recurrence::statement::Statement;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};

@@ -9,7 +9,7 @@ use crate::recurrence::WaveIndex;
 use crate::recurrence::coupled::{Stuck, Uncoupled, uncouple};
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::naming::Naming;
-use crate::recurrence::statement::{Continuity, Fault, InvalidRecurrence, Part, Statement};
+use crate::recurrence::statement::{Clause, Continuity, Fault, InvalidRecurrence, Statement};
 use std::collections::BTreeSet;
 
 /// The equation of one wave on the n-th period.
@@ -39,20 +39,20 @@ pub struct Start {
 
 type Outcome<T> = Result<T, InvalidRecurrence>;
 
-fn refuse<T>(part: Part, fault: Fault) -> Outcome<T> {
-    Err(InvalidRecurrence { part, fault })
+fn refuse<T>(clause: Clause, fault: Fault) -> Outcome<T> {
+    Err(InvalidRecurrence { clause, fault })
 }
 
-fn invert(assumptions: &Assumptions, value: &Expression, part: Part) -> Outcome<Expression> {
+fn invert(assumptions: &Assumptions, value: &Expression, clause: Clause) -> Outcome<Expression> {
     assumptions
         .invert(value)
-        .map_err(|reason| InvalidRecurrence { part, fault: Fault::NotInvertible(reason) })
+        .map_err(|reason| InvalidRecurrence { clause, fault: Fault::NotInvertible(reason) })
 }
 
-/// One row of the elimination: a form, and the part of the statement it stands for.
+/// One row of the elimination: a form, and the clause of the statement it stands for.
 struct Row {
     form: LinearForm,
-    part: Part,
+    clause: Clause,
 }
 
 /// A statement in solving order.
@@ -80,24 +80,26 @@ pub(crate) fn order(statement: &Statement) -> Outcome<Ordered> {
     let count = Fault::Count { equations: statement.equations.len(), waves: statement.waves.len() };
     match statement.equations.len().cmp(&statement.waves.len()) {
         std::cmp::Ordering::Less => {
-            return refuse(Part::Wave(statement.waves.len().saturating_sub(1)), count);
+            return refuse(Clause::Wave(statement.waves.len().saturating_sub(1)), count);
         }
-        std::cmp::Ordering::Greater => return refuse(Part::Equation(statement.waves.len()), count),
+        std::cmp::Ordering::Greater => {
+            return refuse(Clause::Equation(statement.waves.len()), count);
+        }
         std::cmp::Ordering::Equal => {}
     }
     let equations = statement.equations.iter().enumerate();
     let mut rows = equations
-        .map(|(i, form)| Row { form: form.without_sums(), part: Part::Equation(i) })
+        .map(|(i, form)| Row { form: form.without_sums(), clause: Clause::Equation(i) })
         .collect();
     let rules = statement.continuity.iter().enumerate();
     let mut rules: Vec<(Row, Expression)> = rules
         .map(|(i, rule)| {
-            let row = Row { form: rule.form.clone(), part: Part::Continuity(i) };
+            let row = Row { form: rule.form.clone(), clause: Clause::Continuity(i) };
             let bare = rule.form.operators().all(|(_, o)| o.slope.is_empty() && o.sum.is_empty());
             if bare {
                 Ok((row, rule.start.clone()))
             } else {
-                refuse(row.part, Fault::ContinuityOfSlope)
+                refuse(row.clause, Fault::ContinuityOfSlope)
             }
         })
         .collect::<Outcome<_>>()?;
@@ -126,7 +128,7 @@ fn order_equations(
         };
         let open: Vec<Vec<WaveIndex>> = rows.iter().map(unknowns).collect();
         if let Some(i) = open.iter().position(Vec::is_empty) {
-            return refuse(rows[i].part, Fault::DeterminesNothing);
+            return refuse(rows[i].clause, Fault::DeterminesNothing);
         }
         if let Some(i) = open.iter().position(|waves| waves.len() == 1) {
             let wave = open[i][0];
@@ -134,8 +136,11 @@ fn order_equations(
             let operator = row.form.operator(wave);
             let slope = operator.slope_now();
             let leading = if slope.is_zero() { operator.value_now() } else { slope };
-            let inverse = invert(&statement.assumptions, &leading, row.part)?;
-            steps.push((Step { wave, equation: row.form.scaled(&inverse), start: None }, row.part));
+            let inverse = invert(&statement.assumptions, &leading, row.clause)?;
+            steps.push((
+                Step { wave, equation: row.form.scaled(&inverse), start: None },
+                row.clause,
+            ));
             unknown.remove(&wave);
             continue;
         }
@@ -154,13 +159,13 @@ fn order_equations(
             coupled.push(found.coupled);
             for (wave, equation) in found.steps {
                 unknown.remove(&wave);
-                steps.push((Step { wave, equation, start: None }, found.part));
+                steps.push((Step { wave, equation, start: None }, found.clause));
             }
             continue;
         };
         eliminated.insert(part_key(&rows[pivot]));
         let leading = rows[pivot].form.operator(wave).value_now();
-        let inverse = invert(&statement.assumptions, &leading, rows[pivot].part)?;
+        let inverse = invert(&statement.assumptions, &leading, rows[pivot].clause)?;
         let solved = rows[pivot].form.scaled(&-&inverse);
         let derived = solved.derivative(&statement.time);
         for (i, row) in rows.iter_mut().enumerate() {
@@ -171,7 +176,7 @@ fn order_equations(
             }
         }
     }
-    let steps = steps.into_iter().map(|(step, part)| with_rate(step, part));
+    let steps = steps.into_iter().map(|(step, clause)| with_rate(step, clause));
     Ok((steps.collect::<Outcome<_>>()?, hidden))
 }
 
@@ -179,7 +184,7 @@ fn order_equations(
 struct Found {
     steps: Vec<(WaveIndex, LinearForm)>,
     hidden: usize,
-    part: Part,
+    clause: Clause,
     coupled: Coupled,
 }
 
@@ -196,9 +201,9 @@ fn uncouple_some(
     };
     let candidates: Vec<usize> = (0..rows.len()).filter(|i| rows[*i].form.has_slopes()).collect();
     let Some((chosen, waves)) = closed_set(&candidates, open) else {
-        return refuse(rows[0].part, coupled(&open[0].iter().copied().collect()));
+        return refuse(rows[0].clause, coupled(&open[0].iter().copied().collect()));
     };
-    let part = rows[chosen[0]].part;
+    let clause = rows[chosen[0]].clause;
     let forms = chosen.iter().map(|i| rows[*i].form.clone()).collect();
     let unknowns = waves.iter().copied().collect();
     let uncoupled = uncouple(forms, unknowns, hidden, naming);
@@ -208,13 +213,13 @@ fn uncouple_some(
             Stuck::Degenerate => coupled(&waves),
             Stuck::Roots(polynomial) => Fault::Rates { waves: names(), polynomial },
         };
-        InvalidRecurrence { part, fault }
+        InvalidRecurrence { clause, fault }
     })?;
     for i in chosen.into_iter().rev() {
         rows.remove(i);
     }
     let coupled = Coupled { waves: waves.into_iter().collect(), rates };
-    Ok(Found { steps, hidden, part, coupled })
+    Ok(Found { steps, hidden, clause, coupled })
 }
 
 /// The smallest set of rows with as many unknowns as rows, ascending, and these unknowns. Starting
@@ -242,17 +247,17 @@ fn closed_set(
 }
 
 fn part_key(row: &Row) -> usize {
-    match row.part {
-        Part::Equation(i) => i,
+    match row.clause {
+        Clause::Equation(i) => i,
         _ => unreachable!("rows of the elimination are equations"),
     }
 }
 
 /// Gives a differential step its rate; its start is still to be found.
-fn with_rate(mut step: Step, part: Part) -> Outcome<Step> {
+fn with_rate(mut step: Step, clause: Clause) -> Outcome<Step> {
     if !step.equation.operator(step.wave).slope_now().is_zero() {
         let rate = step.equation.rate_now(step.wave);
-        let rate = rate.ok_or(InvalidRecurrence { part, fault: Fault::RateHoldsExponential })?;
+        let rate = rate.ok_or(InvalidRecurrence { clause, fault: Fault::RateHoldsExponential })?;
         let (continuous, initial) = (LinearForm::zero(), Expression::zero());
         step.start = Some(Start { rate, continuous, initial });
     }
@@ -305,11 +310,11 @@ fn assign_starts(
         let chosen = rules.iter().position(usable).or_else(|| rules.iter().position(holds));
         let Some(i) = chosen else {
             let wave = without_start(statement, step.wave);
-            return refuse(Part::Wave(wave), Fault::NoStart(statement.waves[wave].clone()));
+            return refuse(Clause::Wave(wave), Fault::NoStart(statement.waves[wave].clone()));
         };
         let (row, initial) = rules.remove(i);
         let leading = row.form.operator(step.wave).value_now();
-        let inverse = invert(&statement.assumptions, &leading, row.part)?;
+        let inverse = invert(&statement.assumptions, &leading, row.clause)?;
         let (form, initial) = (row.form.scaled(&inverse), &initial * &inverse);
         let others = rules.iter_mut().map(|(row, start)| (&mut row.form, start));
         let before = found.iter_mut().map(|(_, form, start, _)| (form, start));
@@ -318,26 +323,27 @@ fn assign_starts(
             other.add_scaled(&form, &factor, 0);
             *start += &(&initial * &factor);
         }
-        found.push((place, form, initial, row.part));
+        found.push((place, form, initial, row.clause));
     }
     // What follows from the other rules, and is not stated twice, may stand.
-    let stated_once = |part: Part| match part {
-        Part::Continuity(i) => {
+    let stated_once = |clause: Clause| match clause {
+        Clause::Continuity(i) => {
             let same = |rule: &&Continuity| rule.form == statement.continuity[i].form;
             statement.continuity.iter().filter(same).count() == 1
         }
         _ => false,
     };
-    rules.retain(|(row, start)| !(row.form.is_zero() && start.is_zero() && stated_once(row.part)));
+    rules
+        .retain(|(row, start)| !(row.form.is_zero() && start.is_zero() && stated_once(row.clause)));
     if let Some((row, _)) = rules.first() {
-        return refuse(row.part, Fault::StartsNothing);
+        return refuse(row.clause, Fault::StartsNothing);
     }
-    for (place, form, initial, part) in found {
+    for (place, form, initial, clause) in found {
         let known: Vec<WaveIndex> = steps[..=place].iter().map(|step| step.wave).collect();
         if let Some(wave) = form.waves_now().find(|wave| !known.contains(wave)) {
             let stated = [steps[place].wave, wave].into_iter();
             let names = stated.filter_map(|wave| statement.waves.get(wave).cloned());
-            return refuse(part, Fault::Coupled(names.collect()));
+            return refuse(clause, Fault::Coupled(names.collect()));
         }
         if let Some(start) = &mut steps[place].start {
             start.continuous = form;

@@ -5,7 +5,7 @@ use crate::recurrence::WaveIndex;
 use crate::recurrence::form::LinearForm;
 use crate::recurrence::ordering::{self, Coupled, Ordered, Step};
 use crate::recurrence::statement::{
-    Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Part, Statement,
+    Clause, Continuity, Fault, InvalidRecurrence, Observable, Observation, ObservedWave, Statement,
 };
 use wavestep_polynomial::{Polynomial, Symbol};
 
@@ -28,21 +28,21 @@ impl Recurrence {
     /// Checks a statement and puts its equations in solving order.
     ///
     /// # Errors
-    /// [`InvalidRecurrence`] with the part at fault.
+    /// [`InvalidRecurrence`] with the clause at fault.
     ///
     /// # Cost
     /// At most one row operation for each pair of equations.
     pub fn new(mut statement: Statement) -> Result<Recurrence, InvalidRecurrence> {
         if !statement.assumptions.is_positive(&statement.period) {
             let fault = Fault::PeriodNotPositive;
-            return Err(InvalidRecurrence { part: Part::Period, fault });
+            return Err(InvalidRecurrence { clause: Clause::Period, fault });
         }
         check_forms(&statement)?;
         // Elimination multiplies at most one coefficient from each equation.
         let degrees = statement.equations.iter().map(coefficient_degree);
         if degrees.sum::<u64>() > u64::from(Polynomial::MAX_EXPONENT) {
             let fault = Fault::DegreeTooHigh;
-            return Err(InvalidRecurrence { part: Part::Equation(0), fault });
+            return Err(InvalidRecurrence { clause: Clause::Equation(0), fault });
         }
         let Ordered { steps, hidden, naming, coupled } = ordering::order(&statement)?;
         (statement.constants, statement.assumptions) = naming.into_parts();
@@ -161,13 +161,13 @@ fn check_forms(statement: &Statement) -> Result<(), InvalidRecurrence> {
         });
         operators && forcing
     };
-    let refuse = |part| Err(InvalidRecurrence { part, fault: Fault::IllFormed });
+    let refuse = |clause| Err(InvalidRecurrence { clause, fault: Fault::IllFormed });
     if let Some(i) = equations.iter().position(|form| !well_formed(form)) {
-        return refuse(Part::Equation(i));
+        return refuse(Clause::Equation(i));
     }
     let bad = |rule: &Continuity| !well_formed(&rule.form) || !timeless(&rule.start);
     match continuity.iter().position(bad) {
-        Some(i) => refuse(Part::Continuity(i)),
+        Some(i) => refuse(Clause::Continuity(i)),
         None => Ok(()),
     }
 }

@@ -78,9 +78,9 @@ pub struct Statement {
     pub notation: SourceNotation,
 }
 
-/// A part of a statement, by its place in the list of its kind.
+/// A clause of a statement, by its place in the list of its kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Part {
+pub enum Clause {
     /// The period.
     Period,
     /// An equation.
@@ -152,12 +152,12 @@ fn counted(equations: usize, waves: usize) -> String {
     format!("{equations} equation{} for {waves} wave{}", s(equations), s(waves))
 }
 
-/// A statement that was refused: the part at fault, and why.
+/// A statement that was refused: the clause at fault, and why.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{fault}")]
 pub struct InvalidRecurrence {
-    /// The part at fault.
-    pub part: Part,
+    /// The clause at fault.
+    pub clause: Clause,
     /// What is wrong with it.
     pub fault: Fault,
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use wavestep::export::{self, TEXT_WIDTH};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_expression, read_recurrence};
-use wavestep::recurrence::{Fault, LinearForm, Part, Recurrence, WaveIndex};
+use wavestep::recurrence::{Clause, Fault, LinearForm, Recurrence, WaveIndex};
 use wavestep::scenes;
 use wavestep::solution::{
     EchoByEcho, EchoTable, EchoTemplate, GeneralForm, Geometric, PeriodByPeriod, Proof, Solution,
@@ -440,7 +440,7 @@ fn ill_formed_statements_are_refused() {
         let mut statement = good.clone();
         statement.equations[1].add_scaled(&form, &Expression::one(), 0);
         let invalid = Recurrence::new(statement).unwrap_err();
-        assert_eq!((invalid.part, invalid.fault), (Part::Equation(1), Fault::IllFormed));
+        assert_eq!((invalid.clause, invalid.fault), (Clause::Equation(1), Fault::IllFormed));
     };
     refused(LinearForm::wave(7, 1));
     refused(LinearForm::wave(0, 1).scaled(&expression("t")));
@@ -450,7 +450,7 @@ fn ill_formed_statements_are_refused() {
     assert!(Recurrence::new(good.clone()).is_ok());
     let mut statement = good.clone();
     statement.continuity[0].start = expression("t");
-    assert_eq!(Recurrence::new(statement).unwrap_err().part, Part::Continuity(0));
+    assert_eq!(Recurrence::new(statement).unwrap_err().clause, Clause::Continuity(0));
 }
 
 // ---- Observables -------------------------------------------------------------------------------
