@@ -1,25 +1,25 @@
 //! The waves in a bar as strips between characteristics, for diagrams of place and time.
 //!
-//! A wave to the right is constant along `t − x/c`. Cut into strips along its fronts, and further
-//! where it is smooth, a field is constant, or nearly so, where two strips cross: what is constant
-//! between fronts is drawn exactly, and nothing is smeared across them.
+//! A wave to the right is constant along `t − x/c`. It is cut into strips along its fronts, and into
+//! more where it varies; where two strips cross, a field is constant or nearly so. What is constant
+//! between fronts is thus drawn exactly, and nothing is smeared across them.
 
 use super::entering::{Entering, Heading, Instant, Order};
 use super::{FieldError, FieldEvaluator};
-use crate::ball::{Attempt, Magnitude, Precisions};
+use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar};
 use wavestep_polynomial::Rational;
 
-/// A part of a wave between two times at the end of the bar at which it enters.
+/// A stretch of a wave, by the times at which it enters the bar.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Strip {
-    /// When it enters.
+    /// When its beginning enters.
     pub from: f64,
     /// When its end does.
     pub to: f64,
-    /// What it adds to the velocity, in its middle.
+    /// What it adds to the velocity, at its middle.
     pub value: f64,
 }
 
@@ -41,13 +41,13 @@ pub struct Front {
 /// - strips follow one another without gaps.
 #[derive(Clone, PartialEq, Debug)]
 pub struct BarWaves {
-    /// What the bar is called.
+    /// The name of the bar.
     pub name: String,
-    /// Its length; for an endless bar, what is looked at of it.
+    /// Its length; of an endless bar, the length that is drawn.
     pub length: f64,
     /// The time that a wave takes for a unit of length.
     pub slowness: f64,
-    /// Whether it goes on.
+    /// Whether it is endless.
     pub is_endless: bool,
     /// Its velocity at the start.
     pub velocity: f64,
@@ -70,17 +70,17 @@ pub struct BarWaves {
 /// The precision of what is drawn.
 const BITS: u64 = 192;
 
-/// The precision at which a value is given up, and the absolute accuracy in bits of those that are drawn.
+/// The highest precision, and the absolute accuracy of what is drawn, in bits.
 const MAX_BITS: u64 = 1 << 14;
 const FINE_BITS: i64 = 48;
 
-/// What is smaller than this part of the largest value is no front.
+/// Jumps below this part of the largest value are no fronts.
 const VISIBLE: f64 = 1e-9;
 
 impl FieldEvaluator {
     /// The waves of all bars on a window of time, in strips: at least `strips` of them for the window
-    /// where a wave is not constant. Endless bars are looked at as far as all others reach together,
-    /// or as waves have come.
+    /// where a wave is not constant. Of an endless bar as much is drawn as the others are long together,
+    /// or as waves have reached.
     ///
     /// # Errors
     /// [`FieldError::Evaluate`], also for an empty window.
@@ -95,7 +95,7 @@ impl FieldEvaluator {
         let mut found = Vec::with_capacity(self.bars.len());
         for (place, bar) in self.bars.iter().enumerate() {
             let endless = bar.extent != Extent::Finite;
-            let (span, length) = self.span_looked_at(bar, to)?;
+            let (span, length) = self.drawn_span(bar, to)?;
             let second = self.network().scaled_time(&Rational::from_integer(1.into()));
             let slowness = self.double_of(&span)? / self.double_of(&second)? / length;
             let unit = |place: usize| self.double(&bar.units[place]);
@@ -126,9 +126,9 @@ impl FieldEvaluator {
         Ok(found)
     }
 
-    /// How far a bar is looked at in pictures, as a delay and as a length: all of it; of an endless
-    /// bar, as far as all others reach together, or as waves have come.
-    pub(super) fn span_looked_at(
+    /// The part of a bar that is drawn, as a delay and as a length: all of it; of an endless bar as much
+    /// as the others are long together, or as waves have reached.
+    pub(super) fn drawn_span(
         &self,
         bar: &FieldBar,
         to: &Rational,
@@ -150,7 +150,7 @@ impl FieldEvaluator {
         })
     }
 
-    /// The length of all bars that are not endless together; none where there are none.
+    /// The total length of the bars that are not endless; `None` if all are.
     fn reach_of_endless(&self, to: &Rational) -> Result<Option<f64>, FieldError> {
         let mut sum = 0.0;
         for bar in self.bars.iter().filter(|bar| bar.extent == Extent::Finite) {
@@ -176,83 +176,104 @@ impl FieldEvaluator {
         strips: usize,
     ) -> Result<(Vec<Strip>, Vec<Front>), FieldError> {
         let scaled = |time: &Rational| self.network().scaled_time(time);
-        let second = scaled(&Rational::from_integer(1.into()));
-        let inverse = self.numbers.enclose(&second, BITS)?;
-        let inverse = inverse.reciprocal(BITS).map_err(EvaluateError::Ball)?;
-        let seconds = |time: &Fraction| -> Result<f64, FieldError> {
-            let ball = self.numbers.enclose(time, BITS)?;
-            Ok(ball.multiply(&inverse, BITS).to_double().0)
-        };
+        let second = self.numbers.enclose(&scaled(&Rational::from_integer(1.into())), BITS)?;
+        let per_second = second.reciprocal(BITS).map_err(EvaluateError::Ball)?;
+        let drawn = DrawnWave { fields: self, wave, per_second };
         let (first, last) = (&scaled(from) - span, scaled(to));
-        let value = |at: &Fraction, order, side| -> Result<f64, FieldError> {
-            // Late waves are small differences of large terms: the precision grows until nothing that is
-            // seen is left open. Velocities are of the size of 1 in the scale of the scene.
-            let fine = Magnitude::power_of_two(-FINE_BITS);
-            let attempt = |bits| {
-                let instant = Instant { at, side, is_drawn: true };
-                let ball = self.waves.enclose(wave, order, instant, bits)?;
-                if *ball.radius() > fine {
-                    let best = Box::new(ball);
-                    let error = EvaluateError::AccuracyNotReached { best, bits };
-                    return Ok(Attempt::NotYet(error.into()));
-                }
-                let value = if ball.contains_zero() { 0.0 } else { ball.to_double().0 };
-                Ok(Attempt::Done(value))
-            };
-            Precisions::doubling(BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
-        };
         let mut ends = vec![first.clone()];
         let breaks = self.waves.breaks(wave, &first..=&last)?;
         ends.extend(breaks.into_iter().filter(|at| *at != first));
         ends.push(last.clone());
         ends.dedup();
-        let window = seconds(&last)? - seconds(&first)?;
+        let density = strips as f64 / (drawn.seconds(&last)? - drawn.seconds(&first)?);
         let mut found: Vec<Strip> = Vec::new();
         for pair in ends.windows(2) {
-            let (start, end) = (seconds(&pair[0])?, seconds(&pair[1])?);
-            let length = &pair[1] - &pair[0];
-            let at = |share: &Rational| &pair[0] + &length.scale(share);
-            let [low, middle, high] = [(0, 1), (1, 2), (1, 1)].map(|(a, b): (i32, i32)| {
-                let side = if a == b { Limit::Left } else { Limit::Right };
-                value(&at(&Rational::new(a.into(), b.into())), Order::Value, side)
-            });
-            let (low, middle, high) = (low?, middle?, high?);
-            let size = low.abs().max(middle.abs()).max(high.abs());
-            let flat = (low - middle).abs().max((high - middle).abs()) <= VISIBLE * size;
-            let parts = match flat {
-                true => 1,
-                false => ((end - start) / window * strips as f64).ceil().max(1.0) as usize,
-            };
-            for part in 0..parts {
-                let share = |twice: usize| Rational::new(twice.into(), (2 * parts).into());
-                let place = |i: usize| start + (end - start) * i as f64 / parts as f64;
-                let value = match flat {
-                    true => middle,
-                    false => value(&at(&share(2 * part + 1)), Order::Value, Limit::Right)?,
-                };
-                let joined = found.last_mut().filter(|last| last.value == value && flat);
-                match joined {
-                    Some(last) => last.to = end,
-                    None => {
-                        found.push(Strip { from: place(part), to: place(part + 1), value });
-                    }
-                }
-            }
+            drawn.add_strips([&pair[0], &pair[1]], density, &mut found)?;
         }
         let scale = found.iter().map(|strip| strip.value.abs()).fold(0.0, f64::max);
         let mut fronts = Vec::new();
         for at in &ends[..ends.len() - 1] {
-            let jump = |order| -> Result<f64, FieldError> {
-                let (after, before) =
-                    (value(at, order, Limit::Right)?, value(at, order, Limit::Left)?);
-                Ok((after - before).abs())
-            };
-            if jump(Order::Value)? > VISIBLE * scale {
-                fronts.push(Front { at: seconds(at)?, jumps: true });
-            } else if jump(Order::Slope)? > VISIBLE * scale {
-                fronts.push(Front { at: seconds(at)?, jumps: false });
-            }
+            fronts.extend(drawn.front(at, scale)?);
         }
         Ok((found, fronts))
+    }
+}
+
+/// A wave to be drawn.
+struct DrawnWave<'a> {
+    fields: &'a FieldEvaluator,
+    wave: Entering,
+    /// Converts times in the scale of the scene to seconds.
+    per_second: Ball,
+}
+
+impl DrawnWave<'_> {
+    fn seconds(&self, time: &Fraction) -> Result<f64, FieldError> {
+        let ball = self.fields.numbers.enclose(time, BITS)?;
+        Ok(ball.multiply(&self.per_second, BITS).to_double().0)
+    }
+
+    /// Late waves are small differences of large terms, so the precision grows until everything that can
+    /// be seen is decided. Velocities are of the order of 1 in the scale of the scene.
+    fn value(&self, at: &Fraction, order: Order, side: Limit) -> Result<f64, FieldError> {
+        let fine = Magnitude::power_of_two(-FINE_BITS);
+        let attempt = |bits| {
+            let instant = Instant { at, side, is_drawn: true };
+            let ball = self.fields.waves.enclose(self.wave, order, instant, bits)?;
+            if *ball.radius() > fine {
+                let best = Box::new(ball);
+                let error = EvaluateError::AccuracyNotReached { best, bits };
+                return Ok(Attempt::NotYet(error.into()));
+            }
+            let value = if ball.contains_zero() { 0.0 } else { ball.to_double().0 };
+            Ok(Attempt::Done(value))
+        };
+        Precisions::doubling(BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
+    }
+
+    /// Adds the strips between two breaks: one where the wave is constant, joined with the one before if
+    /// that has the same value; else so many per second.
+    fn add_strips(
+        &self,
+        [from, to]: [&Fraction; 2],
+        density: f64,
+        found: &mut Vec<Strip>,
+    ) -> Result<(), FieldError> {
+        let (start, end) = (self.seconds(from)?, self.seconds(to)?);
+        let length = to - from;
+        let at = |numerator: usize, denominator: usize| {
+            from + &length.scale(&Rational::new(numerator.into(), denominator.into()))
+        };
+        let low = self.value(from, Order::Value, Limit::Right)?;
+        let middle = self.value(&at(1, 2), Order::Value, Limit::Right)?;
+        let high = self.value(to, Order::Value, Limit::Left)?;
+        let size = low.abs().max(middle.abs()).max(high.abs());
+        if (low - middle).abs().max((high - middle).abs()) <= VISIBLE * size {
+            match found.last_mut().filter(|last| last.value == middle) {
+                Some(last) => last.to = end,
+                None => found.push(Strip { from: start, to: end, value: middle }),
+            }
+            return Ok(());
+        }
+        let count = ((end - start) * density).ceil().max(1.0) as usize;
+        let place = |i: usize| start + (end - start) * i as f64 / count as f64;
+        for i in 0..count {
+            let value = self.value(&at(2 * i + 1, 2 * count), Order::Value, Limit::Right)?;
+            found.push(Strip { from: place(i), to: place(i + 1), value });
+        }
+        Ok(())
+    }
+
+    /// The front at a break, if the wave or its slope jumps there visibly.
+    fn front(&self, at: &Fraction, scale: f64) -> Result<Option<Front>, FieldError> {
+        for order in [Order::Value, Order::Slope] {
+            let after = self.value(at, order, Limit::Right)?;
+            let before = self.value(at, order, Limit::Left)?;
+            if (after - before).abs() > VISIBLE * scale {
+                let jumps = matches!(order, Order::Value);
+                return Ok(Some(Front { at: self.seconds(at)?, jumps }));
+            }
+        }
+        Ok(None)
     }
 }

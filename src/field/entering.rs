@@ -1,8 +1,8 @@
 //! What fields are made of: the two waves of every bar, as they enter it at its ends.
 //!
 //! A wave to the right enters a bar at its left end and passes every section unchanged; one to the left
-//! enters at the right end. Who knows them can tell all fields. Scenes whose contacts stay closed answer
-//! with their echoes; scenes whose contacts open answer elsewhere.
+//! enters at the right end. All fields follow from them. For contacts that stay closed they are sums of
+//! echoes; `history` has those of contacts that open.
 
 use super::FieldError;
 use crate::ball::Ball;
@@ -21,14 +21,14 @@ pub(crate) struct Entering {
     pub heading: Heading,
 }
 
-/// Where a wave goes.
+/// The direction of a wave.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Heading {
     Right,
     Left,
 }
 
-/// What is asked of a wave `f`.
+/// A derivative or integral of a wave `f`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Order {
     /// `f'`
@@ -46,22 +46,21 @@ pub(crate) enum Order {
 pub(crate) struct Instant<'a> {
     pub at: &'a Fraction,
     pub side: Limit,
-    /// Whether an instant beside a break means the break: pictures look from both sides at breaks of
-    /// which only an enclosure is known. Then the function on that side of the break is continued to
-    /// the instant.
+    /// Whether an instant beside a break means the break, as in pictures, which look from both sides at
+    /// breaks of which only an enclosure is known. The function on that side of the break is then
+    /// continued to the instant.
     pub is_drawn: bool,
 }
 
-/// The waves that enter the bars of a scene, in its scale, up to a last time.
-///
-/// A wave is what is added to the state at the start: it is zero before the start, and
+/// The waves that enter the bars of a scene, in its scale, up to a last time: what is added to the state
+/// at the start, zero before it,
 ///
 /// ```text
 /// v = V + f + g        X = X_0 + Z (f − g)
 /// ```
 ///
 /// # Invariants
-/// - Enclosures hold for every precision in bits; with more bits they are narrower, until a limit.
+/// - Enclosures hold for every precision; with more bits they are narrower, up to a limit.
 /// - Between two of its breaks a wave has no jump, and its slope has none.
 pub(crate) trait EnteringWaves {
     /// An enclosure of a wave, its slope or its integral.

@@ -30,7 +30,7 @@ const MAX_BITS: u64 = 1 << 14;
 /// Radii so far below the largest value need no more bits: a double has 53.
 const SPARE_BITS: i64 = 75;
 
-/// What is so small in the scale of the scene is no reason for more bits.
+/// Radii below this size in the scale of the scene need no more bits either.
 const NEGLIGIBLE_BITS: i64 = 400;
 
 /// The fields of a scene in numbers, up to a last time.
@@ -40,12 +40,12 @@ pub struct FieldEvaluator {
     pub(super) waves: Box<dyn EnteringWaves>,
     pub(super) numbers: Numbers,
     last: Rational,
-    /// How far pictures look along endless bars.
+    /// The length of endless bars in pictures.
     pub(super) reach: Option<Rational>,
 }
 
-/// The delays of a node, in the scale of the scene, with where it is.
-pub(super) struct Node {
+/// The delays of a point of a mesh, in the scale of the scene, and the side it is seen from.
+pub(super) struct MeshPoint {
     /// The delay of the wave to the right and of that to the left.
     pub delays: [Fraction; 2],
     /// Whether limits are taken from larger `x`.
@@ -57,6 +57,16 @@ pub(super) struct Node {
 /// The enclosures of the fields at a place, in the scale of the scene, and the size of what they are
 /// made of.
 pub(super) type Enclosed = ([Ball; 3], Magnitude);
+
+/// The delays of the waves to the right and to the left at a place of a bar, which is given by its own
+/// delay from the end where `x` is zero.
+pub(super) fn delays(bar: &FieldBar, span: &Fraction, place: Fraction) -> [Fraction; 2] {
+    match bar.extent {
+        Extent::Finite => [place.clone(), span - &place],
+        Extent::ToTheRight => [place, Fraction::zero()],
+        Extent::ToTheLeft => [Fraction::zero(), place],
+    }
+}
 
 impl FieldEvaluator {
     /// For times up to `last`. Contacts stay closed;
@@ -71,7 +81,7 @@ impl FieldEvaluator {
         })
     }
 
-    /// Of the waves that are made for a network and its bars, for times up to `last`.
+    /// From the waves that `waves` makes of a network and its bars, for times up to `last`.
     ///
     /// # Errors
     /// [`FieldError::Negative`]; [`FieldError::Evaluate`] where the bars have no fields; as the waves.
@@ -90,8 +100,8 @@ impl FieldEvaluator {
         Ok(FieldEvaluator { network, bars, waves, numbers, last: last.clone(), reach: None })
     }
 
-    /// The same, with endless bars looked at as far as a length in pictures: in
-    /// [`waves`](Self::waves) and [`profiles`](Self::profiles).
+    /// The same, with this length of endless bars in pictures: in [`waves`](Self::waves) and
+    /// [`profiles`](Self::profiles).
     ///
     /// # Errors
     /// [`FieldError::NegativeReach`] for a length that is not above zero.
@@ -175,29 +185,24 @@ impl FieldEvaluator {
             return Ok(BarFields { name, x: Vec::new(), values: Default::default() });
         }
         let share = |j: usize| Rational::new(j.into(), mesh.cells().into());
-        let nodes: Vec<Node> = (0..=mesh.cells())
+        let points: Vec<MeshPoint> = (0..=mesh.cells())
             .map(|j| {
-                let (from, rest) = (span.scale(&share(j)), span.scale(&share(mesh.cells() - j)));
-                let delays = match bar.extent {
-                    Extent::Finite => [from, rest],
-                    Extent::ToTheRight => [from, Fraction::zero()],
-                    Extent::ToTheLeft => [Fraction::zero(), from],
-                };
+                let delays = delays(bar, &span, span.scale(&share(j)));
                 let inside = mesh.limit() == Limit::Right && j < mesh.cells();
-                Node { delays, from_larger: inside || j == 0, is_drawn: false }
+                MeshPoint { delays, from_larger: inside || j == 0, is_drawn: false }
             })
             .collect();
         let length = self.numbers.enclose_root(&length, FIRST_BITS)?;
         let place = |j| length.multiply_rational(&share(j), FIRST_BITS).to_double().0;
         let x = (0..=mesh.cells()).map(place).collect();
         let (found, bits) = self.fine(|bits| match mesh.sampling() {
-            Sampling::Nodes => self.at_nodes(bar_place, &at, &nodes, bits),
-            Sampling::Averages => self.averages(bar_place, &at, &nodes, bits),
+            Sampling::Nodes => self.at_points(bar_place, &at, &points, bits),
+            Sampling::Averages => self.averages(bar_place, &at, &points, bits),
         })?;
         Ok(BarFields { name, x, values: self.in_units(bar, &found, bits)? })
     }
 
-    /// Enclosures that are fine, with the bits that they took; the best there are where none is.
+    /// Enclosures that are fine enough for doubles, or the best there are; with their precision.
     pub(super) fn fine(
         &self,
         enclose: impl Fn(u64) -> Result<Vec<Enclosed>, FieldError>,
@@ -210,7 +215,7 @@ impl FieldEvaluator {
         Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt).map(Attempt::best)
     }
 
-    /// How far a bar is looked at: as a delay in the scale of the scene, and as a length of the user's.
+    /// The length of a bar that has fields, as a delay in the scale of the scene and in the user's unit.
     pub(super) fn span(
         &self,
         bar: &FieldBar,
@@ -228,7 +233,7 @@ impl FieldEvaluator {
         };
         let reach = Root::from(Fraction::constant(reach));
         let delay = reach.over(&bar.reach).map_err(EvaluateError::Division)?;
-        // What is irrational is taken as near as it matters: the length is that of the delay.
+        // An irrational delay is rounded, and the length is that of the rounded delay.
         let delay = match delay.exact().filter(|delay| delay.as_constant().is_some()) {
             Some(delay) => delay,
             None => {
@@ -240,34 +245,34 @@ impl FieldEvaluator {
         Ok((delay, length))
     }
 
-    /// A wave at a node.
+    /// A wave at a point.
     fn wave(
         &self,
         wave: Entering,
         order: Order,
-        (at, node, side): (&Fraction, &Node, Limit),
+        (at, point, side): (&Fraction, &MeshPoint, Limit),
         bits: u64,
     ) -> Result<Ball, FieldError> {
-        let at = at - &node.delays[wave.heading as usize];
-        let instant = Instant { at: &at, side, is_drawn: node.is_drawn };
+        let at = at - &point.delays[wave.heading as usize];
+        let instant = Instant { at: &at, side, is_drawn: point.is_drawn };
         self.waves.enclose(wave, order, instant, bits)
     }
 
-    pub(super) fn at_nodes(
+    pub(super) fn at_points(
         &self,
         bar: usize,
         at: &Fraction,
-        nodes: &[Node],
+        points: &[MeshPoint],
         bits: u64,
     ) -> Result<Vec<Enclosed>, FieldError> {
         let state = State::new(self, &self.bars[bar], at, bits)?;
-        let mut found = Vec::with_capacity(nodes.len());
-        for node in nodes {
+        let mut found = Vec::with_capacity(points.len());
+        for point in points {
             let wave = |heading: Heading, order| {
                 // A delay that grows with x looks back in time as x grows.
                 let grows = heading == Heading::Right || self.bars[bar].extent == Extent::ToTheLeft;
-                let side = if grows == node.from_larger { Limit::Left } else { Limit::Right };
-                self.wave(Entering { bar, heading }, order, (at, node, side), bits)
+                let side = if grows == point.from_larger { Limit::Left } else { Limit::Right };
+                self.wave(Entering { bar, heading }, order, (at, point, side), bits)
             };
             let both = |order| -> Result<[Ball; 2], FieldError> {
                 Ok([wave(Heading::Right, order)?, wave(Heading::Left, order)?])
@@ -281,14 +286,14 @@ impl FieldEvaluator {
         &self,
         bar: usize,
         at: &Fraction,
-        nodes: &[Node],
+        points: &[MeshPoint],
         bits: u64,
     ) -> Result<Vec<Enclosed>, FieldError> {
         let state = State::new(self, &self.bars[bar], at, bits)?;
         let mut means: [[Vec<Ball>; 2]; 2] = Default::default();
         for heading in [Heading::Right, Heading::Left] {
             let which = heading as usize;
-            let width = &nodes[1].delays[which] - &nodes[0].delays[which];
+            let width = &points[1].delays[which] - &points[0].delays[which];
             let inverse = match width.is_zero() {
                 true => Ball::zero(),
                 false => {
@@ -297,18 +302,18 @@ impl FieldEvaluator {
                 }
             };
             for (place, order) in [Order::Integral, Order::DoubleIntegral].into_iter().enumerate() {
-                // Integrals are continuous: either side does.
-                let at = |node| {
-                    self.wave(Entering { bar, heading }, order, (at, node, Limit::Right), bits)
+                // Integrals are continuous, so the side does not matter.
+                let at = |point| {
+                    self.wave(Entering { bar, heading }, order, (at, point, Limit::Right), bits)
                 };
-                let integrals: Vec<Ball> = nodes.iter().map(at).collect::<Result<_, _>>()?;
+                let integrals: Vec<Ball> = points.iter().map(at).collect::<Result<_, _>>()?;
                 let mean =
                     |pair: &[Ball]| pair[0].subtract(&pair[1], bits).multiply(&inverse, bits);
                 means[which][place] = integrals.windows(2).map(mean).collect();
             }
         }
         let mean = |order: usize, i: usize| means.each_ref().map(|both| both[order][i].clone());
-        let cells = 0..nodes.len() - 1;
+        let cells = 0..points.len() - 1;
         Ok(cells.map(|i| state.fields(&mean(0, i), &mean(1, i), bits)).collect())
     }
 
@@ -337,7 +342,7 @@ impl FieldEvaluator {
     }
 }
 
-/// What a bar adds to its waves.
+/// The state of a bar at the start, to which its waves are added.
 struct State {
     velocity: Ball,
     force: Ball,
@@ -378,8 +383,7 @@ fn is_fine(found: &[Enclosed]) -> bool {
     found.iter().all(|(balls, _)| balls.iter().all(|ball| ball.radius() <= &enough))
 }
 
-/// The nearest double, or one beside it. What may be zero, and is nothing beside all other values, is
-/// given as zero.
+/// The nearest double, or one beside it; zero for a ball that contains it.
 fn bounded(ball: &Ball) -> Bounded {
     if ball.contains_zero() {
         return Bounded { value: 0.0, bound: ball.magnitude().to_double() };

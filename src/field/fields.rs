@@ -23,7 +23,7 @@ impl Quantity {
     pub const ALL: [Quantity; 4] =
         [Quantity::Velocity, Quantity::Strain, Quantity::Displacement, Quantity::Force];
 
-    /// What it is called.
+    /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Quantity::Velocity => "velocity",
@@ -59,7 +59,7 @@ pub struct Bounded {
 /// - each field has as many values as `x` has places, for averages one less.
 #[derive(Clone, PartialEq, Debug)]
 pub struct BarFields {
-    /// What the bar is called.
+    /// The name of the bar.
     pub name: String,
     /// The nodes, as the nearest doubles: distances from the left end, or from the end of an endless
     /// bar, in the unit of lengths; in that of times for bars given by impedance.
@@ -82,9 +82,9 @@ pub struct Fields {
     pub time: Rational,
     /// Whether values have SI units.
     pub dimensional: bool,
-    /// What is given.
+    /// Whether these are values or averages.
     pub sampling: Sampling,
-    /// From which side limits are.
+    /// The side from which limits are taken.
     pub side: Limit,
     /// The bars asked for, from left to right.
     pub bars: Vec<BarFields>,

@@ -1,4 +1,4 @@
-//! Where fields are asked for.
+//! The places at which fields are given.
 
 use super::FieldError;
 use crate::evaluate::Limit;
@@ -7,7 +7,7 @@ use wavestep_polynomial::Rational;
 /// The most cells of one bar.
 pub const MAX_CELLS: usize = 100_000;
 
-/// What is given of each field.
+/// Whether fields are given as values or as averages.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sampling {
     /// The values at the N + 1 nodes `x_j = jL/N`.
@@ -61,16 +61,16 @@ impl Mesh {
         Mesh { limit, ..self }
     }
 
-    /// The same for this bar, besides others that were named.
+    /// The same for this bar and others named in this way.
     #[must_use]
     pub fn only(mut self, bar: &str) -> Mesh {
         self.bars.push(bar.to_owned());
         self
     }
 
-    /// The same with endless bars up to this distance from their end, in the unit of lengths (in that
-    /// of times for bars given by impedance). Without it they reach as far as a wave has come that
-    /// left their end at the start.
+    /// The same with endless bars up to this distance from their end, in the unit of lengths (of times
+    /// for bars given by impedance). By default they reach as far as a wave that left their end at the
+    /// start.
     ///
     /// # Errors
     /// [`FieldError::NegativeReach`] where it is not above zero.
@@ -81,17 +81,17 @@ impl Mesh {
         }
     }
 
-    /// How many cells a bar has.
+    /// The number of cells of a bar.
     pub fn cells(&self) -> usize {
         self.cells
     }
 
-    /// What is given.
+    /// Whether values or averages are given.
     pub fn sampling(&self) -> Sampling {
         self.sampling
     }
 
-    /// Which limit is taken at jumps.
+    /// The limit that is taken at jumps.
     pub fn limit(&self) -> Limit {
         self.limit
     }

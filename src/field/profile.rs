@@ -1,7 +1,7 @@
 //! Fields along a bar as a person would draw them: exact at the fronts, from both sides.
 
 use super::entering::{Entering, Heading};
-use super::evaluator::Node;
+use super::evaluator::{MeshPoint, delays};
 use super::{FieldError, FieldEvaluator};
 use crate::evaluate::EvaluateError;
 use crate::expression::Fraction;
@@ -15,9 +15,9 @@ use wavestep_polynomial::Rational;
 /// - stretches ascend, each from one front to the next, or to an end of the bar.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Profile {
-    /// What the bar is called.
+    /// The name of the bar.
     pub name: String,
-    /// Its length; for an endless bar, what is looked at of it.
+    /// Its length; of an endless bar, the length that is drawn.
     pub length: f64,
     /// Places as distances from the left end, or from the end of an endless bar, ascending; with the
     /// fields there, by the places of [`Quantity::ALL`](super::Quantity::ALL).
@@ -25,8 +25,8 @@ pub struct Profile {
 }
 
 impl FieldEvaluator {
-    /// The fields along all bars, at about `points` places of each where they are not constant. Endless
-    /// bars are looked at as far as all others reach together, or as waves come until the last time.
+    /// The fields along all bars, at about `points` places of each. Of an endless bar as much is drawn as
+    /// the others are long together, or as waves have reached by the last time.
     ///
     /// # Errors
     /// [`FieldError`].
@@ -48,7 +48,7 @@ impl FieldEvaluator {
     ) -> Result<Profile, FieldError> {
         let bar = &self.bars[bar_place];
         let at = self.network().scaled_time(time);
-        let (span, length) = self.span_looked_at(bar, self.last())?;
+        let (span, length) = self.drawn_span(bar, self.last())?;
         let mut profile =
             Profile { name: self.name(bar).to_owned(), length, stretches: Vec::new() };
         if span.is_zero() {
@@ -80,18 +80,13 @@ impl FieldEvaluator {
             let share = self.double_of(&part)? / whole;
             let count = ((share * points as f64).ceil() as usize).max(2);
             let place = |i: usize| &pair[0] + &part.scale(&Rational::new(i.into(), count.into()));
-            let nodes: Vec<Node> = (0..=count)
+            let nodes: Vec<MeshPoint> = (0..=count)
                 .map(|i| {
-                    let from = place(i);
-                    let delays = match bar.extent {
-                        Extent::Finite => [from.clone(), &span - &from],
-                        Extent::ToTheRight => [from, Fraction::zero()],
-                        Extent::ToTheLeft => [Fraction::zero(), from],
-                    };
-                    Node { delays, from_larger: i < count, is_drawn: true }
+                    let delays = delays(bar, &span, place(i));
+                    MeshPoint { delays, from_larger: i < count, is_drawn: true }
                 })
                 .collect();
-            let (found, bits) = self.fine(|bits| self.at_nodes(bar_place, &at, &nodes, bits))?;
+            let (found, bits) = self.fine(|bits| self.at_points(bar_place, &at, &nodes, bits))?;
             let values = self.in_units(bar, &found, bits)?;
             let mut stretch = Vec::with_capacity(nodes.len());
             for i in 0..=count {
@@ -103,7 +98,7 @@ impl FieldEvaluator {
         Ok(profile)
     }
 
-    /// The delays after which something of a wave is seen to arrive, within a bar.
+    /// The delays of the fronts of a wave that are within a bar.
     fn fronts(
         &self,
         wave: Entering,
