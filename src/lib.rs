@@ -21,6 +21,7 @@
 struct Readme;
 
 mod error;
+pub mod limits;
 
 // These modules are for the member crates of this repository, and no part of the public surface.
 #[doc(hidden)]

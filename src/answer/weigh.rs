@@ -4,7 +4,8 @@ use crate::answer::cost::{Cost, Size};
 use crate::answer::problem::Problem;
 use crate::answer::way::Kind;
 use crate::ball::unit_in_the_last_place;
-use crate::evaluate::{EvaluateError, MAX_PIECES, NoTaps, StablePrecision, Taps};
+use crate::evaluate::{EvaluateError, NoTaps, StablePrecision, Taps};
+use crate::limits::MAX_PIECES;
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Kind; 7] = [

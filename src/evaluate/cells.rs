@@ -7,19 +7,17 @@
 //! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
 
 use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
-use crate::evaluate::closed::{ClosedForm, MAX_PIECES, Stretch};
+use crate::evaluate::closed::{ClosedForm, Stretch};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::fitted_cells;
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::Limit;
 use crate::evaluate::taylor::Taylor;
 use crate::expression::Fraction;
+use crate::limits::{MAX_PIECES, MAX_POLYNOMIALS};
 use num_traits::Signed as _;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
-
-/// The most cells of one window.
-const MAX_CELLS: usize = 400_000;
 
 /// How often a stretch is halved at most: beyond that nothing converges.
 const MAX_DEPTH: u32 = 40;
@@ -223,8 +221,8 @@ impl<'a> Window<'a> {
                 fitted_cells::fitted(self.marched.as_ref(), doubles, fit, &mut width)
             {
                 cells.extend(fitted.into_iter().map(|cell| Cell { stretch, ..cell }));
-                if cells.len() > MAX_CELLS {
-                    return Err(EvaluateError::TooManyCells { limit: MAX_CELLS });
+                if cells.len() > MAX_POLYNOMIALS {
+                    return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
                 }
                 continue;
             }
@@ -250,8 +248,8 @@ impl<'a> Window<'a> {
                     open.push(((middle.next_up(), last), halvings + 1));
                     open.push(((first, middle), halvings + 1));
                 }
-                if cells.len() + open.len() > MAX_CELLS {
-                    return Err(EvaluateError::TooManyCells { limit: MAX_CELLS });
+                if cells.len() + open.len() > MAX_POLYNOMIALS {
+                    return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
                 }
             }
             depth = least.saturating_sub(1);

@@ -9,9 +9,6 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{Known, Limit, Point, Signal};
 use wavestep_polynomial::Rational;
 
-/// The most significant digits that are certified.
-pub const MAX_DIGITS: usize = 10_000;
-
 /// A value that so many bits do not round is suspected to be half-way between two decimals.
 const TIE_BITS: u64 = 1 << 12;
 

@@ -23,13 +23,10 @@ pub use crate::ball::Value;
 pub use arrivals::{Arrival, arrivals};
 pub(crate) use cells::scale;
 pub(crate) use closed::Waves;
-pub use closed::{
-    ClosedForm, ClosedSignal, MAX_ECHOES, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
-    MAX_PIECES, Stretch,
-};
-pub use digits::{MAX_DIGITS, digits, value};
+pub use closed::{ClosedForm, ClosedSignal, Stretch};
+pub use digits::{digits, value};
 pub use error::EvaluateError;
-pub use find::{Extremum, Goal, MAX_ROOTS, Place, Root, Roots, Search};
+pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub use method::{
     Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,
     StablePrecision, instructions,

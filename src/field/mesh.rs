@@ -2,10 +2,8 @@
 
 use super::FieldError;
 use crate::evaluate::Limit;
+use crate::limits::MAX_FIELD_CELLS;
 use wavestep_polynomial::Rational;
-
-/// The most cells of one bar.
-pub const MAX_CELLS: usize = 100_000;
 
 /// Whether fields are given as values or as averages.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -19,7 +17,7 @@ pub enum Sampling {
 /// Each bar divided into equal cells.
 ///
 /// # Invariants
-/// - from 1 to [`MAX_CELLS`] cells;
+/// - from 1 to [`MAX_FIELD_CELLS`] cells;
 /// - a reach is above zero.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mesh {
@@ -37,14 +35,14 @@ impl Mesh {
     /// [`FieldError::Cells`].
     pub fn new(cells: usize) -> Result<Mesh, FieldError> {
         match cells {
-            1..=MAX_CELLS => Ok(Mesh {
+            1..=MAX_FIELD_CELLS => Ok(Mesh {
                 cells,
                 sampling: Sampling::Nodes,
                 limit: Limit::Right,
                 bars: Vec::new(),
                 reach: None,
             }),
-            _ => Err(FieldError::Cells { cells, limit: MAX_CELLS }),
+            _ => Err(FieldError::Cells { cells, limit: MAX_FIELD_CELLS }),
         }
     }
 

@@ -19,5 +19,5 @@ pub(crate) use entering::{Entering, EnteringWaves, Heading, Instant, Order};
 pub use error::FieldError;
 pub use evaluator::FieldEvaluator;
 pub use fields::{BarFields, Bounded, Fields, Quantity};
-pub use mesh::{MAX_CELLS, Mesh, Sampling};
+pub use mesh::{Mesh, Sampling};
 pub use profile::Profile;

@@ -11,10 +11,8 @@ use crate::history::error::{HistoryError, Question};
 use crate::history::moment::Moment;
 use crate::history::motion::Motion;
 use crate::history::series::Series;
+use crate::limits::MAX_EVENTS;
 use std::cmp::Ordering;
-
-/// The most events that are followed.
-pub(crate) const MAX_EVENTS: usize = 1_000;
 
 /// That a contact closed or opened.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -14,6 +14,7 @@ use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
 use crate::history::series::{LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
+use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS};
 use crate::network::{
     Contacts, ElementLaw, Layout, ModelLump, Network, Node, Side, System, Unresisted,
 };
@@ -21,12 +22,6 @@ use crate::scene::{Drive, ElementIndex};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
-
-/// The most cells of all nodes together.
-pub(crate) const MAX_CELLS: usize = 100_000;
-
-/// The most contacts in one node.
-const MAX_CONTACTS: usize = 6;
 
 /// Doubles tell instants apart that differ by more than this part of the later one.
 const TOLD_APART: f64 = 1e-12;
@@ -377,9 +372,9 @@ impl Engine {
     /// As [`Engine::follow_until`].
     pub fn advance(&mut self, node: usize) -> Outcome<()> {
         self.count += 1;
-        if self.count > MAX_CELLS {
+        if self.count > MAX_HISTORY_CELLS {
             let at = self.ball_at(&self.states[node].now);
-            return Err(HistoryError::TooManyCells { limit: MAX_CELLS, at });
+            return Err(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, at });
         }
         let inputs = self.inputs(node)?;
         let mut changed = 0;

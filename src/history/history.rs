@@ -9,26 +9,12 @@ use crate::history::closed_form;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
+use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
 use crate::scene::Kind;
 use std::cmp::Ordering;
 use std::ops::Range;
 use wavestep_polynomial::Rational;
-
-/// The most bits that a history is worked out with.
-///
-/// ```
-/// use wavestep::history::{History, MAX_BITS};
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
-/// assert!(history.bits < MAX_BITS);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub const MAX_BITS: u64 = 1 << 11;
 
 /// How many of the longest travel times a history is followed where no end is given.
 pub(crate) const PATIENCE: u32 = 100;
@@ -270,7 +256,7 @@ impl History {
     ///
     /// # Errors
     /// [`HistoryError::MissingValue`] for a symbol without a value; [`HistoryError::Refused`] for what is
-    /// not followed; [`HistoryError::Undecided`] where [`MAX_BITS`] do not tell whether something happens;
+    /// not followed; [`HistoryError::Undecided`] where [`MAX_HISTORY_BITS`] do not tell whether something happens;
     /// [`HistoryError::TooManyEvents`], [`HistoryError::TooManyCells`].
     ///
     /// # Cost
@@ -291,7 +277,7 @@ impl History {
             }
             Err(error) => undecided(error),
         };
-        precisions(digits, MAX_BITS).raise(attempt)?.best()
+        precisions(digits, MAX_HISTORY_BITS).raise(attempt)?.best()
     }
 
     /// Whether every instant has its digits.

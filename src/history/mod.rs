@@ -33,7 +33,7 @@ mod validity;
 mod waves;
 
 pub use error::{HistoryError, NotFollowed, Question};
-pub use history::{Body, ContactSummary, Ending, Event, EventKind, History, MAX_BITS};
+pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
 pub use phased::FollowedSignal;
 pub use validity::Validity;
 pub use waves::field_evaluator;

@@ -6,10 +6,11 @@ use crate::evaluate::{At, EvaluateError, Known, Limit, Point, Signal, Taylor};
 use crate::expression::Fraction;
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, NotFollowed};
-use crate::history::history::{History, MAX_BITS, undecided, unit};
+use crate::history::history::{History, undecided, unit};
 use crate::history::moment::Moment;
 use crate::history::part::Part;
 use crate::history::series::{Series, Truncation};
+use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
 use crate::scene::{Measure, Observable, Seen};
 use num_traits::Zero as _;
@@ -104,7 +105,8 @@ impl<'a> FollowedSignal<'a> {
             Ok(known) => Ok(Attempt::Done(Ok(known))),
             Err(error) => undecided(error),
         };
-        let known = Precisions::whole_doublings(FIRST_BITS, MAX_BITS).raise(attempt)?.best()?;
+        let known =
+            Precisions::whole_doublings(FIRST_BITS, MAX_HISTORY_BITS).raise(attempt)?.best()?;
         if !known.held.is_empty() {
             // An energy that is infinite is so at all times.
             let start = Moment::at(Fraction::zero());
@@ -298,7 +300,7 @@ impl Signal for FollowedSignal<'_> {
         let value = move |bits: u64| -> Result<Number, EvaluateError> {
             let mut first = self.known.borrow().engine.cut.bits;
             if bits > first {
-                first = (bits + SPARE_BITS).max((2 * first).min(MAX_BITS));
+                first = (bits + SPARE_BITS).max((2 * first).min(MAX_HISTORY_BITS));
             }
             let attempt = |bits| match self.followed(bits)?.value(self.network, &moment, limit) {
                 Ok(value) => Ok(Attempt::Done(value)),
@@ -307,7 +309,7 @@ impl Signal for FollowedSignal<'_> {
                 }
                 Err(error) => Err(error.of_value(bits)),
             };
-            Precisions::whole_doublings(first, MAX_BITS).raise(attempt)?.done()
+            Precisions::whole_doublings(first, MAX_HISTORY_BITS).raise(attempt)?.done()
         };
         if let Some(exact) = value(0)?.exact() {
             return Ok(Point::exact(exact.clone()));
@@ -316,7 +318,7 @@ impl Signal for FollowedSignal<'_> {
         Ok(Point {
             known: Known::Unknown,
             negligible: Magnitude::power_of_two(-NEGLIGIBLE_BITS),
-            most_bits: MAX_BITS,
+            most_bits: MAX_HISTORY_BITS,
             ..Point::irrational(enclose)
         })
     }

@@ -7,8 +7,9 @@ use crate::ball::{Attempt, Value};
 use crate::history::contacts::Happening;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::{MAX_BITS, PATIENCE, Units, longest, precisions, undecided};
+use crate::history::history::{PATIENCE, Units, longest, precisions, undecided};
 use crate::history::moment::Moment;
+use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -71,7 +72,7 @@ impl Validity {
             }
             Err(error) => undecided(error),
         };
-        precisions(digits, MAX_BITS).raise(attempt)?.best()
+        precisions(digits, MAX_HISTORY_BITS).raise(attempt)?.best()
     }
 }
 

@@ -12,10 +12,11 @@ use crate::field::{Entering, EnteringWaves, FieldError, FieldEvaluator, Heading,
 use crate::history::energy::Wave;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::{MAX_BITS, undecided};
+use crate::history::history::undecided;
 use crate::history::moment::{Clock, Moment};
 use crate::history::series::{Series, Truncation};
 use crate::history::track::Track;
+use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
 use std::cell::RefCell;
 use std::cmp::Ordering;
@@ -45,7 +46,7 @@ const NO_JUMP_BITS: i64 = 100;
 /// The scene is followed once, with 256 bits, and again with twice the precision where a value needs it;
 /// a value is then read off one series of each wave.
 pub fn field_evaluator(network: &Network, last: &Rational) -> Result<FieldEvaluator, HistoryError> {
-    let waves = PhaseWaves::new(network, last, MAX_BITS)?;
+    let waves = PhaseWaves::new(network, last, MAX_HISTORY_BITS)?;
     FieldEvaluator::with(network, last, |_, _| Ok(Box::new(waves)))
         .map_err(|error| HistoryError::Field(Box::new(error)))
 }
@@ -360,7 +361,7 @@ mod tests {
     /// Integrals are those of what they are integrals of: by the rule of Simpson, within its error.
     #[test]
     fn integrals_follow_the_wave() {
-        let waves = PhaseWaves::new(&saint_venant(), &number("4"), MAX_BITS).unwrap();
+        let waves = PhaseWaves::new(&saint_venant(), &number("4"), MAX_HISTORY_BITS).unwrap();
         let value = |order, thousandths: i64| {
             let at = Fraction::constant(&Rational::new(thousandths.into(), 1000.into()));
             let instant = Instant { at: &at, side: Limit::Right, is_drawn: false };

@@ -1,6 +1,7 @@
 //! The value of an expression without names: a bound in `symbol r > 1/2`, a number on the command
 //! line. Exact, with limits that keep a short text from asking for an astronomically long number.
 
+use crate::limits::MAX_CONSTANT_BITS;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
@@ -8,17 +9,6 @@ use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
 use super::diagnostic::Diagnostic;
 use super::source::Source;
 use super::syntax::{Expression, Node, Operator, Sign, Span};
-
-/// The most bits of numerator and denominator together in a constant, before cancellation.
-///
-/// ```
-/// use wavestep::language::{MAX_CONSTANT_BITS, parse_number};
-///
-/// assert!(parse_number(&format!("2^{}", MAX_CONSTANT_BITS / 4)).is_ok());
-/// let error = parse_number(&format!("2^{MAX_CONSTANT_BITS}")).unwrap_err();
-/// assert_eq!(error.message(), "the value of this constant has too many digits");
-/// ```
-pub const MAX_CONSTANT_BITS: u64 = 1 << 15;
 
 /// The value of an expression of numbers, `+ - * /`, and whole powers; `0^0` is 1.
 ///

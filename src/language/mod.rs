@@ -26,7 +26,7 @@
 //! The grammar is `grammar/wavestep.ebnf`, with accepted and rejected texts beside it.
 //!
 //! Parsing is linear in the length of the text. The parser does not recurse, and nothing that walks
-//! the tree recurses deeper than three times [`MAX_DEPTH`].
+//! the tree recurses deeper than three times [`MAX_NESTING`](crate::limits::MAX_NESTING).
 
 mod constant;
 mod diagnostic;
@@ -51,34 +51,15 @@ use crate::expression;
 use crate::recurrence;
 use crate::scene as physics;
 
-pub use constant::{MAX_CONSTANT_BITS, constant};
+pub use constant::constant;
 pub use diagnostic::{Diagnostic, Label, closest};
 pub use lowering::ExactFormula;
 pub use name::RESERVED;
-pub use number::MAX_DIGITS;
 pub use scene::units::unit_of;
-pub use source::{MAX_SOURCE_BYTES, Source};
+pub use source::Source;
 pub use syntax::Span;
 
 use syntax::{Expression, Listing, Recurrence, Scene};
-
-/// How deep parentheses, arguments, unary minuses and exponents may nest, all together.
-///
-/// ```
-/// use wavestep::language::{MAX_DEPTH, parse_number};
-///
-/// let nested = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
-/// assert!(parse_number(&nested(MAX_DEPTH.into())).is_ok());
-/// let error = parse_number(&nested(usize::from(MAX_DEPTH) + 1)).unwrap_err();
-/// assert_eq!(error.message(), "nested deeper than 200 levels");
-/// ```
-pub const MAX_DEPTH: u16 = 200;
-
-/// The most mistakes that one reading of a scene looks for.
-const MAX_MISTAKES: usize = 50;
-
-/// The largest index of a wave, and the largest number added to one.
-const MAX_INDEX: u32 = 1_000_000;
 
 /// Reads a recurrence: a title, then statements in any order.
 ///
@@ -138,7 +119,7 @@ pub fn parse_expression(source: &Source) -> Result<Expression, Diagnostic> {
 ///
 /// # Errors
 /// As [`parse_expression`]; also names, waves, functions, division by zero, powers that are no
-/// whole numbers, and values longer than [`MAX_CONSTANT_BITS`].
+/// whole numbers, and values longer than [`MAX_CONSTANT_BITS`](crate::limits::MAX_CONSTANT_BITS).
 ///
 /// ```
 /// use wavestep::language::parse_number;

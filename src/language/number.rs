@@ -1,29 +1,15 @@
 //! Number literals, read exactly: `0.25` is one quarter, never the double nearest to it.
 
+use crate::limits::{MAX_DECIMAL_EXPONENT, MAX_NUMBER_DIGITS};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Pow, ToPrimitive, Zero};
 
-/// The most digits a literal may have before its exponent.
-///
-/// ```
-/// use wavestep::language::{MAX_DIGITS, parse_number};
-///
-/// let mut third = format!("0.{}", "3".repeat(MAX_DIGITS - 1));
-/// assert!(parse_number(&third).is_ok());
-/// third.push('3');
-/// assert_eq!(parse_number(&third).unwrap_err().message(), "a number with more than 1000 digits");
-/// ```
-pub const MAX_DIGITS: usize = 1000;
-
-/// The largest power of ten, up or down, by which a literal may be scaled.
-pub(super) const MAX_DECIMAL_EXPONENT: i64 = 1000;
-
 /// Why a literal is not accepted although its form is right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LiteralError {
-    /// More than [`MAX_DIGITS`] digits.
+    /// More than [`MAX_NUMBER_DIGITS`] digits.
     TooManyDigits,
     /// The last digit stands further than [`MAX_DECIMAL_EXPONENT`] from the decimal point.
     ExponentTooLarge,
@@ -38,14 +24,14 @@ pub(super) enum LiteralError {
 pub(super) fn literal(text: &str) -> Result<BigRational, LiteralError> {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    if whole.len() + fraction.len() > MAX_DIGITS {
+    if whole.len() + fraction.len() > MAX_NUMBER_DIGITS {
         return Err(LiteralError::TooManyDigits);
     }
     let fraction = fraction.trim_end_matches('0');
     // The zero in front is the whole number of `.0`, whose digits are all trimmed away.
     let integer = digits(&format!("0{whole}{fraction}"));
     let exponent = signed_exponent(exponent).ok_or(LiteralError::ExponentTooLarge)?;
-    let scale = exponent - fraction.len().to_i64().expect("at most MAX_DIGITS");
+    let scale = exponent - fraction.len().to_i64().expect("at most MAX_NUMBER_DIGITS");
     if scale.abs() > MAX_DECIMAL_EXPONENT {
         return Err(LiteralError::ExponentTooLarge);
     }
@@ -185,8 +171,8 @@ mod tests {
 
     #[test]
     fn limits_are_sharp() {
-        assert!(literal(&"9".repeat(MAX_DIGITS)).is_ok());
-        assert_eq!(literal(&"9".repeat(MAX_DIGITS + 1)), Err(LiteralError::TooManyDigits));
+        assert!(literal(&"9".repeat(MAX_NUMBER_DIGITS)).is_ok());
+        assert_eq!(literal(&"9".repeat(MAX_NUMBER_DIGITS + 1)), Err(LiteralError::TooManyDigits));
         for accepted in ["1e1000", "1e-1000", "1.0e-1000", "1e+0001000"] {
             assert!(literal(accepted).is_ok(), "{accepted}");
         }

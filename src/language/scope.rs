@@ -8,29 +8,21 @@ use std::collections::BTreeMap;
 use num_traits::ToPrimitive;
 use wavestep_polynomial::{Rational, Symbol};
 
-use super::constant::{MAX_CONSTANT_BITS, constant};
+use super::constant::constant;
 use super::diagnostic::Diagnostic;
 use super::source::Source;
 use super::syntax::{
     Expression as Tree, Factor, Function, Index, Node, Operator, Sign, Span, Spanned, Term, Wave,
 };
 use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
+use crate::limits::{MAX_CONSTANT_BITS, MAX_EXPONENT, MAX_LAG, MAX_TERMS};
 use crate::recurrence::WaveIndex;
-
-/// The furthest a recurrence may look back.
-const MAX_LAG: i64 = 1000;
-
-/// The largest whole exponent of a power in an expression.
-const MAX_EXPONENT: u32 = 1000;
 
 /// Functions that people write and that the language does not have.
 pub(super) const FUNCTIONS: [&str; 7] = ["tan", "sinh", "cosh", "tanh", "ln", "log", "abs"];
 
 /// The functions that the language has.
 const KNOWN_FUNCTIONS: [&str; 4] = ["cos", "exp", "sin", "sqrt"];
-
-/// The most terms that a sum, product or power in an expression may be worked out to.
-const MAX_TERMS: usize = 100_000;
 
 /// The most different square roots in a divisor.
 const MAX_ROOTS: usize = 6;

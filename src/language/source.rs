@@ -1,20 +1,11 @@
 //! A text together with the name it is known by, checked once so that everything after may rely on
 //! it: valid UTF-8, of bounded size, and free of characters that cannot be seen.
 
+use crate::limits::MAX_SOURCE_BYTES;
 use std::sync::Arc;
 
 use super::diagnostic::Diagnostic;
 use super::syntax::Span;
-
-/// The largest text [`Source::new`] accepts, in bytes: one MiB.
-///
-/// ```
-/// use wavestep::language::{MAX_SOURCE_BYTES, Source};
-///
-/// assert!(Source::new("long", "#".repeat(MAX_SOURCE_BYTES)).is_ok());
-/// assert!(Source::new("too long", "#".repeat(MAX_SOURCE_BYTES + 1)).is_err());
-/// ```
-pub const MAX_SOURCE_BYTES: usize = 1 << 20;
 
 /// A checked text and its name; cloning is cheap.
 ///
@@ -53,15 +44,6 @@ impl Source {
     ///
     /// # Errors
     /// As [`Source::new`].
-    ///
-    /// ```
-    /// use wavestep::language::{MAX_SOURCE_BYTES, Source};
-    ///
-    /// let text = "#".repeat(MAX_SOURCE_BYTES + 1);
-    /// assert!(Source::with_limit("listing", &text, 10 * MAX_SOURCE_BYTES).is_ok());
-    /// let error = Source::with_limit("listing", &text, 100).unwrap_err();
-    /// assert!(error.message().ends_with("the limit is 100 bytes"));
-    /// ```
     pub fn with_limit(
         name: &str,
         bytes: impl AsRef<[u8]>,

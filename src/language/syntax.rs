@@ -132,7 +132,7 @@ pub type Statement = Spanned<StatementKind>;
 /// - [`Node::Sum`] and [`Node::Product`] have at least two parts, the first with [`Sign::Plus`] or
 ///   [`Operator::Multiply`]; a minus in front of everything is a [`Node::Negate`] inside the first.
 /// - Parentheses, arguments, unary minuses and exponents nest at most
-///   [`MAX_DEPTH`](super::MAX_DEPTH) deep in total.
+///   [`MAX_NESTING`](crate::limits::MAX_NESTING) deep in total.
 ///
 /// ```
 /// use wavestep::language::{Source, parse_expression, syntax::Node};

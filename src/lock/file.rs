@@ -19,9 +19,9 @@
 //! A heading with the version, settings, what is stated, pieces as a listing of the language, values.
 //! Comments begin with `#`. Versions to come read this one.
 
-use crate::evaluate::MAX_DIGITS;
 use crate::export::{self, Formula, Head, TEXT_WIDTH};
 use crate::language::{Diagnostic, Source, Span, normalise_name, parse_number, read_listing};
+use crate::limits::{MAX_DIGITS, MAX_LOCK_BYTES};
 use crate::lock::{Lock, Piece, Request, history_file};
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
@@ -34,9 +34,6 @@ pub const FORMAT_VERSION: u32 = history_file::VERSION;
 
 /// The version of files of pieces.
 pub(super) const VERSION: u32 = 1;
-
-/// The most bytes of a file that is read.
-pub const MAX_FILE_BYTES: usize = 16 << 20;
 
 pub(super) const HEADING: &str = "# wavestep lock ";
 
@@ -125,7 +122,7 @@ impl Lock {
         }
         let listing = String::from_utf8(listing).expect("whole lines were blanked out");
         if !listing.trim().is_empty() {
-            let blanked = Source::with_limit(source.name(), listing, MAX_FILE_BYTES)?;
+            let blanked = Source::with_limit(source.name(), listing, MAX_LOCK_BYTES)?;
             for formula in read_listing(&blanked)? {
                 let piece = Piece { variable: formula.variable, expression: formula.expression };
                 let key = (formula.wave, formula.n);

@@ -4,10 +4,11 @@
 //! exact, or rounded correctly, so they are the same on every machine.
 
 use crate::ball::{Attempt, Ball, Decimal, Precisions};
-use crate::evaluate::{Limit, MAX_DIGITS, Value, value};
+use crate::evaluate::{Limit, Value, value};
 use crate::history::{
     ContactSummary, Ending, Event, EventKind, FollowedSignal, History, HistoryError,
 };
+use crate::limits::MAX_DIGITS;
 use crate::lock::LIMIT_BITS;
 use crate::lock::difference::{Difference, compared};
 use crate::lock::error::LockError;

@@ -22,9 +22,9 @@
 //!
 //! A heading with the version, settings, what is stated, then a fact in each line. Comments begin with `#`.
 
-use crate::evaluate::MAX_DIGITS;
 use crate::history::EventKind;
 use crate::language::{Diagnostic, Source, normalise_name};
+use crate::limits::MAX_DIGITS;
 use crate::lock::file::{
     HEADING, Line, check_heading, count, equation, holds_as_said, is_value, lines, number, refused,
     value_line, write_stated, write_values,

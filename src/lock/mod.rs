@@ -13,10 +13,11 @@ mod history;
 mod history_file;
 mod scene;
 
-use crate::evaluate::{ClosedSignal, Limit, MAX_DIGITS, digits};
+use crate::evaluate::{ClosedSignal, Limit, digits};
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::language::{Diagnostic, Source};
+use crate::limits::MAX_DIGITS;
 use crate::recurrence::{Observation, Statement};
 use crate::solution::Solution;
 use std::collections::BTreeMap;
@@ -24,7 +25,7 @@ use wavestep_polynomial::{Rational, Symbol};
 
 pub use difference::Difference;
 pub use error::LockError;
-pub use file::{FORMAT_VERSION, MAX_FILE_BYTES};
+pub use file::FORMAT_VERSION;
 pub use history::{HistoryLock, HistoryRequest};
 
 /// How precisely the values of a lock may be worked out.

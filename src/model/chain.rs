@@ -1,7 +1,8 @@
 //! The points and links of a line that is cut into cells, and their motion step by step.
 
+use crate::limits::MAX_CELL_UPDATES;
 use crate::model::error::{ModelError, NotRepresented};
-use crate::model::leapfrog::{MAX_CELL_UPDATES, NAME};
+use crate::model::leapfrog::NAME;
 use crate::model::line::{Law, Line, Quantity, Spot, Term};
 use crate::scene::Drive;
 

@@ -17,6 +17,7 @@
 //! order in the mean of the error over time where it jumps; with `Δt = h` and bars alone exact up to
 //! rounding farther than one step from a jump.
 
+use crate::limits::MAX_CELL_UPDATES;
 use crate::model::Model;
 use crate::model::chain::{Chain, Tap};
 use crate::model::error::{BadSetting, ModelError, NotSeen};
@@ -24,23 +25,6 @@ use crate::model::line::Line;
 use crate::network::ScaledScene;
 
 pub(crate) const NAME: &str = "leapfrog";
-
-/// The most cells times steps that are computed.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::model::{Leapfrog, MAX_CELL_UPDATES, Model, ModelError};
-/// use wavestep::network::Network;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod - fixed\nobserve v = velocity(rod.left)";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let model = Leapfrog::new(&Network::new(&scene).unwrap(), 1000, 1.0).unwrap();
-/// let late = MAX_CELL_UPDATES / 1e6 * 1.1;
-/// let refused = model.values(0, &[late]).err();
-/// assert!(matches!(refused, Some(ModelError::TooMuch { what: "cell updates", .. })));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub const MAX_CELL_UPDATES: f64 = 1e9;
 
 /// Finite differences on staggered points.
 ///

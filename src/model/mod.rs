@@ -20,10 +20,10 @@ mod track;
 
 pub use equivalent::equivalent_stiffness;
 pub use error::{BadSetting, ModelError, NotRepresented, NotSeen, SolverFailure};
-pub use leapfrog::{Leapfrog, MAX_CELL_UPDATES};
-pub use modes::{MAX_MODE_TERMS, MAX_MODES, Modes};
+pub use leapfrog::Leapfrog;
+pub use modes::Modes;
 pub use rigid::RigidBody;
-pub use steps::{MAX_NODE_PERIODS, Steps};
+pub use steps::Steps;
 pub use third::{StartingVelocity, ThirdOfMass};
 
 /// A model of a scene that gives values of its observables.

@@ -8,6 +8,7 @@
 //! and with 1600 modes is below 1/800 of the largest value; beside a jump the largest error does not
 //! fall, as is known of Fourier series.
 
+use crate::limits::{MAX_MODE_TERMS, MAX_MODES};
 use crate::model::Model;
 use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen};
 use crate::model::line::{Law, Line, Quantity, Spot, Term};
@@ -15,28 +16,6 @@ use crate::model::shape::{Part, Shape, frequency};
 use crate::network::{ScaledScene, Side};
 
 const NAME: &str = "modes of vibration";
-
-/// The most modes that are found.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::model::{MAX_MODES, ModelError, Modes};
-/// use wavestep::network::Network;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod - fixed";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let refused = Modes::new(&Network::new(&scene).unwrap(), MAX_MODES + 1).err();
-/// assert!(matches!(refused, Some(ModelError::TooMuch { what: "modes", .. })));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub const MAX_MODES: usize = 1_000_000;
-
-/// The most terms, modes times times, that are added up for one observable.
-///
-/// ```
-/// assert!(wavestep::model::MAX_MODE_TERMS >= wavestep::model::MAX_MODES as f64);
-/// ```
-pub const MAX_MODE_TERMS: f64 = 1e9;
 
 /// One mode with its motion: `q(t) = v/ω sin ωt + p/ω² (1 − cos ωt)`, or `v t` where `ω = 0`.
 #[derive(Clone, Debug)]

@@ -16,6 +16,7 @@
 //! the largest force, down to 1e-11; within 1e-12 at 1e-13.
 
 use crate::expression::{Fraction, Root};
+use crate::limits::MAX_NODE_PERIODS;
 use crate::model::Model;
 use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen, SolverFailure};
 use crate::model::junction::{Acting, Junction};
@@ -30,22 +31,6 @@ use ode_solvers::{DVector, Dop853, OutputType, System};
 use wavestep_polynomial::Rational;
 
 const NAME: &str = "method of steps";
-
-/// The most periods times nodes that are solved.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::model::{MAX_NODE_PERIODS, Model, ModelError, Steps};
-/// use wavestep::network::Network;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod - fixed\nobserve v = velocity(rod.left)";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let model = Steps::new(&Network::new(&scene).unwrap(), 1e-6).unwrap();
-/// let refused = model.values(0, &[MAX_NODE_PERIODS]).err();
-/// assert!(matches!(refused, Some(ModelError::TooMuch { what: "periods of nodes", .. })));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-pub const MAX_NODE_PERIODS: f64 = 2e4;
 
 /// How often a period is halved before its solution is given up.
 const MAX_HALVINGS: u32 = 40;

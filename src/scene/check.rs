@@ -4,10 +4,11 @@
 use wavestep_polynomial::{Rational, Symbol};
 
 use crate::expression::{Assumptions, Condition, Fraction, Relation};
+use crate::limits::MAX_CONTACT_EXPONENT;
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
-    Bar, Body, Drive, ElementIndex, End, Hertz, Joint, Kind, LEAST_EXPONENT_INVERSE, Load,
-    MAX_EXPONENT, Measure, PI, Place, Position, Scene, Seen,
+    Bar, Body, Drive, ElementIndex, End, Hertz, Joint, Kind, LEAST_EXPONENT_INVERSE, Load, Measure,
+    PI, Place, Position, Scene, Seen,
 };
 
 impl Scene {
@@ -170,7 +171,7 @@ impl Check<'_> {
         let exponent = [Part::Property(index, Property::Exponent)];
         if hertz.exponent < Rational::new(1.into(), LEAST_EXPONENT_INVERSE.into()) {
             self.fault(Mistake::ExponentTooSmall, exponent);
-        } else if hertz.exponent > Rational::from_integer(MAX_EXPONENT.into()) {
+        } else if hertz.exponent > Rational::from_integer(MAX_CONTACT_EXPONENT.into()) {
             self.fault(Mistake::ExponentTooLarge, exponent);
         }
     }

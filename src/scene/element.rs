@@ -210,17 +210,9 @@ pub struct Hertz {
     /// `α_0`; positive.
     pub compression: Fraction,
     /// `m`, from the inverse of [`LEAST_EXPONENT_INVERSE`](crate::scene::LEAST_EXPONENT_INVERSE) to
-    /// [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
+    /// [`MAX_CONTACT_EXPONENT`](crate::limits::MAX_CONTACT_EXPONENT).
     pub exponent: Rational,
 }
-
-/// The largest exponent of a local contact. A larger one is a wall: at half of `α_0` the force is
-/// below `2^{−100} F_0`, beyond it a rounding of `α` changes the force by more than `10^{−14}` of it.
-///
-/// ```
-/// assert!(0.5_f64.powi(i32::from(wavestep::scene::MAX_EXPONENT)) < 1e-30);
-/// ```
-pub const MAX_EXPONENT: u8 = 100;
 
 /// The inverse of the smallest exponent of a local contact. With smaller ones the contact is as good as
 /// a constant force, and its start as good as a jump.

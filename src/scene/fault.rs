@@ -117,7 +117,7 @@ pub enum Mistake {
     #[error("the exponent of a local contact is at least 1/10")]
     ExponentTooSmall,
     /// The exponent of a local contact is larger than
-    /// [`MAX_EXPONENT`](crate::scene::MAX_EXPONENT).
+    /// [`MAX_CONTACT_EXPONENT`](crate::limits::MAX_CONTACT_EXPONENT).
     #[error("the exponent of a local contact is at most 100")]
     ExponentTooLarge,
     /// No initial velocity, no strain, and no load.

@@ -15,8 +15,8 @@ use wavestep_polynomial::Symbol;
 
 pub use dimension::Dimension;
 pub use element::{
-    Bar, Body, Drive, Element, ElementIndex, Hertz, Kind, LEAST_EXPONENT_INVERSE, Load,
-    MAX_EXPONENT, Mass, Spring, Support,
+    Bar, Body, Drive, Element, ElementIndex, Hertz, Kind, LEAST_EXPONENT_INVERSE, Load, Mass,
+    Spring, Support,
 };
 pub use fault::{Fault, Mistake, Part, Property};
 pub use observable::{Measure, Observable, Place, Position, Seen};

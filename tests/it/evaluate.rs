@@ -10,12 +10,10 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
 use wavestep::ball::Decimal;
-use wavestep::evaluate::{
-    ClosedSignal, EvaluateError, Limit, MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM,
-    Value,
-};
+use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, Value};
 use wavestep::expression::{ExponentialSum, Expression};
 use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::{PeriodByPeriod, Solution};
 

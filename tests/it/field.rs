@@ -4,8 +4,9 @@
 use proptest::prelude::*;
 use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, digits};
 use wavestep::expression::Fraction;
-use wavestep::field::{Bounded, FieldError, FieldEvaluator, Fields, MAX_CELLS, Mesh, Quantity};
+use wavestep::field::{Bounded, FieldError, FieldEvaluator, Fields, Mesh, Quantity};
 use wavestep::language::{Source, parse_number, read_scene};
+use wavestep::limits::MAX_FIELD_CELLS;
 use wavestep::network::Network;
 use wavestep::scene::{Kind, Measure, Observable, Place, Position, Seen};
 
@@ -267,8 +268,8 @@ fn late_times_keep_their_digits() {
 
 #[test]
 fn what_cannot_be_given_is_refused() {
-    for cells in [0, MAX_CELLS + 1] {
-        assert_eq!(Mesh::new(cells), Err(FieldError::Cells { cells, limit: MAX_CELLS }));
+    for cells in [0, MAX_FIELD_CELLS + 1] {
+        assert_eq!(Mesh::new(cells), Err(FieldError::Cells { cells, limit: MAX_FIELD_CELLS }));
     }
     assert!(matches!(
         Mesh::new(1).unwrap().reaching(&number("0")),

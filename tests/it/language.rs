@@ -12,9 +12,10 @@ use wavestep::language::syntax::{
     Term, Wave,
 };
 use wavestep::language::{
-    Diagnostic, MAX_CONSTANT_BITS, MAX_DEPTH, MAX_DIGITS, MAX_SOURCE_BYTES, Source, Span,
-    parse_expression, parse_listing, parse_number, parse_recurrence, read_recurrence,
+    Diagnostic, Source, Span, parse_expression, parse_listing, parse_number, parse_recurrence,
+    read_recurrence,
 };
+use wavestep::limits::{MAX_CONSTANT_BITS, MAX_NESTING, MAX_NUMBER_DIGITS, MAX_SOURCE_BYTES};
 
 // ---- The corpus -------------------------------------------------------------------------------
 
@@ -279,7 +280,7 @@ fn deep_nesting_is_refused() {
 
 #[test]
 fn the_limit_of_nesting_is_sharp_and_leaves_stack() {
-    let depth = usize::from(MAX_DEPTH);
+    let depth = usize::from(MAX_NESTING);
     // A thread of 1 MiB: half of what threads usually have, an eighth of what programs have.
     let deepest = move || {
         for (open, close) in
@@ -336,8 +337,8 @@ fn large_texts_are_refused() {
 
 #[test]
 fn long_numbers_are_refused() {
-    assert_eq!(expression(&"9".repeat(MAX_DIGITS)).to_string().len(), MAX_DIGITS);
-    assert_refused(&"9".repeat(MAX_DIGITS + 1), "digits");
+    assert_eq!(expression(&"9".repeat(MAX_NUMBER_DIGITS)).to_string().len(), MAX_NUMBER_DIGITS);
+    assert_refused(&"9".repeat(MAX_NUMBER_DIGITS + 1), "digits");
     assert_refused(&"9".repeat(1_000_000), "digits");
     assert_refused("1e1001", "exponent");
     assert_refused("1e-1001", "exponent");

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use wavestep::language::{Source, parse_number, read_recurrence};
-use wavestep::lock::{Lock, MAX_FILE_BYTES, Request};
+use wavestep::limits::MAX_LOCK_BYTES;
+use wavestep::lock::{Lock, Request};
 use wavestep::scenes::{self, SCENES};
 use wavestep::solution::Solution;
 
@@ -19,7 +20,7 @@ fn derived(text: &str, request: &Request) -> Lock {
 }
 
 fn read(name: &str, text: &str) -> Result<Lock, String> {
-    let source = Source::with_limit(name, text, MAX_FILE_BYTES).map_err(|e| e.to_string())?;
+    let source = Source::with_limit(name, text, MAX_LOCK_BYTES).map_err(|e| e.to_string())?;
     Lock::read(&source).map_err(|error| error.to_string())
 }
 

@@ -11,7 +11,8 @@ use std::fs;
 use std::path::Path;
 use wavestep::evaluate::EvaluateError;
 use wavestep::language::Source;
-use wavestep::lock::{HistoryLock, Lock, LockError, Locked, MAX_FILE_BYTES, Request};
+use wavestep::limits::MAX_LOCK_BYTES;
+use wavestep::lock::{HistoryLock, Lock, LockError, Locked, Request};
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
 
@@ -70,13 +71,13 @@ fn write(
     is_read_back: impl FnOnce(&Source) -> bool,
     counted: &str,
 ) -> Result<String, Failure> {
-    if text.len() > MAX_FILE_BYTES {
+    if text.len() > MAX_LOCK_BYTES {
         let message = format!("this would be a file of {} bytes", text.len());
-        let remedy = format!("files have at most {MAX_FILE_BYTES}: ask for a smaller --through");
+        let remedy = format!("files have at most {MAX_LOCK_BYTES}: ask for a smaller --through");
         return Err(Failure::usage(message, remedy));
     }
     // What cannot be read back, such as numbers of a thousand digits, is not written.
-    if !Source::with_limit("lock", &text, MAX_FILE_BYTES).is_ok_and(|text| is_read_back(&text)) {
+    if !Source::with_limit("lock", &text, MAX_LOCK_BYTES).is_ok_and(|text| is_read_back(&text)) {
         let message = "the numbers or powers in these pieces are too long to be read back";
         return Err(Failure::usage(message, "ask for a smaller --through, or shorter values"));
     }
@@ -98,11 +99,11 @@ const AGAIN: &str = "undo what was changed in the scene, or lock it again";
 
 /// Compares a scene with what is locked.
 pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
-    let bytes = input::bytes(file, MAX_FILE_BYTES).map_err(|error| {
+    let bytes = input::bytes(file, MAX_LOCK_BYTES).map_err(|error| {
         let remedy = format!("write it with `wavestep lock {scene} --through N -o {file}`");
         Failure::usage(format!("the file `{file}` cannot be read: {error}"), remedy)
     })?;
-    let locked = Locked::read(&Source::with_limit(file, bytes, MAX_FILE_BYTES)?)?;
+    let locked = Locked::read(&Source::with_limit(file, bytes, MAX_LOCK_BYTES)?)?;
     let set = match &locked {
         Locked::Pieces(locked) => &locked.request().set,
         Locked::History(locked) => &locked.request().set,

@@ -5,6 +5,7 @@ use crate::evaluate::closed::contribution::{Amount, Contribution, Parts, enclose
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{Limit, Point};
 use crate::expression::{EchoSum, Expression};
+use crate::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
 use crate::recurrence::{Observation, Recurrence, WaveIndex};
 use crate::solution::{EchoRow, GeneralForm, Solution};
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -13,15 +14,6 @@ use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, Symbol, Univariate};
-
-/// The most periods before a time, where echoes have a closed form.
-pub const MAX_ORDER: usize = 2_000;
-
-/// The most periods before a time, where waves are sequences in closed form.
-pub const MAX_ORDER_OF_SEQUENCE: usize = 50_000;
-
-/// The most periods before a time, where echoes are derived one from another.
-pub const MAX_ORDER_WITHOUT_FORM: usize = 400;
 
 /// The echoes of a wave, in the cheapest exact form.
 enum Echoes {

@@ -20,9 +20,6 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
-/// The most periods whose pieces are held: their coefficients grow with the square of that.
-pub const MAX_PIECES: usize = 2_000;
-
 /// The most stretches between arrivals of one window.
 pub(super) const MAX_STRETCHES: usize = 200_000;
 

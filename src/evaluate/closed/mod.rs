@@ -18,9 +18,7 @@ mod stretch;
 mod values;
 mod waves;
 
-pub use exact::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
-pub use form::{ClosedForm, MAX_PIECES};
-pub use scene::MAX_ECHOES;
+pub use form::ClosedForm;
 pub use signal::ClosedSignal;
 pub use stretch::Stretch;
 pub(crate) use waves::Waves;

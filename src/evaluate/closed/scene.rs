@@ -12,6 +12,7 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{Known, Limit, Point};
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
+use crate::limits::MAX_ECHOES;
 use crate::network::{Network, Observed, ObservedValue, Unfolded};
 use crate::recurrence::{Observation, Recurrence, WaveIndex};
 use crate::solution::{Demand, EchoByEcho};
@@ -21,9 +22,6 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
-
-/// The most echoes of one wave that are worked out.
-pub const MAX_ECHOES: usize = 20_000;
 
 /// The precision at which echoes are first worked out.
 const FIRST_BITS: u64 = 128;

@@ -2,10 +2,11 @@
 
 use super::form::{ClosedForm, MAX_STRETCHES};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::closed::scene::{MAX_ECHOES, whole_periods};
+use crate::evaluate::closed::scene::whole_periods;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;
+use crate::limits::MAX_ECHOES;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 

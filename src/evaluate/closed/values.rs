@@ -1,6 +1,6 @@
 //! What a signal is on a stretch: values, derivatives and Taylor polynomials in balls.
 
-use super::form::{ClosedForm, MAX_PIECES, Solved};
+use super::form::{ClosedForm, Solved};
 use super::stretch::{Part, Stretch};
 use crate::ball::{Ball, ComplexBall, Magnitude};
 use crate::enclosure::real_part;
@@ -8,6 +8,7 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taylor::Taylor;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Transform};
+use crate::limits::MAX_PIECES;
 use crate::recurrence::ObservedWave;
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -5,12 +5,13 @@
 
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{Numbers, real_part};
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::closed::scene::whole_periods;
-use crate::evaluate::closed::{ClosedForm, MAX_PIECES};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::Limit;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Expression, Field as _, Fraction, Root};
+use crate::limits::MAX_PIECES;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
 use crate::scene::Dimension;

@@ -18,11 +18,9 @@ use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::find::search::Search;
 use crate::evaluate::taylor::Taylor;
+use crate::limits::MAX_POLYNOMIALS;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
-
-/// The most cells of one search.
-const MAX_CELLS: usize = 400_000;
 
 /// How often a stretch is halved.
 const DEPTH: usize = 56;
@@ -188,8 +186,8 @@ impl Cover<'_, '_, '_> {
     ) -> Result<(), EvaluateError> {
         let search = self.search;
         search.work.set(search.work.get() + 1);
-        if search.work.get() > MAX_CELLS {
-            return Err(EvaluateError::TooManyCells { limit: MAX_CELLS });
+        if search.work.get() > MAX_POLYNOMIALS {
+            return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
         }
         let (middle, half) = middle_and_half(&from, &to);
         if let Some(known) = known {

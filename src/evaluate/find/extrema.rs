@@ -16,6 +16,7 @@ use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, ran
 use crate::evaluate::find::refine::Isolated;
 use crate::evaluate::find::search::{Search, rationals};
 use crate::evaluate::signal::{At, Limit};
+use crate::limits::MAX_ROOTS;
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -30,9 +31,6 @@ const SPARE_BITS: u64 = 64;
 
 /// The most bits that the sign of a derivative is tried with.
 const SLOPE_BITS: u64 = 1 << 10;
-
-/// The most candidates that are compared with high precision.
-const MAX_PLACES: usize = 10_000;
 
 /// Which extremum.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -211,8 +209,8 @@ impl<'s> Search<'s> {
                 continue;
             }
             self.critical_points(stretch, target, &mut record, &mut left)?;
-            if left.len() > MAX_PLACES + 2 * self.count {
-                return Err(EvaluateError::TooManyRoots { limit: MAX_PLACES });
+            if left.len() > MAX_ROOTS + 2 * self.count {
+                return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });
             }
         }
         contenders.left.replace(left);

@@ -20,5 +20,5 @@ mod roots;
 mod search;
 
 pub use extrema::{Extremum, Goal, Place};
-pub use roots::{MAX_ROOTS, Root, Roots};
+pub use roots::{Root, Roots};
 pub use search::Search;

@@ -19,11 +19,9 @@ use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
 use crate::evaluate::find::refine::Isolated;
 use crate::evaluate::find::search::{Search, rationals};
 use crate::evaluate::signal::{At, Limit};
+use crate::limits::MAX_ROOTS;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
-
-/// The most roots of one window.
-pub const MAX_ROOTS: usize = 10_000;
 
 /// A root of `f − v`, or where there may be one. Times are the user's.
 #[derive(Clone, PartialEq, Eq, Debug)]

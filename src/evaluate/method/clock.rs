@@ -7,12 +7,10 @@ use crate::evaluate::cells::{at_or_after, rational};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;
+use crate::limits::MAX_MARCHED_PERIODS;
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_kernels::fixed::{FixedError, Reduction};
 use wavestep_polynomial::Rational;
-
-/// The most periods that are marched through.
-pub(super) const MAX_PERIODS: u64 = 10_000_000;
 
 /// Time by periods.
 pub(super) struct Clock {
@@ -102,7 +100,7 @@ impl Clock {
         at: &Rational,
         side: Limit,
     ) -> Result<Option<(u64, f64)>, MethodError> {
-        let limit = usize::try_from(MAX_PERIODS).unwrap_or(usize::MAX);
+        let limit = usize::try_from(MAX_MARCHED_PERIODS).unwrap_or(usize::MAX);
         let too_many = || MethodError::TooManyPeriods { periods: usize::MAX, limit };
         let since = &self.slowness.scale(at) - delay;
         let period = &self.period;
@@ -211,9 +209,12 @@ impl Clock {
                 last = last.max(period);
             }
         }
-        if last > MAX_PERIODS {
+        if last > MAX_MARCHED_PERIODS {
             let periods = usize::try_from(last).unwrap_or(usize::MAX);
-            return Err(MethodError::TooManyPeriods { periods, limit: MAX_PERIODS as usize });
+            return Err(MethodError::TooManyPeriods {
+                periods,
+                limit: MAX_MARCHED_PERIODS as usize,
+            });
         }
         Ok(last)
     }

@@ -10,6 +10,7 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::Limit;
 use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
+use crate::limits::MAX_SUMMED_ECHOES;
 use crate::solution::{EchoTemplate, Family, Solution};
 use std::cmp::Ordering;
 use wavestep_kernels::double_double::{DoubleDouble, two_sum};
@@ -17,9 +18,6 @@ use wavestep_kernels::echoes::{
     self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term, Time,
 };
 use wavestep_polynomial::{Rational, Symbol};
-
-/// The most echoes that are summed for a value: the cost grows with the square.
-const MAX_ECHOES: usize = 5_000;
 
 /// One wave that is seen.
 struct Seen {
@@ -137,8 +135,8 @@ impl EchoSums {
             return Err(NoTaps::NoGrid.into());
         }
         let order = signal.order(to)?;
-        if order > MAX_ECHOES {
-            return Err(MethodError::TooManyPeriods { periods: order, limit: MAX_ECHOES });
+        if order > MAX_SUMMED_ECHOES {
+            return Err(MethodError::TooManyPeriods { periods: order, limit: MAX_SUMMED_ECHOES });
         }
         let numbers = Numbers::new(signal.recurrence().constants());
         let solution = Solution::new(signal.recurrence().clone());

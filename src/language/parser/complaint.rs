@@ -1,14 +1,14 @@
 //! What the parser says about texts it refuses. Every function here ends the parse.
 
 use super::super::diagnostic::{Diagnostic, closest};
-use super::super::number::{LiteralError, MAX_DECIMAL_EXPONENT, MAX_DIGITS};
+use super::super::number::LiteralError;
 use super::super::source::Source;
 use super::super::syntax::{Expression, Name, Node, Span};
-use super::super::{MAX_DEPTH, MAX_INDEX};
 use super::expression::FOLLOWING;
 use super::lexical::{digits, next_word, skip_blank, token};
 use super::statement::SYMBOL_FORM;
 use super::{Context, Extent, Input, Problem, between, here};
+use crate::limits::{MAX_DECIMAL_EXPONENT, MAX_INDEX, MAX_NESTING, MAX_NUMBER_DIGITS};
 
 use nom::Parser;
 
@@ -490,10 +490,13 @@ pub(super) fn grouped_digits(input: Input<'_>, place: Span) -> Refusal {
 /// A literal beyond the limits.
 pub(super) fn literal(input: Input<'_>, span: Span, error: LiteralError) -> Refusal {
     refuse(match error {
-        LiteralError::TooManyDigits => {
-            at(input, format!("a number with more than {MAX_DIGITS} digits"), span, "too long")
-                .with_remedy("write fewer digits, or a fraction")
-        }
+        LiteralError::TooManyDigits => at(
+            input,
+            format!("a number with more than {MAX_NUMBER_DIGITS} digits"),
+            span,
+            "too long",
+        )
+        .with_remedy("write fewer digits, or a fraction"),
         LiteralError::ExponentTooLarge => at(
             input,
             format!("the decimal exponent is beyond ±{MAX_DECIMAL_EXPONENT}"),
@@ -507,7 +510,7 @@ pub(super) fn literal(input: Input<'_>, span: Span, error: LiteralError) -> Refu
 /// Too many levels.
 pub(super) fn too_deep(input: Input<'_>, span: Span) -> Refusal {
     refuse(
-        at(input, format!("nested deeper than {MAX_DEPTH} levels"), span, "one level too many")
+        at(input, format!("nested deeper than {MAX_NESTING} levels"), span, "one level too many")
             .with_remedy("remove needless parentheses and signs, or name a part with a symbol"),
     )
 }

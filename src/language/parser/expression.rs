@@ -3,6 +3,7 @@
 //! The parser keeps what is unfinished in a list of its own and never calls itself, so that the
 //! depth of a text costs no stack.
 
+use crate::limits::{MAX_INDEX, MAX_NESTING};
 use std::mem;
 
 use nom::Parser;
@@ -12,7 +13,6 @@ use super::super::name;
 use super::super::syntax::{
     Expression, Factor, Function, Index, Name, Node, Operator, Sign, Span, Spanned, Term, Wave,
 };
-use super::super::{MAX_DEPTH, MAX_INDEX};
 use super::lexical::{
     additive, demand_name, digits, literal, multiplicative, next_word, prime, skip_blank, symbol,
     token, word,
@@ -187,7 +187,7 @@ struct Unfinished {
 impl Unfinished {
     /// Goes one level deeper, if there is one. `opener` is what opens it.
     fn deepen<'a>(&mut self, input: Input<'a>, opener: Span) -> Parsed<'a, ()> {
-        if self.depth >= usize::from(MAX_DEPTH) {
+        if self.depth >= usize::from(MAX_NESTING) {
             return Err(complaint::too_deep(input, opener));
         }
         self.depth += 1;

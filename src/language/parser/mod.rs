@@ -11,10 +11,10 @@ mod lexical;
 mod scene;
 mod statement;
 
+use crate::limits::MAX_MISTAKES;
 use nom::error::{ErrorKind, ParseError};
 use nom::{IResult, Input as _};
 
-use super::MAX_MISTAKES;
 use super::diagnostic::Diagnostic;
 use super::layout;
 use super::source::Source;

@@ -19,6 +19,7 @@ use super::lexical::{
 };
 use super::statement::{SYMBOL_FORM, listed, opening, parameter};
 use super::{Extent, Input, Parsed, between, complaint};
+use crate::limits::MAX_UNIT_POWER;
 use crate::scene::{End, Joint, Measure};
 
 /// The words that begin statements, and how each statement is written.
@@ -199,9 +200,6 @@ fn unit_power(input: Input<'_>) -> Parsed<'_, i8> {
         _ => Err(complaint::unit_power(input, rest)),
     }
 }
-
-/// The largest power of a unit.
-pub(super) const MAX_UNIT_POWER: u8 = 9;
 
 /// What follows `line`: `free - ram | rod - fixed`
 fn line(input: Input<'_>) -> Parsed<'_, SceneStatementKind> {

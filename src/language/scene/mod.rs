@@ -15,13 +15,13 @@ use std::collections::BTreeMap;
 
 use wavestep_polynomial::{Rational, Symbol};
 
-use super::MAX_MISTAKES;
 use super::diagnostic::Diagnostic;
 use super::name;
 use super::parameters;
 use super::scope::{FUNCTIONS, Place, Scope, with_likely};
 use super::syntax::{self, Expression as Tree, Name, Node, Span};
 use crate::expression::{Assumptions, Condition, Expression, Fraction, Relation};
+use crate::limits::MAX_MISTAKES;
 use crate::scene::{self, Dimension, ElementIndex, Kind, PI};
 use element::Material;
 use tree::{Declaration, Declared, SceneStatementKind, Section, Unit};

@@ -1,0 +1,106 @@
+//! How much is done at most. Where a limit is met the error names it.
+
+// ---- Texts ---------------------------------------------------------------------------------------
+
+/// Bytes of a text: no scene comes near it.
+pub const MAX_SOURCE_BYTES: usize = 1 << 20;
+
+/// Bytes of a lock file, whose formulas a program writes.
+pub const MAX_LOCK_BYTES: usize = 16 << 20;
+
+/// Mistakes that are told of one text.
+pub const MAX_MISTAKES: usize = 50;
+
+/// Levels of nesting in an expression, so that no recursion over its tree overflows the stack.
+pub const MAX_NESTING: u16 = 200;
+
+/// Digits of a number in a text.
+pub const MAX_NUMBER_DIGITS: usize = 1000;
+
+/// Places between the decimal point and the last digit of a number in a text.
+pub const MAX_DECIMAL_EXPONENT: i64 = 1000;
+
+/// Bits of a constant once it is worked out as a fraction, so that `2^(2^99)` fails at once.
+pub const MAX_CONSTANT_BITS: u64 = 1 << 15;
+
+/// The index of a wave in a text, and the number added to one.
+pub const MAX_INDEX: u32 = 1_000_000;
+
+/// Periods that an equation looks back: its recurrence keeps the waves of as many.
+pub const MAX_LAG: i64 = 1000;
+
+/// Exponents in a text. Degrees go to twice as many.
+pub const MAX_EXPONENT: u32 = 1000;
+
+/// Terms of an expression once it is multiplied out.
+pub const MAX_TERMS: usize = 100_000;
+
+/// Powers of a unit; no quantity of mechanics has a higher one.
+pub const MAX_UNIT_POWER: u8 = 9;
+
+/// Exponents of local contacts. A larger one is a wall: at half of `α_0` the force is below `2^{−100} F_0`,
+/// beyond it a rounding of `α` changes the force by more than `10^{−14}` of it.
+pub const MAX_CONTACT_EXPONENT: u8 = 100;
+
+// ---- Values --------------------------------------------------------------------------------------
+
+/// Significant digits that are certified.
+pub const MAX_DIGITS: usize = 10_000;
+
+/// Periods before a time where echoes have a closed form: the cost grows with their square.
+pub const MAX_ORDER: usize = 2_000;
+
+/// Periods before a time where waves are sequences in closed form, of which one term is worked out.
+pub const MAX_ORDER_OF_SEQUENCE: usize = 50_000;
+
+/// Periods before a time where echoes are derived one from another, with ever longer expressions.
+pub const MAX_ORDER_WITHOUT_FORM: usize = 400;
+
+/// Echoes of one wave that are worked out on a lattice of delays.
+pub const MAX_ECHOES: usize = 20_000;
+
+/// Periods whose pieces are held: their coefficients grow with the square of that.
+pub const MAX_PIECES: usize = 2_000;
+
+/// Echoes that are summed for a value in doubles: the cost grows with the square.
+pub const MAX_SUMMED_ECHOES: usize = 5_000;
+
+/// Periods that are marched through.
+pub const MAX_MARCHED_PERIODS: u64 = 10_000_000;
+
+/// Polynomials that follow a function on a window.
+pub const MAX_POLYNOMIALS: usize = 400_000;
+
+/// Roots, or places of extrema, in a window.
+pub const MAX_ROOTS: usize = 10_000;
+
+/// Cells of a bar at which a field is given.
+pub const MAX_FIELD_CELLS: usize = 100_000;
+
+// ---- Contacts that open --------------------------------------------------------------------------
+
+/// Contacts in one place; all states of a place, two for each contact, are looked at.
+pub const MAX_CONTACTS: usize = 6;
+
+/// Events: a contact that rattles would have more and more of them.
+pub const MAX_EVENTS: usize = 1_000;
+
+/// Cells of waves.
+pub const MAX_HISTORY_CELLS: usize = 100_000;
+
+/// Bits with which contacts are followed.
+pub const MAX_HISTORY_BITS: u64 = 1 << 11;
+
+// ---- Models --------------------------------------------------------------------------------------
+
+/// Modes of a line.
+pub const MAX_MODES: usize = 1_000_000;
+
+/// Modes times times of one observable: one cosine each.
+pub const MAX_MODE_TERMS: f64 = 1e9;
+
+/// Cells times steps of finite differences: a few seconds of work.
+pub const MAX_CELL_UPDATES: f64 = 1e9;
+
+/// Nodes times periods of the method of steps, each of which is integrated anew.
+pub const MAX_NODE_PERIODS: f64 = 2e4;
