@@ -1,17 +1,11 @@
 //! Bodies: the parts of the line between open contacts, with their energies and momenta.
-//!
-//! With the waves `w⁺` and `w⁻` that leave its ends, a bar of impedance `Z` and travel time `τ` holds the
-//! energy `Z ∫ (w⁺² + w⁻²) dt` and the momentum `Z ∫ (w⁺ + w⁻) dt` over the last `τ`. An endless bar holds
-//! what was sent into it since the start.
 
 use crate::ball::{Ball, Magnitude, Number};
 use crate::evaluate::Limit;
-use crate::expression::Fraction;
-use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
-use crate::network::{ElementLaw, Lumped, Network};
+use crate::network::{ElementLaw, Network};
 use crate::scene::{ElementIndex, End, Kind};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -60,61 +54,19 @@ impl Engine {
     ///
     /// # Errors
     /// [`HistoryError::AfterLast`]; as [`Clock::compare`](crate::history::moment::Clock::compare).
-    pub fn held(&self, element: ElementIndex, moment: &Moment) -> Outcome<Held> {
-        let bits = self.cut.bits;
-        if let Some(bar) = self.layout.bar(element) {
-            return self.held_by_bar(bar, moment);
-        }
-        let node = self.layout.node_of(element).expect("an element of a node");
-        let own = &self.nodes[node];
-        let (start, cell) = self.cell(node, moment, Limit::Right)?;
-        let time = self.clock.since(start, moment)?;
-        let half = Number::Exact(Rational::new(1.into(), 2.into()));
-        let place = own.place(element).expect("an element of its node");
-        if let Lumped { run, law: ElementLaw::Mass { mass, .. }, .. } = &own.elements[place] {
-            let velocity = cell.velocities[*run].value(&time, &self.cut);
-            let momentum = mass.multiply(&velocity, bits);
-            let energy = momentum.multiply(&velocity, bits).multiply(&half, bits);
-            return Ok(Held { energy: Some(energy), momentum: Some(momentum) });
-        }
-        let mut yielding = own.yielding().zip(&cell.yields);
-        let mut energy = Number::zero();
-        if let Some((own, series)) = yielding.find(|(own, _)| own.element == element)
-            && let Some([stiffness, _]) = own.law.resistance()
-        {
-            let yielded = series.value(&time, &self.cut);
-            let square = yielded.multiply(&yielded, bits).multiply(&half, bits);
-            energy = stiffness.multiply(&square, bits);
-        }
-        Ok(Held { energy: Some(energy), momentum: Some(Number::zero()) })
-    }
-
-    fn held_by_bar(&self, bar: usize, moment: &Moment) -> Outcome<Held> {
-        let bits = self.cut.bits;
-        let (impedance, travel) = &self.bars[bar];
-        let start = match travel {
-            Some(travel) => moment.before(travel),
-            None => Moment::at(Fraction::zero()),
+    pub fn held(&self, network: &Network, element: ElementIndex, moment: &Moment) -> Outcome<Held> {
+        let elements = self.elements(network);
+        let energy = self.energy_of(elements, element, moment, Limit::Right)?;
+        let Ok(terms) = elements.momentum(element) else {
+            return Ok(Held { energy, momentum: None });
         };
-        let (mut energy, mut momentum) = (Number::zero(), Number::zero());
-        for (direction, track) in self.waves[bar].iter().enumerate() {
-            if travel.is_none() {
-                if !track.before().is_zero() {
-                    return Ok(Held { energy: None, momentum: None });
-                }
-                // Nothing leaves the far end.
-                let sends = self.layout.ends[bar][direction].is_some();
-                if !sends {
-                    continue;
-                }
-            }
-            let window = [&start, moment];
-            let integral = |integrand| track.integral(integrand, &self.clock, window, &self.cut);
-            energy = energy.add(&integral(Integrand::Square)?, bits);
-            momentum = momentum.add(&integral(Integrand::Wave)?, bits);
+        let mut momentum = Number::zero();
+        for term in terms {
+            let parts = self.reading(elements, &term.of, &self.clock.number(&term.coefficient)?)?;
+            let value = self.sum_of(&parts, (moment, Limit::Right))?;
+            momentum = momentum.add(&value, self.cut.bits);
         }
-        let times = |value: Number| Some(value.multiply(impedance, bits));
-        Ok(Held { energy: times(energy), momentum: times(momentum) })
+        Ok(Held { energy, momentum: Some(momentum) })
     }
 
     /// Energy and momentum of a part of the line.
@@ -130,7 +82,7 @@ impl Engine {
         let bits = self.cut.bits;
         let mut all = Held { energy: Some(Number::zero()), momentum: Some(Number::zero()) };
         for element in &network.scene().line.elements[part.clone()] {
-            let held = self.held(*element, moment)?;
+            let held = self.held(network, *element, moment)?;
             all.energy = sum(all.energy, held.energy, bits);
             all.momentum = sum(all.momentum, held.momentum, bits);
         }
@@ -306,7 +258,9 @@ impl Engine {
         for element in elements.iter().filter(|element| self.layout.bar(**element) != Some(bar)) {
             alone &= matches!(&network.scene().elements[*element].kind, Kind::Spring(spring)
                 if spring.damping.is_zero());
-            let Some(own) = self.held(*element, moment)?.energy else { return Ok(Drift::Unknown) };
+            let Some(own) = self.held(network, *element, moment)?.energy else {
+                return Ok(Drift::Unknown);
+            };
             energy = energy.add(&own, bits);
         }
         let zero = Magnitude::ZERO;

@@ -4,6 +4,7 @@ use crate::ball::{Ball, BallError};
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
 use crate::field::FieldError;
+use crate::scene::Mistake;
 use wavestep_polynomial::Symbol;
 
 /// Why a history cannot be followed to its end.
@@ -97,39 +98,12 @@ pub enum NotFollowed {
         /// Where, in words.
         place: String,
     },
-    /// Energies and momenta, where pieces are asked for.
-    #[error("energies and momenta are followed by `eval` and `plot` alone")]
-    EnergyOrMomentum,
-    /// A measure of the whole line.
-    #[error("nothing is measured there")]
-    NoPlace,
-    /// A measure that a place does not have.
-    #[error("nothing of that kind is measured there")]
-    NoMeasure,
-    /// Strain or stress of what is no bar.
-    #[error("strain and stress are seen in bars")]
-    NotInBar,
-    /// Stress of a bar that is given by its impedance.
-    #[error("stress needs a bar with an area")]
-    NoArea,
-    /// Velocity or displacement of a bar.
-    #[error("a bar as a whole has no one velocity: name a section")]
-    WholeBar,
-    /// Velocity or displacement of a spring.
-    #[error("a spring has two ends with two velocities")]
-    TwoVelocities,
-    /// Energy or momentum of an endless bar that moves.
-    #[error("an endless bar that moves has no finite energy")]
-    InfiniteEnergy,
-    /// A distance in a bar without a wave speed.
-    #[error("no wave speed")]
-    NoWaveSpeed,
-    /// A section whose travel time is no rational multiple of that of the bar.
-    #[error(
-        "the distance of a section is no rational number of travel times: give it as a share of the \
-         length"
-    )]
-    IrrationalSection,
+    /// Energies, where pieces are asked for.
+    #[error("energies are followed by `eval` and `plot` alone")]
+    Energy,
+    /// A measure at a place that does not have it.
+    #[error("{0}")]
+    Measure(Mistake),
 }
 
 /// What the precision allowed does not decide.

@@ -1,4 +1,5 @@
-//! The parts that an observable is the sum of: waves with their delays, motions of nodes, compressions.
+//! The parts that an observable is the sum of: waves with their delays, motions of nodes, compressions,
+//! forces of contacts.
 
 use crate::ball::Number;
 use crate::evaluate::Limit;
@@ -8,15 +9,17 @@ use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::history::series::Series;
-use crate::network::{ElementLaw, Side};
+use crate::history::track::Track;
+use crate::network::{ElementLaw, Side, Window};
 
 type Outcome<T> = Result<T, HistoryError>;
 
 /// What changes with time by itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Source {
-    /// A wave in a bar: to the right (0), or to the left (1).
-    Wave { bar: usize, direction: usize },
+    /// A wave in a bar, to the right (0) or to the left (1), so long after it entered; without a delay what
+    /// it was before the start, which comes for ever from the far side of an endless bar.
+    Wave { bar: usize, direction: usize, delay: Option<Fraction> },
     /// What a node does.
     Node { node: usize, signal: Signal },
 }
@@ -34,22 +37,20 @@ pub(crate) enum Signal {
     Force(usize),
 }
 
-/// `c · f(t − a)` or `c · ∫_0^t f(s − a) ds`.
+/// `c f(t)`, or `c ∫ f dt` since the start or over the last travel time.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Part {
     pub source: Source,
-    /// `a`; none for what comes in an endless bar and is always the same.
-    pub delay: Option<Fraction>,
-    /// `c`.
+    /// `c`
     pub factor: Number,
-    /// Whether it is the integral.
-    pub integrated: bool,
+    /// Over which time it is integrated. Of waves alone more than [`Window::Now`] is known.
+    pub over: Window,
 }
 
 impl Part {
-    /// What changes by itself, without delay.
+    /// What changes by itself.
     pub fn of(source: Source, factor: Number) -> Part {
-        Part { source, delay: Some(Fraction::zero()), factor, integrated: false }
+        Part { source, factor, over: Window::Now }
     }
 }
 
@@ -70,26 +71,33 @@ impl Engine {
     /// # Errors
     /// As [`Engine::cell`].
     pub fn value_of(&self, part: &Part, moment: &Moment, limit: Limit) -> Outcome<Number> {
-        let value = match part.source {
+        let value = match &part.source {
             Source::Node { node, signal } => {
-                let (start, cell) = self.cell(node, moment, limit)?;
-                cell.series(signal).value(&self.clock.since(start, moment)?, &self.cut)
+                let (start, cell) = self.cell(*node, moment, limit)?;
+                cell.series(*signal).value(&self.clock.since(start, moment)?, &self.cut)
             }
-            Source::Wave { bar, direction } => {
-                let track = &self.waves[bar][direction];
-                match (&part.delay, part.integrated) {
-                    (Some(delay), false) => {
-                        track.value(&self.clock, &moment.before(delay), limit, &self.cut)?
-                    }
-                    (Some(delay), true) => {
-                        let start = Moment::at(Fraction::zero());
-                        let window = [&start.before(delay), &moment.before(delay)];
+            Source::Wave { bar, direction, delay: None } => {
+                let length = match &part.over {
+                    Window::Now => Number::one(),
+                    Window::Last(length) => self.clock.number(length)?,
+                    Window::Always => self.clock.time(moment)?,
+                };
+                let before = self.waves[*bar][*direction].before().coefficient(0);
+                before.multiply(&length, self.cut.bits)
+            }
+            Source::Wave { bar, direction, delay: Some(delay) } => {
+                let track = &self.waves[*bar][*direction];
+                let seen = moment.before(delay);
+                let from = match &part.over {
+                    Window::Now => None,
+                    Window::Last(length) => Some(seen.before(length)),
+                    Window::Always => Some(Moment::at(-delay)),
+                };
+                match from {
+                    None => track.value(&self.clock, &seen, limit, &self.cut)?,
+                    Some(from) => {
+                        let window = [&from, &seen];
                         track.integral(Integrand::Wave, &self.clock, window, &self.cut)?
-                    }
-                    (None, false) => track.before().coefficient(0),
-                    (None, true) => {
-                        let time = self.clock.time(moment)?;
-                        track.before().coefficient(0).multiply(&time, self.cut.bits)
                     }
                 }
             }
@@ -102,37 +110,53 @@ impl Engine {
     /// # Errors
     /// As [`Engine::cell`].
     pub fn series_of(&self, part: &Part, now: &Moment) -> Outcome<Series> {
-        let (start, series) = match (part.source, &part.delay) {
-            (Source::Node { node, signal }, _) => {
-                let (start, cell) = self.cell(node, now, Limit::Right)?;
-                (start.clone(), cell.series(signal))
+        let series = match &part.source {
+            Source::Node { node, signal } => {
+                let (start, cell) = self.cell(*node, now, Limit::Right)?;
+                cell.series(*signal).shift(&self.clock.since(start, now)?, &self.cut)
             }
-            (Source::Wave { bar, direction }, Some(delay)) => {
-                let track = &self.waves[bar][direction];
-                let cell = track.cell(&self.clock, &now.before(delay), Limit::Right)?;
-                let (start, wave) = &track.cells[cell];
-                (start.after(delay), wave.series())
+            Source::Wave { bar, direction, delay: Some(delay) } => {
+                let track = &self.waves[*bar][*direction];
+                let series = self.series_at(track, &now.before(delay))?;
+                match &part.over {
+                    Window::Last(length) => {
+                        let left = self.series_at(track, &now.before(&(delay + length)))?;
+                        series.subtract(&left, self.cut.bits)
+                    }
+                    Window::Now | Window::Always => series,
+                }
             }
-            (Source::Wave { bar, direction }, None) => {
-                (now.clone(), self.waves[bar][direction].before())
+            Source::Wave { delay: None, .. } if matches!(part.over, Window::Last(_)) => {
+                Series::zero()
+            }
+            Source::Wave { bar, direction, delay: None } => {
+                self.waves[*bar][*direction].before().clone()
             }
         };
         let (bits, zero) = (self.cut.bits, Number::zero());
-        let series = series.shift(&self.clock.since(&start, now)?, &self.cut);
         let series = series.combine(&part.factor, &Series::zero(), &zero, bits);
-        Ok(match part.integrated {
-            true => series.integral(self.value_of(part, now, Limit::Right)?, &self.cut),
-            false => series,
+        Ok(match part.over {
+            Window::Now => series,
+            Window::Last(_) | Window::Always => {
+                series.integral(self.value_of(part, now, Limit::Right)?, &self.cut)
+            }
         })
+    }
+
+    /// A wave from an instant on.
+    fn series_at(&self, track: &Track, now: &Moment) -> Outcome<Series> {
+        let cell = track.cell(&self.clock, now, Limit::Right)?;
+        let (start, wave) = &track.cells[cell];
+        Ok(wave.series().shift(&self.clock.since(start, now)?, &self.cut))
     }
 
     /// Whether a part never jumps: displacements, integrals of waves, velocities of masses.
     pub fn is_continuous(&self, part: &Part) -> bool {
-        match part.source {
-            Source::Wave { .. } => part.integrated || part.delay.is_none(),
+        match &part.source {
+            Source::Wave { delay, .. } => part.over != Window::Now || delay.is_none(),
             Source::Node { signal: Signal::Displacement(_), .. } => true,
             Source::Node { node, signal: Signal::Velocity(run) } => {
-                let mut attached = self.nodes[node].attached(run);
+                let mut attached = self.nodes[*node].attached(*run);
                 attached.any(|own| matches!(own.law, ElementLaw::Mass { .. }))
             }
             Source::Node { signal: Signal::Yield(_) | Signal::Force(_), .. } => false,
@@ -168,15 +192,19 @@ impl Engine {
 
     /// When a part may change its series.
     pub fn breaks_of(&self, part: &Part) -> Vec<Moment> {
-        match (part.source, &part.delay) {
-            (Source::Node { node, .. }, _) => {
-                self.cells[node].iter().map(|(start, _)| start.clone()).collect()
-            }
-            (Source::Wave { bar, direction }, Some(delay)) => {
-                let cells = self.waves[bar][direction].cells.iter();
-                cells.map(|(start, _)| start.after(delay)).collect()
-            }
-            (Source::Wave { .. }, None) => Vec::new(),
+        let Source::Wave { bar, direction, delay } = &part.source else {
+            let Source::Node { node, .. } = part.source else { return Vec::new() };
+            return self.cells[node].iter().map(|(start, _)| start.clone()).collect();
+        };
+        let Some(delay) = delay else { return Vec::new() };
+        let cells = &self.waves[*bar][*direction].cells;
+        let after = |delay: &Fraction| -> Vec<Moment> {
+            cells.iter().map(|own| own.0.after(delay)).collect()
+        };
+        let mut breaks = after(delay);
+        if let Window::Last(length) = &part.over {
+            breaks.extend(after(&(delay + length)));
         }
+        breaks
     }
 }

@@ -3,7 +3,6 @@
 use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::enclosure::EnclosureError;
 use crate::evaluate::{At, EvaluateError, Known, Limit, Point, Signal, Taylor};
-use crate::expression::Fraction;
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::history::{History, undecided, unit};
@@ -11,8 +10,7 @@ use crate::history::moment::Moment;
 use crate::history::part::Part;
 use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::Network;
-use crate::scene::{Measure, Observable, Seen};
+use crate::network::{Measured, MeasuredValue, Network};
 use num_traits::Zero as _;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
@@ -65,9 +63,8 @@ impl Piece {
 /// What is known at one precision.
 struct Followed {
     engine: Engine,
-    /// What is linear in the waves, and energies and momenta.
-    parts: Vec<Part>,
-    held: Vec<Seen>,
+    /// None for an energy.
+    parts: Option<Vec<Part>>,
     /// Made when stretches are first asked for.
     pieces: OnceCell<Vec<Piece>>,
     /// The unit of time, and one over it.
@@ -77,7 +74,7 @@ struct Followed {
 /// An observable of a scene whose contacts open, on a window of the user's time.
 pub struct FollowedSignal<'a> {
     network: &'a Network,
-    seen: Observable,
+    measured: &'a Measured,
     window: [Rational; 2],
     known: RefCell<Rc<Followed>>,
 }
@@ -99,26 +96,21 @@ impl<'a> FollowedSignal<'a> {
         if to < from || *from < Rational::zero() {
             return Err(HistoryError::EmptyWindow);
         }
-        let seen = History::observable(network, observable)?.clone();
+        let measured = History::observable(network, observable)?;
         let window = [from.clone(), to.clone()];
-        let attempt = |bits| match Followed::of(network, &seen, &window, bits) {
+        let attempt = |bits| match Followed::of(network, measured, &window, bits) {
             Ok(known) => Ok(Attempt::Done(Ok(known))),
             Err(error) => undecided(error),
         };
         let known =
             Precisions::whole_doublings(FIRST_BITS, MAX_HISTORY_BITS).raise(attempt)?.best()?;
-        if !known.held.is_empty() {
-            // An energy that is infinite is so at all times.
-            let start = Moment::at(Fraction::zero());
-            known.value(network, &start, Limit::Right)?;
-        }
-        Ok(FollowedSignal { network, seen, window, known: RefCell::new(Rc::new(known)) })
+        Ok(FollowedSignal { network, measured, window, known: RefCell::new(Rc::new(known)) })
     }
 
     /// Finds all breaks, so that stretches can be asked for.
     ///
     /// # Errors
-    /// [`HistoryError::Refused`] for energies and momenta.
+    /// [`HistoryError::Refused`] for energies.
     pub fn cut_at_breaks(self) -> Result<Self, HistoryError> {
         self.known.borrow().pieces(self.network, &self.window)?;
         Ok(self)
@@ -133,7 +125,8 @@ impl<'a> FollowedSignal<'a> {
         let bits = bits.next_multiple_of(STEP_BITS);
         // The window was followed before, so nothing but the precision can be wanting.
         let wanting = |_| EvaluateError::NotFollowed { bits };
-        let finer = Followed::of(self.network, &self.seen, &self.window, bits).map_err(wanting)?;
+        let finer =
+            Followed::of(self.network, self.measured, &self.window, bits).map_err(wanting)?;
         if let Some(pieces) = known.pieces.get()
             && finer.pieces(self.network, &self.window).map_err(wanting)?.len() != pieces.len()
         {
@@ -171,50 +164,42 @@ impl<'a> FollowedSignal<'a> {
 impl Followed {
     fn of(
         network: &Network,
-        seen: &Observable,
+        measured: &Measured,
         window: &[Rational; 2],
         bits: u64,
     ) -> Result<Followed, HistoryError> {
         let mut engine = Engine::new(network, bits)?;
         engine.follow_until(&Moment::at(network.scaled_time(&window[1])))?;
-        let is_linear = |term: &&Seen| !matches!(term.measure, Measure::Energy | Measure::Momentum);
-        let (linear, held): (Vec<&Seen>, Vec<&Seen>) = seen.terms.iter().partition(is_linear);
-        let mut parts = Vec::new();
-        for term in linear {
-            parts.extend(engine.parts(network, term)?);
-        }
-        let held = held.into_iter().cloned().collect();
+        let parts = match &measured.value {
+            MeasuredValue::Linear(terms) => Some(engine.parts(network, terms, &measured.unit)?),
+            MeasuredValue::Energy(_) => None,
+        };
         let time = unit(&network.model().scale.time, &engine.clock.numbers, bits)?;
         let inverse = time.reciprocal(bits)?;
-        Ok(Followed { engine, parts, held, pieces: OnceCell::new(), unit: [time, inverse] })
+        Ok(Followed { engine, parts, pieces: OnceCell::new(), unit: [time, inverse] })
     }
 
     /// One limit at an instant.
     fn value(
         &self,
         network: &Network,
-        moment: &Moment,
-        limit: Limit,
+        measured: &Measured,
+        at: (&Moment, Limit),
     ) -> Result<Number, HistoryError> {
-        let bits = self.engine.cut.bits;
-        let mut sum = Number::zero();
-        for part in &self.parts {
-            sum = sum.add(&self.engine.value_of(part, moment, limit)?, bits);
+        match (&self.parts, &measured.value) {
+            (None, MeasuredValue::Energy(energies)) => {
+                self.engine.energies(network, energies, &measured.unit, at)
+            }
+            (parts, _) => self.engine.sum_of(parts.as_deref().unwrap_or_default(), at),
         }
-        for term in &self.held {
-            sum = sum.add(&self.engine.held_in(network, term, moment)?, bits);
-        }
-        Ok(sum)
     }
 
     fn pieces(&self, network: &Network, window: &[Rational; 2]) -> Result<&[Piece], HistoryError> {
         if let Some(pieces) = self.pieces.get() {
             return Ok(pieces);
         }
-        if !self.held.is_empty() {
-            return Err(NotFollowed::EnergyOrMomentum.into());
-        }
-        let (engine, parts) = (&self.engine, &self.parts);
+        let engine = &self.engine;
+        let parts = self.parts.as_ref().ok_or(NotFollowed::Energy)?;
         let ends = window.each_ref().map(|time| Moment::at(network.scaled_time(time)));
         let mut starts = vec![ends[0].clone()];
         starts.extend(engine.breaks(parts, &ends)?);
@@ -302,7 +287,11 @@ impl Signal for FollowedSignal<'_> {
             if bits > first {
                 first = (bits + SPARE_BITS).max((2 * first).min(MAX_HISTORY_BITS));
             }
-            let attempt = |bits| match self.followed(bits)?.value(self.network, &moment, limit) {
+            let attempt = |bits| match self.followed(bits)?.value(
+                self.network,
+                self.measured,
+                (&moment, limit),
+            ) {
                 Ok(value) => Ok(Attempt::Done(value)),
                 Err(error @ HistoryError::Undecided { .. }) => {
                     Ok(Attempt::NotYet(error.of_value(bits)))
@@ -412,7 +401,7 @@ impl Signal for FollowedSignal<'_> {
         let followed = self.cut(0)?;
         let end = &followed.piece(stretch).ends[1];
         let zero = |part| followed.engine.vanishes_before(part, end);
-        if matches!(at, At::End(Limit::Left)) && followed.parts.iter().all(zero) {
+        if matches!(at, At::End(Limit::Left)) && followed.parts.iter().flatten().all(zero) {
             return Ok(Some(Rational::zero()));
         }
         let at = self.since(&followed, stretch, at)?;
@@ -427,7 +416,7 @@ impl Signal for FollowedSignal<'_> {
             let slope = followed.engine.slope_of(part);
             slope.is_some_and(|slope| followed.engine.vanishes_before(&slope, last))
         };
-        if end == Limit::Left && followed.parts.iter().all(flat) {
+        if end == Limit::Left && followed.parts.iter().flatten().all(flat) {
             return Ok(true);
         }
         let at = self.since(&followed, stretch, At::End(end))?;

@@ -3,7 +3,8 @@
 use crate::limits::MAX_CELL_UPDATES;
 use crate::model::error::{ModelError, NotRepresented};
 use crate::model::leapfrog::NAME;
-use crate::model::line::{Law, Line, Quantity, Spot, Term};
+use crate::model::line::{Law, Line};
+use crate::network::{Face, Field, Reading, Section, Term};
 use crate::scene::Drive;
 
 /// Cells of a bar: from point `first` to point `first + cells`.
@@ -71,32 +72,41 @@ pub(crate) struct Chain {
 #[derive(Clone, Debug)]
 pub(crate) struct Tap {
     pub coefficient: f64,
-    quantity: Quantity,
-    spot: TapSpot,
+    of: Sampled,
     /// The displacement so far.
     sum: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum TapSpot {
+enum Spot {
     /// In a bar, at so many cells from its left end.
-    Section {
+    Section { bar: usize, at: f64 },
+    /// A run of a node.
+    Point(usize),
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Sampled {
+    Velocity(Spot),
+    Displacement(Spot),
+    /// The force in a bar, at so many cells from its left end.
+    Force {
         bar: usize,
         at: f64,
     },
-    Bar(usize),
-    /// A mass, support or load, by its point; the mass.
-    Point {
-        point: usize,
-        mass: f64,
-    },
-    /// A spring, by knot and link.
-    Link {
+    /// The momentum of a bar.
+    Momentum(usize),
+    /// Of a spring, by knot and link.
+    Compression {
         knot: usize,
         link: usize,
     },
-    /// A support, by its point.
-    Support {
+    SpringForce {
+        knot: usize,
+        link: usize,
+    },
+    /// Of a support, by knot and run.
+    SupportForce {
         knot: usize,
         run: usize,
         stiffness: f64,
@@ -239,42 +249,49 @@ impl Chain {
     }
 
     /// What is read for a term; `None` where there is no such thing.
-    pub fn tap(&self, line: &Line, term: &Term) -> Option<Tap> {
-        let spot = match term.spot {
-            Spot::Section { bar, at } => {
-                let cells = self.bars[bar];
-                let at = (at / cells.crossing).min(cells.cells as f64);
-                // An endless bar to the left is counted from its right end.
-                let mirrored = line.bars[bar].nodes[0].is_none();
-                let at = if mirrored { cells.cells as f64 - at } else { at };
-                TapSpot::Section { bar, at }
+    pub fn tap(&self, line: &Line, term: &Term<f64>) -> Option<Tap> {
+        let cells_from_left = |section: &Section<f64>| {
+            let cells = self.bars[section.bar];
+            let at = (section.distance() / cells.crossing).min(cells.cells as f64);
+            // An endless bar to the left is counted from its right end.
+            let mirrored = line.bars[section.bar].nodes[0].is_none();
+            if mirrored { cells.cells as f64 - at } else { at }
+        };
+        let point = |face: Face| {
+            let knot = &self.knots[self.knot_of[face.lump().node]];
+            Spot::Point(knot.runs[line.run(face)].point)
+        };
+        let of = match &term.of {
+            Reading::InBar(field, section) => {
+                let (bar, at) = (section.bar, cells_from_left(section));
+                match field {
+                    Field::Velocity => Sampled::Velocity(Spot::Section { bar, at }),
+                    Field::Displacement => Sampled::Displacement(Spot::Section { bar, at }),
+                    Field::Force => Sampled::Force { bar, at },
+                }
             }
-            Spot::Bar(bar) => TapSpot::Bar(bar),
-            Spot::Lump { node, place } => {
-                let knot = self.knot_of[node];
-                let lump = &line.nodes[node].lumps[place];
-                let point = self.knots[knot].runs[lump.run].point;
-                match (&lump.law, term.quantity) {
-                    (Law::Spring { .. }, Quantity::Force | Quantity::Compression) => {
-                        TapSpot::Link { knot, link: lump.run }
+            Reading::Momentum(bar) => Sampled::Momentum(*bar),
+            Reading::Velocity(face) => Sampled::Velocity(point(*face)),
+            Reading::Displacement(face) => Sampled::Displacement(point(*face)),
+            Reading::Compression(lump) | Reading::Force(lump) => {
+                let knot = self.knot_of[lump.node];
+                let own = &line.nodes[lump.node].lumps[lump.place];
+                match (&term.of, &own.law) {
+                    (Reading::Compression(_), Law::Spring { .. }) => {
+                        Sampled::Compression { knot, link: own.run }
                     }
-                    (Law::Support { stiffness, damping }, Quantity::Force) => {
+                    (Reading::Force(_), Law::Spring { .. }) => {
+                        Sampled::SpringForce { knot, link: own.run }
+                    }
+                    (Reading::Force(_), Law::Support { stiffness, damping }) => {
                         let (stiffness, damping) = (*stiffness, *damping);
-                        TapSpot::Support { knot, run: lump.run, stiffness, damping }
-                    }
-                    (Law::Mass { mass, .. }, Quantity::Momentum) => {
-                        TapSpot::Point { point, mass: *mass }
-                    }
-                    (Law::Spring { .. }, _) => return None,
-                    (_, Quantity::Velocity | Quantity::Displacement) => {
-                        TapSpot::Point { point, mass: 1.0 }
+                        Sampled::SupportForce { knot, run: own.run, stiffness, damping }
                     }
                     _ => return None,
                 }
             }
         };
-        let coefficient = term.coefficient;
-        Some(Tap { coefficient, quantity: term.quantity, spot, sum: 0.0 })
+        Some(Tap { coefficient: term.coefficient, of, sum: 0.0 })
     }
 
     /// The motion at the start.
@@ -305,9 +322,9 @@ impl Chain {
 
 /// How far from its end an endless bar is observed.
 fn farthest(line: &Line, bar: usize) -> f64 {
-    let terms = line.observables.iter().flat_map(|observable| &observable.terms);
-    let seen = |term: &Term| match term.spot {
-        Spot::Section { bar: seen, at } if seen == bar => at,
+    let terms = line.observables.iter().flat_map(|observable| observable.terms());
+    let seen = |term: &Term<f64>| match &term.of {
+        Reading::InBar(_, section) if section.bar == bar => *section.distance(),
         _ => 0.0,
     };
     terms.map(seen).fold(0.0, f64::max)
@@ -444,36 +461,32 @@ impl Motion<'_> {
     pub fn sample(&self, tap: &mut Tap) -> (f64, f64) {
         let now = self.steps as f64 * self.chain.step;
         let later = now + self.chain.step / 2.0;
-        match (tap.quantity, tap.spot) {
-            (Quantity::Velocity, spot) => (later, self.velocity(spot)),
-            (Quantity::Displacement, spot) => {
+        match tap.of {
+            Sampled::Velocity(spot) => (later, self.velocity(spot)),
+            Sampled::Displacement(spot) => {
                 let sum = tap.sum;
                 tap.sum += self.chain.step * self.velocity(spot);
                 (now, sum)
             }
-            (Quantity::Momentum, TapSpot::Bar(bar)) => {
+            Sampled::Momentum(bar) => {
                 let bar = &self.chain.bars[bar];
                 let all = &self.velocities[bar.first..=bar.first + bar.cells];
                 let ends = (all[0] + all[bar.cells]) / 2.0;
                 let sum = all.iter().sum::<f64>() - ends;
                 (later, bar.impedance * bar.crossing * sum)
             }
-            (Quantity::Momentum, spot) => (later, self.velocity(spot)),
-            (Quantity::Compression, TapSpot::Link { knot, link }) => {
-                (now, self.compressions[knot][link])
-            }
-            (_, TapSpot::Link { knot, link }) => {
+            Sampled::Compression { knot, link } => (now, self.compressions[knot][link]),
+            Sampled::SpringForce { knot, link } => {
                 let runs = &self.chain.knots[knot].runs;
                 let Link { stiffness, damping } = self.chain.knots[knot].links[link];
                 let closing = self.now(runs[link].point) - self.now(runs[link + 1].point);
                 (now, stiffness * self.compressions[knot][link] + damping * closing)
             }
-            (_, TapSpot::Support { knot, run, stiffness, damping }) => {
+            Sampled::SupportForce { knot, run, stiffness, damping } => {
                 let velocity = self.now(self.chain.knots[knot].runs[run].point);
                 (now, stiffness * self.displacements[knot][run] + damping * velocity)
             }
-            (_, TapSpot::Section { bar, at }) => (now, self.force(bar, at)),
-            (_, TapSpot::Bar(_) | TapSpot::Point { .. }) => (now, 0.0),
+            Sampled::Force { bar, at } => (now, self.force(bar, at)),
         }
     }
 
@@ -485,20 +498,16 @@ impl Motion<'_> {
         }
     }
 
-    fn velocity(&self, spot: TapSpot) -> f64 {
+    fn velocity(&self, spot: Spot) -> f64 {
         match spot {
-            TapSpot::Section { bar, at } => {
+            Spot::Section { bar, at } => {
                 let bar = &self.chain.bars[bar];
                 let whole = (at.floor() as usize).min(bar.cells - 1);
                 let share = at - whole as f64;
                 let pair = &self.velocities[bar.first + whole..];
                 pair[0] + share * (pair[1] - pair[0])
             }
-            TapSpot::Point { point, mass } => mass * self.velocities[point],
-            TapSpot::Support { knot, run, .. } => {
-                self.velocities[self.chain.knots[knot].runs[run].point]
-            }
-            TapSpot::Bar(_) | TapSpot::Link { .. } => 0.0,
+            Spot::Point(point) => self.velocities[point],
         }
     }
 

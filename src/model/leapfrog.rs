@@ -22,7 +22,7 @@ use crate::model::Model;
 use crate::model::chain::{Chain, Tap};
 use crate::model::error::{BadSetting, ModelError, NotSeen};
 use crate::model::line::Line;
-use crate::network::ScaledScene;
+use crate::network::{Reading, ScaledScene};
 
 pub(crate) const NAME: &str = "leapfrog";
 
@@ -107,7 +107,7 @@ impl Leapfrog {
 }
 
 /// Values between two samples in time, for times in ascending order.
-struct Reading {
+struct Samples {
     tap: Tap,
     /// The sample before, and its time.
     before: Option<(f64, f64)>,
@@ -115,7 +115,7 @@ struct Reading {
     served: usize,
 }
 
-impl Reading {
+impl Samples {
     /// Takes a sample, and adds the values at all times that it is the next for; times before the
     /// second sample are read on the line through the first two.
     fn take(&mut self, at: f64, sample: f64, times: &[(f64, usize)], values: &mut [f64]) {
@@ -141,10 +141,15 @@ impl Model for Leapfrog {
 
     fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
         let observable = self.line.observable(NAME, observable)?;
-        let mut readings = Vec::new();
-        for term in &observable.terms {
+        let mut taps = Vec::new();
+        for term in observable.terms() {
+            if let Reading::Momentum(bar) = term.of
+                && self.line.bars[bar].travel.is_none()
+            {
+                return self.line.refuse(NAME, observable, NotSeen::EndlessMomentum);
+            }
             match self.chain.tap(&self.line, term) {
-                Some(tap) => readings.push(Reading { tap, before: None, served: 0 }),
+                Some(tap) => taps.push(Samples { tap, before: None, served: 0 }),
                 None => return self.line.refuse(NAME, observable, NotSeen::Other),
             }
         }
@@ -160,11 +165,11 @@ impl Model for Leapfrog {
             return Err(ModelError::TooMuch { model: NAME, what: "cell updates", count, limit });
         }
         let mut motion = self.chain.start();
-        while readings.iter().any(|reading| reading.served < ascending.len()) {
+        while taps.iter().any(|samples| samples.served < ascending.len()) {
             motion.advance(&self.line);
-            for reading in &mut readings {
-                let (at, sample) = motion.sample(&mut reading.tap);
-                reading.take(at, sample, &ascending, &mut values);
+            for samples in &mut taps {
+                let (at, sample) = motion.sample(&mut samples.tap);
+                samples.take(at, sample, &ascending, &mut values);
             }
             motion.settle();
         }

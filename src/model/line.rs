@@ -4,8 +4,10 @@
 use crate::enclosure::Numbers;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::network::{Contacts, Layout, ModelLump, ScaledScene, Side, bar_roots};
-use crate::scene::{Body, Drive, ElementIndex, Kind, Measure, Place, Position};
+use crate::network::{
+    Contacts, Face, Layout, Measured, MeasuredValue, ModelLump, ScaledScene, Side, Term, unit,
+};
+use crate::scene::{Drive, Kind, Measure};
 use num_traits::ToPrimitive as _;
 
 /// A bar in doubles.
@@ -158,43 +160,20 @@ impl Node {
     }
 }
 
-/// What is observed in a bar or of a lumped element.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Quantity {
-    Velocity,
-    Displacement,
-    Force,
-    Compression,
-    Momentum,
-    Energy,
-}
-
-/// Where something is observed.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Spot {
-    /// In a bar, by the time that a wave needs to it from the left end, or from the end of an endless
-    /// bar.
-    Section { bar: usize, at: f64 },
-    /// A bar as a whole.
-    Bar(usize),
-    /// A lumped element, by its node and its place there.
-    Lump { node: usize, place: usize },
-}
-
-/// One term of an observable: a coefficient, in the units of the scene, times a quantity in the scales
-/// of the line.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Term {
-    pub coefficient: f64,
-    pub quantity: Quantity,
-    pub spot: Spot,
-}
-
-/// An observable in doubles.
+/// An observable in doubles: readings in the scales of the line, with coefficients in the units of the
+/// scene.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Observable {
     pub name: String,
-    pub terms: Vec<Term>,
+    /// None for an energy, which is not linear in the motion.
+    terms: Option<Vec<Term<f64>>>,
+}
+
+impl Observable {
+    /// The readings; none for an energy.
+    pub fn terms(&self) -> &[Term<f64>] {
+        self.terms.as_deref().unwrap_or_default()
+    }
 }
 
 /// A scene in doubles.
@@ -262,20 +241,13 @@ impl Line {
     ///
     /// # Errors
     /// [`ModelError::NoObservable`] where there is none; [`ModelError::Refused`] for energies, which
-    /// are not linear in the motion, and for the momentum of an endless bar.
+    /// are not linear in the motion.
     pub fn observable(&self, model: &'static str, index: usize) -> Result<&Observable, ModelError> {
         let count = self.observables.len();
         let observable = self.observables.get(index);
         let observable = observable.ok_or(ModelError::NoObservable { asked: index, count })?;
-        for term in &observable.terms {
-            if term.quantity == Quantity::Energy {
-                return self.refuse(model, observable, NotSeen::Energy);
-            }
-            if let (Quantity::Momentum, Spot::Bar(bar)) = (term.quantity, term.spot)
-                && self.bars[bar].travel.is_none()
-            {
-                return self.refuse(model, observable, NotSeen::EndlessMomentum);
-            }
+        if observable.terms.is_none() {
+            return self.refuse(model, observable, NotSeen::Energy);
         }
         Ok(observable)
     }
@@ -310,6 +282,12 @@ impl Line {
         self.bars.iter().find(|bar| bar.travel.is_none())
     }
 
+    /// The run of its node that is beside a lumped element.
+    pub fn run(&self, face: Face) -> usize {
+        let Lump { law, run, .. } = &self.nodes[face.lump().node].lumps[face.lump().place];
+        run + usize::from(matches!(face, Face::Right(_)) && law.parts_places())
+    }
+
     /// What the unit of time is to the user, and the strain that goes with the unit of velocity in a
     /// bar, `V/c`.
     ///
@@ -321,10 +299,9 @@ impl Line {
         let Kind::Bar(data) = &scaled.scene().elements[layout.bars[bar]].kind else {
             unreachable!("a bar of the line")
         };
-        let (_, _, stiffness) = bar_roots(&data.body).expect("the network has read this bar");
-        let force = double_root(&numbers, &scaled.model().scale.force())?;
-        let strain = self.bars[bar].impedance * force / double_root(&numbers, &stiffness)?;
-        Ok((1.0 / self.slowness, strain))
+        let strain = unit(&scaled.model().scale, Measure::Strain, Some(&data.body));
+        let strain = double_root(&numbers, &strain.expect("the network has read this bar"))?;
+        Ok((1.0 / self.slowness, self.bars[bar].impedance * strain))
     }
 }
 
@@ -345,27 +322,8 @@ impl Reader<'_> {
         }
         let nodes = (0..self.layout.nodes.len()).map(|node| self.node(node));
         let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
-        let scene = self.scaled.scene();
-        let mut observables = Vec::new();
-        for observable in &scene.observables {
-            let mut terms = Vec::new();
-            for seen in &observable.terms {
-                let coefficient = double(&self.numbers, &seen.coefficient)?;
-                match seen.place {
-                    Place::Line => {
-                        for element in &scene.line.elements {
-                            let kind = &scene.elements[*element].kind;
-                            if matches!(kind, Kind::Bar(_) | Kind::Mass(_)) {
-                                let place = Place::Element(*element);
-                                terms.push(self.term(coefficient, seen.measure, &place, &bars)?);
-                            }
-                        }
-                    }
-                    ref place => terms.push(self.term(coefficient, seen.measure, place, &bars)?),
-                }
-            }
-            observables.push(Observable { name: observable.name.clone(), terms });
-        }
+        let observables = self.scaled.measures().iter().map(|measured| self.observable(measured));
+        let observables = observables.collect::<Result<Vec<_>, _>>()?;
         let slowness = double(&self.numbers, &self.scaled.model().slowness)?;
         Ok(Line { bars, nodes, observables, slowness })
     }
@@ -405,89 +363,18 @@ impl Reader<'_> {
         Ok(Node { left: node.left, right: node.right, lumps, runs })
     }
 
-    fn term(
-        &self,
-        coefficient: f64,
-        measure: Measure,
-        place: &Place,
-        bars: &[Bar],
-    ) -> Result<Term, ModelError> {
-        let root = |root| double_root(&self.numbers, root);
-        let scale = &self.scaled.model().scale;
-        let (time, velocity) = (root(&scale.time)?, root(&scale.velocity)?);
-        let force = root(&scale.force())?;
-        let (quantity, unit) = match measure {
-            Measure::Velocity => (Quantity::Velocity, velocity),
-            Measure::Displacement => (Quantity::Displacement, velocity * time),
-            Measure::Compression => (Quantity::Compression, velocity * time),
-            Measure::Force => (Quantity::Force, force),
-            Measure::Strain | Measure::Stress => {
-                (Quantity::Force, -force / self.pulled(measure, place)?)
-            }
-            Measure::Momentum => (Quantity::Momentum, force * time),
-            Measure::Energy => (Quantity::Energy, force * velocity * time),
+    fn observable(&self, measured: &Measured) -> Result<Observable, ModelError> {
+        let unit = double_root(&self.numbers, &measured.unit)?;
+        let double = |term: &Term| -> Result<Term<f64>, ModelError> {
+            let term = term.map(|value| double(&self.numbers, value))?;
+            Ok(Term { coefficient: term.coefficient * unit, ..term })
         };
-        let bar = |element: &ElementIndex| self.layout.bar(*element).expect("a bar of the line");
-        let spot = match place {
-            Place::Left(element) => Spot::Section { bar: bar(element), at: 0.0 },
-            Place::Right(element) => {
-                let bar = bar(element);
-                // An endless bar to the left is counted from its one end.
-                Spot::Section { bar, at: bars[bar].travel.unwrap_or(0.0) }
+        let terms = match &measured.value {
+            MeasuredValue::Linear(terms) => {
+                Some(terms.iter().map(double).collect::<Result<_, _>>()?)
             }
-            Place::At(element, position) => {
-                let bar = bar(element);
-                let at = match position {
-                    Position::Share(share) => {
-                        double(&self.numbers, share)? * bars[bar].travel.unwrap_or(0.0)
-                    }
-                    Position::Distance(distance) => {
-                        double(&self.numbers, distance)? * self.wave_slowness(*element)? / time
-                    }
-                };
-                Spot::Section { bar, at }
-            }
-            Place::Element(element) => match self.layout.node_of(*element) {
-                Some(node) => {
-                    let place = self.layout.nodes[node].place(*element);
-                    Spot::Lump { node, place: place.expect("an element of its node") }
-                }
-                None => Spot::Bar(bar(element)),
-            },
-            Place::Line => unreachable!("the line is observed element by element"),
+            MeasuredValue::Energy(_) => None,
         };
-        Ok(Term { coefficient: coefficient * unit, quantity, spot })
-    }
-
-    fn body(&self, element: ElementIndex) -> &Body {
-        match &self.scaled.scene().elements[element].kind {
-            Kind::Bar(bar) => &bar.body,
-            _ => unreachable!("sections are in bars"),
-        }
-    }
-
-    /// The force that a strain of 1, or a stress of 1, goes with.
-    fn pulled(&self, measure: Measure, place: &Place) -> Result<f64, ModelError> {
-        let element = place.element().expect("strain and stress are seen in bars");
-        match (self.body(element), measure) {
-            (Body::Solid { area, .. }, Measure::Stress) => Ok(double(&self.numbers, area)?),
-            (body, _) => {
-                let strained = bar_roots(body).map(|(_, _, stiffness)| stiffness);
-                let strained = strained.expect("the network has read this bar");
-                Ok(double_root(&self.numbers, &strained)?)
-            }
-        }
-    }
-
-    /// The time in which a wave goes a unit of distance; distances in bars given by impedance are
-    /// times.
-    fn wave_slowness(&self, element: ElementIndex) -> Result<f64, ModelError> {
-        match self.body(element) {
-            Body::Impedance { .. } => Ok(1.0),
-            Body::Solid { modulus, density, .. } => {
-                let modulus = double(&self.numbers, modulus)?;
-                Ok((double(&self.numbers, density)? / modulus).sqrt())
-            }
-        }
+        Ok(Observable { name: measured.name.clone(), terms })
     }
 }

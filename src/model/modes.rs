@@ -11,9 +11,9 @@
 use crate::limits::{MAX_MODE_TERMS, MAX_MODES};
 use crate::model::Model;
 use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen};
-use crate::model::line::{Law, Line, Quantity, Spot, Term};
+use crate::model::line::{Law, Line};
 use crate::model::shape::{Part, Shape, frequency};
-use crate::network::{ScaledScene, Side};
+use crate::network::{Face, Field, Lump, Reading, ScaledScene, Side};
 
 const NAME: &str = "modes of vibration";
 
@@ -147,39 +147,38 @@ impl Modes {
         self.modes.iter().map(|mode| mode.shape.frequency() * self.unit)
     }
 
-    /// Adds what a term sees of a mode, as factors of `q` and `q'`.
-    fn seen(&self, term: &Term, shape: &Shape) -> Option<[f64; 2]> {
-        let displaced = |u: f64| match term.quantity {
-            Quantity::Velocity => Some([0.0, u]),
-            Quantity::Displacement => Some([u, 0.0]),
-            _ => None,
-        };
-        match term.spot {
-            Spot::Section { bar, at } => {
-                let part = self.part_of_bar(bar);
-                let [u, pulled] = shape.section(part, at);
-                match term.quantity {
-                    Quantity::Force => Some([-pulled, 0.0]),
-                    _ => displaced(u),
+    /// A reading of a mode, as factors of `q` and `q'`; none for what modes do not have.
+    fn seen(&self, reading: &Reading<f64>, shape: &Shape) -> Option<[f64; 2]> {
+        let at = |lump: Lump| shape.left_of(self.part_of_node(lump.node) + lump.place);
+        let law = |lump: Lump| &self.line.nodes[lump.node].lumps[lump.place].law;
+        Some(match reading {
+            Reading::InBar(field, section) => {
+                let part = self.part_of_bar(section.bar);
+                let [u, pulled] = shape.section(part, *section.distance());
+                match field {
+                    Field::Velocity => [0.0, u],
+                    Field::Displacement => [u, 0.0],
+                    Field::Force => [-pulled, 0.0],
                 }
             }
-            Spot::Bar(bar) => {
-                let part = self.part_of_bar(bar);
-                Some([0.0, self.line.bars[bar].impedance * shape.integral(part)])
+            Reading::Momentum(bar) => {
+                let part = self.part_of_bar(*bar);
+                [0.0, self.line.bars[*bar].impedance * shape.integral(part)]
             }
-            Spot::Lump { node, place } => {
-                let [u, pulled] = shape.left_of(self.part_of_node(node) + place);
-                match (term.quantity, &self.line.nodes[node].lumps[place].law) {
-                    (Quantity::Force, Law::Spring { .. }) => Some([-pulled, 0.0]),
-                    (Quantity::Compression, Law::Spring { stiffness, .. }) => {
-                        Some([-pulled / stiffness, 0.0])
-                    }
-                    (Quantity::Force, Law::Support { stiffness, .. }) => Some([stiffness * u, 0.0]),
-                    (Quantity::Momentum, Law::Mass { mass, .. }) => Some([0.0, mass * u]),
-                    _ => displaced(u),
-                }
-            }
-        }
+            Reading::Velocity(Face::Left(lump)) => [0.0, at(*lump)[0]],
+            Reading::Displacement(Face::Left(lump)) => [at(*lump)[0], 0.0],
+            // Beyond a damper, which modes refuse.
+            Reading::Velocity(Face::Right(_)) | Reading::Displacement(Face::Right(_)) => None?,
+            Reading::Compression(lump) => match law(*lump) {
+                Law::Spring { stiffness, .. } => [-at(*lump)[1] / stiffness, 0.0],
+                _ => None?,
+            },
+            Reading::Force(lump) => match law(*lump) {
+                Law::Spring { .. } => [-at(*lump)[1], 0.0],
+                Law::Support { stiffness, .. } => [stiffness * at(*lump)[0], 0.0],
+                _ => None?,
+            },
+        })
     }
 
     /// Where the parts of a node begin: behind all nodes and bars before it.
@@ -246,16 +245,16 @@ impl Model for Modes {
         }
         let times = self.line.scaled(times)?;
         let mut constant = 0.0;
-        for term in &observable.terms {
-            if let (Quantity::Force, Spot::Section { bar, .. }) = (term.quantity, term.spot) {
-                constant += term.coefficient * self.line.bars[bar].force;
+        for term in observable.terms() {
+            if let Reading::InBar(Field::Force, section) = &term.of {
+                constant += term.coefficient * self.line.bars[section.bar].force;
             }
         }
         let mut values = vec![constant; times.len()];
         for mode in &self.modes {
             let mut factors = [0.0; 2];
-            for term in &observable.terms {
-                let Some([x, v]) = self.seen(term, &mode.shape) else {
+            for term in observable.terms() {
+                let Some([x, v]) = self.seen(&term.of, &mode.shape) else {
                     return self.line.refuse(NAME, observable, NotSeen::Other);
                 };
                 factors[0] += term.coefficient * x;

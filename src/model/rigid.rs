@@ -12,8 +12,8 @@
 
 use crate::model::Model;
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::model::line::{Law, Line, Node, Quantity, Spot, Term};
-use crate::network::{ScaledScene, Side};
+use crate::model::line::{Law, Line, Node};
+use crate::network::{Face, Field, Lump, Reading, ScaledScene, Side};
 use crate::scene::Drive;
 
 const NAME: &str = "rigid body";
@@ -210,36 +210,33 @@ impl RigidBody {
         state
     }
 
-    /// What is seen when the body is at `x` and moves with `v`, as factors of the two.
-    fn seen(&self, term: &Term) -> Result<[f64; 2], NotSeen> {
-        let (node, place) = match term.spot {
-            Spot::Section { .. } => {
-                return match term.quantity {
-                    Quantity::Velocity => Ok([0.0, 1.0]),
-                    Quantity::Displacement => Ok([1.0, 0.0]),
-                    _ => Err(NotSeen::ForceInRigidBar),
-                };
-            }
-            Spot::Bar(bar) => return Ok([0.0, self.line.bars[bar].mass()]),
-            Spot::Lump { node, place } => (node, place),
+    /// A reading when the body is at `x` and moves with `v`, as factors of the two.
+    fn seen(&self, reading: &Reading<f64>) -> Result<[f64; 2], NotSeen> {
+        let moves = |face: Face| match self.line.run(face) == self.body[face.lump().node] {
+            true => 1.0,
+            false => 0.0,
         };
-        let lump = &self.line.nodes[node].lumps[place];
-        let body = self.body[node];
-        let moves = if lump.run == body { 1.0 } else { 0.0 };
         // A spring at the left of the body is shortened when that moves to the left.
-        let shortens = if lump.run == body { 1.0 } else { -1.0 };
-        Ok(match (term.quantity, &lump.law) {
-            (Quantity::Force, Law::Spring { stiffness, damping }) => {
-                [shortens * stiffness, shortens * damping]
-            }
-            (Quantity::Compression, Law::Spring { .. }) => [shortens, 0.0],
-            (Quantity::Force, Law::Support { stiffness, damping }) => {
-                [moves * stiffness, moves * damping]
-            }
-            (Quantity::Velocity, _) => [0.0, moves],
-            (Quantity::Displacement, _) => [moves, 0.0],
-            (Quantity::Momentum, Law::Mass { mass, .. }) => [0.0, moves * mass],
-            _ => return Err(NotSeen::Other),
+        let shortens = |lump: Lump| moves(Face::Left(lump)) - moves(Face::Right(lump));
+        let law = |lump: Lump| &self.line.nodes[lump.node].lumps[lump.place].law;
+        Ok(match reading {
+            Reading::InBar(Field::Velocity, _) => [0.0, 1.0],
+            Reading::InBar(Field::Displacement, _) => [1.0, 0.0],
+            Reading::InBar(Field::Force, _) => return Err(NotSeen::ForceInRigidBar),
+            Reading::Momentum(bar) => [0.0, self.line.bars[*bar].mass()],
+            Reading::Velocity(face) => [0.0, moves(*face)],
+            Reading::Displacement(face) => [moves(*face), 0.0],
+            Reading::Compression(lump) => [shortens(*lump), 0.0],
+            Reading::Force(lump) => match law(*lump) {
+                Law::Spring { stiffness, damping } => {
+                    [shortens(*lump) * stiffness, shortens(*lump) * damping]
+                }
+                Law::Support { stiffness, damping } => {
+                    let moves = moves(Face::Left(*lump));
+                    [moves * stiffness, moves * damping]
+                }
+                _ => return Err(NotSeen::Other),
+            },
         })
     }
 }
@@ -256,8 +253,8 @@ impl Model for RigidBody {
     fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
         let observable = self.line.observable(NAME, observable)?;
         let mut factors = [0.0; 2];
-        for term in &observable.terms {
-            match self.seen(term) {
+        for term in observable.terms() {
+            match self.seen(&term.of) {
                 Ok([x, v]) => {
                     factors[0] += term.coefficient * x;
                     factors[1] += term.coefficient * v;

@@ -18,11 +18,11 @@
 use crate::expression::{Fraction, Root};
 use crate::limits::MAX_NODE_PERIODS;
 use crate::model::Model;
-use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen, SolverFailure};
+use crate::model::error::{BadSetting, ModelError, NotRepresented, SolverFailure};
 use crate::model::junction::{Acting, Junction};
-use crate::model::line::{Law, Line, Quantity, Spot, Term};
+use crate::model::line::{Bar, Law, Line};
 use crate::model::track::{DEGREE, Track, points, series};
-use crate::network::{ModelLump, ScaledScene, Side};
+use crate::network::{Face, Field, Lump, ModelLump, Reading, ScaledScene, Section, Side};
 use crate::scene::Drive;
 use num_integer::Integer as _;
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -435,62 +435,66 @@ impl Motion<'_> {
         Ok(last.as_slice()[..last.len() - 1].to_vec())
     }
 
-    /// The value of a term at a time; `None` where there is no such thing.
-    fn value(&self, term: &Term, time: f64) -> Option<f64> {
-        let bars = &self.steps.line.bars;
-        let (node, place) = match term.spot {
-            Spot::Section { bar, at } => return self.in_bar(term.quantity, bar, at, time),
-            Spot::Bar(bar) => {
-                let travel = bars[bar].travel?;
-                let held = |wave: &Track| wave.integral(time) - wave.integral(time - travel);
-                return Some(bars[bar].impedance * self.waves[bar].iter().map(held).sum::<f64>());
+    /// The value of a reading at a time.
+    fn value(&self, reading: &Reading<f64>, time: f64) -> f64 {
+        let line = &self.steps.line;
+        let velocity = |face: Face| &self.velocities[face.lump().node][line.run(face)];
+        match reading {
+            Reading::InBar(field, section) => self.in_bar(*field, section, time),
+            Reading::Momentum(bar) => {
+                let Bar { impedance, travel, nodes, .. } = &line.bars[*bar];
+                let sent = self.waves[*bar].iter().zip(nodes).filter(|(_, node)| node.is_some());
+                let entered = |wave: &Track| match travel {
+                    Some(travel) => wave.integral(time) - wave.integral(time - travel),
+                    None => wave.integral(time),
+                };
+                impedance * sent.map(|(wave, _)| entered(wave)).sum::<f64>()
             }
-            Spot::Lump { node, place } => (node, place),
-        };
-        let lumps = &self.steps.line.nodes[node].lumps;
-        let number = lumps[..place].iter().filter(|lump| lump.law.yields()).count();
-        let run = lumps[place].run;
-        let velocity = |run: usize| self.velocities[node][run].value(time);
-        let displacement = || self.yields[node][number].value(time);
-        Some(match (term.quantity, &lumps[place].law) {
-            (Quantity::Force, Law::Spring { stiffness, damping }) => {
-                stiffness * displacement() + damping * (velocity(run) - velocity(run + 1))
+            Reading::Velocity(face) => velocity(*face).value(time),
+            Reading::Displacement(face) => velocity(*face).integral(time),
+            Reading::Compression(lump) => self.compression(*lump, time),
+            Reading::Force(lump) => {
+                let compression = self.compression(*lump, time);
+                let [left, right] = [Face::Left(*lump), Face::Right(*lump)];
+                match &line.nodes[lump.node].lumps[lump.place].law {
+                    Law::Hertz(contact) => contact.force_at(compression),
+                    Law::Spring { stiffness, damping } => {
+                        let closing = velocity(left).value(time) - velocity(right).value(time);
+                        stiffness * compression + damping * closing
+                    }
+                    Law::Support { stiffness, damping } => {
+                        stiffness * compression + damping * velocity(left).value(time)
+                    }
+                    Law::Mass { .. } | Law::Load { .. } => {
+                        unreachable!("the table of measures has no force of masses and loads")
+                    }
+                }
             }
-            (Quantity::Compression, Law::Spring { .. } | Law::Hertz(_)) => displacement(),
-            (Quantity::Force, Law::Hertz(contact)) => contact.force_at(displacement()),
-            (Quantity::Force, Law::Support { stiffness, damping }) => {
-                stiffness * displacement() + damping * velocity(run)
-            }
-            (_, Law::Spring { .. } | Law::Hertz(_)) => return None,
-            (Quantity::Velocity, _) => velocity(run),
-            (Quantity::Displacement, _) => self.velocities[node][run].integral(time),
-            (Quantity::Momentum, Law::Mass { mass, .. }) => mass * velocity(run),
-            _ => return None,
-        })
+        }
     }
 
-    fn in_bar(&self, quantity: Quantity, place: usize, at: f64, time: f64) -> Option<f64> {
-        let (bar, waves) = (&self.steps.line.bars[place], &self.waves[place]);
-        // An endless bar has one end; from the other comes what was there before.
-        let late = match (bar.travel, bar.nodes) {
-            (Some(travel), _) => [Some(at), Some(travel - at)],
-            (None, [None, _]) => [None, Some(at)],
-            (None, _) => [Some(at), None],
-        };
+    /// The compression of a spring or a local contact, or the displacement of a support.
+    fn compression(&self, lump: Lump, time: f64) -> f64 {
+        let lumps = &self.steps.line.nodes[lump.node].lumps;
+        let number = lumps[..lump.place].iter().filter(|lump| lump.law.yields()).count();
+        self.yields[lump.node][number].value(time)
+    }
+
+    fn in_bar(&self, field: Field, section: &Section<f64>, time: f64) -> f64 {
+        let (bar, waves) = (&self.steps.line.bars[section.bar], &self.waves[section.bar]);
         let before = bar.before();
-        let wave = |way: usize| match late[way] {
+        let wave = |way: usize| match section.delays[way] {
             Some(late) => waves[way].value(time - late),
             None => before[way],
         };
-        let moved = |way: usize| match late[way] {
+        let moved = |way: usize| match section.delays[way] {
             Some(late) => waves[way].integral(time - late) - waves[way].integral(-late),
             None => before[way] * time,
         };
-        match quantity {
-            Quantity::Velocity => Some(wave(0) + wave(1)),
-            Quantity::Force => Some(bar.impedance * (wave(0) - wave(1))),
-            Quantity::Displacement => Some(moved(0) + moved(1)),
-            _ => None,
+        match field {
+            Field::Velocity => wave(0) + wave(1),
+            Field::Force => bar.impedance * (wave(0) - wave(1)),
+            Field::Displacement => moved(0) + moved(1),
         }
     }
 }
@@ -511,11 +515,8 @@ impl Model for Steps {
         let motion = self.motion(last)?;
         let mut values = vec![0.0; times.len()];
         for (value, time) in values.iter_mut().zip(times) {
-            for term in observable.terms.iter().filter(|_| time >= 0.0) {
-                match motion.value(term, time) {
-                    Some(seen) => *value += term.coefficient * seen,
-                    None => return self.line.refuse(NAME, observable, NotSeen::Other),
-                }
+            for term in observable.terms().iter().filter(|_| time >= 0.0) {
+                *value += term.coefficient * motion.value(&term.of, time);
             }
         }
         Ok(values)

@@ -14,8 +14,8 @@
 
 use crate::model::Model;
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::model::line::{Law, Line, Quantity, Spot};
-use crate::network::{ScaledScene, Side};
+use crate::model::line::{Law, Line};
+use crate::network::{Field, Reading, ScaledScene, Side};
 
 const NAME: &str = "a third of the mass";
 
@@ -191,25 +191,22 @@ impl Model for ThirdOfMass {
         let stiffness = bar.impedance / travel;
         // Factors of the displacement and the velocity of the struck end.
         let mut factors = [0.0; 2];
-        for term in &observable.terms {
+        for term in observable.terms() {
             let share = |at: f64| if self.mirrored { at / travel } else { 1.0 - at / travel };
             let pressed = if self.mirrored { -stiffness } else { stiffness };
-            let [x, v] = match (term.quantity, term.spot) {
-                (Quantity::Velocity, Spot::Section { at, .. }) => [0.0, share(at)],
-                (Quantity::Displacement, Spot::Section { at, .. }) => [share(at), 0.0],
-                (Quantity::Force, Spot::Section { .. }) => [pressed, 0.0],
-                (Quantity::Velocity, Spot::Lump { .. }) => [0.0, 1.0],
-                (Quantity::Displacement, Spot::Lump { .. }) => [1.0, 0.0],
-                (Quantity::Momentum, Spot::Lump { node, place }) => {
-                    match self.line.nodes[node].lumps[place].law {
-                        Law::Mass { mass, .. } => [0.0, mass],
-                        _ => unreachable!("masses alone stand at the struck end"),
-                    }
-                }
-                (Quantity::Momentum, _) => {
+            let [x, v] = match &term.of {
+                Reading::InBar(Field::Velocity, section) => [0.0, share(*section.distance())],
+                Reading::InBar(Field::Displacement, section) => [share(*section.distance()), 0.0],
+                Reading::InBar(Field::Force, _) => [pressed, 0.0],
+                // Masses alone stand at the struck end.
+                Reading::Velocity(_) => [0.0, 1.0],
+                Reading::Displacement(_) => [1.0, 0.0],
+                Reading::Momentum(_) => {
                     return self.line.refuse(NAME, observable, NotSeen::MomentumOfThird);
                 }
-                _ => return self.line.refuse(NAME, observable, NotSeen::Other),
+                Reading::Compression(_) | Reading::Force(_) => {
+                    return self.line.refuse(NAME, observable, NotSeen::Other);
+                }
             };
             factors[0] += term.coefficient * x;
             factors[1] += term.coefficient * v;

@@ -2,6 +2,7 @@
 
 use crate::expression::NotAUnit;
 use crate::recurrence::InvalidRecurrence;
+use crate::scene::Mistake;
 
 /// Why a scene gives no recurrence.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
@@ -27,12 +28,12 @@ pub enum NetworkError {
         waves: Vec<String>,
     },
     /// An observable that cannot be formed.
-    #[error("{name} {reason}")]
+    #[error("{name}: {reason}")]
     Unobservable {
         /// The observable.
         name: String,
         /// Why not.
-        reason: Unobservable,
+        reason: Mistake,
     },
     /// A local contact, by its name: its force is a power of its compression, so that waves do not
     /// add up and nothing that recurs can be stated.
@@ -41,49 +42,4 @@ pub enum NetworkError {
          recurrence and no exact solution"
     )]
     NotLinear(String),
-}
-
-/// Why an observable cannot be formed: the end of a sentence that its name begins.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum Unobservable {
-    /// Strain or stress of what is no bar.
-    #[error("is not seen in a bar")]
-    NotInBar,
-    /// Stress of a bar that is given by its impedance.
-    #[error("needs a bar with an area")]
-    NoArea,
-    /// Velocity of an element whose ends move apart.
-    #[error("has two ends with two velocities")]
-    TwoVelocities,
-    /// Displacement of an element whose ends move apart.
-    #[error("has two ends with two displacements")]
-    TwoDisplacements,
-    /// Compression of what does not yield.
-    #[error("is no compression of a spring")]
-    NotCompressible,
-    /// Force of an element that has no one force.
-    #[error("is seen in bars, springs and supports only")]
-    NoForce,
-    /// Momentum of what has no mass, or an infinite one.
-    #[error("is that of a mass or of a bar that is at rest where it is endless")]
-    NoMomentum,
-    /// Momentum of a line in which an endless bar moves.
-    #[error("is infinite: an endless bar moves from the start")]
-    InfiniteMomentum,
-    /// Energy of an endless bar in motion, or under strain.
-    #[error("is infinite: an endless bar moves or is strained from the start")]
-    InfiniteEnergy,
-    /// A sum of an energy and something else.
-    #[error("adds an energy to something else")]
-    MixedEnergy,
-    /// Energy of a section.
-    #[error("is an energy of a whole element, or of the line")]
-    EnergyOfSection,
-    /// A section at a share of the length of an endless bar.
-    #[error("is asked for at a share of the length of an endless bar")]
-    ShareOfEndless,
-    /// A place that has no such measure.
-    #[error("is measured at no such place")]
-    NoSuchPlace,
 }

@@ -21,6 +21,7 @@ mod error;
 mod fields;
 mod laws;
 mod layout;
+mod measures;
 mod model;
 mod node;
 mod observe;
@@ -30,11 +31,13 @@ mod unfold;
 
 pub use delay::Lattice;
 pub use equations::{Network, Role, WaveRole};
-pub use error::{NetworkError, Unobservable};
+pub use error::NetworkError;
 pub(crate) use fields::{Extent, FieldBar, Way};
 pub use laws::{Law, Rule};
 pub(crate) use layout::{Contact, Contacts, Layout};
-pub(crate) use model::bar_roots;
+pub(crate) use measures::{
+    Elements, Energy, Face, Field, Lump, Measured, MeasuredValue, Reading, Section, Term, unit,
+};
 pub use model::{Model, ModelBar, ModelLump, Scale};
 pub(crate) use node::{ElementLaw, Lumped, Node, Side};
 pub use observe::{EnergyTerm, Observed, ObservedValue, Window};

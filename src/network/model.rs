@@ -6,10 +6,10 @@
 
 use crate::enclosure::Numbers;
 use crate::expression::{
-    Assumptions, Condition, Constant, Definition, Expression, Fraction, Relation, Root,
+    Assumptions, Condition, Constant, Definition, Expression, Fraction, NotAUnit, Relation, Root,
 };
 use crate::network::error::NetworkError;
-use crate::scene::{Body, Drive, ElementIndex, Kind, PI, Scene};
+use crate::scene::{Body, Dimension, Drive, ElementIndex, Kind, PI, Scene};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -338,5 +338,23 @@ impl Scale {
     /// The unit `Z V` of force.
     pub fn force(&self) -> Root {
         self.impedance.times(&self.velocity)
+    }
+
+    /// The unit of any dimension: `Z^m V^l T^(l + m + t)` is in metres to the power `l`, kilograms to `m`
+    /// and seconds to `t`.
+    ///
+    /// # Errors
+    /// [`NotAUnit`] where it would have to be divided by what cannot be.
+    pub fn unit(&self, dimension: Dimension) -> Result<Root, NotAUnit> {
+        let Dimension { length, mass, time } = dimension;
+        let powers =
+            [(&self.impedance, mass), (&self.velocity, length), (&self.time, length + mass + time)];
+        let mut unit = one();
+        for (base, power) in powers {
+            for _ in 0..power.unsigned_abs() {
+                unit = if power > 0 { unit.times(base) } else { unit.over(base)? };
+            }
+        }
+        Ok(unit)
     }
 }

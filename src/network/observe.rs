@@ -1,15 +1,18 @@
-//! What is observed, as delayed waves.
+//! What is observed, as delayed waves: the readings of the table of measures in terms of echoes.
 //!
-//! In a bar, at the share `ξ` of its length, a wave that left the left end at `t − ξτ` meets one that
-//! left the right end at `t − (1−ξ)τ`; the clocks of the two nodes turn these into wave functions.
+//! In a bar a wave that entered at the left end a delay ago meets one that entered at the right end; the
+//! clocks of the two nodes turn these into wave functions, which are differences from the uniform state at
+//! the start.
 
 use crate::expression::{Expression, Fraction, Root};
 use crate::network::equations::{Network, Role};
-use crate::network::error::{NetworkError, Unobservable};
-use crate::network::model::{ModelLump, bar_roots};
-use crate::network::node::{Node, Side};
+use crate::network::error::NetworkError;
+use crate::network::measures::{
+    Elements, Energy, Face, Field, Lump, MeasuredValue, Reading, Section, section,
+};
+use crate::network::node::{ElementLaw, Node, Side};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
-use crate::scene::{Body, Dimension, ElementIndex, Kind, Measure, Place, Position, Seen};
+use crate::scene::{Dimension, ElementIndex};
 use wavestep_polynomial::Rational;
 
 /// An observable of a scene: what it is in the waves, and its unit.
@@ -58,229 +61,91 @@ pub enum Window {
     Always,
 }
 
-/// What is seen, its unit, and the dimension of it.
-type Measured<T> = (T, Root, Dimension);
-
 impl Network {
     /// Forms all observables of the scene.
     pub(crate) fn set_observables(&mut self) -> Result<(), NetworkError> {
-        for observable in self.scaled.scene.observables.clone() {
-            let energy = observable.terms.iter().any(|seen| seen.measure == Measure::Energy);
-            let observed = match energy {
-                true => self.energies(&observable.name, &observable.terms)?,
-                false => self.linear(&observable.name, &observable.terms)?,
+        for measured in self.scaled.measures().to_vec() {
+            let value = match &measured.value {
+                MeasuredValue::Linear(terms) => {
+                    let mut sum = Observation::default();
+                    for term in terms {
+                        add(&mut sum, &self.reading(&term.of), &term.coefficient);
+                    }
+                    ObservedValue::Linear(sum)
+                }
+                MeasuredValue::Energy(elements) => {
+                    let mut parts = Vec::new();
+                    for (coefficient, element) in elements {
+                        parts.extend(self.energy(&measured.name, coefficient, *element)?);
+                    }
+                    ObservedValue::Energy(parts)
+                }
             };
-            self.observables.push(observed);
+            let (name, unit, dimension) = (measured.name, measured.unit, measured.dimension);
+            self.observables.push(Observed { name, value, unit, dimension });
         }
         Ok(())
     }
 
-    /// A sum of linear measures, in the unit of the first.
-    fn linear(&mut self, name: &str, terms: &[Seen]) -> Result<Observed, NetworkError> {
-        let mut sum = Observation::default();
-        let mut first: Option<(Root, Dimension)> = None;
-        for (i, seen) in terms.iter().enumerate() {
-            let (observation, unit, dimension) = self.measured(name, seen)?;
-            let mut coefficient = seen.coefficient.clone();
-            if !self.scaled.scene.dimensional {
-                // Without units a value is what it is.
-                let unit = self.scaled.model.number(&format!("q_{name}_{i}"), unit);
-                add(&mut sum, &observation, &(&coefficient * &unit));
-                continue;
+    fn elements(&self) -> Elements<'_> {
+        Elements { model: &self.scaled.model, layout: &self.layout }
+    }
+
+    /// A reading in terms of waves.
+    fn reading(&mut self, reading: &Reading) -> Observation {
+        match reading {
+            Reading::InBar(Field::Velocity, section) => self.velocity_in(section),
+            Reading::InBar(Field::Displacement, section) => {
+                let velocity = self.velocity_in(section);
+                self.integrated(&velocity)
             }
-            match &first {
-                None => first = Some((unit, dimension)),
-                Some((own, _)) => {
-                    let ratio = unit.over(own)?;
-                    let ratio = self.scaled.model.number(&format!("q_{name}_{i}"), ratio);
-                    coefficient = &coefficient * &ratio;
+            Reading::InBar(Field::Force, section) => self.force_in(section),
+            Reading::Momentum(bar) => self.momentum_of(*bar),
+            Reading::Velocity(face) => self.velocity_at(*face),
+            Reading::Displacement(face) => {
+                let velocity = self.velocity_at(*face);
+                self.integrated(&velocity)
+            }
+            Reading::Compression(lump) => self.compression_of(*lump),
+            Reading::Force(lump) => {
+                let mut force = Observation::default();
+                for term in self.elements().force(*lump).into_iter().flatten() {
+                    add(&mut force, &self.reading(&term.of), &term.coefficient);
                 }
-            }
-            add(&mut sum, &observation, &coefficient);
-        }
-        let (unit, dimension) = first.unwrap_or((Fraction::one().into(), Dimension::NONE));
-        let value = ObservedValue::Linear(sum);
-        Ok(Observed { name: name.to_owned(), value, unit, dimension })
-    }
-
-    fn measured(&mut self, name: &str, seen: &Seen) -> Result<Measured<Observation>, NetworkError> {
-        let refuse = |reason| Err(NetworkError::Unobservable { name: name.to_owned(), reason });
-        let scale = self.scaled.model.scale.clone();
-        let length = scale.velocity.times(&scale.time);
-        let unit = match seen.measure {
-            Measure::Velocity => scale.velocity.clone(),
-            Measure::Force | Measure::Strain | Measure::Stress => scale.force(),
-            Measure::Displacement | Measure::Compression => length,
-            Measure::Momentum => scale.force().times(&scale.time),
-            Measure::Energy => unreachable!("energies are not linear"),
-        };
-        let section = match &seen.place {
-            Place::Left(bar) => Some((*bar, Fraction::zero())),
-            // An endless bar to the left has one end, from which its sections are counted.
-            Place::Right(bar) if self.scaled.model.bars[bar].travel.is_none() => {
-                Some((*bar, Fraction::zero()))
-            }
-            Place::Right(bar) => Some((*bar, Fraction::one())),
-            Place::At(bar, position) => Some((*bar, self.share(name, *bar, position)?)),
-            Place::Element(_) | Place::Line => None,
-        };
-        let (observation, unit) = match (seen.measure, &seen.place, section) {
-            (Measure::Velocity, _, Some((bar, share))) => (self.velocity_in(bar, &share), unit),
-            (Measure::Force, _, Some((bar, share))) => (self.force_in(bar, &share), unit),
-            (Measure::Strain | Measure::Stress, _, Some((bar, share))) => {
-                let Kind::Bar(data) = &self.scaled.scene.elements[bar].kind else {
-                    return refuse(Unobservable::NotInBar);
-                };
-                let over = match (&data.body, seen.measure) {
-                    (Body::Solid { area, .. }, Measure::Stress) => Root::from(area.clone()),
-                    (_, Measure::Stress) => return refuse(Unobservable::NoArea),
-                    (body, _) => bar_roots(body)?.2,
-                };
-                let mut pulled = Observation::default();
-                add(&mut pulled, &self.force_in(bar, &share), &-&Fraction::one());
-                (pulled, unit.over(&over)?)
-            }
-            (Measure::Displacement, _, Some((bar, share))) => {
-                (self.displacement_in(bar, &share), unit)
-            }
-            (Measure::Velocity, Place::Element(element), _) => {
-                let Some(velocity) = self.velocity_of(*element) else {
-                    return refuse(Unobservable::TwoVelocities);
-                };
-                (velocity, unit)
-            }
-            (Measure::Displacement, Place::Element(element), _) => {
-                let Some(velocity) = self.velocity_of(*element) else {
-                    return refuse(Unobservable::TwoDisplacements);
-                };
-                (self.integrated(&velocity), unit)
-            }
-            (Measure::Compression, Place::Element(element), _) => {
-                let Some(compression) = self.compression_of(*element) else {
-                    return refuse(Unobservable::NotCompressible);
-                };
-                (compression, unit)
-            }
-            (Measure::Force, Place::Element(element), _) => {
-                let Some(force) = self.force_of(*element) else {
-                    return refuse(Unobservable::NoForce);
-                };
-                (force, unit)
-            }
-            (Measure::Momentum, Place::Element(element), _) => {
-                let Some(momentum) = self.momentum_of(*element) else {
-                    return refuse(Unobservable::NoMomentum);
-                };
-                (momentum, unit)
-            }
-            (Measure::Momentum, Place::Line, _) => {
-                let mut sum = Observation::default();
-                for element in self.scaled.scene.line.elements.clone() {
-                    let has = matches!(
-                        self.scaled.scene.elements[element].kind,
-                        Kind::Bar(_) | Kind::Mass(_)
-                    );
-                    if !has {
-                        continue;
-                    }
-                    let Some(momentum) = self.momentum_of(element) else {
-                        return refuse(Unobservable::InfiniteMomentum);
-                    };
-                    add(&mut sum, &momentum, &Fraction::one());
-                }
-                (sum, unit)
-            }
-            _ => return refuse(Unobservable::NoSuchPlace),
-        };
-        Ok((observation, unit, seen.measure.dimension()))
-    }
-
-    /// The time from the left end to a section, as a share of the travel time; for an endless bar,
-    /// the time from its end.
-    fn share(
-        &mut self,
-        name: &str,
-        bar: ElementIndex,
-        position: &Position,
-    ) -> Result<Fraction, NetworkError> {
-        let Kind::Bar(data) = &self.scaled.scene.elements[bar].kind else {
-            return Err(NetworkError::Unobservable {
-                name: name.to_owned(),
-                reason: Unobservable::NotInBar,
-            });
-        };
-        let travel = self.scaled.model.bars[&bar].travel.clone();
-        let distance = match (position, travel) {
-            (Position::Share(share), Some(_)) => return Ok(share.clone()),
-            (Position::Share(_), None) => {
-                let reason = Unobservable::ShareOfEndless;
-                return Err(NetworkError::Unobservable { name: name.to_owned(), reason });
-            }
-            (Position::Distance(distance), travel) => (distance, travel),
-        };
-        let (distance, travel) = distance;
-        let time = match &data.body {
-            Body::Impedance { .. } => Root::from(distance.clone()),
-            Body::Solid { modulus, density, .. } => {
-                let slowness = Root::of(density.clone()).over(&Root::of(modulus.clone()))?;
-                Root::from(distance.clone()).times(&slowness)
-            }
-        };
-        let own = match (&data.body, travel) {
-            (_, None) => self.scaled.model.scale.time.clone(),
-            (body, Some(_)) => bar_roots(body)?.1.expect("a bar with a travel time"),
-        };
-        let ratio = time.over(&own)?;
-        Ok(self.scaled.model.number(&format!("x_{name}"), ratio))
-    }
-
-    /// The waves `f` and `g` at a section of a bar: where they are seen, and how late.
-    fn waves_in(&self, bar: ElementIndex, share: &Fraction) -> [Option<(WaveIndex, Fraction)>; 2] {
-        let place = self.layout.bar(bar).expect("a bar of the line");
-        let [left, right] = self.layout.ends[place];
-        let travel = self.scaled.model.bars[&bar].travel.clone();
-        let rest = &Fraction::one() - share;
-        let time = |share: &Fraction, near_end: bool| match &travel {
-            Some(travel) => share * travel,
-            // The distance from the end of an endless bar is a time already.
-            None if near_end => share.clone(),
-            None => Fraction::zero(),
-        };
-        // An endless bar to the left has its end at the right.
-        let (from_left, from_right) = match (left, right) {
-            (None, _) => (Fraction::zero(), time(share, true)),
-            (_, None) => (time(share, true), Fraction::zero()),
-            _ => (time(share, false), time(&rest, false)),
-        };
-        let seen = |role, node: Option<usize>, later: Fraction| {
-            Some((self.wave(role)?, &later - &self.leads[node?]))
-        };
-        [seen(Role::Right(bar), left, from_left), seen(Role::Left(bar), right, from_right)]
-    }
-
-    fn velocity_in(&self, bar: ElementIndex, share: &Fraction) -> Observation {
-        let mut velocity = constant(&self.scaled.model.bars[&bar].velocity);
-        for (wave, delay) in self.waves_in(bar, share).into_iter().flatten() {
-            velocity.waves.push(seen(wave, delay, &Fraction::one()));
-        }
-        velocity
-    }
-
-    fn force_in(&self, bar: ElementIndex, share: &Fraction) -> Observation {
-        let data = &self.scaled.model.bars[&bar];
-        let mut force = constant(&data.force);
-        let signs = [data.impedance.clone(), -&data.impedance];
-        for (wave, sign) in self.waves_in(bar, share).into_iter().zip(signs) {
-            if let Some((wave, delay)) = wave {
-                force.waves.push(seen(wave, delay, &sign));
+                force
             }
         }
-        force
     }
 
-    fn displacement_in(&mut self, bar: ElementIndex, share: &Fraction) -> Observation {
-        let velocity = self.velocity_in(bar, share);
-        self.integrated(&velocity)
+    /// The waves to the right and to the left in a bar, with how far the clocks of their nodes are ahead;
+    /// none for what comes from the far side of an endless bar.
+    fn waves_of(&self, bar: usize) -> [Option<(WaveIndex, &Fraction)>; 2] {
+        let (element, [left, right]) = (self.layout.bars[bar], self.layout.ends[bar]);
+        let wave = |role, node: Option<usize>| Some((self.wave(role)?, &self.leads[node?]));
+        [wave(Role::Right(element), left), wave(Role::Left(element), right)]
+    }
+
+    /// The waves at a section of a bar, with coefficients for the one to the right and the one to the left.
+    fn waves_in(&self, section: &Section, coefficients: [&Fraction; 2]) -> Vec<ObservedWave> {
+        let waves = self.waves_of(section.bar).into_iter().zip(&section.delays).zip(coefficients);
+        let waves = waves.filter_map(|((wave, delay), coefficient)| {
+            let ((wave, lead), delay) = (wave?, delay.as_ref()?);
+            Some(seen(wave, delay - lead, coefficient))
+        });
+        waves.collect()
+    }
+
+    fn velocity_in(&self, section: &Section) -> Observation {
+        let data = &self.scaled.model.bars[&self.layout.bars[section.bar]];
+        let one = Fraction::one();
+        let waves = self.waves_in(section, [&one, &one]);
+        Observation { waves, forcing: data.velocity.clone().into() }
+    }
+
+    fn force_in(&self, section: &Section) -> Observation {
+        let data = &self.scaled.model.bars[&self.layout.bars[section.bar]];
+        let waves = self.waves_in(section, [&data.impedance, &-&data.impedance]);
+        Observation { waves, forcing: data.force.clone().into() }
     }
 
     /// The integral of an observation over time from the start.
@@ -308,16 +173,22 @@ impl Network {
 
     /// The velocity of a run of a node.
     fn velocity_of_run(&self, place: usize, node: &Node<Fraction>, run: usize) -> Observation {
-        let side = |side: Side, share: Fraction| match side {
-            Side::Bar(bar) => Some(self.velocity_at_end(self.layout.bars[bar], &share)),
-            Side::Fixed => Some(Observation::default()),
-            Side::Free => None,
+        let end = |bar: usize, time: Option<&Fraction>| {
+            let time = time.cloned().unwrap_or_else(Fraction::zero);
+            self.velocity_in(&section(&self.layout, &self.scaled.model, bar, time))
         };
-        let [first, last] = node.side_runs();
-        let left = (run == first).then(|| side(node.left, Fraction::one())).flatten();
-        let right = || (run == last).then(|| side(node.right, Fraction::zero())).flatten();
-        if let Some(known) = left.or_else(right) {
-            return known;
+        let travel = |bar: usize| self.scaled.model.bars[&self.layout.bars[bar]].travel.as_ref();
+        for (side, own) in [node.left, node.right].into_iter().zip(node.side_runs()) {
+            match side {
+                _ if own != run => {}
+                // A bar at the left of its node ends there.
+                Side::Bar(bar) if self.layout.ends[bar][1] == Some(place) => {
+                    return end(bar, travel(bar));
+                }
+                Side::Bar(bar) => return end(bar, None),
+                Side::Fixed => return Observation::default(),
+                Side::Free => {}
+            }
         }
         let wave =
             self.wave(Role::Velocity(place, node.first_place(run))).expect("else it is known");
@@ -331,190 +202,88 @@ impl Network {
         velocity
     }
 
-    /// The velocity of a bar at the right end (share 1) or the left end (0), endless or not.
-    fn velocity_at_end(&self, bar: ElementIndex, share: &Fraction) -> Observation {
-        match self.scaled.model.bars[&bar].travel {
-            Some(_) => self.velocity_in(bar, share),
-            None => self.velocity_in(bar, &Fraction::zero()),
-        }
-    }
-
-    /// The node of an element, and its run there; of a spring the one at its left.
-    fn place_of(&self, element: ElementIndex) -> Option<(usize, &Node<Fraction>, usize)> {
-        let place = self.layout.node_of(element)?;
+    /// The velocity beside a lumped element.
+    fn velocity_at(&self, face: Face) -> Observation {
+        let place = face.lump().node;
         let node = &self.layout.nodes[place];
-        Some((place, node, node.elements[node.place(element)?].run))
+        self.velocity_of_run(place, node, node.run_beside(face))
     }
 
-    /// The velocity of what moves as one: a mass, a support, a load.
-    fn velocity_of(&self, element: ElementIndex) -> Option<Observation> {
-        let (place, node, run) = self.place_of(element)?;
-        let spring = matches!(self.scaled.model.lumps[&element], ModelLump::Spring(..));
-        (!spring).then(|| self.velocity_of_run(place, node, run))
-    }
-
-    /// How fast a spring shortens.
-    pub(crate) fn closing_of(&self, element: ElementIndex) -> Option<Observation> {
-        let (place, node, run) = self.place_of(element)?;
-        let mut closing = self.velocity_of_run(place, node, run);
-        add(&mut closing, &self.velocity_of_run(place, node, run + 1), &-&Fraction::one());
-        Some(closing)
-    }
-
-    fn compression_of(&mut self, element: ElementIndex) -> Option<Observation> {
-        if !matches!(self.scaled.model.lumps.get(&element)?, ModelLump::Spring(..)) {
-            return None;
-        }
-        match self.own_wave(Role::Compression(element), element) {
-            Some(compression) => Some(compression),
-            None => {
-                let closing = self.closing_of(element)?;
-                Some(self.integrated(&closing))
-            }
-        }
-    }
-
-    /// The wave of an element, as seen at its node.
-    fn own_wave(&self, role: Role, element: ElementIndex) -> Option<Observation> {
-        let wave = self.wave(role)?;
-        let place = self.layout.node_of(element)?;
-        let waves = vec![seen(wave, -&self.leads[place], &Fraction::one())];
-        Some(Observation { waves, forcing: Expression::zero() })
-    }
-
-    fn force_of(&self, element: ElementIndex) -> Option<Observation> {
-        let mut force = Observation::default();
-        let (role, stiffness, damping, velocity) = match self.scaled.model.lumps.get(&element)? {
-            ModelLump::Spring(k, d) => {
-                (Role::Compression(element), k, d, self.closing_of(element)?)
-            }
-            ModelLump::Support(k, d) => {
-                (Role::Displacement(element), k, d, self.velocity_of(element)?)
-            }
-            _ => return None,
+    /// The wave that is the compression of a spring, or the displacement of a support.
+    fn compression_of(&self, lump: Lump) -> Observation {
+        let own = &self.layout.nodes[lump.node].elements[lump.place];
+        let role = match own.law {
+            ElementLaw::Support { .. } => Role::Displacement(own.element),
+            _ => Role::Compression(own.element),
         };
-        if let Some(wave) = self.own_wave(role, element) {
-            add(&mut force, &wave, stiffness);
-        }
-        if !damping.is_zero() {
-            add(&mut force, &velocity, damping);
-        }
-        Some(force)
+        let wave = self.wave(role).map(|wave| (wave, -&self.leads[lump.node]));
+        let waves = wave.map(|(wave, delay)| seen(wave, delay, &Fraction::one()));
+        Observation { waves: waves.into_iter().collect(), forcing: Expression::zero() }
     }
 
-    fn momentum_of(&mut self, element: ElementIndex) -> Option<Observation> {
-        if let Some(ModelLump::Mass(mass, _)) = self.scaled.model.lumps.get(&element) {
-            let mass = mass.clone();
-            let mut momentum = Observation::default();
-            add(&mut momentum, &self.velocity_of(element)?, &mass);
-            return Some(momentum);
-        }
-        let data = self.scaled.model.bars.get(&element)?.clone();
+    fn momentum_of(&mut self, bar: usize) -> Observation {
+        let data = self.scaled.model.bars[&self.layout.bars[bar]].clone();
         let mut momentum = match &data.travel {
             Some(travel) => constant(&(&(&data.impedance * travel) * &data.velocity)),
-            None if data.velocity.is_zero() && data.force.is_zero() => Observation::default(),
-            None => return None,
+            None => Observation::default(),
         };
-        let place = self.layout.bar(element)?;
-        let [left, right] = self.layout.ends[place];
-        for (role, node) in [(Role::Right(element), left), (Role::Left(element), right)] {
-            let (Some(wave), Some(node)) = (self.wave(role), node) else { continue };
+        let waves = self.waves_of(bar).map(|wave| wave.map(|(wave, lead)| (wave, -lead)));
+        for (wave, entered) in waves.into_iter().flatten() {
             let integral = self.integral(wave);
-            let entered = -&self.leads[node];
             momentum.waves.push(seen(integral, entered.clone(), &data.impedance));
             if let Some(travel) = &data.travel {
                 momentum.waves.push(seen(integral, &entered + travel, &-&data.impedance));
             }
         }
-        Some(momentum)
+        momentum
     }
 
-    /// A sum of energies.
-    fn energies(&mut self, name: &str, terms: &[Seen]) -> Result<Observed, NetworkError> {
-        let refuse = |reason| Err(NetworkError::Unobservable { name: name.to_owned(), reason });
-        let mut parts = Vec::new();
-        for term in terms {
-            if term.measure != Measure::Energy {
-                return refuse(Unobservable::MixedEnergy);
-            }
-            let elements = match &term.place {
-                Place::Element(element) => vec![*element],
-                Place::Line => self.scaled.scene.line.elements.clone(),
-                _ => return refuse(Unobservable::EnergyOfSection),
-            };
-            for element in elements {
-                let Some(energy) = self.energy_of(element) else {
-                    return refuse(Unobservable::InfiniteEnergy);
-                };
-                parts.extend(energy.into_iter().map(|part| EnergyTerm {
-                    coefficient: &part.coefficient * &term.coefficient,
-                    ..part
-                }));
+    /// The energy of an element, times a coefficient.
+    fn energy(
+        &mut self,
+        name: &str,
+        coefficient: &Fraction,
+        element: ElementIndex,
+    ) -> Result<Vec<EnergyTerm>, NetworkError> {
+        let refused =
+            |mistake| NetworkError::Unobservable { name: name.to_owned(), reason: mistake };
+        let mut terms = Vec::new();
+        for part in self.elements().energy(element).map_err(refused)? {
+            match part {
+                Energy::Square(term) => {
+                    let of = self.reading(&term.of);
+                    let coefficient = coefficient * &term.coefficient;
+                    let (before, window) = (Fraction::zero(), Window::Now);
+                    terms.push(EnergyTerm { coefficient, of, before, window });
+                }
+                Energy::InBar(bar) => terms.extend(self.energy_in(coefficient, bar)?),
             }
         }
-        let scale = &self.scaled.model.scale;
-        let unit = scale.force().times(&scale.velocity).times(&scale.time);
-        let dimension =
-            if self.scaled.scene.dimensional { Dimension::ENERGY } else { Dimension::NONE };
-        Ok(Observed { name: name.to_owned(), value: ObservedValue::Energy(parts), unit, dimension })
+        Ok(terms)
     }
 
-    /// Kinetic and elastic energy: `M v²/2`, `k α²/2`, and in a bar `Z ∫ (w₊² + w₋²) dt` over the
-    /// waves that are on their way.
-    pub(crate) fn energy_of(&self, element: ElementIndex) -> Option<Vec<EnergyTerm>> {
-        let half = Rational::new(1.into(), 2.into());
-        let now = |coefficient: &Fraction, of: Observation| EnergyTerm {
-            coefficient: coefficient.scale(&half),
-            of,
-            before: Fraction::zero(),
-            window: Window::Now,
-        };
-        let Some(lump) = self.scaled.model.lumps.get(&element) else {
-            return self.energy_in(element);
-        };
-        Some(match lump {
-            ModelLump::Mass(mass, _) => vec![now(mass, self.velocity_of(element)?)],
-            ModelLump::Spring(stiffness, _) => {
-                let wave = self.own_wave(Role::Compression(element), element);
-                wave.map(|wave| now(stiffness, wave)).into_iter().collect()
-            }
-            ModelLump::Support(stiffness, _) => {
-                let wave = self.own_wave(Role::Displacement(element), element);
-                wave.map(|wave| now(stiffness, wave)).into_iter().collect()
-            }
-            ModelLump::Load(..) => Vec::new(),
-            ModelLump::Hertz(..) => return None,
-        })
-    }
-
-    fn energy_in(&self, bar: ElementIndex) -> Option<Vec<EnergyTerm>> {
-        let data = &self.scaled.model.bars[&bar];
-        let still = data.velocity.is_zero() && data.force.is_zero();
-        if data.travel.is_none() && !still {
-            return None;
-        }
-        let place = self.layout.bar(bar)?;
-        let [left, right] = self.layout.ends[place];
-        let half = Rational::new(1.into(), 2.into());
+    fn energy_in(
+        &self,
+        coefficient: &Fraction,
+        bar: usize,
+    ) -> Result<Vec<EnergyTerm>, NetworkError> {
+        let data = &self.scaled.model.bars[&self.layout.bars[bar]];
         // The uniform state at the start as two waves: (V ± X_0/Z)/2.
         let pressed = match data.force.is_zero() {
-            true => Fraction::zero(),
-            false => Root::from(data.force.clone())
-                .over(&Root::from(data.impedance.clone()))
-                .ok()?
-                .exact()?,
+            true => Root::from(Fraction::zero()),
+            false => Root::from(data.force.clone()).over(&Root::from(data.impedance.clone()))?,
         };
-        let ways = [
-            (Role::Right(bar), left, (&data.velocity + &pressed).scale(&half)),
-            (Role::Left(bar), right, (&data.velocity - &pressed).scale(&half)),
-        ];
-        let parts = ways.into_iter().filter_map(|(role, node, before)| {
+        let half = |sum: Fraction| sum.scale(&Rational::new(1.into(), 2.into()));
+        let before = [&data.velocity + pressed.factor(), &data.velocity - pressed.factor()];
+        let ways = self.waves_of(bar).into_iter().zip(before.map(half));
+        let parts = ways.filter_map(|(wave, before)| {
+            let (wave, lead) = wave?;
             let mut of = constant(&before);
-            of.waves.push(seen(self.wave(role)?, -&self.leads[node?], &Fraction::one()));
+            of.waves.push(seen(wave, -lead, &Fraction::one()));
             let window = data.travel.clone().map_or(Window::Always, Window::Last);
-            Some(EnergyTerm { coefficient: data.impedance.clone(), of, before, window })
+            Some(EnergyTerm { coefficient: coefficient * &data.impedance, of, before, window })
         });
-        Some(parts.collect())
+        Ok(parts.collect())
     }
 }
 

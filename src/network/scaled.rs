@@ -3,6 +3,7 @@
 use crate::expression::Fraction;
 use crate::network::equations::Network;
 use crate::network::error::NetworkError;
+use crate::network::measures::{Measured, measures};
 use crate::network::model::Model;
 use crate::scene::{ElementIndex, Kind, Scene};
 use wavestep_polynomial::Rational;
@@ -18,15 +19,19 @@ use wavestep_polynomial::Rational;
 pub struct ScaledScene {
     pub(in crate::network) scene: Scene,
     pub(in crate::network) model: Model,
+    measures: Vec<Measured>,
 }
 
 impl ScaledScene {
     /// The scene in its own scales.
     ///
     /// # Errors
-    /// [`NetworkError::Division`] where a value would have to be divided by that cannot be.
+    /// [`NetworkError::Division`] where a value would have to be divided by that cannot be;
+    /// [`NetworkError::Unobservable`] for a measure at a place that does not have it.
     pub fn of(scene: &Scene) -> Result<ScaledScene, NetworkError> {
-        Ok(ScaledScene { model: Model::of(scene)?, scene: scene.clone() })
+        let mut model = Model::of(scene)?;
+        let measures = measures(scene, &mut model)?;
+        Ok(ScaledScene { scene: scene.clone(), model, measures })
     }
 
     /// The network of the scene.
@@ -45,6 +50,11 @@ impl ScaledScene {
     /// The scene in its own scales.
     pub fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// The observables of the scene, as sums of readings.
+    pub(crate) fn measures(&self) -> &[Measured] {
+        &self.measures
     }
 
     /// A time in seconds in the scale of the scene; a plain number as it is.

@@ -64,6 +64,13 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Why a measure cannot be taken at its place; none where it can.
+    pub(crate) fn refusal(&self, seen: &Seen) -> Option<Mistake> {
+        Check { scene: self, known: self.known(), faults: Vec::new() }.observed(seen)
+    }
+}
+
 struct Check<'a> {
     scene: &'a Scene,
     known: Assumptions,

@@ -15,7 +15,7 @@ use wavestep::field::Quantity;
 use wavestep::language;
 use wavestep::network::{Network, Observed, ObservedValue};
 use wavestep::recurrence::Recurrence;
-use wavestep::scene::{Dimension, Measure, Seen};
+use wavestep::scene::{Dimension, Measure};
 use wavestep::signal::{self, Purpose};
 use wavestep_draw::{Caption, Chart};
 use wavestep_studies::picture::{
@@ -232,11 +232,10 @@ fn of_scene(
             true => quantity::of_phases(network, &name)?,
             false => quantity::of_scene(network, &name)?,
         };
-        let is_sum =
-            matches!(observed.value, ObservedValue::Energy(_)) || is_held(network, &observed.name);
-        let purpose = if is_sum { Purpose::Values } else { Purpose::Stretches };
+        let is_energy = matches!(observed.value, ObservedValue::Energy(_));
+        let purpose = if is_energy { Purpose::Values } else { Purpose::Stretches };
         let signal = signal::of_scene(network, &observed, [from, to], purpose)?;
-        let values = match is_sum {
+        let values = match is_energy {
             true => sampled_in_steps(&*signal, ENERGY_STEPS)?,
             false => sampled(&*signal)?,
         };
@@ -244,13 +243,6 @@ fn of_scene(
         Ok(Course { name, dimension: observed.dimension, measure, values })
     };
     names(options, all)?.into_iter().map(course).collect()
-}
-
-/// Whether an observable is an energy or a momentum, a sum over all bars where contacts open.
-fn is_held(network: &Network, name: &str) -> bool {
-    let is_sum = |term: &Seen| matches!(term.measure, Measure::Energy | Measure::Momentum);
-    let own = network.scene().observables.iter().find(|own| own.name == name);
-    network.scene().contacts_open && own.is_some_and(|own| own.terms.iter().any(is_sum))
 }
 
 /// What an observable measures; none where its terms differ, or where it is a wave.

@@ -108,6 +108,29 @@ fn empty_windows_and_energies_are_refused() {
     assert!(refused("speed", [&zero, &one]).to_string().contains("no observable"));
 }
 
+/// A distance may be no rational share of a travel time: then that has a name, and its digits are the same
+/// as those of the share of the length.
+#[test]
+fn distances_are_shares_of_travel_times() {
+    let network = network_of(
+        "scene \"Steel strikes aluminium\"\n\
+         bar a { modulus = 210 GPa, density = 7850 kg/m^3, area = 1 cm^2, length = 1 m, velocity = 1 m/s }\n\
+         bar b { modulus = 70 GPa, density = 2700 kg/m^3, area = 1 cm^2, length = 2 m }\n\
+         line free - a | b - free\ncontacts open\n\
+         observe share = velocity(b.at(1/4))\nobserve distance = velocity(b.at(500 mm))\n\
+         observe end = force(b.left)\nobserve start = force(b.at(0 mm))\n",
+        &[],
+    );
+    let times: Vec<Rational> = (1..40).map(|n| rational(n, 30_000)).collect();
+    let told = |name| {
+        let values = crate::history::values(&network, name, &times, Limit::Right, 20);
+        values.iter().map(|value| value.to_text(20)).collect::<Vec<_>>()
+    };
+    assert_eq!(told("share"), told("distance"));
+    assert_eq!(told("end"), told("start"));
+    assert!(told("share").iter().any(|value| value != "0"));
+}
+
 /// An event at the very end of a window is told, one after it is not; a search that ends there as well.
 #[test]
 fn events_at_the_end_of_a_window_are_told() {

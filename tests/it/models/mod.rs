@@ -52,7 +52,7 @@ fn exact(network: &Network, observable: usize, times: &[BigRational]) -> Vec<f64
     times.iter().map(value).collect()
 }
 
-/// The observables that models keep account of: neither energies, nor momenta with an endless bar.
+/// The observables that all models keep account of: neither energies, nor momenta with an endless bar.
 fn linear(network: &Network) -> Vec<usize> {
     let endless = network.model().bars.values().any(|bar| bar.travel.is_none());
     let kept = |i: &usize| {

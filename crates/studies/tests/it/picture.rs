@@ -28,6 +28,7 @@ fn lines_go_through_values() {
     for (name, values, observable) in [
         ("saint-venant", &[("mu", "1")][..], "strain_fixed"),
         ("saint-venant", &[("mu", "2")], "strain_impact"),
+        ("saint-venant", &[("mu", "2")], "momentum"),
         ("bars-of-unequal-length", &[], "force"),
     ] {
         let network = shipped(name, values);
