@@ -420,6 +420,7 @@ fn of_way(error: &WayError) -> Kind {
         | WayError::Model(ModelError::TooMuch { .. }) => Kind::TooMuchWork,
         WayError::Method(MethodError::Outside)
         | WayError::Model(ModelError::MissingValue(_) | ModelError::Time(_)) => Kind::BadInput,
+        WayError::NotMet { .. } => Kind::AccuracyNotReached,
         _ => Kind::NotSupported,
     }
 }
@@ -434,5 +435,7 @@ fn after_way(error: &WayError) -> Remedy {
         WayError::NeedsRecurrence(_) => Remedy::MethodOfSteps,
         WayError::NeedsScene(_) => Remedy::DescribeParts,
         WayError::LeftLimit(_) => Remedy::RightLimit,
+        WayError::NoNumber(..) => Remedy::CompiledOrCertified,
+        WayError::NotMet { .. } => Remedy::AskForValues,
     }
 }

@@ -49,6 +49,8 @@ pub mod model;
 #[doc(hidden)]
 pub mod network;
 #[doc(hidden)]
+pub mod problem;
+#[doc(hidden)]
 pub mod recurrence;
 #[doc(hidden)]
 pub mod scene;

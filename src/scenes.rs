@@ -20,18 +20,7 @@ pub struct Scene {
 /// with a local contact, which have values and no recurrence.
 ///
 /// ```
-/// use wavestep::language::{Kind, Source, kind, read_recurrence, read_scene};
-/// use wavestep::scenes::SCENES;
-///
-/// assert!(SCENES.map(|scene| scene.name).contains(&"rigid-mass"));
-/// for scene in SCENES {
-///     let source = Source::new(scene.name, scene.text)?;
-///     match kind(&source) {
-///         Kind::Recurrence => drop(read_recurrence(&source, &Default::default())?),
-///         Kind::Scene => drop(read_scene(&source, &Default::default()).unwrap()),
-///     }
-/// }
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// assert!(wavestep::scenes::SCENES.map(|scene| scene.name).contains(&"rigid-mass"));
 /// ```
 pub const SCENES: [Scene; 25] = [
     Scene { name: "two-bars", text: include_str!("../scenes/two-bars.wave") },
@@ -74,18 +63,10 @@ pub const SCENES: [Scene; 25] = [
 ];
 
 impl Scene {
-    /// Whether all its laws are linear. A scene with a local contact has no recurrence, and is for
-    /// models.
-    ///
-    /// ```
-    /// use wavestep::scenes::{SCENES, find};
-    ///
-    /// assert!(find("pile").unwrap().is_linear());
-    /// let names = SCENES.iter().filter(|scene| !scene.is_linear()).map(|scene| scene.name);
-    /// assert_eq!(names.collect::<Vec<_>>(), ["local-contact", "hertz-striker"]);
-    /// ```
-    pub fn is_linear(&self) -> bool {
-        self.text.lines().all(|line| !line.starts_with("hertz "))
+    /// Its title, which stands in the first line that is no comment.
+    pub fn title(&self) -> &'static str {
+        let title = self.text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
+        title.split('"').nth(1).unwrap_or_default()
     }
 }
 

@@ -6,12 +6,14 @@
 //! ways by their proven bounds and by a measured table of costs, and says why it picks one.
 
 mod cost;
+mod doubles;
 mod problem;
 mod tolerance;
 mod way;
 mod weigh;
 
 pub use cost::{Cost, Size};
+pub use doubles::{Accuracy, Doubles, Remark, Tested, doubles};
 pub use problem::Problem;
 pub use tolerance::{InvalidTolerance, Tolerance};
 pub use way::{InvalidWay, Kind, Way, WayError};

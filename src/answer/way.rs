@@ -1,6 +1,9 @@
 //! Ways to values, by name and settings.
 
 use crate::answer::problem::Problem;
+use crate::answer::tolerance::Tolerance;
+use crate::answer::weigh::Weighed;
+use crate::ball::in_decimals;
 use crate::evaluate::{
     Certified, Compiled, EvaluateError, Expanded, Limit, Marched, Method, MethodError, Plain,
     Stable, StablePrecision,
@@ -200,6 +203,19 @@ pub enum WayError {
     /// Models have values after arrivals only.
     #[error("{0} is a model, and has no limits from one side")]
     LeftLimit(&'static str),
+    /// A method gives no number at a time.
+    #[error("{} gives no number at {}", .0, in_decimals(.1))]
+    NoNumber(Kind, Rational),
+    /// No method is proven to be good enough.
+    #[error("no double is proven to be within {tolerance}")]
+    NotMet {
+        /// The methods that were weighed.
+        weighed: Box<Weighed>,
+        /// What was asked for.
+        tolerance: Tolerance,
+        /// The same in the unit of the values.
+        absolute: f64,
+    },
 }
 
 impl From<EvaluateError> for WayError {

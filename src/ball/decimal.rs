@@ -44,6 +44,17 @@ pub enum Exactness {
     Rounded,
 }
 
+/// The most digits of a number in decimals.
+const DECIMALS: usize = 17;
+
+/// A rational number in decimals where few of them are all, else as a fraction.
+pub fn in_decimals(value: &BigRational) -> String {
+    match Decimal::from_rational(value, DECIMALS) {
+        (decimal, Exactness::Exact) => decimal.to_string(),
+        _ => value.to_string(),
+    }
+}
+
 impl Decimal {
     /// The number `value·10^place` with the digits of `value`.
     pub(super) fn from_scaled(value: &BigInt, place: i64) -> Self {

@@ -286,43 +286,50 @@ pub fn read_scene(
 }
 
 /// What a text states.
-///
-/// ```
-/// use wavestep::language::{Kind, Source, kind};
-///
-/// let kind = |text| kind(&Source::new("text", text).unwrap());
-/// assert_eq!(kind("recurrence \"Two bars\""), Kind::Recurrence);
-/// assert_eq!(kind("# Two bars\nscene \"Two bars\""), Kind::Scene);
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Stated {
     /// The equations between the wave functions of successive periods.
-    Recurrence,
+    Recurrence(Box<recurrence::Recurrence>),
     /// Bars and lumped elements on a line.
-    Scene,
+    Scene(Box<physics::Scene>),
 }
 
-/// What a text states, by its first word, so that it is read by [`read_recurrence`] or
-/// [`read_scene`]. A word that is misspelt, and a statement that stands where the title should, count
-/// for what they most resemble; whatever else is taken for a recurrence.
+/// Reads what a text states, with `values` in place of symbols from the start. Its first word says what
+/// it is: a word that is misspelt, and a statement that stands where the title should, count for what
+/// they most resemble; whatever else is taken for a recurrence.
+///
+/// # Errors
+/// As [`read_recurrence`] and [`read_scene`].
 ///
 /// ```
-/// use wavestep::language::{Kind, Source, kind, parse_scene};
+/// use wavestep::language::{Source, Stated, read};
 ///
-/// let source = Source::new("text", "scen \"Two bars\"")?;
-/// assert_eq!(kind(&source), Kind::Scene);
-/// assert_eq!(parse_scene(&source).unwrap_err().remedy(), Some("did you mean `scene`?"));
+/// let source = Source::new("pushed", "recurrence \"A\" period 2, local s, time t wave f equation f[n] = 1")?;
+/// assert!(matches!(read(&source, &Default::default()), Ok(Stated::Recurrence(_))));
+/// let source = Source::new("text", "# Two bars\nscen \"Two bars\"")?;
+/// let errors = read(&source, &Default::default()).unwrap_err();
+/// assert_eq!(errors[0].remedy(), Some("did you mean `scene`?"));
 /// # Ok::<(), wavestep::language::Diagnostic>(())
 /// ```
-#[must_use]
-pub fn kind(source: &Source) -> Kind {
-    let Some(word) = parser::first_word(source) else { return Kind::Recurrence };
+pub fn read(
+    source: &Source,
+    values: &BTreeMap<String, BigRational>,
+) -> Result<Stated, Vec<Diagnostic>> {
+    match states_a_scene(source) {
+        true => Ok(Stated::Scene(Box::new(read_scene(source, values)?))),
+        false => match read_recurrence(source, values) {
+            Ok(recurrence) => Ok(Stated::Recurrence(Box::new(recurrence))),
+            Err(diagnostic) => Err(vec![diagnostic]),
+        },
+    }
+}
+
+fn states_a_scene(source: &Source) -> bool {
+    let Some(word) = parser::first_word(source) else { return false };
     let [recurrence, scene] = parser::keywords();
     let word = word.to_ascii_lowercase();
-    match closest(&word, recurrence.iter().chain(&scene).copied()) {
-        Some(found) if !recurrence.contains(&found) => Kind::Scene,
-        _ => Kind::Recurrence,
-    }
+    let found = closest(&word, recurrence.iter().chain(&scene).copied());
+    found.is_some_and(|found| !recurrence.contains(&found))
 }
 
 /// Reads a listing of formulas as exact expressions; every name is a symbol.
@@ -357,4 +364,28 @@ pub fn read_listing(source: &Source) -> Result<Vec<ExactFormula>, Diagnostic> {
 /// ```
 pub fn read_expression(source: &Source) -> Result<expression::Expression, Diagnostic> {
     lowering::expression(&parse_expression(source)?, source)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Source, states_a_scene};
+
+    #[test]
+    fn texts_are_told_apart() {
+        for (text, expected) in [
+            ("", false),
+            ("recurrence \"A\"", false),
+            ("  # scene\n  scene \"A\"", true),
+            ("Scene \"A\"", true),
+            ("scen", true),
+            ("bar rod {}", true),
+            ("wave f", false),
+            ("reccurence \"A\"", false),
+            ("f[n] = 1", false),
+            ("\"A\"", false),
+        ] {
+            let source = Source::new("text", text).expect("a text");
+            assert_eq!(states_a_scene(&source), expected, "{text}");
+        }
+    }
 }

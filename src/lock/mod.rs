@@ -82,6 +82,30 @@ impl Locked {
             _ => Locked::History(HistoryLock::read(source)?),
         })
     }
+
+    /// The text of the file.
+    pub fn to_text(&self) -> String {
+        match self {
+            Locked::Pieces(lock) => lock.to_text(),
+            Locked::History(lock) => lock.to_text(),
+        }
+    }
+
+    /// The values that were put in place of symbols.
+    pub fn set(&self) -> &BTreeMap<String, Rational> {
+        match self {
+            Locked::Pieces(lock) => &lock.request().set,
+            Locked::History(lock) => &lock.request().set,
+        }
+    }
+
+    /// How many pieces or events are locked, and how many values.
+    pub fn counts(&self) -> (usize, usize) {
+        match self {
+            Locked::Pieces(lock) => lock.counts(),
+            Locked::History(lock) => lock.counts(),
+        }
+    }
 }
 
 /// A wave function on one period.

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const FOR_ALL: &str = "limits";
 
 /// Every layer with the layers it may use, besides [`FOR_ALL`].
-const LAYERS: [(&str, &[&str]); 19] = [
+const LAYERS: [(&str, &[&str]); 20] = [
     (FOR_ALL, &[]),
     ("ball", &[]),
     ("expression", &[]),
@@ -65,6 +65,28 @@ const LAYERS: [(&str, &[&str]); 19] = [
         ],
     ),
     ("scenes", &[]),
+    (
+        "problem",
+        &[
+            "answer",
+            "ball",
+            "enclosure",
+            "evaluate",
+            "export",
+            "expression",
+            "field",
+            "history",
+            "language",
+            "lock",
+            "model",
+            "network",
+            "recurrence",
+            "scene",
+            "scenes",
+            "signal",
+            "solution",
+        ],
+    ),
 ];
 
 /// What may stand in one layer only, or in none.

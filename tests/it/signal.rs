@@ -6,22 +6,21 @@
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
 use wavestep::evaluate::{ClosedForm, ClosedSignal, Limit, digits};
-use wavestep::language::{Source, parse_number, read_scene};
+use wavestep::language::parse_number;
 use wavestep::network::Network;
+use wavestep::problem::Problem;
 use wavestep::scenes::SCENES;
 use wavestep_polynomial::Rational;
 
 /// The shipped linear scenes with numbers for their symbols.
 fn networks() -> impl Iterator<Item = (&'static str, Network)> {
-    let described = |text: &str| text.lines().any(|line| line.starts_with("scene "));
-    let scenes = SCENES.iter().filter(move |scene| described(scene.text) && scene.is_linear());
-    scenes.map(|scene| {
+    SCENES.iter().filter_map(|scene| {
         let third = parse_number("4/3").unwrap();
         let values = ["mu", "r", "m"].map(|name| (name.to_owned(), third.clone()));
         let named = |name: &str| scene.text.contains(&format!("symbol {name} "));
         let values: BTreeMap<_, _> = values.into_iter().filter(|(name, _)| named(name)).collect();
-        let source = Source::new(scene.name, scene.text).unwrap();
-        (scene.name, Network::new(&read_scene(&source, &values).unwrap()).unwrap())
+        let problem = Problem::read(scene.name, scene.text, &values).unwrap();
+        Some((scene.name, problem.network().ok()?.clone()))
     })
 }
 

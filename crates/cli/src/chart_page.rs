@@ -4,27 +4,8 @@ use super::failure::Failure;
 use super::output::write_whole;
 use std::fs;
 use std::path::Path;
-use wavestep_draw::{Chart, Listing, Section, Table, page};
-
-/// A chart with its file name and what is to be seen.
-pub struct Figure {
-    name: String,
-    text: &'static str,
-    chart: Box<dyn Chart>,
-    listing: Option<Listing>,
-}
-
-impl Figure {
-    /// A figure.
-    pub fn new(name: &str, text: &'static str, chart: impl Chart + 'static) -> Figure {
-        Figure { name: name.to_owned(), text, chart: Box::new(chart), listing: None }
-    }
-
-    /// The same with a small table.
-    pub fn listed(self, listing: Listing) -> Figure {
-        Figure { listing: Some(listing), ..self }
-    }
-}
+use wavestep_draw::{Section, page};
+use wavestep_studies::study::Charts;
 
 /// Refuses a folder that cannot be made, before anything is measured.
 pub fn check(folder: &str) -> Result<(), Failure> {
@@ -41,17 +22,12 @@ fn unusable(folder: &str, reason: impl std::fmt::Display) -> Failure {
 }
 
 /// Writes all files, and says which.
-pub fn write(
-    folder: &str,
-    title: &str,
-    figures: &[Figure],
-    table: &Table,
-) -> Result<String, Failure> {
+pub fn write(folder: &str, title: &str, charts: &Charts) -> Result<String, Failure> {
     fs::create_dir_all(folder).map_err(|error| unusable(folder, error))?;
     let folder = Path::new(folder);
     let mut told = String::new();
     let mut sections = Vec::new();
-    for figure in figures {
+    for figure in &charts.all {
         let chart = figure.chart.as_ref();
         let files =
             [("svg", chart.svg()), ("json", format!("{:#}\n", chart.json())), ("csv", chart.csv())];
@@ -65,6 +41,6 @@ pub fn write(
         sections.push(Section { heading, explanation, chart, listing });
     }
     let file = folder.join("index.html");
-    write_whole(&file, page(title, &sections, table).as_bytes())?;
+    write_whole(&file, page(title, &sections, &charts.table).as_bytes())?;
     Ok(told + &format!("{}\n", file.display()))
 }

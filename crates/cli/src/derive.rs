@@ -1,27 +1,237 @@
-//! `derive`: exact wave functions, of a recurrence or of a scene.
+//! `derive`: exact wave functions as text, LaTeX or JSON, of a recurrence or of a scene.
 
-use super::arguments::Derive;
-use super::derive_recurrence::of_recurrence;
-use super::derive_scene;
+use super::arguments::{Derive, DeriveFormat};
 use super::failure::Failure;
-use super::input::{self, Subject};
+use super::input;
+use super::json;
+use super::progress;
 use super::validity;
+use serde_json::{Value, json};
+use wavestep::evaluate::Arrival;
+use wavestep::export::{self, Formula};
+use wavestep::problem::{
+    Derived, Form, Functions, GeneralFormulas, Orders, Problem, Symbols, ToDerive,
+};
+use wavestep::solution::ObservedStretch;
 
 /// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
-    match input::subject(&options.scene)? {
-        Subject::Recurrence(_) if options.explain => Err(Failure::usage(
-            "a recurrence is its own explanation: nothing was derived to get it",
-            "ask for --explain with a scene of bars and elements, or leave it out",
-        )),
-        Subject::Recurrence(recurrence) => {
-            let shown = recurrence.statement().waves.len();
-            of_recurrence(*recurrence, shown, options)
+    let problem = input::problem(&options.scene)?;
+    let derived = match options.explain {
+        true => explanation(&problem, options)?,
+        false => {
+            let (derived, names) = derived(&problem, options)?;
+            with_constants(&problem, derived, names.as_deref(), options)?
         }
-        Subject::Scene(network) => {
-            let derived = derive_scene::run(&network, options)?;
-            validity::note_derivation(&network);
-            Ok(derived)
+    };
+    validity::note_derivation(&problem);
+    Ok(derived)
+}
+
+fn explanation(problem: &Problem, options: &Derive) -> Result<String, Failure> {
+    let derivation = problem.explanation()?;
+    match options.format {
+        DeriveFormat::Latex => Ok(derivation.to_latex(options.width())),
+        DeriveFormat::Text => Ok(derivation.to_text(options.width())),
+        DeriveFormat::Json => {
+            let remedy = "ask for --format text or latex, or leave out --explain";
+            Err(Failure::usage("a derivation is for reading, not for programs", remedy))
+        }
+    }
+}
+
+/// With the constants that the formulas hold, or of these the ones that stand in a text, and the unit of an observable.
+fn with_constants(
+    problem: &Problem,
+    derived: String,
+    text: Option<&str>,
+    options: &Derive,
+) -> Result<String, Failure> {
+    let (mark, text) = match options.format {
+        DeriveFormat::Json => return Ok(derived),
+        DeriveFormat::Text => ("#", Some(derived.as_str())),
+        DeriveFormat::Latex => ("%", text),
+    };
+    let mut lines = problem.constants(text)?;
+    lines.extend(options.observable.as_ref().and_then(|name| problem.unit_of_formulas(name)));
+    let lines: String = lines.iter().map(|line| format!("{mark} {line}\n")).collect();
+    Ok(lines + &derived)
+}
+
+/// What is derived, and the same as text where it is written otherwise and holds few of the constants.
+fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String>), Failure> {
+    let what = match (&options.wave, &options.observable) {
+        (_, Some(name)) => ToDerive::Observable(name),
+        (Some(name), None) => ToDerive::Wave(name),
+        (None, None) => ToDerive::Waves,
+    };
+    let symbols = if options.source_form { Symbols::Source } else { Symbols::Own };
+    if options.general {
+        return Ok((written_general(problem, &problem.general(what, symbols)?, options)?, None));
+    }
+    let orders = options.orders();
+    if let Orders::Through(first, last) = orders
+        && first > last
+    {
+        let message = format!("no period lies from {first} through {last}");
+        return Err(Failure::usage(message, "give --through N with N at least --from"));
+    }
+    let _progress = progress::spinner("deriving");
+    if symbols == Symbols::Source {
+        let formulas = problem.source_form(what, orders)?;
+        return match options.format {
+            DeriveFormat::Json => Err(source_form_as_json()),
+            _ => Ok((formulas_as(&formulas, options), None)),
+        };
+    }
+    let form = options.form.into();
+    let derived = problem.derive(what, orders, form)?;
+    let names = match &derived {
+        Derived::Arrivals(_) => Some(plain(problem, &derived, form, options)?),
+        _ => None,
+    };
+    Ok((written(problem, &derived, form, options)?, names))
+}
+
+fn plain(
+    problem: &Problem,
+    derived: &Derived,
+    form: Form,
+    options: &Derive,
+) -> Result<String, Failure> {
+    let all = problem.formulas(derived, form)?;
+    let formulas = all.iter().flat_map(|(_, formulas)| formulas);
+    Ok(formulas.map(|formula| formula.to_text(options.width())).collect())
+}
+
+fn source_form_as_json() -> Failure {
+    let remedy = "ask for --format text or latex, or leave out --source-form";
+    Failure::usage("the source's form is for reading, not for programs", remedy)
+}
+
+/// Formulas as text or LaTeX.
+fn formulas_as(formulas: &[Formula], options: &Derive) -> String {
+    match options.format {
+        DeriveFormat::Latex => export::latex(formulas, options.width()),
+        DeriveFormat::Text | DeriveFormat::Json => export::text(formulas, options.width()),
+    }
+}
+
+fn written(
+    problem: &Problem,
+    derived: &Derived,
+    form: Form,
+    options: &Derive,
+) -> Result<String, Failure> {
+    if options.format == DeriveFormat::Json {
+        return json_document(problem, derived, form);
+    }
+    let all = problem.formulas(derived, form)?;
+    if (options.format, form) == (DeriveFormat::Latex, Form::Piecewise) {
+        let time = &problem.recurrence()?.statement().time;
+        let cases = |(name, formulas): &(String, Vec<Formula>)| {
+            export::latex_cases(name, time, formulas, options.width())
+        };
+        return Ok(all.iter().map(cases).collect());
+    }
+    let all: Vec<Formula> = all.into_iter().flat_map(|(_, formulas)| formulas).collect();
+    Ok(formulas_as(&all, options))
+}
+
+fn json_document(problem: &Problem, derived: &Derived, form: Form) -> Result<String, Failure> {
+    let document = match derived {
+        Derived::Arrivals(found) => arrivals_json(problem, found)?,
+        Derived::Stretches(name, stretches) => {
+            let stretch = |stretch: &ObservedStretch| {
+                json!({
+                    "from": json::fraction_json(&stretch.from),
+                    "to": json::fraction_json(&stretch.to),
+                    "terms": json::expression_json(&stretch.value),
+                })
+            };
+            let mut document = header(problem, "arrivals")?;
+            document["observable"] = json!(name);
+            document["functions"] = stretches.iter().map(stretch).collect();
+            document
+        }
+        Derived::Functions(all) => {
+            let (form, index) = match form {
+                Form::Period => ("period", "n"),
+                Form::Echo => ("echo", "k"),
+                Form::Piecewise => ("piecewise", "n"),
+            };
+            let local = &problem.recurrence()?.statement().local;
+            let functions = |functions: &Functions| {
+                let Functions { name, first, offset, expressions } = functions;
+                let pieces = json::pieces_json(index, *first, local, expressions);
+                json!({"wave": name, "offset": json::fraction_json(offset), "functions": pieces})
+            };
+            let mut document = header(problem, form)?;
+            document["waves"] = all.iter().map(functions).collect();
+            document
+        }
+    };
+    Ok(format!("{document}\n"))
+}
+
+fn header(problem: &Problem, form: &str) -> Result<Value, Failure> {
+    let statement = problem.recurrence()?.statement();
+    Ok(json!({
+        "schema_version": json::SCHEMA_VERSION,
+        "title": statement.title,
+        "period": json::fraction_json(&statement.period),
+        "local": statement.local.name(),
+        "time": statement.time.name(),
+        "form": form,
+    }))
+}
+
+fn arrivals_json(problem: &Problem, found: &[Arrival]) -> Result<Value, Failure> {
+    let network = problem.network()?;
+    let echo = |arrival: &Arrival| {
+        json!({
+            "wave": network.waves()[arrival.wave].name,
+            "counts": arrival.counts,
+            "delay": json::fraction_json(&arrival.delay),
+            "terms": json::expression_json(&arrival.echo),
+        })
+    };
+    let periods: Vec<Value> = network.lattice().periods().iter().map(json::fraction_json).collect();
+    Ok(json!({
+        "schema_version": json::SCHEMA_VERSION,
+        "title": problem.title(),
+        "form": "arrivals",
+        "periods": periods,
+        "local": network.local().name(),
+        "echoes": found.iter().map(echo).collect::<Vec<_>>(),
+    }))
+}
+
+fn written_general(
+    problem: &Problem,
+    all: &[GeneralFormulas],
+    options: &Derive,
+) -> Result<String, Failure> {
+    match options.format {
+        DeriveFormat::Json if options.source_form => Err(source_form_as_json()),
+        DeriveFormat::Json => {
+            // A formula is text that is not broken, with its remark apart.
+            let formula = |formula: &Formula| {
+                let remark = formula.remark.as_ref().map(|(text, _)| text);
+                json!({"formula": formula.to_line(), "remark": remark})
+            };
+            let wave = |wave: &GeneralFormulas| {
+                let formulas: Vec<Value> = wave.formulas.iter().map(formula).collect();
+                json!({"wave": wave.wave, "formulas": formulas})
+            };
+            let mut document = header(problem, "general")?;
+            document["waves"] = all.iter().map(wave).collect();
+            Ok(format!("{document}\n"))
+        }
+        _ => {
+            let all: Vec<Formula> =
+                all.iter().flat_map(|wave| wave.formulas.iter().cloned()).collect();
+            Ok(formulas_as(&all, options))
         }
     }
 }

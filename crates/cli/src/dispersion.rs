@@ -10,6 +10,7 @@ use num_traits::Signed as _;
 use serde_json::{Map, Value as Json, json};
 use wavestep::ball::{Ball, Value};
 use wavestep::language::{self, Source};
+use wavestep::problem::number;
 use wavestep_polynomial::Symbol;
 use wavestep_studies::dispersion::{
     Builtin, DispersionError, Formula, PeakVelocity, Pulse, Quantity, Relation, Seen, Shape,
@@ -69,7 +70,7 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
     let _progress = progress::spinner("enclosing velocities");
     let mut at = Vec::new();
     for text in &options.at {
-        let k = input::number("--at", text)?;
+        let k = number("--at", text)?;
         if k.is_negative() {
             let message = format!("the wavenumber {k} is negative");
             return Err(Failure::usage(message, "give wavenumbers from 0 on"));
@@ -101,7 +102,7 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
         Told::Pulse(name, pulse) => {
             let peak = peak_velocity(&answer.relation, &pulse, options.digits, options.max_bits)?;
             if let Some(time) = &options.propagate {
-                let exact = input::number("--propagate", time)?;
+                let exact = number("--propagate", time)?;
                 let double = num_traits::ToPrimitive::to_f64(&exact).unwrap_or(f64::INFINITY);
                 let travel = Travel { points: options.points, ..Travel::until(double) };
                 answer.seen =
@@ -170,11 +171,11 @@ fn pulse(options: &Dispersion) -> Result<Told, Failure> {
     let plain = shape.unwrap_or(Shape::Square);
     let (extent, pulse) = match (&options.length, &options.duration) {
         (Some(length), _) => {
-            let length = input::number("--length", length)?;
+            let length = number("--length", length)?;
             (format!("of length {length}"), Pulse::in_space(plain, &length)?)
         }
         (None, Some(duration)) => {
-            let duration = input::number("--duration", duration)?;
+            let duration = number("--duration", duration)?;
             (format!("of duration {duration}"), Pulse::in_time(plain, &duration)?)
         }
         (None, None) => {

@@ -1,32 +1,53 @@
-//! `eval`: values with proven digits, of a recurrence or of a scene.
+//! `eval`: values with proven digits, or in doubles.
 
 use super::arguments::Eval;
-use super::eval_contact;
-use super::eval_doubles;
-use super::eval_recurrence::of_recurrence;
-use super::eval_scene;
+use super::doubles;
 use super::failure::Failure;
-use super::input::{self, Readable, Subject};
+use super::input;
+use super::progress;
+use super::rows::{times, written};
+use wavestep::answer::Accuracy;
+use wavestep::problem::Digits;
+
+/// The digits that are asked for where nothing is said.
+const USUAL_DIGITS: usize = 15;
 
 /// Evaluates what is asked for.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let subject = match input::readable(&options.scene)? {
-        Readable::WithoutRecurrence(scaled) => return eval_contact::run(&scaled, options),
-        Readable::Subject(subject) => subject,
+    let problem = input::problem(&options.scene)?;
+    let tolerance = options.tol.as_deref().map(doubles::tolerance).transpose()?;
+    let method = options.method.as_deref().map(doubles::method).transpose()?;
+    let unsaid = tolerance.is_none() && options.digits == USUAL_DIGITS;
+    let unsaid = unsaid && !options.stats && options.piece.is_none();
+    let method = method.or_else(|| problem.usual_method().filter(|_| unsaid));
+    let accuracy = match (method, tolerance) {
+        (Some(method), tolerance) => Accuracy::Method(method, tolerance),
+        (None, Some(tolerance)) => Accuracy::Within(tolerance),
+        (None, None) if options.explain => {
+            let message = "--explain tells how values in doubles are computed";
+            return Err(Failure::usage(message, "give --tol or --method as well"));
+        }
+        (None, None) => Accuracy::Digits,
     };
-    if options.tol.is_some() || options.method.is_some() {
-        return eval_doubles::run(
-            subject.with_closed_contacts("eval --tol` and `eval --method")?,
-            options,
-        );
+    let (name, limit) = (&options.quantity, options.side);
+    if accuracy != Accuracy::Digits {
+        let times = times(&problem, options)?;
+        let found = problem.doubles(name, &times, limit, accuracy);
+        let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
+        doubles::tell(&found, times.len(), tolerance, options.explain);
+        let unit = problem.wanted(name)?.unit();
+        return Ok(doubles::written(&found, &problem, &unit, &times, options));
     }
-    if options.explain {
-        let message = "--explain tells how values in doubles are computed";
-        return Err(Failure::usage(message, "give --tol or --method as well"));
+    let wanted = problem.wanted(name)?;
+    let times = times(&problem, options)?;
+    let (count, max_bits) = (options.digits, options.max_bits);
+    let digits = Digits { count, max_bits, limit, count_echoes: options.stats };
+    let progress = progress::counted(times.len());
+    let found = problem.proven(&wanted, &times, digits, &|| progress.inc(1))?;
+    drop(progress);
+    if let Some((expanded, needed)) = found.echoes {
+        eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
     }
-    match subject {
-        Subject::Recurrence(recurrence) => of_recurrence(*recurrence, options),
-        Subject::Scene(network) => eval_scene::run(&network, options),
-    }
+    Ok(written(&problem, &wanted, (&times, &found.values), options))
 }

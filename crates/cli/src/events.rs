@@ -3,41 +3,30 @@
 use super::arguments::{Events, EventsFormat};
 use super::failure::Failure;
 use super::found::number;
-use super::input::{self, Subject};
+use super::input;
 use super::json::SCHEMA_VERSION;
 use super::progress;
-use super::rows::in_decimals;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
+use wavestep::ball::in_decimals;
 use wavestep::evaluate::Value;
 use wavestep::export::expression_text;
 use wavestep::history::{Body, Ending, Event, EventKind, History, HistoryError};
 use wavestep::language;
-use wavestep::network::Network;
-use wavestep::scene::{Dimension, Joint};
+use wavestep::problem::Problem;
+use wavestep::scene::Dimension;
 
 /// Tells the history of a scene.
 pub fn run(options: &Events) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let Subject::Scene(network) = input::subject(&options.scene)? else {
-        let message = "a recurrence has no contacts";
-        return Err(Failure::usage(
-            message,
-            "describe it by its parts: see docs/scene-language.md",
-        ));
-    };
-    let scene = network.scene();
-    if !scene.line.joints.contains(&Joint::Contact) {
-        let message = "this scene has no contact that could open";
-        return Err(Failure::usage(message, "write `|` in its line where bodies only touch"));
-    }
-    let until = options.until.as_ref();
-    let until = until.map(|until| input::time("--until", until, scene.dimensional)).transpose()?;
+    let problem = input::problem(&options.scene)?;
+    let until = options.until.as_deref();
+    let until = until.map(|until| problem.time("--until", until)).transpose()?;
     let history = {
         let _progress = progress::spinner("following contacts");
-        History::of(&network, until.as_ref(), options.digits)?
+        problem.events(until.as_ref(), options.digits)?
     };
-    let told = Told { options, network: &network, history: &history };
+    let told = Told { options, problem: &problem, history: &history };
     Ok(match options.format {
         EventsFormat::Text => told.text(),
         EventsFormat::Json => told.json(),
@@ -73,7 +62,7 @@ impl From<HistoryError> for Failure {
 
 struct Told<'a> {
     options: &'a Events,
-    network: &'a Network,
+    problem: &'a Problem,
     history: &'a History,
 }
 
@@ -89,7 +78,7 @@ fn word(kind: EventKind) -> &'static str {
 impl Told<'_> {
     /// A value with the unit of its dimension.
     fn value(&self, value: &Value, dimension: Dimension) -> String {
-        let dimensional = self.network.scene().dimensional;
+        let dimensional = self.problem.has_units();
         let text = match value {
             Value::Exact(value) if dimensional => in_decimals(value),
             other => other.to_text(self.options.digits),
@@ -120,7 +109,7 @@ impl Told<'_> {
     }
 
     fn text(&self) -> String {
-        let mut text = format!("{}\n", self.network.scene().title);
+        let mut text = format!("{}\n", self.problem.title());
         for event in &self.history.events {
             let mut time = self.value(&event.time, Dimension::TIME);
             if let Some(exact) = &event.exact {
@@ -236,7 +225,7 @@ impl Told<'_> {
         };
         let mut document = json!({
             "schema_version": SCHEMA_VERSION,
-            "title": self.network.scene().title,
+            "title": self.problem.title(),
             "set": self.options.scene.set,
             "digits": self.options.digits,
             "bits": self.history.bits,
@@ -244,7 +233,7 @@ impl Told<'_> {
             "contacts": contacts.collect::<Vec<_>>(),
             "ending": ending,
         });
-        if self.network.scene().dimensional {
+        if self.problem.has_units() {
             document["units"] = json!({
                 "time": "s",
                 "force": language::unit_of(Dimension::FORCE),

@@ -5,10 +5,12 @@ use wavestep::answer::WayError;
 use wavestep::evaluate::{EvaluateError, MethodError};
 use wavestep::expression::NotInvertible;
 use wavestep::field::FieldError;
-use wavestep::language::Diagnostic;
+use wavestep::language::{Diagnostic, closest};
+use wavestep::lock::LockError;
 use wavestep::model::ModelError;
 use wavestep::network::NetworkError;
-use wavestep::signal::SignalError;
+use wavestep::problem::{EqualError, LockRefusal, ProblemError};
+use wavestep::scenes::SCENES;
 use wavestep::solution::{SolveError, Unsolvable};
 use wavestep_draw::PlotError;
 use wavestep_studies::picture::PictureError;
@@ -92,6 +94,14 @@ impl Failure {
         }
     }
 
+    /// Why a command has no answer that does not follow contacts that open.
+    pub fn not_followed(error: ProblemError, command: &str) -> Failure {
+        let ProblemError::ContactsOpen = error else { return error.into() };
+        let message = format!("contacts that open are not followed by `{command}`");
+        let remedy = "leave `contacts open` out of the scene, or use `events`, `eval` with --digits, `find` or `plot`";
+        Failure::usage(message, remedy)
+    }
+
     /// A fault of usage.
     pub fn usage(message: impl Into<String>, remedy: impl Into<String>) -> Failure {
         Failure::Usage(message.into(), remedy.into())
@@ -101,6 +111,186 @@ impl Failure {
 impl From<Diagnostic> for Failure {
     fn from(diagnostic: Diagnostic) -> Failure {
         Failure::Text(diagnostic)
+    }
+}
+
+impl From<ProblemError> for Failure {
+    fn from(error: ProblemError) -> Failure {
+        let message = error.to_string();
+        let remedy = match error {
+            ProblemError::Text(diagnostics) => return Failure::Texts(diagnostics),
+            ProblemError::Network(error) => return error.into(),
+            ProblemError::Solve(error) => return error.into(),
+            ProblemError::Evaluate(error) => return (*error).into(),
+            ProblemError::History(error) => return error.into(),
+            ProblemError::Field(error) => return (*error).into(),
+            ProblemError::Way(error) => return (*error).into(),
+            ProblemError::NoProof(..) => {
+                let remedy = "ask for tested values, as in `--method steps:1e-10`";
+                return Failure::Accuracy(message, remedy.to_owned());
+            }
+            ProblemError::NoDigits(_) => {
+                let remedy = "leave out --digits; finer values are had by `--method steps:1e-13`";
+                return Failure::Accuracy(message, remedy.to_owned());
+            }
+            ProblemError::Undecided { .. } => {
+                return Failure::Accuracy(message, "ask for fewer digits".to_owned());
+            }
+            ProblemError::LocalContact { contact, spring } => {
+                let spring = match spring {
+                    Some(spring) => format!("the equivalent one is `{spring}`"),
+                    None => format!("`spring {contact} {{ stiffness = … }}`"),
+                };
+                let remedy =
+                    format!("ask for values, with `eval`, or put a spring in its place: {spring}");
+                return Failure::Computation(message, remedy);
+            }
+            ProblemError::ModelOfLocalContact(_) => {
+                let remedy = "leave out --method, or ask for `--method steps:1e-10`";
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::NotBuiltIn(_) => {
+                let names: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
+                format!("the built-in scenes are {}", names.join(", "))
+            }
+            ProblemError::Unknown { name, names } => {
+                match closest(&name, names.iter().map(String::as_str)) {
+                    Some(name) => format!("did you mean `{name}`?"),
+                    None => format!("ask for one of {}", names.join(", ")),
+                }
+            }
+            ProblemError::NotAWave { waves, .. } => {
+                format!("the waves of this scene are {}", waves.join(", "))
+            }
+            ProblemError::NotAnObservable { observables, .. } => match &observables[..] {
+                [] => "this scene has no observables: derive its waves".to_owned(),
+                names => format!("the observables of this scene are {}", names.join(", ")),
+            },
+            ProblemError::ObservableIsNoWave(name) => {
+                format!("it is an observable: ask for --observable {name}")
+            }
+            ProblemError::EnergyHasNoPieces(name) => {
+                let remedy = format!("evaluate it: wavestep eval SCENE --quantity {name} --at T");
+                return Failure::Computation(message, remedy);
+            }
+            ProblemError::NoCommonPeriods(_) => {
+                let remedy = "evaluate it with `wavestep eval`, or derive its waves";
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::UnknownOrder(_) => {
+                let remedy = "give values with --set, or evaluate it with `wavestep eval`";
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::NoPeriodsToExplain => {
+                let remedy = "derive its echoes: leave out --explain";
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::NothingArrives(_) => {
+                let remedy = "ask for a larger --through";
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::NoGeneralForm { symbol, .. } => {
+                let remedy = match symbol {
+                    Some(_) => {
+                        "ask for single orders, with --through or --piece; where a factor of symbols \
+                         may vanish, stating `nonzero …` can help"
+                    }
+                    None => "ask for single orders, with --through or --piece",
+                };
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::Rates { .. } => {
+                let remedy = "evaluate it, which works with any certified rates; or give values for which \
+                              the rates are rational, or roots of one quadratic in rational numbers";
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::Disagreement(..) => {
+                let remedy = "please report this scene: it is a fault of wavestep";
+                return Failure::Computation(message, remedy.to_owned());
+            }
+            ProblemError::Equal(error) => remedy_of_equal(&error),
+            ProblemError::NoLock(refusal) => remedy_of_lock(&refusal).to_owned(),
+            ProblemError::Lock(error) => match *error {
+                LockError::Solve(error) => return error.into(),
+                LockError::History(error) => return error.into(),
+                LockError::Evaluate(EvaluateError::AccuracyNotReached { .. })
+                | LockError::AccuracyNotReached(_) => {
+                    return Failure::Accuracy(message, "ask for fewer digits".to_owned());
+                }
+                LockError::Evaluate(error) => return error.into(),
+                _ => "ask for fewer digits".to_owned(),
+            },
+            ProblemError::NoNumber(name) => format!("write a number such as {name} 33/10"),
+            ProblemError::OutsidePeriod(times) => {
+                let [_, period] = &*times;
+                format!("give 0 <= S < {period}, or S = {period} with --side left")
+            }
+            ProblemError::BeforeStart(_) => "give times from 0 on".to_owned(),
+            ProblemError::EmptyWindow(_) => "give --from before --to".to_owned(),
+            ProblemError::WaveOfClosedContacts(_) => {
+                "ask for an observable, or leave out `contacts open`".to_owned()
+            }
+            ProblemError::Equations(_) => {
+                "describe it by its parts: see docs/scene-language.md".to_owned()
+            }
+            ProblemError::NoPeriods(_)
+            | ProblemError::NoPeriodsWhereContactsOpen
+            | ProblemError::NoPeriodsWithLocalContact(_) => {
+                "give --at T, or --from, --to and --points".to_owned()
+            }
+            ProblemError::EquationsHaveNoContacts => {
+                "describe it by its parts: see docs/scene-language.md".to_owned()
+            }
+            ProblemError::NoContact => "write `|` in its line where bodies only touch".to_owned(),
+            ProblemError::NoEnd => "give --to T".to_owned(),
+            ProblemError::TooManyTerms(_) => {
+                "ask for a smaller order, one wave, one piece, or --form echo".to_owned()
+            }
+            ProblemError::TooManyEchoes { .. } => {
+                "ask for a smaller --through, or one wave".to_owned()
+            }
+            ProblemError::EchoesOfObservable(_) => "derive the waves with --form echo".to_owned(),
+            ProblemError::NoCommonMeasure(_) => {
+                "ask for the echoes of waves, with --wave NAME and --through N, or evaluate"
+                    .to_owned()
+            }
+            ProblemError::NothingToExplain => {
+                "ask for --explain with a scene of bars and elements, or leave it out".to_owned()
+            }
+            ProblemError::NoSourceForm => {
+                "add a statement such as `written f in V/c, s as mu*z/L`, or \
+                                           leave out --source-form"
+                    .to_owned()
+            }
+            ProblemError::NoGeneralSourceForm => "leave out --source-form, or --general".to_owned(),
+            _ => "give a number".to_owned(),
+        };
+        Failure::Usage(message, remedy)
+    }
+}
+
+fn remedy_of_equal(error: &EqualError) -> String {
+    match error {
+        EqualError::TooManyDigits { limit, .. } => format!("ask for 1 to {limit} digits"),
+        EqualError::EqualAtEnd => "give another range".to_owned(),
+        EqualError::NoChange(_) => "give a range in which that changes".to_owned(),
+        EqualError::NotAscending { .. } => "give T1 before T2 before T3".to_owned(),
+        EqualError::NoTime { symbol, .. } => format!("let it hold no symbol but {symbol}"),
+    }
+}
+
+fn remedy_of_lock(refusal: &LockRefusal) -> &'static str {
+    match refusal {
+        LockRefusal::PeriodsWhereContactsOpen => {
+            "leave out --through: events are locked, until --until T"
+        }
+        LockRefusal::NoEvents => "give --through N for pieces and --at T for values",
+        LockRefusal::ValuesWithUnits => "leave out --at: pieces are locked, without units",
+        LockRefusal::ValuesWithConstants(_) => {
+            "leave out --at: pieces are locked with their symbols"
+        }
+        LockRefusal::NoLastPeriod => "give --through N, for the periods 0 … N",
+        LockRefusal::PiecesLocked | LockRefusal::EventsLocked => "lock it again",
     }
 }
 
@@ -171,15 +361,6 @@ impl From<EvaluateError> for Failure {
     }
 }
 
-impl From<SignalError> for Failure {
-    fn from(error: SignalError) -> Failure {
-        match error {
-            SignalError::Closed(error) => error.into(),
-            SignalError::Followed(error) => error.into(),
-        }
-    }
-}
-
 impl From<FieldError> for Failure {
     fn from(error: FieldError) -> Failure {
         match error {
@@ -195,7 +376,11 @@ impl From<FieldError> for Failure {
 impl From<PictureError> for Failure {
     fn from(error: PictureError) -> Failure {
         match error {
+            PictureError::Problem(error) => (*error).into(),
             PictureError::Evaluate(error) => error.into(),
+            PictureError::NothingObserved => {
+                Failure::usage(error.to_string(), "give --quantity NAME")
+            }
             PictureError::Field(error) => error.into(),
             PictureError::Plot(error) => error.into(),
             error => Failure::usage(error.to_string(), "see `wavestep plot --help`"),
@@ -227,6 +412,13 @@ impl From<WayError> for Failure {
             WayError::NeedsRecurrence(_) => "leave out --method, or ask for `--method steps:1e-10`",
             WayError::NeedsScene(_) => "describe it by its parts: see docs/scene-language.md",
             WayError::LeftLimit(_) => "leave out --side left",
+            WayError::NoNumber(..) => "use --method certified",
+            WayError::NotMet { .. } => {
+                return Failure::Accuracy(
+                    message,
+                    "ask for digits instead: --digits 25".to_owned(),
+                );
+            }
         };
         Failure::Computation(message, remedy.to_owned())
     }

@@ -2,24 +2,21 @@
 
 use super::arguments::{Field, FieldFormat};
 use super::failure::Failure;
-use super::input::{self, Subject};
+use super::input;
 use super::json::SCHEMA_VERSION;
 use super::output::written;
-use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use wavestep::evaluate::Limit;
-use wavestep::field::{BarFields, Bounded, FieldEvaluator, Fields, Mesh, Quantity, Sampling};
-use wavestep::history::field_evaluator;
-use wavestep::language::{self, Source};
-use wavestep::network::Network;
+use wavestep::field::{BarFields, Bounded, Fields, Mesh, Quantity, Sampling};
+use wavestep::language;
+use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
 
 /// Gives the fields.
 pub fn run(options: &Field) -> Result<String, Failure> {
-    let network = scene(input::subject(&options.scene)?)?;
-    let dimensional = network.scene().dimensional;
-    let time = input::time("--time", &options.time, dimensional)?;
+    let problem = input::problem(&options.scene)?;
+    let time = problem.time("--time", options.time.as_str())?;
     let mut mesh = Mesh::new(options.mesh)?.with_limit(options.side);
     if options.averages {
         mesh = mesh.averages();
@@ -28,41 +25,15 @@ pub fn run(options: &Field) -> Result<String, Failure> {
         mesh = mesh.only(&language::normalise_name(bar));
     }
     if let Some(reach) = &options.to {
-        let reach = match dimensional {
-            true => {
-                language::read_quantity(&Source::new("--to", reach.as_str())?, Dimension::LENGTH)?
-            }
-            false => input::number("--to", reach)?,
-        };
+        let reach = problem.quantity("--to", reach.as_str(), Dimension::LENGTH)?;
         mesh = mesh.reaching(&reach)?;
     }
-    let fields = evaluator(&network, &time)?.at(&time, &mesh)?;
+    let fields = problem.fields(&time)?.at(&time, &mesh)?;
     let text = match options.format {
         FieldFormat::Csv => csv(&fields),
-        FieldFormat::Json => json_document(&fields, &network, options),
+        FieldFormat::Json => json_document(&fields, &problem, options),
     };
     written(text, options.output.as_deref())
-}
-
-/// The scene that has a line of bars.
-pub fn scene(subject: Subject) -> Result<Network, Failure> {
-    match subject {
-        Subject::Scene(network) => Ok(*network),
-        Subject::Recurrence(recurrence) => {
-            let title = &recurrence.statement().title;
-            let message = format!("\"{title}\" states equations, and no bars along which to look");
-            let remedy = "describe it by its parts: see docs/scene-language.md";
-            Err(Failure::usage(message, remedy))
-        }
-    }
-}
-
-/// The fields until a time: of a scene whose contacts open, across all their phases.
-pub fn evaluator(network: &Network, last: &BigRational) -> Result<FieldEvaluator, Failure> {
-    match network.scene().contacts_open {
-        true => Ok(field_evaluator(network, last)?),
-        false => Ok(FieldEvaluator::new(network, last)?),
-    }
 }
 
 /// The places of a row: a node, or the two ends of a cell.
@@ -97,7 +68,7 @@ fn csv(fields: &Fields) -> String {
     text
 }
 
-fn json_document(fields: &Fields, network: &Network, options: &Field) -> String {
+fn json_document(fields: &Fields, problem: &Problem, options: &Field) -> String {
     let bar = |bar: &BarFields| {
         let mut told = json!({"bar": bar.name, "x": bar.x});
         for quantity in Quantity::ALL {
@@ -110,7 +81,7 @@ fn json_document(fields: &Fields, network: &Network, options: &Field) -> String 
     };
     let mut document = json!({
         "schema_version": SCHEMA_VERSION,
-        "title": network.scene().title,
+        "title": problem.title(),
         "set": options.scene.set,
         "time": fields.time.to_string(),
         "sampling": if fields.sampling == Sampling::Nodes { "nodes" } else { "averages" },

@@ -4,18 +4,11 @@ use super::arguments::Find;
 use super::failure::Failure;
 use super::find_equal;
 use super::found::{self, Told};
-use super::input::{self, Subject};
+use super::input;
 use super::progress;
-use super::quantity;
 use super::validity;
-use num_rational::BigRational;
-use wavestep::evaluate::{ClosedSignal, EvaluateError, Goal, Place, Search, Signal};
-use wavestep::language::{self, Source};
-use wavestep::network::{Network, Observed};
-use wavestep::recurrence::Observation;
-use wavestep::scene::Dimension;
-use wavestep::signal::{self, Purpose};
-use wavestep::solution::Solution;
+use wavestep::evaluate::{Goal, Place, Search};
+use wavestep::signal::Purpose;
 
 /// Finds what is asked for.
 pub fn run(options: &Find) -> Result<String, Failure> {
@@ -23,23 +16,20 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     if options.equal.is_some() {
         return find_equal::run(options);
     }
-    let seen = Seen::of(input::subject(&options.scene)?, quantity(options)?.0)?;
+    let problem = input::problem(&options.scene)?;
+    let (name, level) = quantity(options)?;
+    let wanted = problem.wanted(name)?;
     let (from, to) = (options.from.as_deref(), options.to.as_deref());
-    let from = input::time("--from", from.unwrap_or_default(), seen.is_dimensional())?;
-    let to = input::time("--to", to.unwrap_or_default(), seen.is_dimensional())?;
-    if to <= from {
-        let message = format!("the window from {from} to {to} is empty");
-        return Err(Failure::usage(message, "give --from before --to"));
-    }
-    let told = Told { options, seen: &seen, window: [&from, &to] };
+    let window =
+        problem.window(("--from", from.unwrap_or_default()), ("--to", to.unwrap_or_default()))?;
     // What is given wrongly is told before any work is done.
-    let goal = goal(options);
-    let level = if goal.is_none() { level(options, &seen)? } else { BigRational::default() };
-    let signal = seen.signal([&from, &to])?;
+    let level = problem.quantity("--level", level, wanted.dimension())?;
+    let told = Told { options, problem: &problem, wanted: &wanted, window: &window };
+    let signal = problem.signal(&wanted, window.each_ref(), Purpose::Stretches)?;
     let search = Search::new(&*signal)?;
     let progress = progress::spinner("searching");
     let (digits, limit_bits) = (options.digits, options.max_bits);
-    let found = match goal {
+    let found = match goal(options) {
         Some(goal) => {
             let extremum = search.extremum(goal, digits, limit_bits)?;
             drop(progress);
@@ -53,8 +43,8 @@ pub fn run(options: &Find) -> Result<String, Failure> {
             settled(found::roots(&roots, &told), roots.undecided(), ["interval", "intervals"])
         }
     };
-    if let (Ok(_), Seen::Scene { network, .. }) = (&found, &seen) {
-        validity::note_search(network, &to);
+    if found.is_ok() {
+        validity::note_search(&problem, &window[1]);
     }
     found
 }
@@ -97,90 +87,4 @@ pub fn quantity(options: &Find) -> Result<(&str, &str), Failure> {
     }
     let name = options.max.as_ref().or(options.min.as_ref()).or(options.zero.as_ref());
     Ok((name.expect("one of them is required").trim(), "0"))
-}
-
-fn level(options: &Find, seen: &Seen) -> Result<BigRational, Failure> {
-    match (&options.level, quantity(options)?, seen) {
-        (None, ..) => Ok(BigRational::default()),
-        (_, (_, value), Seen::Scene { observed, .. }) if seen.is_dimensional() => {
-            let source = Source::new("--level", value)?;
-            // A wave has no unit.
-            match observed.dimension == Dimension::NONE {
-                true => Ok(language::read_number(&source)?),
-                false => Ok(language::read_quantity(&source, observed.dimension)?),
-            }
-        }
-        (_, (_, value), _) => input::number("--level", value),
-    }
-}
-
-/// A quantity with where it is seen.
-pub enum Seen {
-    /// A wave or observable of a recurrence.
-    Recurrence(Box<Solution>, Observation),
-    /// One of a scene.
-    Scene {
-        /// The scene.
-        network: Box<Network>,
-        /// What is seen of it.
-        observed: Box<Observed>,
-    },
-}
-
-impl Seen {
-    /// The quantity of this name.
-    pub fn of(subject: Subject, quantity: &str) -> Result<Seen, Failure> {
-        match subject {
-            Subject::Recurrence(recurrence) => {
-                let observation = quantity::of_recurrence(&recurrence, quantity)?;
-                if let Some(symbol) = recurrence.symbols().next() {
-                    return Err(EvaluateError::MissingValue(symbol.clone()).into());
-                }
-                Ok(Seen::Recurrence(Box::new(Solution::new(*recurrence)), observation))
-            }
-            Subject::Scene(network) => {
-                let observed = match network.scene().contacts_open {
-                    true => quantity::of_phases(&network, quantity)?,
-                    false => quantity::of_scene(&network, quantity)?,
-                };
-                let observed = Box::new(observed);
-                Ok(Seen::Scene { network, observed })
-            }
-        }
-    }
-
-    /// Whether times and values have units.
-    pub fn is_dimensional(&self) -> bool {
-        matches!(self, Seen::Scene { network, .. } if network.scene().dimensional)
-    }
-
-    /// The unit of values.
-    pub fn unit(&self) -> String {
-        match self {
-            Seen::Scene { observed, .. } if self.is_dimensional() => {
-                language::unit_of(observed.dimension).clone()
-            }
-            _ => String::new(),
-        }
-    }
-
-    /// The title of the scene.
-    pub fn title(&self) -> &str {
-        match self {
-            Seen::Recurrence(solution, _) => &solution.recurrence().statement().title,
-            Seen::Scene { network, .. } => &network.scene().title,
-        }
-    }
-
-    /// The quantity on a window.
-    pub fn signal(&self, window: [&BigRational; 2]) -> Result<Box<dyn Signal + '_>, Failure> {
-        Ok(match self {
-            Seen::Recurrence(solution, observation) => {
-                Box::new(ClosedSignal::of_recurrence(solution, observation, window)?)
-            }
-            Seen::Scene { network, observed } => {
-                signal::of_scene(network, observed, window, Purpose::Stretches)?
-            }
-        })
-    }
 }

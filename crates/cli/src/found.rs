@@ -1,13 +1,14 @@
 //! Roots and extrema as text, as JSON, and as columns.
 
 use super::arguments::{EvalFormat, Find};
-use super::find::{Seen, quantity};
+use super::find::quantity;
 use super::json::SCHEMA_VERSION;
-use super::rows::{ALL_DIGITS, in_decimals};
+use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
-use wavestep::ball::Ball;
+use wavestep::ball::{Ball, in_decimals};
 use wavestep::evaluate::{Extremum, Goal, Place, Root, Roots, Value};
+use wavestep::problem::{Problem, Wanted};
 
 /// Digits of bounds and of intervals that stay undecided.
 const BOUND_DIGITS: usize = 20;
@@ -16,10 +17,12 @@ const BOUND_DIGITS: usize = 20;
 pub struct Told<'a> {
     /// The arguments.
     pub options: &'a Find,
+    /// What was read.
+    pub problem: &'a Problem,
     /// The quantity.
-    pub seen: &'a Seen,
+    pub wanted: &'a Wanted,
     /// The window.
-    pub window: [&'a BigRational; 2],
+    pub window: &'a [BigRational; 2],
 }
 
 impl Told<'_> {
@@ -33,13 +36,13 @@ impl Told<'_> {
     }
 
     fn second(&self) -> &str {
-        if self.seen.is_dimensional() { " s" } else { "" }
+        if self.problem.has_units() { " s" } else { "" }
     }
 
     /// A time with its unit.
     fn time(&self, time: &Value) -> String {
         let text = match time {
-            Value::Exact(time) if self.seen.is_dimensional() => in_decimals(time),
+            Value::Exact(time) if self.problem.has_units() => in_decimals(time),
             Value::Exact(time) => time.to_string(),
             other => other.to_text(self.options.digits),
         };
@@ -47,12 +50,12 @@ impl Told<'_> {
     }
 
     fn window(&self) -> String {
-        let [from, to] = self.window.map(|time| Value::Exact(time.clone()));
+        let [from, to] = self.window.each_ref().map(|time| Value::Exact(time.clone()));
         format!("{} <= t <= {}", self.time(&from), self.time(&to))
     }
 
     fn value(&self, value: &Value) -> String {
-        let unit = self.seen.unit();
+        let unit = self.wanted.unit();
         let space = if unit.is_empty() { "" } else { " " };
         format!("{}{space}{unit}", value.to_text(self.options.digits))
     }
@@ -263,10 +266,10 @@ fn place_json(place: &Place) -> Json {
 
 /// What all documents begin with.
 fn document(told: &Told<'_>, body: Json) -> String {
-    let [from, to] = told.window.map(BigRational::to_string);
+    let [from, to] = told.window.each_ref().map(BigRational::to_string);
     let mut document = json!({
         "schema_version": SCHEMA_VERSION,
-        "title": told.seen.title(),
+        "title": told.problem.title(),
         "quantity": told.name(),
         "set": told.options.scene.set,
         "digits": told.options.digits,
@@ -275,8 +278,8 @@ fn document(told: &Told<'_>, body: Json) -> String {
     });
     let Json::Object(body) = body else { unreachable!("bodies are objects") };
     document.as_object_mut().expect("an object").extend(body);
-    if told.seen.is_dimensional() {
-        document["unit"] = json!(told.seen.unit());
+    if told.problem.has_units() {
+        document["unit"] = json!(told.wanted.unit());
         document["time_unit"] = json!("s");
     }
     format!("{document}\n")

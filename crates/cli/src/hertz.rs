@@ -2,14 +2,14 @@
 
 use super::arguments::{Hertz, HertzFormat};
 use super::failure::Failure;
-use super::input::{self, Readable, Subject};
+use super::input;
 use super::json::SCHEMA_VERSION;
 use num_rational::BigRational;
 use num_traits::One as _;
 use serde_json::{Map, Value, json};
 use wavestep::ball::Ball;
 use wavestep::language::unit_of;
-use wavestep::network::ScaledScene;
+use wavestep::problem::{Problem, ProblemError, number};
 use wavestep::scene::Dimension;
 use wavestep_studies::hertz::{ContactOfScene, HertzError, NoContact, distance_from_spring};
 
@@ -45,19 +45,14 @@ struct Row {
 /// Tells what is asked for.
 pub fn run(options: &Hertz) -> Result<String, Failure> {
     input::digits(options.digits)?;
-    let scaled = match input::readable(&options.scene)? {
-        Readable::WithoutRecurrence(scaled) => *scaled,
-        Readable::Subject(Subject::Scene(network)) => {
-            let scaled: &ScaledScene = (*network).as_ref();
-            scaled.clone()
-        }
-        Readable::Subject(Subject::Recurrence(_)) => {
-            return Err(HertzError::Scene(NoContact::Recurrence).into());
-        }
-    };
+    let problem = input::problem(&options.scene)?;
+    let scaled = problem.scaled().map_err(|error| match error {
+        ProblemError::Equations(_) => HertzError::Scene(NoContact::Recurrence).into(),
+        error => Failure::from(error),
+    })?;
     let bits = 10 * options.digits as u64 / 3 + SPARE_BITS;
-    let contact = ContactOfScene::new(&scaled, bits)?;
-    let rows = rows(&contact, options, scaled.scene().dimensional, bits)?;
+    let contact = ContactOfScene::new(scaled, bits)?;
+    let rows = rows(&contact, &problem, options, bits)?;
     let text = |row: &Row| row.value.to_decimal(row.digits).midpoint().to_string();
     let name = &scaled.scene().elements[contact.element].name;
     Ok(match options.format {
@@ -86,10 +81,11 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
 /// All values that are told.
 fn rows(
     contact: &ContactOfScene,
+    problem: &Problem,
     options: &Hertz,
-    dimensional: bool,
     bits: u64,
 ) -> Result<Vec<Row>, Failure> {
+    let dimensional = problem.has_units();
     let bars = &contact.bars;
     let spring = bars.equivalent_spring();
     let unit = |dimension: Dimension| match dimensional {
@@ -135,7 +131,7 @@ fn rows(
         },
     ];
     for text in &options.rise {
-        let share = input::number("--rise", text)?;
+        let share = number("--rise", text)?;
         let text = text.trim();
         let times = [
             (format!("rise to {text}"), format!("rise_to_{text}"), bars.rise_time(&share)?),
@@ -152,7 +148,7 @@ fn rows(
     }
     for text in &options.at {
         let text = text.trim();
-        let time: BigRational = input::time("--at", text, dimensional)?;
+        let time: BigRational = problem.time("--at", text)?;
         let at = Ball::from_rational(&time, bits);
         let force = match num_traits::Zero::is_zero(&time) {
             true => at.clone(),

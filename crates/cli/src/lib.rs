@@ -5,20 +5,14 @@
 
 mod arguments;
 mod book;
-mod bounds;
 mod chart;
 mod chart_page;
 mod check;
 mod derive;
-mod derive_recurrence;
-mod derive_scene;
 pub mod diagnostic;
 mod dispersion;
+mod doubles;
 mod eval;
-mod eval_contact;
-mod eval_doubles;
-mod eval_recurrence;
-mod eval_scene;
 mod events;
 mod export;
 mod failure;
@@ -32,15 +26,10 @@ mod hertz;
 mod input;
 mod json;
 mod lock;
-mod lock_history;
 mod output;
 mod picture;
 mod plot;
-mod plot_contact;
-mod problem;
 mod progress;
-mod quantity;
-mod rates;
 mod rows;
 mod validity;
 
@@ -128,12 +117,7 @@ fn scenes(options: &Scenes) -> Result<String, Failure> {
     if let Some(name) = &options.name {
         return Ok(input::built_in(name)?.text.to_owned());
     }
-    let title = |text: &str| {
-        let keywords = ["recurrence ", "scene "];
-        let line = |line| keywords.iter().find_map(|keyword| str::strip_prefix(line, keyword));
-        text.lines().find_map(line).unwrap_or_default().trim_matches('"').to_owned()
-    };
     let width = SCENES.iter().map(|scene| scene.name.len()).max().unwrap_or_default() + 2;
-    let line = |scene: &Scene| format!("{:<width$}{}\n", scene.name, title(scene.text));
+    let line = |scene: &Scene| format!("{:<width$}{}\n", scene.name, scene.title());
     Ok(SCENES.iter().map(line).collect())
 }

@@ -1,94 +1,50 @@
 //! How long a form with closed contacts is true, as a note on standard error.
 
 use num_rational::BigRational;
-use std::fmt::Write as _;
-use wavestep::history::Validity;
-use wavestep::network::Network;
-use wavestep::scene::{Joint, Kind, Scene};
+use wavestep::evaluate::Value;
+use wavestep::problem::{Holds, Pressed, Problem};
 
 /// Significant digits of the instant until which a form holds.
 const DIGITS: usize = 12;
 
-/// How many cells are followed beside a derivation.
-const CELLS: usize = 500;
-
-/// How many cells are followed beside a search, which is not to wait for it.
-const FEW_CELLS: usize = 200;
-
 /// Says until when the form with closed contacts is true that was derived.
-pub fn note_derivation(network: &Network) {
-    let scene = network.scene();
-    if !scene.line.joints.contains(&Joint::Contact) {
-        return;
-    }
-    let note = match Validity::of(network, None, DIGITS, CELLS) {
-        Ok(Validity::Until { time, between: [left, right] }) => {
-            let time = with_unit(scene, time.to_text(DIGITS));
-            match scene.contacts_open {
-                true => format!("this holds until t = {time}, when {left} and {right} part"),
-                false => format!(
-                    "this holds until t = {time}, when the contact between {left} and {right} would pull"
-                ),
-            }
+pub fn note_derivation(problem: &Problem) {
+    let note = match problem.holds(DIGITS) {
+        None => return,
+        Some(Holds::UntilTheyPart(time, [left, right])) => {
+            format!("this holds until t = {}, when {left} and {right} part", text(problem, &time))
         }
-        Ok(Validity::Followed(time)) => {
-            let time = with_unit(scene, time.to_text(DIGITS));
-            format!("this holds until t = {time} at least: no contact would pull before")
+        Some(Holds::UntilItPulls(time, [left, right])) => format!(
+            "this holds until t = {}, when the contact between {left} and {right} would pull",
+            text(problem, &time)
+        ),
+        Some(Holds::AtLeastUntil(time)) => format!(
+            "this holds until t = {} at least: no contact would pull before",
+            text(problem, &time)
+        ),
+        Some(Holds::AsLongAs(contacts)) => {
+            let condition = |Pressed { force, between: [left, right] }: &Pressed| {
+                let force = force.as_deref().unwrap_or("the force");
+                format!("{force} >= 0 at the contact between {left} and {right}")
+            };
+            let conditions: Vec<String> = contacts.iter().map(condition).collect();
+            format!("this is valid as long as {}", conditions.join(" and "))
         }
-        Err(_) => condition(scene),
     };
     eprintln!("note: {note}");
 }
 
 /// Says that a search until this time goes beyond the form with closed contacts, where that is soon known.
-pub fn note_search(network: &Network, last: &BigRational) {
-    let scene = network.scene();
-    if scene.contacts_open || !scene.line.joints.contains(&Joint::Contact) {
-        return;
-    }
-    if let Ok(Validity::Until { time, between: [left, right] }) =
-        Validity::of(network, Some(last), DIGITS, FEW_CELLS)
-    {
-        let time = with_unit(scene, time.to_text(DIGITS));
+pub fn note_search(problem: &Problem, last: &BigRational) {
+    if let Some((time, [left, right])) = problem.pulls(last, DIGITS) {
         eprintln!(
-            "note: from t = {time} on the contact between {left} and {right} would pull; with `contacts open` \
-             it opens then"
+            "note: from t = {} on the contact between {left} and {right} would pull; with `contacts open` \
+             it opens then",
+            text(problem, &time)
         );
     }
 }
 
-fn with_unit(scene: &Scene, mut time: String) -> String {
-    if scene.dimensional {
-        time.push_str(" s");
-    }
-    time
-}
-
-/// What must be so, in forces of the scene where bars or springs are beside the contacts.
-fn condition(scene: &Scene) -> String {
-    let line = &scene.line;
-    let mut told = String::from("this is valid as long as ");
-    let contacts = line.joints.iter().enumerate().filter(|(_, joint)| **joint == Joint::Contact);
-    for (count, (joint, _)) in contacts.enumerate() {
-        let left = joint.checked_sub(1).map(|place| &scene.elements[line.elements[place]]);
-        let right = line.elements.get(joint).map(|place| &scene.elements[*place]);
-        let force = [(left, "right"), (right, "left")].into_iter().find_map(|(element, end)| {
-            let element = element?;
-            match element.kind {
-                Kind::Bar(_) => Some(format!("force({}.{end})", element.name)),
-                Kind::Spring(_) => Some(format!("force({})", element.name)),
-                _ => None,
-            }
-        });
-        let name = |element: Option<&wavestep::scene::Element>| {
-            element.map_or("wall", |element| element.name.as_str()).to_owned()
-        };
-        if count > 0 {
-            told.push_str(" and ");
-        }
-        let force = force.unwrap_or_else(|| "the force".to_owned());
-        let _ =
-            write!(told, "{force} >= 0 at the contact between {} and {}", name(left), name(right));
-    }
-    told
+fn text(problem: &Problem, time: &Value) -> String {
+    time.to_text(DIGITS) + if problem.has_units() { " s" } else { "" }
 }

@@ -9,7 +9,7 @@ use wavestep::evaluate::{
     ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Recogniser, Stretch, Value,
     digits,
 };
-use wavestep::language::{Kind, Source, kind, parse_number, read_recurrence, read_scene};
+use wavestep::language::{self, Source, Stated, parse_number};
 use wavestep::network::Network;
 use wavestep::solution::Solution;
 
@@ -100,11 +100,13 @@ pub fn with<T>(
     let values: BTreeMap<String, BigRational> =
         values.iter().map(|(name, value)| ((*name).to_owned(), number(value))).collect();
     let (from, to) = (number(from), number(to));
-    match kind(&source) {
-        Kind::Recurrence => {
-            let recurrence =
-                read_recurrence(&source, &values).unwrap_or_else(|error| panic!("{error}"));
-            let solution = Solution::new(recurrence);
+    let stated = language::read(&source, &values).unwrap_or_else(|errors| {
+        let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
+        panic!("{}", texts.join("\n"))
+    });
+    match stated {
+        Stated::Recurrence(recurrence) => {
+            let solution = Solution::new(*recurrence);
             let observation = solution.recurrence().observation(quantity).expect(quantity);
             let exact = ClosedSignal::of_recurrence(&solution, &observation, [&from, &to]);
             let exact = exact.expect("numbers");
@@ -125,11 +127,7 @@ pub fn with<T>(
                 by_form: &by_form,
             })
         }
-        Kind::Scene => {
-            let scene = read_scene(&source, &values).unwrap_or_else(|errors| {
-                let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
-                panic!("{}", texts.join("\n"))
-            });
+        Stated::Scene(scene) => {
             let network = Network::new(&scene).expect("a network");
             let place = network.observables().iter().position(|known| known.name == quantity);
             let place = place.expect(quantity);

@@ -15,8 +15,9 @@ use std::collections::BTreeMap;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use wavestep::language::{Kind, Source, kind, parse_number, read_scene};
+use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
+use wavestep::problem::Problem;
 use wavestep::scene::Scene;
 use wavestep::scenes::{self, SCENES};
 
@@ -48,8 +49,8 @@ fn built_in(name: &str) -> &'static str {
 
 /// The built-in scenes that are described by their parts, and have a recurrence.
 fn shipped() -> impl Iterator<Item = &'static scenes::Scene> {
-    let described = |text| kind(&Source::new("text", text).expect("a text")) == Kind::Scene;
-    SCENES.iter().filter(move |scene| described(scene.text) && scene.is_linear())
+    let has_network = |name| Problem::builtin(name).is_ok_and(|problem| problem.network().is_ok());
+    SCENES.iter().filter(move |scene| has_network(scene.name))
 }
 
 /// Values for the symbols of a built-in scene.

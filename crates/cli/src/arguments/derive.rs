@@ -3,6 +3,7 @@
 use super::Scene;
 use clap::{Args, ValueEnum, ValueHint};
 use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
+use wavestep::problem::{self, Orders};
 
 /// Options of `derive`.
 #[derive(Args)]
@@ -57,12 +58,12 @@ pub struct Derive {
 }
 
 impl Derive {
-    /// The first and the last order asked for.
-    pub fn orders(&self) -> (usize, usize) {
+    /// The orders asked for.
+    pub fn orders(&self) -> Orders {
         match (self.piece, self.through) {
-            (Some(n), _) => (n, n),
-            (None, Some(through)) => (self.from, through),
-            (None, None) => (self.from, self.from.saturating_add(3)),
+            (Some(n), _) => Orders::Only(n),
+            (None, Some(through)) => Orders::Through(self.from, through),
+            (None, None) => Orders::Through(self.from, self.from.saturating_add(3)),
         }
     }
 
@@ -85,6 +86,16 @@ pub enum Form {
     Echo,
     /// The pieces with the half-open intervals on which they hold
     Piecewise,
+}
+
+impl From<Form> for problem::Form {
+    fn from(form: Form) -> problem::Form {
+        match form {
+            Form::Period => problem::Form::Period,
+            Form::Echo => problem::Form::Echo,
+            Form::Piecewise => problem::Form::Piecewise,
+        }
+    }
 }
 
 /// How formulas are written.

@@ -13,7 +13,7 @@ mod pictures;
 mod tools;
 
 pub use book::{Book, BookFormat};
-pub use derive::{Derive, DeriveFormat, Form};
+pub use derive::{Derive, DeriveFormat};
 pub use dispersion::{Dispersion, DispersionFormat};
 pub use eval::{Eval, EvalFormat};
 pub use events::{Events, EventsFormat};

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use wavestep::language::{Diagnostic, Kind, Source, kind, read_recurrence, read_scene};
+use wavestep::language::{self, Diagnostic, Source};
 use wavestep_cli::diagnostic::{Style, render};
 
 /// The README and all pages of `docs/`.
@@ -79,11 +79,7 @@ fn run(line: &str, folder: &Path) -> String {
 /// What is wrong with a text that states a recurrence or a scene.
 fn refusals(name: &str, lines: &[&str]) -> Vec<Diagnostic> {
     let source = Source::new(name, lines.join("\n")).expect("a text");
-    let values = BTreeMap::new();
-    match kind(&source) {
-        Kind::Recurrence => read_recurrence(&source, &values).err().into_iter().collect(),
-        Kind::Scene => read_scene(&source, &values).err().unwrap_or_default(),
-    }
+    language::read(&source, &BTreeMap::new()).err().unwrap_or_default()
 }
 
 /// The document with the real output of its commands, and how many they are. Files that it names,

@@ -2,10 +2,11 @@
 
 use wavestep::evaluate::EvaluateError;
 use wavestep::field::{FieldError, Quantity};
+use wavestep::problem::ProblemError;
 use wavestep_draw::PlotError;
 
 /// Why there is no picture.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+#[derive(Clone, Debug, thiserror::Error)]
 pub enum PictureError {
     /// A field that has no diagram of place and time: it is not constant along characteristics.
     #[error("there is no diagram of the {}: give velocity, strain or force", .0.name())]
@@ -13,6 +14,12 @@ pub enum PictureError {
     /// The scene has no bars.
     #[error("the scene has no bar along which to draw")]
     NoBars,
+    /// The scene observes nothing.
+    #[error("nothing is observed in this scene")]
+    NothingObserved,
+    /// What is asked for has no course.
+    #[error(transparent)]
+    Problem(Box<ProblemError>),
     /// What is shown cannot be evaluated.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
@@ -30,5 +37,11 @@ impl From<FieldError> for PictureError {
             FieldError::Evaluate(error) => PictureError::Evaluate(error),
             error => PictureError::Field(error),
         }
+    }
+}
+
+impl From<ProblemError> for PictureError {
+    fn from(error: ProblemError) -> PictureError {
+        PictureError::Problem(Box::new(error))
     }
 }

@@ -5,6 +5,7 @@
 
 mod against_time;
 mod along;
+mod courses;
 mod error;
 mod lagrange;
 mod prefix;
@@ -12,6 +13,7 @@ mod sampled;
 
 pub use against_time::{Course, against_time};
 pub use along::along_the_line;
+pub use courses::{courses, usual_end};
 pub use error::PictureError;
 pub use lagrange::lagrange;
 pub use prefix::Prefixed;

@@ -3,6 +3,7 @@
 //! A [`Reference`] holds values known to more than a hundred bits at times drawn by a seed. Errors are
 //! differences from it, relative to the largest value; times are the least of several runs.
 
+mod charts;
 mod confluence;
 mod cost;
 mod curves;
@@ -13,6 +14,7 @@ mod reference;
 mod work;
 mod zeros;
 
+pub use charts::{Charted, Charts, Effort, ToChart, charts, usual_end};
 pub use confluence::near_confluence;
 pub use cost::{cost_over_order, derivation_cost};
 pub use curves::{

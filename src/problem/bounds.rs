@@ -1,18 +1,18 @@
 //! Work that would explode is refused before it starts.
 
-use super::failure::Failure;
-use wavestep::recurrence::Recurrence;
+use super::ProblemError;
+use crate::recurrence::Recurrence;
 use wavestep_polynomial::Symbol;
 
 /// The most terms that are derived at once.
-const MAX_TERMS: u128 = 2_000_000;
+pub(super) const MAX_TERMS: u128 = 2_000_000;
 
 /// The most constants that are counted.
 const MAX_FURTHER: usize = 10;
 
 /// About how many terms the n-th piece has: of a wave with one pole n³/6, n² times as many for each
 /// further constant with a name. A sequence in symbols has n, and takes the work of n².
-pub fn terms_of_piece(recurrence: &Recurrence, n: usize) -> u128 {
+pub(super) fn terms_of_piece(recurrence: &Recurrence, n: usize) -> u128 {
     let n = n as u128 + 1;
     let differential = recurrence.steps().iter().any(|step| step.start.is_some());
     match (differential, recurrence.symbols().next()) {
@@ -41,22 +41,20 @@ fn constants_in_equations(recurrence: &Recurrence) -> usize {
 
 /// About how many terms there are in `parts` waves with all pieces to the n-th, where that has
 /// `last` terms: a sum of cubes, `Σ k³ ≈ n n³/4`.
-pub fn terms_through(last: u128, n: usize, parts: usize) -> u128 {
+pub(super) fn terms_through(last: u128, n: usize, parts: usize) -> u128 {
     last.saturating_mul(n as u128 / 4 + 1).saturating_mul(parts.max(1) as u128)
 }
 
 /// Refuses more terms than are derived at once.
-pub fn refuse_terms(terms: u128, remedy: &str) -> Result<(), Failure> {
-    if terms <= MAX_TERMS {
-        return Ok(());
+pub(super) fn refuse_terms(terms: u128) -> Result<(), ProblemError> {
+    match terms <= MAX_TERMS {
+        true => Ok(()),
+        false => Err(ProblemError::TooManyTerms(terms as f64)),
     }
-    let message =
-        format!("this would have about {terms:.1e} terms; at most {MAX_TERMS} are derived at once");
-    Err(Failure::usage(message.replace(".0e", "e"), remedy))
 }
 
 /// Refuses too many pieces of all waves.
-pub fn refuse_pieces(recurrence: &Recurrence, through: usize, remedy: &str) -> Result<(), Failure> {
+pub(super) fn refuse_pieces(recurrence: &Recurrence, through: usize) -> Result<(), ProblemError> {
     let last = terms_of_piece(recurrence, through);
-    refuse_terms(terms_through(last, through, recurrence.statement().waves.len()), remedy)
+    refuse_terms(terms_through(last, through, recurrence.statement().waves.len()))
 }

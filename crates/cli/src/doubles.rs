@@ -1,0 +1,169 @@
+//! Values in doubles: how they are asked for, what is said of them, and how they are written.
+
+use super::arguments::{Eval, EvalFormat};
+use super::failure::Failure;
+use super::json::SCHEMA_VERSION;
+use super::rows::spaced;
+use num_rational::BigRational;
+use serde_json::json;
+use std::fmt::Write as _;
+use wavestep::answer::{
+    Candidate, Doubles, Kind, Promise, Remark, Tested, Tolerance, WayError, Weighed,
+};
+use wavestep::ball::in_decimals;
+use wavestep::evaluate::Limit;
+use wavestep::problem::{Problem, ProblemError};
+
+/// A method by its name and settings.
+pub fn method(text: &str) -> Result<Kind, Failure> {
+    text.parse().map_err(|error| {
+        let names: Vec<&str> = Kind::NAMES.iter().map(|(name, _)| *name).collect();
+        Failure::usage(format!("{error}"), format!("give one of {}", names.join(", ")))
+    })
+}
+
+/// A tolerance as the command line gives it.
+pub fn tolerance(text: &str) -> Result<Tolerance, Failure> {
+    text.parse().map_err(|error| {
+        let remedy = "write 1e-9 (of the largest value), abs:1e-9 or ulp:4";
+        Failure::usage(format!("{error}"), remedy)
+    })
+}
+
+/// Says on standard error what is to be known of values; with `explain` also how they were computed.
+pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explain: bool) {
+    let kind = found.kind;
+    let tolerance = tolerance.map_or_else(String::new, |tolerance| tolerance.to_string());
+    for remark in &found.remarks {
+        match remark {
+            Remark::Tested(tested) => note_tested(tested),
+            Remark::BoundTooLarge(bound) => {
+                eprintln!(
+                    "warning: {kind} is proven to be within {bound:.1e}, not within {tolerance}"
+                );
+            }
+            Remark::Off(error, time) => eprintln!(
+                "warning: {kind} is off by {error:.1e} at {}, more than {tolerance}",
+                in_decimals(time)
+            ),
+            Remark::OffAtMost(error, compared) => eprintln!(
+                "note: {kind} is off by at most {error:.1e} at {compared} of the times, which proves \
+                 nothing of the others"
+            ),
+            _ if !explain => {}
+            Remark::Weighed(weighed, absolute) => {
+                eprint!("{}", explained(weighed, points, &tolerance, *absolute));
+            }
+            Remark::AsAskedFor => eprintln!("{kind}, as asked for: {}", found.law),
+            Remark::Law => eprintln!("{kind}: {}", found.law),
+            Remark::PromiseNotKept(kind) => {
+                eprintln!("{kind} did not keep its promise: certified instead");
+            }
+            Remark::NearSpring(spring) => {
+                eprintln!("near to it is the exact solution with the equivalent spring: {spring}");
+            }
+        }
+    }
+}
+
+/// Says on standard error how sure values with a local contact are.
+pub fn note_tested(Tested { contact, tolerance }: &Tested) {
+    eprintln!(
+        "note: `{contact}` is a local contact; these values are tested, not certified: computed to \
+         {tolerance:e} of the largest"
+    );
+}
+
+/// Why there are no values in doubles; with `explain` the methods that were weighed are told.
+pub fn refused(error: ProblemError, points: usize, explain: bool) -> Failure {
+    if let ProblemError::Way(way) = &error
+        && let WayError::NotMet { weighed, tolerance, absolute } = &**way
+        && explain
+    {
+        eprint!("{}", explained(weighed, points, &tolerance.to_string(), *absolute));
+    }
+    Failure::not_followed(error, "eval --tol` and `eval --method")
+}
+
+/// The methods that were weighed, as a table.
+fn explained(weighed: &Weighed, points: usize, tolerance: &str, absolute: f64) -> String {
+    let mut text = format!(
+        "{points} value{} within {tolerance}, that is {absolute:.1e}\n",
+        if points == 1 { "" } else { "s" }
+    );
+    let _ = writeln!(text, "  {:<14} {:>12} {:>10}", "method", "expected", "seconds");
+    for Candidate { kind, promise, seconds, verdict } in &weighed.candidates {
+        let promise = match promise {
+            Some(Promise::Proven(bound)) => format!("≤ {bound:.1e}"),
+            Some(Promise::Measured(error)) => format!("~ {error:.1e}"),
+            Some(Promise::Nothing) | None => "–".to_owned(),
+        };
+        let seconds = format!("{seconds:.0e}");
+        let _ = writeln!(text, "  {:<14} {promise:>12} {seconds:>10}  {verdict}", kind.to_string());
+    }
+    text
+}
+
+/// Half a unit in the last place of the largest of some values.
+fn half_a_unit(values: &[f64]) -> f64 {
+    let largest = values.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    (largest.next_up() - largest) / 2.0
+}
+
+/// A double so that it reads back as it is.
+fn double(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if (1e-5..1e17).contains(&size) || !size.is_finite() => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
+/// Values in the format asked for.
+pub fn written(
+    found: &Doubles,
+    problem: &Problem,
+    unit: &str,
+    times: &[BigRational],
+    options: &Eval,
+) -> String {
+    let name = &options.quantity;
+    let rows = times.iter().zip(&found.values);
+    match options.format {
+        EvalFormat::Text => {
+            let limit = if options.side == Limit::Left { "-" } else { "" };
+            let (unit, time_unit) = (spaced(unit), spaced(problem.time_unit()));
+            let line = |(time, value): (&BigRational, &f64)| {
+                let time = if time_unit.is_empty() { time.to_string() } else { in_decimals(time) };
+                format!("{name}({time}{time_unit}{limit}) = {}{unit}\n", double(*value))
+            };
+            rows.map(line).collect()
+        }
+        EvalFormat::Csv => {
+            let line = |(time, value): (&BigRational, &f64)| {
+                format!("{time},{},{}\n", in_decimals(time), double(*value))
+            };
+            std::iter::once("time,time_decimal,value\n".to_owned()).chain(rows.map(line)).collect()
+        }
+        EvalFormat::Json => {
+            let row = |(time, value): (&BigRational, &f64)| json!({"time": time.to_string(), "value": value});
+            let mut document = json!({
+                "schema_version": SCHEMA_VERSION,
+                "title": problem.title(),
+                "quantity": name,
+                "set": options.scene.set,
+                "side": if options.side == Limit::Left { "left" } else { "right" },
+                "method": found.kind.to_string(),
+                "law": found.law,
+                "bound": found.bound.map(|bound| bound + half_a_unit(&found.values)),
+                "tolerance": options.tol,
+                "values": rows.map(row).collect::<Vec<_>>(),
+            });
+            if problem.has_units() {
+                document["unit"] = json!(unit);
+                document["time_unit"] = json!(problem.time_unit());
+            }
+            format!("{document}\n")
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Values in doubles: by a method that is named, or by the cheapest that is proven to be good enough.
+
+use crate::answer::problem::Problem;
+use crate::answer::tolerance::Tolerance;
+use crate::answer::way::{Kind, Way, WayError};
+use crate::answer::weigh::{Weighed, consider};
+use crate::evaluate::Limit;
+use std::cell::OnceCell;
+use wavestep_polynomial::Rational;
+
+/// The most times at which a method without a proven bound is compared with certified values.
+const COMPARED: usize = 50;
+
+/// How near values are to be.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Accuracy {
+    /// Every digit asked for is proven.
+    Digits,
+    /// Doubles, by the cheapest method that is proven to be within a tolerance.
+    Within(Tolerance),
+    /// Doubles by this method, held against a tolerance where one is given.
+    Method(Kind, Option<Tolerance>),
+}
+
+/// Values in doubles.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Doubles {
+    /// The method they were computed by.
+    pub kind: Kind,
+    /// How far they can be off, in words.
+    pub law: String,
+    /// A proven bound on the absolute error, beyond half a unit in the last place.
+    pub bound: Option<f64>,
+    /// One for each time.
+    pub values: Vec<f64>,
+    /// What is to be known of them, in this order.
+    pub remarks: Vec<Remark>,
+}
+
+/// What is to be known of values in doubles.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Remark {
+    /// The methods that were weighed, and the tolerance in the unit of the values.
+    Weighed(Weighed, f64),
+    /// The method was asked for by name.
+    AsAskedFor,
+    /// The law of a model says how far it can be off.
+    Law,
+    /// This method did not keep its promise, so that values were certified.
+    PromiseNotKept(Kind),
+    /// The bound that was proven is larger than the tolerance.
+    BoundTooLarge(f64),
+    /// The method is off by so much at this time, more than the tolerance.
+    Off(f64, Rational),
+    /// The method is off by at most so much at so many of the times.
+    OffAtMost(f64, usize),
+    /// Values are tested, not certified.
+    Tested(Tested),
+    /// The exact solution with this spring is near.
+    NearSpring(String),
+}
+
+/// With this local contact values are tested, not certified.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Tested {
+    /// The name of the contact.
+    pub contact: String,
+    /// To how much of the largest value.
+    pub tolerance: f64,
+}
+
+/// The values of a problem at times of its window.
+///
+/// # Errors
+/// [`WayError`]: no method is good enough, or the one that is named has no values here.
+pub fn doubles(
+    problem: &Problem<'_>,
+    times: &[Rational],
+    limit: Limit,
+    accuracy: Accuracy,
+) -> Result<Doubles, WayError> {
+    let mut choice = Choice { problem, scale: OnceCell::new(), remarks: Vec::new() };
+    let way = match accuracy {
+        Accuracy::Method(kind, tolerance) => choice.named(kind, tolerance)?,
+        Accuracy::Within(tolerance) => choice.cheapest(times.len(), tolerance)?,
+        Accuracy::Digits => Way::new(Kind::Certified, problem, None)?,
+    };
+    let values = way.exact_values(times, limit)?;
+    if let Some(i) = values.iter().position(|value| !value.is_finite()) {
+        return Err(WayError::NoNumber(way.kind(), times[i].clone()));
+    }
+    if let (Accuracy::Method(_, Some(tolerance)), None) = (accuracy, way.bound()) {
+        choice.compare(tolerance, (times, limit, &values))?;
+    }
+    let remarks = choice.remarks;
+    Ok(Doubles { kind: way.kind(), law: way.law(), bound: way.bound(), values, remarks })
+}
+
+/// The choice of a method, and what is to be known of it.
+struct Choice<'p, 'a> {
+    problem: &'p Problem<'a>,
+    /// The size of the largest value, once it was asked for.
+    scale: OnceCell<f64>,
+    remarks: Vec<Remark>,
+}
+
+impl<'a> Choice<'_, 'a> {
+    fn scale(&self) -> Result<f64, WayError> {
+        if let Some(scale) = self.scale.get() {
+            return Ok(*scale);
+        }
+        let scale = self.problem.scale()?;
+        Ok(*self.scale.get_or_init(|| scale))
+    }
+
+    /// A tolerance in the unit of the values.
+    fn absolute(&self, tolerance: Tolerance) -> Result<f64, WayError> {
+        Ok(match tolerance {
+            Tolerance::Absolute(tolerance) => tolerance,
+            relative => match self.scale()? {
+                // Where all is zero any tolerance is met.
+                0.0 => f64::MIN_POSITIVE.max(relative.absolute(1.0)),
+                scale => relative.absolute(scale),
+            },
+        })
+    }
+
+    /// The method that is named.
+    fn named(&mut self, kind: Kind, tolerance: Option<Tolerance>) -> Result<Way<'a>, WayError> {
+        let absolute = tolerance.map(|tolerance| self.absolute(tolerance)).transpose()?;
+        let way = Way::new(kind, self.problem, absolute)?;
+        self.remarks.push(Remark::AsAskedFor);
+        if let (Some(bound), Some(absolute)) = (way.bound(), absolute)
+            && bound > absolute
+        {
+            self.remarks.push(Remark::BoundTooLarge(bound));
+        }
+        Ok(way)
+    }
+
+    /// The cheapest method that is proven to be good enough.
+    fn cheapest(&mut self, points: usize, tolerance: Tolerance) -> Result<Way<'a>, WayError> {
+        let absolute = self.absolute(tolerance)?;
+        let weighed = consider(self.problem, points, absolute, self.scale()?)?;
+        if !weighed.met {
+            return Err(WayError::NotMet { weighed: Box::new(weighed), tolerance, absolute });
+        }
+        let kind = weighed.candidates[0].kind;
+        self.remarks.push(Remark::Weighed(weighed, absolute));
+        let way = Way::new(kind, self.problem, Some(absolute))?;
+        // A promise is kept but where functions are unusually steep.
+        match way.bound() {
+            Some(bound) if bound <= absolute => Ok(way),
+            _ => {
+                self.remarks.push(Remark::PromiseNotKept(kind));
+                Way::new(Kind::Certified, self.problem, None)
+            }
+        }
+    }
+
+    /// Compares a method without a proven bound with certified values.
+    fn compare(
+        &mut self,
+        tolerance: Tolerance,
+        (times, limit, values): (&[Rational], Limit, &[f64]),
+    ) -> Result<(), WayError> {
+        let certified = Way::new(Kind::Certified, self.problem, None)?;
+        let stride = times.len().div_ceil(COMPARED);
+        let (mut worst, mut error) = (0, 0.0);
+        let mut scale = 0.0_f64;
+        for i in (0..times.len()).step_by(stride) {
+            let exact = certified.value(&times[i], limit)?;
+            scale = scale.max(exact.abs());
+            // What is no number is off by more than any.
+            let off = if values[i].is_finite() { (values[i] - exact).abs() } else { f64::INFINITY };
+            if off > error {
+                (worst, error) = (i, off);
+            }
+        }
+        let absolute = match tolerance {
+            Tolerance::Absolute(tolerance) => tolerance,
+            relative => relative.absolute(self.scale().unwrap_or(scale).max(scale)),
+        };
+        self.remarks.push(match error > absolute {
+            true => Remark::Off(error, times[worst].clone()),
+            false => Remark::OffAtMost(error, times.len().div_ceil(stride)),
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,180 @@
+//! What can be said of a problem after it was read: it is ordered, and derived in two ways that must agree.
+
+use super::rates::rates;
+use super::{Kind, Problem, ProblemError};
+use crate::evaluate::arrivals;
+use crate::expression::Condition;
+use crate::network::Network;
+use crate::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
+use wavestep_polynomial::Symbol;
+
+/// The periods for which both derivations are compared.
+const PERIODS: usize = 6;
+
+/// The same where formulas hold several named constants.
+const PERIODS_WITH_CONSTANTS: usize = 2;
+
+/// How many periods of a lattice are followed in a check.
+const FIRST_ECHOES: usize = 3;
+
+/// What was found.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Checked {
+    /// A recurrence, stated or derived.
+    Periods(Box<Periods>),
+    /// A scene whose travel times have no common measure.
+    Lattice {
+        /// How many of the first echoes were derived.
+        echoes: usize,
+    },
+    /// A scene with a local contact of this name.
+    LocalContact(String),
+}
+
+/// What was found of a recurrence.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Periods {
+    /// Its symbols, with what is known of them.
+    pub symbols: Vec<(Symbol, Option<Condition>)>,
+    /// What is taken to be non-zero.
+    pub factors: Vec<String>,
+    /// The waves in the order in which they are solved for, and how.
+    pub steps: Vec<(String, Solved)>,
+    /// What is observed and linear.
+    pub observables: Vec<String>,
+    /// The waves that decay together, and their rates.
+    pub coupled: Vec<(Vec<String>, Vec<String>)>,
+    /// How it was derived, until which period.
+    pub derived: (Derivations, usize),
+    /// The form for every period of each wave.
+    pub general: Vec<(String, General)>,
+}
+
+/// How an equation gives a wave.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Solved {
+    /// By a linear differential equation of the first order.
+    Differential,
+    /// At once.
+    Algebraic,
+}
+
+/// How waves were derived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Derivations {
+    /// Period by period and echo by echo, with the same result.
+    InTwoWays,
+    /// Echo by echo alone, with names for rates.
+    ByEchoes,
+}
+
+/// Whether there is a form for every period.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum General {
+    /// A sum of powers.
+    Powers,
+    /// Echoes in closed form.
+    Echoes,
+    /// None was found.
+    Unknown,
+}
+
+impl Problem {
+    /// Checks the problem: its laws are solved and the first periods derived in two ways.
+    ///
+    /// # Errors
+    /// [`ProblemError::Disagreement`] where the two differ, which is a fault of this library;
+    /// [`ProblemError`] where nothing can be derived.
+    pub fn check(&self) -> Result<Checked, ProblemError> {
+        match &self.kind {
+            Kind::LocalContact(_) => Ok(Checked::LocalContact(self.local_contact())),
+            Kind::Line { network, .. } if self.on_lattice() => on_lattice(network),
+            _ => Ok(Checked::Periods(Box::new(self.check_periods()?))),
+        }
+    }
+
+    fn check_periods(&self) -> Result<Periods, ProblemError> {
+        let solution = self.solution()?;
+        let recurrence = solution.recurrence();
+        let shown = self.waves();
+        let symbols = recurrence.statement().assumptions.symbols();
+        let is_constant =
+            |symbol: &Symbol| recurrence.constants().iter().any(|c| c.symbol == *symbol);
+        let symbols = symbols.filter(|(symbol, _)| !is_constant(symbol));
+        let steps = recurrence.steps().iter().filter(|step| step.wave < shown.len());
+        let solved = |is_started: bool| match is_started {
+            true => Solved::Differential,
+            false => Solved::Algebraic,
+        };
+        let name = |wave: usize| recurrence.wave_name(wave);
+        let coupled = recurrence.coupled().iter();
+        Ok(Periods {
+            derived: self.derived_in_two_ways(solution)?,
+            symbols: symbols.map(|(symbol, known)| (symbol.clone(), known.cloned())).collect(),
+            factors: crate::export::assumed_factors(&recurrence.statement().assumptions),
+            steps: steps.map(|step| (name(step.wave), solved(step.start.is_some()))).collect(),
+            coupled: coupled
+                .map(|own| (own.waves.iter().copied().map(name).collect(), rates(recurrence, own)))
+                .collect(),
+            observables: recurrence
+                .statement()
+                .observables
+                .iter()
+                .map(|observable| observable.name.clone())
+                .collect(),
+            general: shown
+                .iter()
+                .enumerate()
+                .map(|(wave, name)| ((*name).to_owned(), general(solution, wave)))
+                .collect(),
+        })
+    }
+
+    fn derived_in_two_ways(
+        &self,
+        solution: &Solution,
+    ) -> Result<(Derivations, usize), ProblemError> {
+        let recurrence = solution.recurrence();
+        let statement = recurrence.statement();
+        let mut by_period = PeriodByPeriod::new(recurrence);
+        let mut by_echo = EchoByEcho::new(recurrence);
+        // Each further constant in the formulas multiplies their length.
+        let periods =
+            if recurrence.constants().len() > 1 { PERIODS_WITH_CONSTANTS } else { PERIODS };
+        let ways = match recurrence.has_named_rates() {
+            true => Derivations::ByEchoes,
+            false => Derivations::InTwoWays,
+        };
+        for n in 0..=periods {
+            by_echo.advance().map_err(|error| self.explained(error.into()))?;
+            if ways == Derivations::ByEchoes {
+                continue;
+            }
+            by_period.advance().map_err(|error| self.explained(error.into()))?;
+            for (wave, name) in statement.waves.iter().enumerate() {
+                let piece = by_echo.sum(wave).piece(n).ok();
+                let other = &by_period.waves()[wave].pieces()[n];
+                let difference =
+                    piece.map(|piece| statement.assumptions.reduced(&(&piece - other)));
+                if difference.is_none_or(|difference| !difference.is_zero()) {
+                    return Err(ProblemError::Disagreement(name.clone(), n));
+                }
+            }
+        }
+        Ok((ways, periods))
+    }
+}
+
+fn general(solution: &Solution, wave: usize) -> General {
+    match solution.general(wave) {
+        Ok(GeneralForm::Geometric(_)) => General::Powers,
+        Ok(GeneralForm::Echoes(_)) => General::Echoes,
+        Err(_) => General::Unknown,
+    }
+}
+
+/// Solves the laws, and derives the first echoes.
+fn on_lattice(network: &Network) -> Result<Checked, ProblemError> {
+    let waves: Vec<usize> = (0..network.waves().len()).collect();
+    Ok(Checked::Lattice { echoes: arrivals(network, &waves, FIRST_ECHOES)?.len() })
+}

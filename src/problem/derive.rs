@@ -1,0 +1,489 @@
+//! Exact forms: pieces, echoes, general forms, and how they follow from the scene.
+
+use super::bounds::{refuse_terms, terms_of_piece, terms_through};
+use super::error::Missing;
+use super::{Kind, Problem, ProblemError};
+use crate::evaluate::{Arrival, arrivals};
+use crate::export::{self, Derivation, Formula, Head, SourceForm};
+use crate::expression::{Expression, Fraction};
+use crate::language;
+use crate::network::{Network, ObservedValue};
+use crate::recurrence::{Observable, Recurrence, WaveIndex};
+use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
+
+/// The most echoes of a lattice.
+const MAX_ECHOES: usize = 5_000;
+
+/// The periods that an explanation ends with.
+const FIRST_PIECES: usize = 2;
+
+/// What is to be derived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ToDerive<'a> {
+    /// All waves that are stated, or that a scene has.
+    Waves,
+    /// One of them.
+    Wave(&'a str),
+    /// An observable.
+    Observable(&'a str),
+}
+
+/// Of which periods.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Orders {
+    /// From the first to the last of these.
+    Through(usize, usize),
+    /// Of this one only.
+    Only(usize),
+}
+
+impl Orders {
+    fn ends(self) -> (usize, usize) {
+        match self {
+            Orders::Through(first, last) => (first, last),
+            Orders::Only(n) => (n, n),
+        }
+    }
+}
+
+/// The form in which functions are derived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Form {
+    /// One function of local time for each period.
+    Period,
+    /// The echoes that arrive period by period, and add up.
+    Echo,
+    /// The pieces with the half-open intervals on which they hold.
+    Piecewise,
+}
+
+/// Functions of one wave or observable.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Functions {
+    /// The wave or observable.
+    pub name: String,
+    /// The order of the first function.
+    pub first: usize,
+    /// When the first period begins.
+    pub offset: Fraction,
+    /// The functions.
+    pub expressions: Vec<Expression>,
+}
+
+/// What was derived.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Derived {
+    /// Pieces or echoes.
+    Functions(Vec<Functions>),
+    /// An observable whose waves arrive apart, from arrival to arrival.
+    Stretches(String, Vec<ObservedStretch>),
+    /// Echoes in the order of their arrival, where there are no periods.
+    Arrivals(Vec<Arrival>),
+}
+
+/// The form of a wave for every period.
+#[derive(Clone, PartialEq, Debug)]
+pub struct GeneralFormulas {
+    /// The wave.
+    pub wave: String,
+    /// Its formulas.
+    pub formulas: Vec<Formula>,
+}
+
+/// Whose symbols formulas are written in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Symbols {
+    /// Those of the text.
+    Own,
+    /// Those of its source, as its `written` statements say.
+    Source,
+}
+
+impl Problem {
+    /// Exact functions of waves, or of an observable.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: what is unknown, would be too long, or has no formula.
+    pub fn derive(
+        &self,
+        what: ToDerive<'_>,
+        orders: Orders,
+        form: Form,
+    ) -> Result<Derived, ProblemError> {
+        if let ToDerive::Observable(name) = what {
+            self.refuse_energy(name)?;
+        }
+        if let Some(network) = self.lattice() {
+            return by_arrival(network, what, orders, form);
+        }
+        let solution = self.solution()?;
+        self.derived(solution, what, orders, form).map_err(|error| self.explained(error))
+    }
+
+    fn derived(
+        &self,
+        solution: &Solution,
+        what: ToDerive<'_>,
+        orders: Orders,
+        form: Form,
+    ) -> Result<Derived, ProblemError> {
+        let recurrence = solution.recurrence();
+        let ToDerive::Observable(name) = what else {
+            let waves = self.waves_to_derive(what)?;
+            refuse_explosion(recurrence, orders, form, waves.len())?;
+            let functions = |wave| functions(solution, wave, orders, form);
+            let all = waves.into_iter().map(functions).collect::<Result<_, _>>()?;
+            return Ok(Derived::Functions(all));
+        };
+        let observable = observable(recurrence, name)?;
+        refuse_explosion(recurrence, orders, form, observable.observation.waves.len())?;
+        if form == Form::Echo {
+            return Err(ProblemError::EchoesOfObservable(observable.name.clone()));
+        }
+        match solution.offset(&observable.observation) {
+            Some(_) => Ok(Derived::Functions(vec![observed(solution, observable, orders)?])),
+            None => between_arrivals(solution, observable, orders),
+        }
+    }
+
+    /// Pieces of waves in the symbols of the text's source.
+    ///
+    /// # Errors
+    /// As [`Problem::derive`]; [`ProblemError::NoSourceForm`].
+    pub fn source_form(
+        &self,
+        what: ToDerive<'_>,
+        orders: Orders,
+    ) -> Result<Vec<Formula>, ProblemError> {
+        self.refuse_lattice(Missing::Periods)?;
+        let solution = self.solution()?;
+        let recurrence = solution.recurrence();
+        let waves = self.waves_to_derive(what)?;
+        has_source_form(recurrence)?;
+        refuse_explosion(recurrence, orders, Form::Period, waves.len())?;
+        let found = source_form(solution, &waves, orders);
+        found.map_err(|error| self.explained(error))
+    }
+
+    /// The forms of waves for every period.
+    ///
+    /// # Errors
+    /// As [`Problem::derive`]; [`ProblemError::NoGeneralForm`], [`ProblemError::NoSourceForm`].
+    pub fn general(
+        &self,
+        what: ToDerive<'_>,
+        symbols: Symbols,
+    ) -> Result<Vec<GeneralFormulas>, ProblemError> {
+        self.refuse_lattice(Missing::GeneralForm)?;
+        let solution = self.solution()?;
+        let waves = self.waves_to_derive(what)?;
+        if symbols == Symbols::Source {
+            has_source_form(solution.recurrence())?;
+        }
+        let found: Result<Vec<_>, _> =
+            waves.into_iter().map(|wave| general(solution, wave, symbols)).collect();
+        found.map_err(|error| self.explained(error))
+    }
+
+    /// How the recurrence follows from the bars and elements of a scene, with the first pieces.
+    ///
+    /// # Errors
+    /// [`ProblemError::NothingToExplain`], [`ProblemError::NoPeriodsToExplain`].
+    pub fn explanation(&self) -> Result<Derivation, ProblemError> {
+        if let Kind::Equations(_) = &self.kind {
+            return Err(ProblemError::NothingToExplain);
+        }
+        let network = self.network()?;
+        if self.on_lattice() {
+            return Err(ProblemError::NoPeriodsToExplain);
+        }
+        let solution = self.solution()?;
+        let recurrence = solution.recurrence();
+        let decimal = |value: &_| super::constants::decimal(recurrence.constants(), value);
+        let mut derivation = Derivation::of(network, recurrence, &decimal);
+        let local = &recurrence.statement().local;
+        let mut formulas = Vec::new();
+        for (wave, named) in network.waves().iter().enumerate() {
+            // What has no exact form is left out; a derivation of this wave says why.
+            let pieces = solution.pieces(wave, 0, FIRST_PIECES).unwrap_or_default();
+            for (n, piece) in pieces.iter().enumerate() {
+                let head = Head::Piece { wave: named.name.clone(), n, local: local.clone() };
+                formulas.push(Formula::new(head, piece, local));
+            }
+        }
+        if !formulas.is_empty() {
+            derivation.add("The first pieces", formulas);
+        }
+        Ok(derivation)
+    }
+
+    /// The formulas of what was derived, of one wave or observable after the other.
+    ///
+    /// # Errors
+    /// As [`Problem::recurrence`].
+    pub fn formulas(
+        &self,
+        derived: &Derived,
+        form: Form,
+    ) -> Result<Vec<(String, Vec<Formula>)>, ProblemError> {
+        if let (Derived::Arrivals(found), Ok(network)) = (derived, self.network()) {
+            let (local, time) = (network.local(), &network.scene().time);
+            let formula = |arrival: &Arrival| {
+                let Arrival { wave, counts, delay, echo } = arrival;
+                let name = &network.waves()[*wave].name;
+                Formula::of_arrival(name, counts, delay, echo, &local, time)
+            };
+            return Ok(vec![(String::new(), found.iter().map(formula).collect())]);
+        }
+        let statement = self.recurrence()?.statement();
+        let local = &statement.local;
+        Ok(match derived {
+            Derived::Functions(all) => {
+                let formulas = |functions: &Functions| {
+                    (functions.name.clone(), formulas(statement, functions, form))
+                };
+                all.iter().map(formulas).collect()
+            }
+            Derived::Stretches(name, stretches) => {
+                let formula = |(n, stretch): (usize, &ObservedStretch)| {
+                    let head = Head::Piece { wave: name.clone(), n, local: local.clone() };
+                    let formula = Formula::new(head, &stretch.value, local);
+                    formula.between(&stretch.from, &stretch.to, statement)
+                };
+                vec![(name.clone(), stretches.iter().enumerate().map(formula).collect())]
+            }
+            Derived::Arrivals(_) => Vec::new(),
+        })
+    }
+
+    /// The network, where waves return at times without a common measure.
+    fn lattice(&self) -> Option<&Network> {
+        self.network().ok().filter(|_| self.on_lattice())
+    }
+
+    fn refuse_lattice(&self, what: Missing) -> Result<(), ProblemError> {
+        match self.on_lattice() {
+            true => Err(ProblemError::NoCommonMeasure(what)),
+            false => Ok(()),
+        }
+    }
+
+    fn refuse_energy(&self, name: &str) -> Result<(), ProblemError> {
+        let Ok(network) = self.network() else { return Ok(()) };
+        let name = language::normalise_name(name);
+        let is_energy = network.observables().iter().any(|observed| {
+            observed.name == name && matches!(observed.value, ObservedValue::Energy(_))
+        });
+        match is_energy {
+            true => Err(ProblemError::EnergyHasNoPieces(name)),
+            false => Ok(()),
+        }
+    }
+
+    /// The wave asked for, or all that are shown: those after them only serve what is observed.
+    fn waves_to_derive(&self, what: ToDerive<'_>) -> Result<Vec<WaveIndex>, ProblemError> {
+        let shown = self.waves();
+        let ToDerive::Wave(name) = what else { return Ok((0..shown.len()).collect()) };
+        let recurrence = self.recurrence()?;
+        let known = language::normalise_name(name);
+        match recurrence.wave(&known) {
+            Some(wave) => Ok(vec![wave]),
+            None if recurrence.observable(&known).is_some() => {
+                Err(ProblemError::ObservableIsNoWave(name.to_owned()))
+            }
+            None => {
+                let waves = shown.into_iter().map(str::to_owned).collect();
+                Err(ProblemError::NotAWave { name: name.to_owned(), waves })
+            }
+        }
+    }
+}
+
+fn observable<'a>(recurrence: &'a Recurrence, name: &str) -> Result<&'a Observable, ProblemError> {
+    recurrence.observable(&language::normalise_name(name)).ok_or_else(|| {
+        let observables = recurrence.statement().observables.iter();
+        let observables = observables.map(|observable| observable.name.clone()).collect();
+        ProblemError::NotAnObservable { name: name.to_owned(), observables }
+    })
+}
+
+/// Refuses before work starts what would have too many terms.
+fn refuse_explosion(
+    recurrence: &Recurrence,
+    orders: Orders,
+    form: Form,
+    parts: usize,
+) -> Result<(), ProblemError> {
+    let (_, last) = orders.ends();
+    let one = match form {
+        Form::Echo => last as u128 + 1,
+        Form::Period | Form::Piecewise => terms_of_piece(recurrence, last),
+    };
+    refuse_terms(match orders {
+        Orders::Only(_) => one.saturating_mul(parts.max(1) as u128),
+        Orders::Through(..) => terms_through(one, last, parts),
+    })
+}
+
+fn functions(
+    solution: &Solution,
+    wave: WaveIndex,
+    orders: Orders,
+    form: Form,
+) -> Result<Functions, ProblemError> {
+    let (first, last) = orders.ends();
+    let expressions = match form {
+        Form::Echo => solution.echoes(wave, last)?.echoes()[first..].to_vec(),
+        Form::Period | Form::Piecewise => solution.pieces(wave, first, last)?,
+    };
+    let name = solution.recurrence().statement().waves[wave].clone();
+    Ok(Functions { name, first, offset: Fraction::zero(), expressions })
+}
+
+fn observed(
+    solution: &Solution,
+    observable: &Observable,
+    orders: Orders,
+) -> Result<Functions, ProblemError> {
+    let (first, last) = orders.ends();
+    let name = observable.name.clone();
+    match solution.observed(&observable.observation, first, last) {
+        Ok(found) => Ok(Functions { name, first, offset: found.offset, expressions: found.pieces }),
+        Err(ObserveError::Solve(error)) => Err(error.into()),
+        Err(ObserveError::MixedOffsets) => Err(ProblemError::NoCommonPeriods(name)),
+    }
+}
+
+/// An observable whose waves arrive apart, from arrival to arrival.
+fn between_arrivals(
+    solution: &Solution,
+    observable: &Observable,
+    orders: Orders,
+) -> Result<Derived, ProblemError> {
+    let (first, last) = orders.ends();
+    let name = observable.name.clone();
+    match solution.observed_between_arrivals(&observable.observation, first, last) {
+        Ok(stretches) => Ok(Derived::Stretches(name, stretches)),
+        Err(ObserveError::Solve(error)) => Err(error.into()),
+        Err(ObserveError::MixedOffsets) => Err(ProblemError::UnknownOrder(name)),
+    }
+}
+
+fn formulas(
+    statement: &crate::recurrence::Statement,
+    functions: &Functions,
+    form: Form,
+) -> Vec<Formula> {
+    let formula = |(i, expression): (usize, &Expression)| {
+        let (n, local) = (functions.first + i, statement.local.clone());
+        let wave = functions.name.clone();
+        let head = match form {
+            Form::Echo => Head::Echo { wave, k: n, local },
+            Form::Period | Form::Piecewise => Head::Piece { wave, n, local },
+        };
+        let formula = Formula::new(head, expression, &statement.local);
+        // Periods that begin with those of the waves are said only where they are asked for.
+        if form == Form::Piecewise || !functions.offset.is_zero() {
+            formula.on_period(n, &functions.offset, statement)
+        } else {
+            formula
+        }
+    };
+    functions.expressions.iter().enumerate().map(formula).collect()
+}
+
+fn has_source_form(recurrence: &Recurrence) -> Result<(), ProblemError> {
+    match recurrence.statement().notation.is_empty() {
+        true => Err(ProblemError::NoSourceForm),
+        false => Ok(()),
+    }
+}
+
+fn source_form(
+    solution: &Solution,
+    waves: &[WaveIndex],
+    orders: Orders,
+) -> Result<Vec<Formula>, ProblemError> {
+    let (first, last) = orders.ends();
+    let ends = &solution.recurrence().statement().notation.ends;
+    let by_ends = (!ends.is_empty()).then(|| solution.pieces_by_ends(last, ends)).transpose()?;
+    let kept = by_ends.as_ref().map(|(_, kept)| kept);
+    let form = SourceForm::new(solution.recurrence(), kept);
+    let mut formulas = Vec::new();
+    for wave in waves {
+        let pieces = match &by_ends {
+            Some((pieces, _)) => pieces[*wave][first..].to_vec(),
+            None => solution.pieces(*wave, first, last)?,
+        };
+        let piece = |(n, piece)| form.piece(*wave, n, piece);
+        formulas.extend((first..).zip(&pieces).flat_map(piece));
+    }
+    Ok(formulas)
+}
+
+fn general(
+    solution: &Solution,
+    wave: WaveIndex,
+    symbols: Symbols,
+) -> Result<GeneralFormulas, ProblemError> {
+    let recurrence = solution.recurrence();
+    let name = &recurrence.statement().waves[wave];
+    let form = solution.general(wave).map_err(|unknown: &Unknown| {
+        let (derivative, delay) = export::operator_names(recurrence);
+        ProblemError::NoGeneralForm {
+            wave: name.clone(),
+            operator: export::operator_of(recurrence, unknown),
+            names: [derivative, delay],
+            symbol: recurrence.symbols().next().cloned(),
+        }
+    })?;
+    let formulas = match symbols {
+        Symbols::Own => export::general_form(recurrence, wave, form),
+        Symbols::Source => {
+            let written = SourceForm::new(recurrence, None).general(wave, form);
+            written.ok_or(ProblemError::NoGeneralSourceForm)?
+        }
+    };
+    Ok(GeneralFormulas { wave: name.clone(), formulas })
+}
+
+/// The echoes of a scene whose travel times have no common measure, in order of arrival.
+fn by_arrival(
+    network: &Network,
+    what: ToDerive<'_>,
+    orders: Orders,
+    form: Form,
+) -> Result<Derived, ProblemError> {
+    let Orders::Through(_, through) = orders else {
+        return Err(ProblemError::NoCommonMeasure(Missing::Periods));
+    };
+    let waves: Vec<WaveIndex> = match what {
+        ToDerive::Observable(_) => {
+            return Err(ProblemError::NoCommonMeasure(Missing::Periods));
+        }
+        _ if form == Form::Piecewise => {
+            return Err(ProblemError::NoCommonMeasure(Missing::Pieces));
+        }
+        ToDerive::Waves => (0..network.waves().len()).collect(),
+        ToDerive::Wave(name) => {
+            let known = language::normalise_name(name);
+            let found = network.waves().iter().position(|wave| wave.name == known);
+            vec![found.ok_or_else(|| {
+                let waves = network.waves().iter().map(|wave| wave.name.clone()).collect();
+                ProblemError::NotAWave { name: name.to_owned(), waves }
+            })?]
+        }
+    };
+    let periods = network.lattice().periods().len();
+    let echoes = (0..periods)
+        .fold(1_usize, |product, _| product.saturating_mul(through.saturating_add(1)))
+        .saturating_mul(waves.len());
+    if echoes > MAX_ECHOES {
+        return Err(ProblemError::TooManyEchoes { echoes, limit: MAX_ECHOES });
+    }
+    let found = arrivals(network, &waves, through)?;
+    match found.is_empty() {
+        true => Err(ProblemError::NothingArrives(through)),
+        false => Ok(Derived::Arrivals(found)),
+    }
+}

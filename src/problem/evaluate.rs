@@ -1,0 +1,265 @@
+//! Values of a wave or an observable at times: with proven digits, or in doubles.
+
+use super::error::equivalent_spring;
+use super::{Kind, Problem, ProblemError, Wanted};
+use crate::answer::{self, Accuracy, Doubles, Kind as Method, Remark, Tested, Way, WayError};
+use crate::evaluate::{self, ClosedSignal, EvaluateError, Limit, Recogniser, Signal, Value};
+use crate::expression::Fraction;
+use crate::model::ModelError;
+use crate::network::Network;
+use crate::signal::{self, Purpose};
+use num_traits::Signed as _;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// How values with proven digits are asked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Digits {
+    /// How many significant digits.
+    pub count: usize,
+    /// The most bits of working precision.
+    pub max_bits: u64,
+    /// The limit where an echo arrives.
+    pub limit: Limit,
+    /// Whether echoes are counted, which are worked out one by one then.
+    pub count_echoes: bool,
+}
+
+/// Values with proven digits.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Proven {
+    /// One for each time.
+    pub values: Vec<Value>,
+    /// How many echoes were worked out, of how many that can reach what is observed, where they were
+    /// counted.
+    pub echoes: Option<(usize, usize)>,
+}
+
+/// A wave or an observable on a window, with what tells its values.
+pub struct OnWindow<'p> {
+    signal: Rc<ClosedSignal<'p>>,
+    scene: Option<(&'p Network, usize)>,
+    recognise: Box<Recogniser<'p>>,
+}
+
+impl OnWindow<'_> {
+    /// What methods and models are asked.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] where there is no closed form.
+    pub fn question(&self) -> Result<answer::Problem<'_>, EvaluateError> {
+        let [from, to] = self.signal.window().map(Clone::clone);
+        let (signal, recognise) = (self.signal.form()?, &*self.recognise);
+        Ok(answer::Problem { signal, scene: self.scene, recognise, from, to })
+    }
+}
+
+impl Problem {
+    /// Values with proven digits; `tick` is called after each.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: what stays undecided, has no value, or is known by models only.
+    pub fn proven(
+        &self,
+        wanted: &Wanted,
+        times: &[Rational],
+        digits: Digits,
+        tick: &dyn Fn(),
+    ) -> Result<Proven, ProblemError> {
+        let Digits { count, max_bits, limit, count_echoes } = digits;
+        let (from, to) = match (times.iter().min(), times.iter().max(), &self.kind) {
+            (_, _, Kind::LocalContact(_)) => return Err(self.not_certified(Accuracy::Digits)),
+            (Some(from), Some(to), _) => (from, to),
+            _ => return Ok(Proven { values: Vec::new(), echoes: None }),
+        };
+        if count_echoes && self.contacts_open() {
+            return Err(ProblemError::NoPeriodsWhereContactsOpen);
+        }
+        let all = |signal: &dyn Signal| -> Result<Vec<Value>, ProblemError> {
+            let mut values = Vec::with_capacity(times.len());
+            for time in times {
+                match evaluate::digits(signal, time, limit, count, max_bits) {
+                    Err(EvaluateError::AccuracyNotReached { best, .. }) if self.contacts_open() => {
+                        let (name, time) = (wanted.name().to_owned(), time.clone());
+                        let best = best.to_decimal(count).to_string();
+                        return Err(ProblemError::Undecided { name, time, best });
+                    }
+                    value => values.push(value?),
+                }
+                tick();
+            }
+            Ok(values)
+        };
+        if count_echoes {
+            let signal = self.closed_signal(wanted, [from, to])?.echo_by_echo();
+            return Ok(Proven { values: all(&signal)?, echoes: signal.work() });
+        }
+        let signal = self.signal(wanted, [from, to], Purpose::Values)?;
+        Ok(Proven { values: all(&*signal)?, echoes: None })
+    }
+
+    /// The method for values in doubles where digits cannot be proven and none is named.
+    pub fn usual_method(&self) -> Option<Method> {
+        matches!(self.kind, Kind::LocalContact(_)).then_some(Method::Steps { tolerance: 1e-10 })
+    }
+
+    /// Values in doubles, by a method or within a tolerance.
+    ///
+    /// # Errors
+    /// [`ProblemError`]: no method is good enough, or the one that is named has no values here.
+    pub fn doubles(
+        &self,
+        name: &str,
+        times: &[Rational],
+        limit: Limit,
+        accuracy: Accuracy,
+    ) -> Result<Doubles, ProblemError> {
+        if let Kind::LocalContact(_) = &self.kind {
+            return self.by_model(&self.wanted(name)?, times, limit, accuracy);
+        }
+        let first = times.iter().min().cloned().unwrap_or_default();
+        let last = times.iter().max().cloned().unwrap_or_default();
+        let on_window = self.on_window(name, [first, last])?;
+        Ok(answer::doubles(&on_window.question()?, times, limit, accuracy)?)
+    }
+
+    /// A wave or an observable on a window, for methods and models in doubles.
+    ///
+    /// # Errors
+    /// [`ProblemError::ContactsOpen`]; [`ProblemError`] where it is unknown or has no values.
+    pub fn on_window(
+        &self,
+        name: &str,
+        window: [Rational; 2],
+    ) -> Result<OnWindow<'_>, ProblemError> {
+        if self.contacts_open() {
+            return Err(ProblemError::ContactsOpen);
+        }
+        let wanted = self.wanted(name)?;
+        let signal = Rc::new(self.closed_signal(&wanted, window.each_ref())?);
+        let scene = self.network().ok().zip(wanted.place());
+        let exact = signal.clone();
+        let recognise = Box::new(move |at: &Rational, limit| exact.rational(at, limit));
+        Ok(OnWindow { signal, scene, recognise })
+    }
+
+    /// A wave or an observable as a function of time on a window.
+    ///
+    /// # Errors
+    /// [`ProblemError`] where it is known by models alone, or symbols have no values.
+    pub fn signal(
+        &self,
+        wanted: &Wanted,
+        window: [&Rational; 2],
+        purpose: Purpose,
+    ) -> Result<Box<dyn Signal + '_>, ProblemError> {
+        match (&self.kind, wanted.observed()) {
+            (Kind::Line { network, .. }, Some(observed)) => {
+                Ok(signal::of_scene(network, observed, window, purpose)?)
+            }
+            _ => Ok(Box::new(self.closed_signal(wanted, window)?)),
+        }
+    }
+
+    /// The same with closed contacts.
+    fn closed_signal(
+        &self,
+        wanted: &Wanted,
+        window: [&Rational; 2],
+    ) -> Result<ClosedSignal<'_>, ProblemError> {
+        match (&self.kind, wanted.observed()) {
+            (Kind::Equations(solution), _) => {
+                let observation = wanted.observation().expect("it is linear");
+                Ok(ClosedSignal::of_recurrence(solution, observation, window)?)
+            }
+            (Kind::Line { network, .. }, Some(observed)) => {
+                Ok(ClosedSignal::of_scene(network, observed, window)?)
+            }
+            _ => Err(ProblemError::local_contact(self.scaled()?)),
+        }
+    }
+
+    /// The time at which so many periods of a quantity are over, and a local time has passed on the next.
+    ///
+    /// # Errors
+    /// [`ProblemError::NoPeriods`]; [`ProblemError::OutsidePeriod`].
+    pub fn time_on_period(
+        &self,
+        wanted: &Wanted,
+        n: usize,
+        local: &Rational,
+        limit: Limit,
+    ) -> Result<Rational, ProblemError> {
+        if let Kind::LocalContact(_) = &self.kind {
+            return Err(ProblemError::NoPeriodsWithLocalContact(self.local_contact()));
+        }
+        if self.contacts_open() {
+            return Err(ProblemError::NoPeriodsWhereContactsOpen);
+        }
+        let refuse = || ProblemError::NoPeriods(wanted.name().to_owned());
+        let observation = wanted.observation().filter(|_| !self.has_units() && !self.on_lattice());
+        let observation = observation.ok_or_else(refuse)?;
+        let solution = self.solution()?;
+        if let Some(symbol) = solution.recurrence().symbols().next() {
+            return Err(EvaluateError::MissingValue(symbol.clone()).into());
+        }
+        let number = |value: &Fraction| value.as_constant().ok_or_else(refuse);
+        let offset = number(&solution.offset(observation).ok_or_else(refuse)?)?;
+        let period = number(&solution.recurrence().statement().period)?;
+        let inside =
+            !local.is_negative() && (*local < period || (*local == period && limit == Limit::Left));
+        if !inside {
+            return Err(ProblemError::OutsidePeriod(Box::new([local.clone(), period])));
+        }
+        Ok(offset + period * Rational::from_integer(n.into()) + local)
+    }
+
+    /// Values by a model of a scene that has no exact solution.
+    fn by_model(
+        &self,
+        wanted: &Wanted,
+        times: &[Rational],
+        limit: Limit,
+        accuracy: Accuracy,
+    ) -> Result<Doubles, ProblemError> {
+        let Accuracy::Method(kind, None) = accuracy else {
+            return Err(self.not_certified(accuracy));
+        };
+        let scaled = self.scaled()?;
+        let place = wanted.place().expect("an observable of the scene");
+        let way = Way::of_model(kind, scaled, place).map_err(|error| match error {
+            WayError::Model(error @ ModelError::Refused { .. }) => {
+                ProblemError::ModelOfLocalContact(error)
+            }
+            error => error.into(),
+        })?;
+        let values = way.exact_values(times, limit)?;
+        let tested = match kind {
+            Method::Steps { tolerance } => {
+                Some(Remark::Tested(Tested { contact: self.local_contact(), tolerance }))
+            }
+            _ => None,
+        };
+        let spring = equivalent_spring(scaled).map(Remark::NearSpring);
+        let remarks = tested.into_iter().chain([Remark::Law]).chain(spring).collect();
+        Ok(Doubles { kind, law: way.law(), bound: way.bound(), values, remarks })
+    }
+
+    /// The name of the local contact.
+    pub(super) fn local_contact(&self) -> String {
+        match self.network() {
+            Err(ProblemError::LocalContact { contact, .. }) => contact,
+            _ => String::new(),
+        }
+    }
+
+    fn not_certified(&self, accuracy: Accuracy) -> ProblemError {
+        let contact = self.local_contact();
+        match accuracy {
+            Accuracy::Within(tolerance) | Accuracy::Method(_, Some(tolerance)) => {
+                ProblemError::NoProof(contact, tolerance)
+            }
+            Accuracy::Digits | Accuracy::Method(_, None) => ProblemError::NoDigits(contact),
+        }
+    }
+}

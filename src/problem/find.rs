@@ -1,0 +1,81 @@
+//! Events, fields, and how quantities are known between times.
+
+use super::{Kind, Problem, ProblemError, Wanted};
+use crate::evaluate::EvaluateError;
+use crate::field::FieldEvaluator;
+use crate::history::{History, field_evaluator};
+use crate::scene::{Joint, Measure};
+use wavestep_polynomial::Rational;
+
+impl Problem {
+    /// That every symbol of stated equations has a value.
+    ///
+    /// # Errors
+    /// [`EvaluateError::MissingValue`].
+    pub(super) fn has_numbers(&self) -> Result<(), ProblemError> {
+        let Kind::Equations(solution) = &self.kind else { return Ok(()) };
+        match solution.recurrence().symbols().next() {
+            Some(symbol) => Err(EvaluateError::MissingValue(symbol.clone()).into()),
+            None => Ok(()),
+        }
+    }
+
+    /// What contacts do until a time; without one until nothing can meet again, at most for a hundred of
+    /// the longest travel times.
+    ///
+    /// # Errors
+    /// [`ProblemError::EquationsHaveNoContacts`], [`ProblemError::NoContact`], [`ProblemError::History`].
+    pub fn events(&self, until: Option<&Rational>, digits: usize) -> Result<History, ProblemError> {
+        if let Kind::Equations(_) = &self.kind {
+            return Err(ProblemError::EquationsHaveNoContacts);
+        }
+        let network = self.network()?;
+        match network.scene().line.joints.contains(&Joint::Contact) {
+            true => Ok(History::of(network, until, digits)?),
+            false => Err(ProblemError::NoContact),
+        }
+    }
+
+    /// Velocity, strain, displacement and force along the bars until a time.
+    ///
+    /// # Errors
+    /// [`ProblemError::Equations`], [`ProblemError::LocalContact`], [`ProblemError::Field`].
+    pub fn fields(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
+        let network = self.network()?;
+        Ok(match self.contacts_open() {
+            true => field_evaluator(network, last)?,
+            false => FieldEvaluator::new(network, last)?,
+        })
+    }
+}
+
+/// How a quantity is known between two times.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Course {
+    /// As a function, in which roots and extrema can be looked for.
+    Everywhere,
+    /// At single times: an energy.
+    AtTimes,
+    /// By models alone.
+    ByModel,
+}
+
+impl Problem {
+    /// How a quantity is known between two times.
+    pub fn course(&self, wanted: &Wanted) -> Course {
+        match (&self.kind, wanted.observation()) {
+            (Kind::LocalContact(_), _) => Course::ByModel,
+            (_, None) => Course::AtTimes,
+            (_, Some(_)) => Course::Everywhere,
+        }
+    }
+
+    /// What an observable measures; none where its terms differ, or where it is a wave.
+    pub fn measure(&self, wanted: &Wanted) -> Option<Measure> {
+        let mut observables = self.scaled().ok()?.scene().observables.iter();
+        let own = observables.find(|own| own.name == wanted.name())?;
+        let mut measures = own.terms.iter().map(|term| term.measure);
+        let first = measures.next()?;
+        measures.all(|other| other == first).then_some(first)
+    }
+}

@@ -1,0 +1,204 @@
+//! What a text states, read once: equations between periods, or bars with what joins them.
+//!
+//! A [`Problem`] is the one way in. It keeps its text and the values put in place of symbols, and what is
+//! derived from them once it has been asked for. It alone knows which kind of text it holds; callers ask
+//! for a title, a quantity, a time, values, and are told where there is no answer.
+
+mod bounds;
+mod check;
+mod constants;
+mod derive;
+mod equal;
+mod error;
+mod evaluate;
+mod find;
+mod given;
+mod lock;
+mod rates;
+mod times;
+mod validity;
+mod wanted;
+
+use crate::language::{self, Source, Stated};
+use crate::network::{Network, NetworkError, ScaledScene};
+use crate::recurrence::Recurrence;
+use crate::scenes;
+use crate::solution::Solution;
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use wavestep_polynomial::Rational;
+
+pub use check::{Checked, Derivations, General, Periods, Solved};
+pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
+pub use equal::{Crossing, EqualError, EqualExtrema};
+pub use error::{Missing, ProblemError};
+pub use evaluate::{Digits, OnWindow, Proven};
+pub use find::Course;
+pub use given::{Given, number};
+pub use lock::{LockRefusal, ToLock};
+pub use times::{evenly_spaced, two_figures, window};
+pub use validity::{Holds, Pressed};
+pub use wanted::Wanted;
+
+/// Values in place of symbols, by name.
+pub type Values = BTreeMap<String, Rational>;
+
+/// A text that was read, with values in place of symbols.
+///
+/// ```
+/// use wavestep::problem::Problem;
+///
+/// let problem = Problem::builtin("rigid-mass")?.with("μ", "1/4")?;
+/// assert_eq!(problem.title(), "Rigid mass on a fixed bar");
+/// assert_eq!(problem.wanted("velocity")?.name(), "velocity");
+/// # Ok::<(), wavestep::problem::ProblemError>(())
+/// ```
+pub struct Problem {
+    source: Source,
+    values: Values,
+    kind: Kind,
+}
+
+/// What can be asked of a text depends on what it states.
+enum Kind {
+    /// Equations between the waves of successive periods.
+    Equations(Box<Solution>),
+    /// Bars and elements whose laws are linear, as long as contacts stay closed.
+    Line { network: Box<Network>, solution: OnceCell<Result<Box<Solution>, NetworkError>> },
+    /// Bars with a local contact, which has no recurrence.
+    LocalContact(Box<ScaledScene>),
+}
+
+impl Problem {
+    /// Reads a text that errors call by this name.
+    ///
+    /// # Errors
+    /// [`ProblemError::Text`] with all mistakes found, or why the scene cannot be laid out.
+    pub fn read(
+        name: &str,
+        text: impl AsRef<[u8]>,
+        values: &Values,
+    ) -> Result<Problem, ProblemError> {
+        Problem::of(Source::new(name, text)?, values.clone())
+    }
+
+    /// Reads the built-in scene of this name.
+    ///
+    /// # Errors
+    /// [`ProblemError::NotBuiltIn`] where there is none.
+    pub fn builtin(name: &str) -> Result<Problem, ProblemError> {
+        match scenes::find(name) {
+            Some(scene) => Problem::read(scene.name, scene.text, &Values::new()),
+            None => Err(ProblemError::NotBuiltIn(name.to_owned())),
+        }
+    }
+
+    /// The same text with one more value in place of a symbol, before anything is derived.
+    ///
+    /// # Errors
+    /// As [`Problem::read`]; also a value that is no number.
+    pub fn with(&self, name: &str, value: impl Into<Given>) -> Result<Problem, ProblemError> {
+        let mut values = self.values.clone();
+        let value = value.into().number(name)?;
+        values.insert(language::normalise_name(name), value);
+        Problem::of(self.source.clone(), values)
+    }
+
+    /// The same text with its symbols, and no values.
+    ///
+    /// # Errors
+    /// As [`Problem::read`].
+    pub fn without_values(&self) -> Result<Problem, ProblemError> {
+        Problem::of(self.source.clone(), Values::new())
+    }
+
+    fn of(source: Source, values: Values) -> Result<Problem, ProblemError> {
+        let kind = match language::read(&source, &values)? {
+            Stated::Recurrence(recurrence) => Kind::Equations(Box::new(Solution::new(*recurrence))),
+            Stated::Scene(scene) => {
+                let scaled = ScaledScene::of(&scene)?;
+                match scaled.local_contact() {
+                    Some(_) => Kind::LocalContact(Box::new(scaled)),
+                    None => {
+                        let network = Box::new(scaled.network()?);
+                        Kind::Line { network, solution: OnceCell::new() }
+                    }
+                }
+            }
+        };
+        Ok(Problem { source, values, kind })
+    }
+
+    /// The values put in place of symbols.
+    pub fn values(&self) -> &Values {
+        &self.values
+    }
+
+    /// The title.
+    pub fn title(&self) -> &str {
+        match &self.kind {
+            Kind::Equations(solution) => &solution.recurrence().statement().title,
+            Kind::Line { network, .. } => &network.scene().title,
+            Kind::LocalContact(scaled) => &scaled.scene().title,
+        }
+    }
+
+    /// The scene in its own scales.
+    ///
+    /// # Errors
+    /// [`ProblemError::Equations`] where the text states equations.
+    pub fn scaled(&self) -> Result<&ScaledScene, ProblemError> {
+        match &self.kind {
+            Kind::Equations(_) => Err(ProblemError::Equations(self.title().to_owned())),
+            Kind::Line { network, .. } => Ok((**network).as_ref()),
+            Kind::LocalContact(scaled) => Ok(scaled),
+        }
+    }
+
+    /// The scene as a network of waves.
+    ///
+    /// # Errors
+    /// [`ProblemError::Equations`] where the text states equations, [`ProblemError::LocalContact`] where
+    /// a law is not linear.
+    pub fn network(&self) -> Result<&Network, ProblemError> {
+        match &self.kind {
+            Kind::Line { network, .. } => Ok(network),
+            Kind::LocalContact(scaled) => Err(ProblemError::local_contact(scaled)),
+            Kind::Equations(_) => Err(ProblemError::Equations(self.title().to_owned())),
+        }
+    }
+
+    /// The recurrence, stated or derived, with its solution.
+    ///
+    /// # Errors
+    /// [`ProblemError::LocalContact`]; [`ProblemError::Network`] where no period suits all bars.
+    pub fn solution(&self) -> Result<&Solution, ProblemError> {
+        match &self.kind {
+            Kind::Equations(solution) => Ok(solution),
+            Kind::Line { network, solution } => {
+                let derived = || Ok(Box::new(Solution::new(network.recurrence()?)));
+                let solution = solution.get_or_init(derived).as_ref();
+                solution.map(Box::as_ref).map_err(|error| error.clone().into())
+            }
+            Kind::LocalContact(scaled) => Err(ProblemError::local_contact(scaled)),
+        }
+    }
+
+    /// The recurrence, stated or derived.
+    ///
+    /// # Errors
+    /// As [`Problem::solution`].
+    pub fn recurrence(&self) -> Result<&Recurrence, ProblemError> {
+        Ok(self.solution()?.recurrence())
+    }
+
+    /// Whether contacts open and close.
+    fn contacts_open(&self) -> bool {
+        matches!(&self.kind, Kind::Line { network, .. } if network.scene().contacts_open)
+    }
+
+    /// Whether waves return at times without a common measure.
+    fn on_lattice(&self) -> bool {
+        matches!(&self.kind, Kind::Line { network, .. } if network.lattice().periods().len() > 1)
+    }
+}

@@ -1,0 +1,180 @@
+//! Times, with units where the scene has them.
+
+use super::{Given, Kind, Problem, ProblemError, number};
+use crate::evaluate::{ClosedForm, EvaluateError};
+use crate::expression::Fraction;
+use crate::language::{self, Source};
+use crate::network::{Network, Observed, ObservedValue};
+use crate::scene::Dimension;
+use num_integer::Integer as _;
+use num_traits::{Signed as _, ToPrimitive as _};
+use wavestep_polynomial::{Rational, fraction};
+
+impl Problem {
+    /// Whether times and values have units.
+    pub fn has_units(&self) -> bool {
+        self.scaled().is_ok_and(|scaled| scaled.scene().dimensional)
+    }
+
+    /// The unit of times, empty where there is none.
+    pub fn time_unit(&self) -> &'static str {
+        if self.has_units() { "s" } else { "" }
+    }
+
+    /// A time from 0 on, in seconds for scenes with units; errors call it by this name.
+    ///
+    /// # Errors
+    /// [`ProblemError::Text`], [`ProblemError::NoNumber`], [`ProblemError::BeforeStart`].
+    pub fn time(&self, name: &str, time: impl Into<Given>) -> Result<Rational, ProblemError> {
+        let time = self.quantity(name, time, Dimension::TIME)?;
+        match time.is_negative() {
+            true => Err(ProblemError::BeforeStart(time)),
+            false => Ok(time),
+        }
+    }
+
+    /// Two times, the first before the last.
+    ///
+    /// # Errors
+    /// As [`Problem::time`]; [`ProblemError::EmptyWindow`].
+    pub fn window(
+        &self,
+        (from, from_text): (&str, &str),
+        (to, to_text): (&str, &str),
+    ) -> Result<[Rational; 2], ProblemError> {
+        window(self.time(from, from_text)?, self.time(to, to_text)?)
+    }
+
+    /// A number with a unit of this dimension, where the scene has units and this one has a dimension.
+    ///
+    /// # Errors
+    /// [`ProblemError::Text`], [`ProblemError::NoNumber`].
+    pub fn quantity(
+        &self,
+        name: &str,
+        given: impl Into<Given>,
+        dimension: Dimension,
+    ) -> Result<Rational, ProblemError> {
+        match given.into() {
+            Given::Text(text) if self.has_units() && dimension != Dimension::NONE => {
+                Ok(language::read_quantity(&Source::new(name, text)?, dimension)?)
+            }
+            Given::Text(text) => number(name, &text),
+            given => given.number(name),
+        }
+    }
+
+    /// The shortest time after which waves return, in the user's unit, where it is known exactly.
+    pub fn shortest_period(&self) -> Option<Rational> {
+        match &self.kind {
+            Kind::Equations(solution) => solution.recurrence().statement().period.as_constant(),
+            Kind::Line { network, .. } => {
+                let period = network.lattice().periods().first()?.as_constant()?;
+                Some(period / network.model().slowness.as_constant()?)
+            }
+            Kind::LocalContact(_) => None,
+        }
+    }
+}
+
+/// Two times, the first before the last.
+///
+/// # Errors
+/// [`ProblemError::EmptyWindow`].
+pub fn window(from: Rational, to: Rational) -> Result<[Rational; 2], ProblemError> {
+    match from < to {
+        true => Ok([from, to]),
+        false => Err(ProblemError::EmptyWindow(Box::new([from, to]))),
+    }
+}
+
+/// So many times from the first to the last, over one denominator before they are reduced.
+pub fn evenly_spaced(from: &Rational, to: &Rational, points: usize) -> Vec<Rational> {
+    let step = (to - from) / Rational::from_integer((points.max(2) - 1).into());
+    let denominator = from.denom().lcm(step.denom());
+    let [first, stride] = [from, &step].map(|value| value.numer() * (&denominator / value.denom()));
+    (0..points).map(|i| fraction(&first + &stride * i, denominator.clone())).collect()
+}
+
+/// How many periods make a usual window at least, and how often a wave may pass the whole line in it.
+const PERIODS: i64 = 4;
+const PASSAGES: i64 = 2;
+
+impl Problem {
+    /// The usual length of a window: some periods, exactly where a period is rational, else a round number
+    /// near them.
+    ///
+    /// # Errors
+    /// [`ProblemError::NoEnd`] where there is no period; [`EvaluateError::MissingValue`].
+    pub fn usual_length(&self) -> Result<Rational, ProblemError> {
+        self.has_numbers()?;
+        let periods = Rational::from_integer(PERIODS.into());
+        let network = match &self.kind {
+            Kind::Equations(_) => {
+                return Ok(self.shortest_period().ok_or(ProblemError::NoEnd)? * periods);
+            }
+            Kind::Line { network, .. } if !self.on_lattice() => network,
+            _ => return Err(ProblemError::NoEnd),
+        };
+        let periods = periods.max(passages(network));
+        if let Some(period) = self.shortest_period() {
+            return Ok(period * periods);
+        }
+        let is_linear = |observed: &&Observed| matches!(observed.value, ObservedValue::Linear(_));
+        let observed = network.observables().iter().find(is_linear).ok_or(ProblemError::NoEnd)?;
+        let form = ClosedForm::of_scene(network, observed, &Rational::default())?;
+        let period = form.period().ok_or(ProblemError::NoEnd)?;
+        two_figures(period * periods.to_f64().unwrap_or(f64::NAN))
+    }
+
+    /// So many of the shortest period.
+    ///
+    /// # Errors
+    /// [`ProblemError::NoEnd`] where it is not known exactly; [`EvaluateError::MissingValue`].
+    pub fn some_periods(&self, count: i64) -> Result<Rational, ProblemError> {
+        if let Some(period) = self.shortest_period() {
+            return Ok(period * Rational::from_integer(count.into()));
+        }
+        if !self.on_lattice()
+            && let Some(symbol) = self.recurrence()?.symbols().next()
+        {
+            return Err(EvaluateError::MissingValue(symbol.clone()).into());
+        }
+        Err(ProblemError::NoEnd)
+    }
+}
+
+/// A length with two figures, and not less.
+///
+/// # Errors
+/// [`ProblemError::NoEnd`] where the length is no number.
+pub fn two_figures(length: f64) -> Result<Rational, ProblemError> {
+    let step = 10_f64.powi(length.log10().floor() as i32 - 1);
+    let steps = (length / step).ceil().to_i64().ok_or(ProblemError::NoEnd)?;
+    let step = Rational::from_float(step).ok_or(ProblemError::NoEnd)?;
+    Ok(step * Rational::from_integer(steps.into()))
+}
+
+/// In how many periods a wave has passed the whole line twice and come to all places observed; none where
+/// that is not known exactly.
+fn passages(network: &Network) -> Rational {
+    let mut travel = Fraction::zero();
+    for bar in network.model().bars.values() {
+        if let Some(own) = &bar.travel {
+            travel = &travel + own;
+        }
+    }
+    let delays = network.observables().iter().flat_map(|observed| match &observed.value {
+        ObservedValue::Linear(observation) => observation.waves.iter(),
+        ObservedValue::Energy(_) => [].iter(),
+    });
+    let latest = delays.filter_map(|wave| wave.delay.as_constant()).max().unwrap_or_default();
+    let period = network.lattice().periods().first().and_then(Fraction::as_constant);
+    match (travel.as_constant(), period) {
+        (Some(travel), Some(period)) => {
+            let passages = Rational::from_integer(PASSAGES.into());
+            ((travel * passages + latest) / period).ceil()
+        }
+        _ => Rational::default(),
+    }
+}

@@ -1,0 +1,89 @@
+//! How long forms with closed contacts are true.
+
+use super::{Kind, Problem};
+use crate::evaluate::Value;
+use crate::history::Validity;
+use crate::network::Network;
+use crate::scene::{Element, Joint, Kind as ElementKind, Scene};
+use wavestep_polynomial::Rational;
+
+/// How many cells are followed beside a derivation.
+const CELLS: usize = 500;
+
+/// How many cells are followed beside a search, which is not to wait for it.
+const FEW_CELLS: usize = 200;
+
+/// How long forms with closed contacts are true.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Holds {
+    /// Until these two part.
+    UntilTheyPart(Value, [String; 2]),
+    /// Until the contact between these two would pull.
+    UntilItPulls(Value, [String; 2]),
+    /// Until this time at least.
+    AtLeastUntil(Value),
+    /// As long as these contacts are pressed.
+    AsLongAs(Vec<Pressed>),
+}
+
+/// A contact that has to be pressed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Pressed {
+    /// Its force as a scene states it, where a bar or a spring is beside it.
+    pub force: Option<String>,
+    /// What is at its left and right.
+    pub between: [String; 2],
+}
+
+impl Problem {
+    /// How long forms with closed contacts are true; `None` where there are no contacts.
+    pub fn holds(&self, digits: usize) -> Option<Holds> {
+        let network = self.with_contacts()?;
+        Some(match Validity::of(network, None, digits, CELLS) {
+            Ok(Validity::Until { time, between }) => match self.contacts_open() {
+                true => Holds::UntilTheyPart(time, between),
+                false => Holds::UntilItPulls(time, between),
+            },
+            Ok(Validity::Followed(time)) => Holds::AtLeastUntil(time),
+            Err(_) => Holds::AsLongAs(pressed(network.scene())),
+        })
+    }
+
+    /// The first time at which a contact that stays closed would pull, and what is beside it, where that
+    /// is before a time and soon known.
+    pub fn pulls(&self, before: &Rational, digits: usize) -> Option<(Value, [String; 2])> {
+        let network = self.with_contacts().filter(|_| !self.contacts_open())?;
+        match Validity::of(network, Some(before), digits, FEW_CELLS) {
+            Ok(Validity::Until { time, between }) => Some((time, between)),
+            _ => None,
+        }
+    }
+
+    fn with_contacts(&self) -> Option<&Network> {
+        let Kind::Line { network, .. } = &self.kind else { return None };
+        network.scene().line.joints.contains(&Joint::Contact).then_some(network)
+    }
+}
+
+/// The contacts of a scene, with the forces of bars or springs beside them.
+fn pressed(scene: &Scene) -> Vec<Pressed> {
+    let line = &scene.line;
+    let contacts = line.joints.iter().enumerate().filter(|(_, joint)| **joint == Joint::Contact);
+    let pressed = |(joint, _): (usize, &Joint)| {
+        let left = joint.checked_sub(1).map(|place| &scene.elements[line.elements[place]]);
+        let right = line.elements.get(joint).map(|place| &scene.elements[*place]);
+        let force = [(left, "right"), (right, "left")].into_iter().find_map(|(element, end)| {
+            let element = element?;
+            match element.kind {
+                ElementKind::Bar(_) => Some(format!("force({}.{end})", element.name)),
+                ElementKind::Spring(_) => Some(format!("force({})", element.name)),
+                _ => None,
+            }
+        });
+        let name = |element: Option<&Element>| {
+            element.map_or("wall", |element| element.name.as_str()).to_owned()
+        };
+        Pressed { force, between: [name(left), name(right)] }
+    };
+    contacts.map(pressed).collect()
+}

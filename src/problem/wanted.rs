@@ -1,0 +1,159 @@
+//! Waves and observables by name.
+
+use super::{Kind, Problem, ProblemError};
+use crate::expression::{Expression, Fraction, Root};
+use crate::language;
+use crate::network::{Network, Observed, ObservedValue};
+use crate::recurrence::{Observation, ObservedWave};
+use crate::scene::{Dimension, Scene};
+
+/// A wave or an observable of a problem.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Wanted {
+    name: String,
+    dimension: Dimension,
+    /// What it is in waves; `None` where there are none.
+    observed: Option<Observed>,
+    /// Its place among the observables of a scene.
+    place: Option<usize>,
+}
+
+impl Wanted {
+    /// What it is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The dimension of its values; none for waves, and in scenes without units.
+    pub fn dimension(&self) -> Dimension {
+        self.dimension
+    }
+
+    /// The unit of its values, empty where there is none.
+    pub fn unit(&self) -> String {
+        language::unit_of(self.dimension)
+    }
+
+    /// What it is in waves.
+    pub(super) fn observed(&self) -> Option<&Observed> {
+        self.observed.as_ref()
+    }
+
+    /// Its place among the observables of a scene.
+    pub(super) fn place(&self) -> Option<usize> {
+        self.place
+    }
+
+    /// What it is where it is linear in the waves.
+    pub fn observation(&self) -> Option<&Observation> {
+        match &self.observed.as_ref()?.value {
+            ObservedValue::Linear(observation) => Some(observation),
+            ObservedValue::Energy(_) => None,
+        }
+    }
+
+    fn of_observed(observed: Observed, place: Option<usize>) -> Wanted {
+        let (name, dimension) = (observed.name.clone(), observed.dimension);
+        Wanted { name, dimension, observed: Some(observed), place }
+    }
+
+    fn linear(name: &str, observation: Observation) -> Wanted {
+        let value = ObservedValue::Linear(observation);
+        let (name, unit) = (name.to_owned(), Root::from(Fraction::one()));
+        Wanted::of_observed(Observed { name, value, unit, dimension: Dimension::NONE }, None)
+    }
+}
+
+impl Problem {
+    /// The wave or observable of this name.
+    ///
+    /// # Errors
+    /// [`ProblemError::Unknown`]; [`ProblemError::WaveOfClosedContacts`] for a wave of a scene whose
+    /// contacts open.
+    pub fn wanted(&self, name: &str) -> Result<Wanted, ProblemError> {
+        let known = language::normalise_name(name);
+        let found = match &self.kind {
+            Kind::Equations(solution) => {
+                let observation = solution.recurrence().observation(&known);
+                observation.map(|observation| Wanted::linear(&known, observation))
+            }
+            Kind::Line { network, .. } => {
+                let found = of_network(network, &known);
+                if found.as_ref().is_some_and(|found| found.place.is_none()) && self.contacts_open()
+                {
+                    return Err(ProblemError::WaveOfClosedContacts(known));
+                }
+                found
+            }
+            Kind::LocalContact(scaled) => of_model(scaled.scene(), &known),
+        };
+        let names = || self.names().map(str::to_owned).collect();
+        found.ok_or_else(|| ProblemError::Unknown { name: name.to_owned(), names: names() })
+    }
+
+    /// What is observed, in the order of the text.
+    pub fn observables(&self) -> Vec<&str> {
+        match &self.kind {
+            Kind::Equations(solution) => {
+                let observables = &solution.recurrence().statement().observables;
+                observables.iter().map(|observable| observable.name.as_str()).collect()
+            }
+            Kind::Line { network, .. } => {
+                network.observables().iter().map(|observed| observed.name.as_str()).collect()
+            }
+            Kind::LocalContact(scaled) => {
+                let observables = &scaled.scene().observables;
+                observables.iter().map(|observable| observable.name.as_str()).collect()
+            }
+        }
+    }
+
+    /// What is looked at where nothing is named: the first observable, or the first wave.
+    pub fn usual_quantity(&self) -> Option<&str> {
+        self.observables().first().or(self.waves().first()).copied()
+    }
+
+    /// The waves that are stated or derived; none where there is a local contact.
+    pub fn waves(&self) -> Vec<&str> {
+        match &self.kind {
+            Kind::Equations(solution) => {
+                solution.recurrence().statement().waves.iter().map(String::as_str).collect()
+            }
+            Kind::Line { network, .. } => {
+                network.waves().iter().map(|wave| wave.name.as_str()).collect()
+            }
+            Kind::LocalContact(_) => Vec::new(),
+        }
+    }
+
+    /// All that can be asked for, in the order of the statements it comes from.
+    fn names(&self) -> impl Iterator<Item = &str> {
+        let (mut first, mut then) = (self.observables(), self.waves());
+        if matches!(self.kind, Kind::Equations(_)) {
+            std::mem::swap(&mut first, &mut then);
+        }
+        first.into_iter().chain(then)
+    }
+}
+
+fn of_network(network: &Network, name: &str) -> Option<Wanted> {
+    let observables = network.observables();
+    if let Some(place) = observables.iter().position(|observed| observed.name == name) {
+        return Some(Wanted::of_observed(observables[place].clone(), Some(place)));
+    }
+    let wave = network.waves().iter().position(|wave| wave.name == name)?;
+    let (coefficient, delay) = (Expression::one(), Fraction::zero());
+    let seen = ObservedWave { coefficient, wave, slope: false, delay };
+    let observation = Observation { waves: vec![seen], forcing: Expression::zero() };
+    Some(Wanted::linear(name, observation))
+}
+
+/// An observable of a scene that has values by models only.
+fn of_model(scene: &Scene, name: &str) -> Option<Wanted> {
+    let place = scene.observables.iter().position(|observable| observable.name == name)?;
+    let dimension = match scene.dimensional {
+        true => scene.observables[place].terms.first()?.measure.dimension(),
+        false => Dimension::NONE,
+    };
+    Some(Wanted { name: name.to_owned(), dimension, observed: None, place: Some(place) })
+}
