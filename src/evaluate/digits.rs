@@ -92,7 +92,10 @@ impl Point<'_> {
             }
         }
         let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
-        match Value::certify(digits, tie_bits, &self.enclose)?.exact_if_known() {
+        match Value::certify(digits, tie_bits, &self.enclose)? {
+            Value::Certified { decimal, ball } if ball.is_exact() && decimal.is_zero() => {
+                return Ok(Value::Exact(Rational::default()));
+            }
             Value::Enclosed(best) => {
                 if tie_bits == limit_bits
                     && let Some(value) = Value::near_zero(&best, digits)

@@ -300,8 +300,12 @@ impl Signal for FollowedSignal<'_> {
             };
             Precisions::whole_doublings(first, MAX_HISTORY_BITS).raise(attempt)?.done()
         };
-        if let Some(exact) = value(0)?.exact() {
-            return Ok(Point::exact(exact.clone()));
+        match value(0)? {
+            Number::Exact(exact) => return Ok(Point::exact(exact)),
+            Number::Enclosed(ball) if ball.is_exact() => {
+                return Ok(Point::exact(ball.midpoint().into()));
+            }
+            Number::Enclosed(_) => {}
         }
         let enclose = move |bits| Ok(value(bits)?.ball(bits));
         Ok(Point {

@@ -102,7 +102,7 @@ impl<'a> ClosedSignal<'a> {
     }
 
     fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
-        if to < from || *from < Rational::default() {
+        if to < from {
             return Err(EvaluateError::EmptyWindow);
         }
         let window = [from.clone(), to.clone()];

@@ -51,7 +51,7 @@ impl<'a> Search<'a> {
     /// window; [`EvaluateError::NotLinear`] for energies.
     pub fn new(signal: &'a dyn Signal) -> Result<Search<'a>, EvaluateError> {
         let window = signal.window();
-        if window[1] <= window[0] {
+        if window[1] <= window[0] || *window[0] < Rational::default() {
             return Err(EvaluateError::EmptyWindow);
         }
         let (bits, work) = (Cell::new(FIRST_BITS), Cell::new(0));
