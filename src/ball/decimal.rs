@@ -75,7 +75,7 @@ impl Decimal {
     /// Panics if `significant` is zero.
     ///
     /// # Cost
-    /// A division of integers as long as the fraction's terms and the digits asked.
+    /// A division of integers as long as the fraction's terms and the digits.
     #[must_use]
     pub fn from_rational(value: &BigRational, significant: usize) -> (Self, Exactness) {
         assert!(significant > 0, "a decimal has at least one digit");

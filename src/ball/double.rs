@@ -35,7 +35,7 @@ impl Ball {
     pub fn rounded(&self) -> Option<f64> {
         let (lower, upper) = self.endpoints();
         let (lower, upper) = (lower.to_double(), upper.to_double());
-        // 0 and −0 are equal and told apart: a value that may be either is not decided.
+        // 0 and −0 have different bits, so a value that may be either is not decided.
         (lower.to_bits() == upper.to_bits()).then_some(lower)
     }
 }
@@ -95,8 +95,8 @@ impl Binary {
 }
 
 impl Magnitude {
-    /// The least magnitude of at least the absolute value of a double; nothing is known of those that
-    /// are no numbers.
+    /// The least magnitude of at least the absolute value of a double; `2^(2^20)` if it is infinite or
+    /// not a number.
     pub(crate) fn from_double(value: f64) -> Magnitude {
         match Binary::from_double(value) {
             Some(binary) => binary.magnitude(),

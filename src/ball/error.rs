@@ -1,4 +1,4 @@
-//! What can be wrong with the operands of an operation on balls.
+//! Errors of operations on balls.
 
 /// The logarithm of the largest argument of exponentials, sines and cosines: `2^40`.
 pub(super) const ARGUMENT_BITS: u32 = 40;

@@ -21,7 +21,7 @@ struct Reduction {
     halvings: u64,
     /// The Taylor sum works in units of `2^(−w)`.
     working: u64,
-    /// The asked precision `p`.
+    /// The precision `p` of the result.
     precision: u64,
 }
 

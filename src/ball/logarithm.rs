@@ -66,7 +66,7 @@ impl Ball {
     /// [`BallError::ArgumentTooLarge`] where its logarithm exceeds what exponentials take.
     ///
     /// # Cost
-    /// Some two exponentials of the precision asked for.
+    /// About two exponentials of the same precision.
     pub fn ln(&self, precision: u64) -> Result<Ball, BallError> {
         if self.contains_zero() || self.midpoint().is_negative() {
             return Err(BallError::NotPositive);

@@ -28,7 +28,7 @@ mod value;
 
 pub use ball::Ball;
 pub use binary::Binary;
-pub use complex::ComplexBall;
+pub(crate) use complex::ComplexBall;
 pub use decimal::{Decimal, Exactness, in_decimals};
 pub(crate) use divided::evaluate_divided;
 pub(crate) use double::unit_in_the_last_place;

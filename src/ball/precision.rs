@@ -12,7 +12,7 @@ pub struct Precisions {
     limit: u64,
 }
 
-/// What came of one precision.
+/// The outcome of one precision.
 #[derive(PartialEq, Debug)]
 pub enum Attempt<T, B = T> {
     /// The answer.

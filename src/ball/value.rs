@@ -94,7 +94,7 @@ impl Value {
         }
     }
 
-    /// Zero as far as can be told, where an enclosure says so: it is told as `0 ± r`.
+    /// A ball around zero that is negligibly small counts as zero; it is written as `0 ± r`.
     pub(crate) fn near_zero(ball: &Ball, digits: usize) -> Option<Value> {
         if !ball.contains_zero() || *ball.radius() > Magnitude::power_of_two(-NEGLIGIBLE_BITS) {
             return None;
@@ -104,7 +104,7 @@ impl Value {
     }
 
     /// The value rounded to `digits` significant digits, and whether they are all of it. A certified
-    /// value has the digits that it was asked for, the midpoint of an enclosure those that it proves.
+    /// value has the digits it was computed to, the midpoint of an enclosure those that it proves.
     pub fn decimal(&self, digits: usize) -> (Decimal, Exactness) {
         match self {
             Value::Exact(value) => Decimal::from_rational(value, digits),

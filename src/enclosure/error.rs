@@ -14,7 +14,7 @@ pub enum EnclosureError {
     /// An enclosure could not be computed.
     #[error(transparent)]
     Ball(BallError),
-    /// The square root of what is not certainly positive.
+    /// The square root of a number that may not be positive.
     #[error("the value is not real")]
     NotReal,
     /// A value that cannot be divided by.

@@ -11,7 +11,7 @@ type Powers = BTreeMap<Symbol, Vec<ComplexBall>>;
 
 /// Encloses the value of an expression with about `bits` bits.
 ///
-/// Square roots are known by themselves; for every other symbol `values` is asked, with the bits that
+/// Square roots are known; every other symbol has the value that `values` gives, with the bits that
 /// are wanted. An expression that is real, such as a sum of conjugate terms, has an imaginary part
 /// whose enclosure contains 0.
 ///

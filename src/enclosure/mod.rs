@@ -1,7 +1,7 @@
 //! Exact values as numbers: enclosures of expressions, and of constants that have names.
 //!
 //! A named constant is no rational number; formulas hold its symbol, and here its definition is worked
-//! out to as many bits as are asked for.
+//! out to any number of bits.
 
 mod error;
 mod expression;
@@ -12,4 +12,4 @@ pub use error::EnclosureError;
 pub use expression::enclose_expression;
 pub use numbers::Numbers;
 pub(crate) use numbers::real_part;
-pub use zero::{ZeroError, enclose_zero};
+pub use zero::enclose_zero;

@@ -19,7 +19,7 @@ const MAX_HALVINGS: u32 = 200;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ZeroError {
-    /// The expression has the same sign at both ends, or none that can be told.
+    /// The expression has the same sign at both ends, or a sign is not decided.
     #[error("the expression has no certain change of sign between these bounds; take others")]
     SameSign,
     /// The derivative has no certain sign on any interval that was tried: the zero may be double.
@@ -43,7 +43,7 @@ impl Function<'_> {
         Ok(real_part(enclose_expression(expression, &at, bits)?)?)
     }
 
-    /// The sign at a number; `None` where it cannot be told.
+    /// The sign at a number; `None` where it is not decided.
     fn sign(&self, x: &Rational) -> Result<Option<Ordering>, ZeroError> {
         let attempt = |bits| {
             let value = self.enclose(self.value, &Ball::from_rational(x, bits), bits)?;
@@ -167,7 +167,7 @@ mod tests {
         let power = Expression::exponential(Fraction::symbol(&x())).times(&Fraction::symbol(&x()));
         let omega = enclose_zero(&(&power - &Expression::one()), &x(), &ends(0, 1), 100).unwrap();
         assert!(omega.to_string().starts_with("0.567143290409783872999968662"));
-        // A zero in the middle, where no sign can be told.
+        // A zero in the middle, where the sign is not decided.
         let zero = enclose_zero(&polynomial("x^3 + x - 2"), &x(), &ends(0, 2), 80);
         assert!(zero.unwrap().contains(&ends(1, 1)[0]));
     }

@@ -2,7 +2,7 @@
 //!
 //! First the exponential of the time variable, then descending powers of that variable, each with
 //! its coefficient; coefficients ascend in the exponentials of symbols (`1 + e^{−2μ} + …`) and in
-//! the symbols. The sign stands outside a bracket, so that what is inside starts positive; a common
+//! the symbols. The sign stands outside a bracket, so that the inside starts positive; a common
 //! denominator stands outside, a common integer factor stays inside. Conjugate exponentials are
 //! written as cosines and sines.
 
@@ -76,7 +76,7 @@ impl Arrangement {
     }
 }
 
-/// What stands beside a power of the variable: `(1/power!) Σ p e^{λ}`, by ascending exponent.
+/// The coefficient of a power of the variable: `(1/power!) Σ p e^{λ}`, by ascending exponent.
 struct Coefficient {
     power: u32,
     divisor: Integer,
@@ -119,7 +119,7 @@ fn by_rate_and_power(
     groups
 }
 
-/// The exponential, and the cosine or sine, of those that there are.
+/// The exponential, and the cosine or sine, if they are not 1.
 fn wave_factors(oscillation: &Oscillation) -> Vec<Tree> {
     let mut factors = Vec::new();
     if !oscillation.growth.is_zero() {

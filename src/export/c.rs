@@ -1,20 +1,20 @@
 //! A window of an observable as a C function, with its proven bound in the file.
 //!
-//! What is written is the table of a [`Compiled`] observable: polynomials, and buckets of equal length
+//! The file holds the table of a [`Compiled`] observable: polynomials, and buckets of equal length
 //! in which the polynomial of a time is looked up. The function needs nothing but C89 and doubles after
 //! IEEE 754; the bound holds whether multiplications and additions are fused or not.
 
 use crate::evaluate::{Compiled, Method as _};
 use std::fmt::Write as _;
 
-/// What a C file says of itself.
+/// The heading of a C file.
 #[derive(Clone, Debug)]
 pub struct CHeading {
     /// The title of the scene.
     pub title: String,
     /// The name of the observable, also that of the function.
     pub quantity: String,
-    /// The unit of its values; none where it is empty.
+    /// The unit of its values; empty if they have none.
     pub unit: String,
     /// The unit of time.
     pub time_unit: String,
@@ -59,7 +59,7 @@ pub fn to_c(compiled: &Compiled<'_>, heading: &CHeading) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let name: String = heading.quantity.chars().map(letter).collect();
     let bound = number(compiled.bound().unwrap_or(f64::INFINITY));
-    // What ends a comment would end this one.
+    // The end of a comment would end this one.
     let plain = |text: &str| text.replace("*/", "* /").replace(['\n', '\r'], " ");
     let unit = |unit: &str| if unit.is_empty() { "1".to_owned() } else { plain(unit) };
     let mut output = String::new();

@@ -412,7 +412,7 @@ fn stand_in(wave: usize, lag: usize, slope: bool) -> Symbol {
     Symbol::new(&name).expect("a name with letters in front")
 }
 
-/// A symbol for what is 1 from a period on, and 0 before.
+/// A symbol for a step: 1 from a period on, and 0 before.
 fn from_period(lag: usize) -> Symbol {
     Symbol::new(&format!("from_{lag}")).expect("a name with letters in front")
 }
@@ -426,7 +426,7 @@ fn negated(part: &Expression) -> Vec<Term> {
     arrange(part, None).into_iter().map(flip).collect()
 }
 
-/// What a law says, in a sentence.
+/// A law in a sentence.
 fn told(network: &Network, law: &Law) -> String {
     let scene = network.scene();
     let name = |element: &ElementIndex| format!("`{}`", scene.elements[*element].name);

@@ -16,7 +16,7 @@ pub const TEXT_WIDTH: usize = 100;
 /// The width of a line of LaTeX, in characters on the page.
 pub const LATEX_WIDTH: usize = 84;
 
-/// What the left-hand side of a formula names.
+/// The left-hand side of a formula.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Head {
     /// `f[3](s)`: a wave on one period.
@@ -94,7 +94,7 @@ impl Head {
     }
 }
 
-/// What the right-hand side of a formula says.
+/// The right-hand side of a formula.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Right {
     /// A sum of terms; zero where there are none.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use wavestep_polynomial::Symbol;
 
-/// What is written for a symbol, in each notation.
+/// The name of a symbol, in each notation.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Name {
     /// In plain text.
@@ -16,5 +16,5 @@ pub(crate) struct Name {
     pub leads: bool,
 }
 
-/// What is written for symbols; others keep their names.
+/// The names of symbols that are not written by their own.
 pub(crate) type Names = BTreeMap<Symbol, Name>;

@@ -17,7 +17,7 @@ pub(crate) trait Notation {
     fn power(&self, base: &str, exponent: &str) -> String;
     /// `e^{exponent}`.
     fn exponential(&self, exponent: &str) -> String;
-    /// The root of a positive integer, times the imaginary unit where that is said.
+    /// The root of a positive integer; times the imaginary unit if `imaginary`.
     fn root(&self, radicand: &Integer, imaginary: bool) -> String;
     /// `cos(…)`, `sin(…)`.
     fn function(&self, name: &str, argument: &str) -> String;
@@ -27,13 +27,13 @@ pub(crate) trait Notation {
     fn laguerre(&self, index: &str, argument: &str) -> String;
     /// A factorial.
     fn factorial(&self, of: &str, simple: bool) -> String;
-    /// What stands before a symbol that is a factor.
+    /// The sign before a symbol that is a factor.
     fn times_symbol(&self) -> &'static str;
     /// The name of a symbol that has one of its own, in this notation.
     fn choose<'a>(&self, name: &'a Name) -> &'a str;
-    /// What stands between two factors.
+    /// The sign between two factors.
     fn times(&self, left: &Tree, right: &Tree) -> &'static str;
-    /// Brackets that grow with what is in them.
+    /// Brackets that grow with their contents.
     fn enclosed(&self, text: &str) -> String;
     /// Brackets that lines may be broken in.
     fn brackets(&self, of: &Tree) -> (&'static str, &'static str);
@@ -81,7 +81,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Whether what is written for a symbol takes brackets as a factor or a base.
+    /// Whether the name of a symbol takes brackets as a factor or a base.
     fn is_compound(&self, symbol: &Symbol) -> bool {
         self.names.get(symbol).is_some_and(|name| name.compound)
     }

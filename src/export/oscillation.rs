@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 use std::borrow::Cow;
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 
-/// `e^{growth}`, times the cosine or the sine of an angle where there is one.
+/// `e^{growth}`, times the cosine or the sine of the angle, if any.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) struct Oscillation {
     /// The exponent; real where there is an angle.
@@ -131,7 +131,7 @@ mod tests {
             assert_eq!(sum, real);
             assert!(oscillations(&real).iter().all(|(o, _)| o.growth.roots().all(|r| *r != i)));
         }
-        // What is not real is left alone.
+        // Expressions that are not real stay as they are.
         assert!(oscillations(&whole).iter().all(|(oscillation, _)| oscillation.angle.is_none()));
     }
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use wavestep_polynomial::{Integer, Ordinary, Polynomial, Rational, Symbol};
 
 /// The terms of a fraction: those of the numerator, ascending in the symbols, or one quotient
-/// with what is common to the terms of the numerator in front of them.
+/// with the common factors of the numerator's terms in front.
 pub(crate) fn fraction_terms(fraction: &Fraction) -> Vec<Term> {
     divided_terms(fraction, &Integer::one())
 }

@@ -68,7 +68,7 @@ pub(crate) enum Tree {
     Exponential(Sign, Box<Tree>),
     /// `cos(…)` or `sin(…)`.
     Oscillation(Circular, Box<Tree>),
-    /// The square root of a positive integer, times the imaginary unit where that is said.
+    /// The square root of a positive integer; times the imaginary unit if true.
     Root(Integer, bool),
     /// `L_k(x)`, a Laguerre polynomial: index and argument.
     Laguerre(Box<Tree>, Box<Tree>),
@@ -221,7 +221,7 @@ impl Tree {
     }
 }
 
-/// Takes the sign out of a sum, so that what is left starts positive.
+/// Takes the sign out of a sum, so that the rest starts positive.
 pub(crate) fn positive_first(mut terms: Vec<Term>) -> (Sign, Vec<Term>) {
     let sign = terms.first().map_or(Sign::Plus, |term| term.0);
     terms.iter_mut().for_each(|term| term.0 = term.0.times(sign));

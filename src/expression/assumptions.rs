@@ -1,4 +1,4 @@
-//! What is known of the symbols: conditions on their values, and factors that are not zero.
+//! Assumptions on symbols: conditions on their values, and factors that are not zero.
 
 use crate::expression::fraction::Fraction;
 use crate::expression::sum::Expression;
@@ -71,7 +71,7 @@ impl fmt::Display for Condition {
     }
 }
 
-/// What answers may rely on: conditions on symbols, and irreducible factors taken to be non-zero.
+/// Conditions on symbols, and irreducible factors taken to be non-zero.
 ///
 /// Only declared factors, and such as cannot vanish under the conditions, are divided by. A
 /// symbolic answer therefore holds wherever the conditions hold and no factor vanishes; other
@@ -82,7 +82,7 @@ pub struct Assumptions {
     factors: BTreeSet<Polynomial>,
     /// Numbers between which the values of symbols lie.
     bounds: BTreeMap<Symbol, (Rational, Rational)>,
-    /// What the squares of symbols are.
+    /// The squares of symbols.
     squares: BTreeMap<Symbol, Fraction>,
 }
 
@@ -196,7 +196,7 @@ impl Assumptions {
     /// symbols, it is its norm that must be such a product, or a power of one.
     ///
     /// # Errors
-    /// [`NotInvertible`] with the part that stands in the way.
+    /// [`NotInvertible`] with the factor that prevents it.
     pub fn invert(&self, value: &Expression) -> Result<Expression, NotInvertible> {
         let mut terms = value.terms();
         let (exponent, coefficient) = terms.next().ok_or(NotInvertible::Zero)?;

@@ -19,12 +19,12 @@ impl Root {
         Root { factor: Fraction::one(), radicand }.normal()
     }
 
-    /// What stands before the root.
+    /// The factor before the root.
     pub fn factor(&self) -> &Fraction {
         &self.factor
     }
 
-    /// What stands under the root; 1 where the value is a fraction.
+    /// The radicand; 1 where the value is a fraction.
     pub fn radicand(&self) -> &Fraction {
         &self.radicand
     }
@@ -86,7 +86,7 @@ fn rational_square_root(value: &Rational) -> Option<Rational> {
     }
 }
 
-/// What a named constant is.
+/// The definition of a named constant.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Definition {
     /// A factor times a square root.
@@ -96,7 +96,7 @@ pub enum Definition {
     Zero {
         /// The coefficients.
         polynomial: Vec<Fraction>,
-        /// Where the zero is looked for.
+        /// The ends of the interval.
         between: (Rational, Rational),
     },
     /// The real or imaginary part of a complex zero of a polynomial, coefficients from the highest
@@ -123,6 +123,6 @@ impl From<Root> for Definition {
 pub struct Constant {
     /// Its name in formulas.
     pub symbol: Symbol,
-    /// What it is, in `pi`, constants before it, and the scene's symbols.
+    /// Its definition, in `pi`, constants before it, and the scene's symbols.
     pub value: Definition,
 }

@@ -1,4 +1,4 @@
-//! Exact values: exponential polynomials with one normal form, and what is built of them.
+//! Exact values: exponential polynomials with one normal form, and functions made of them.
 //!
 //! [`Expression`] is a sum `Σ_j p_j e^{λ_j}` whose coefficients and exponents are [`Fraction`]s:
 //! polynomials in named symbols, localised at factors known to be non-zero. A wave function on one
@@ -24,4 +24,5 @@ pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};
 pub use piecewise::Piecewise;
 pub use sum::{ExponentialSum, Expression};
-pub use transform::{Exact, Field, InexactDivision, Transform};
+pub(crate) use transform::InexactDivision;
+pub use transform::{Exact, Field, Transform};

@@ -26,7 +26,7 @@ impl Fraction {
     /// rational times square roots of −1 and of primes. Of the two, the one whose numerator has a
     /// positive leading coefficient beside the roots.
     ///
-    /// `None` where there is none of this kind: for what is no rational times a square, for what
+    /// `None` where there is none of this kind: for values that are no rational times a square, for what
     /// holds square roots itself, and for a `c` whose factors are not found. All primes up to
     /// `10⁶` are tried; what is left may be a square, or a prime below `10¹²`.
     pub fn square_root(&self) -> Option<Fraction> {

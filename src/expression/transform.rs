@@ -22,7 +22,7 @@ pub struct Transform<V = Expression> {
     poles: BTreeMap<Fraction, Vec<V>>,
 }
 
-/// What the coefficients of a [`Transform`] are computed in: exact expressions, or enclosures of a
+/// The field of the coefficients of a [`Transform`]: exact expressions, or enclosures of a
 /// given precision. Poles are exact in either case, so that equal ones are recognised.
 pub trait Field {
     /// A coefficient.
@@ -103,7 +103,7 @@ impl Field for Exact<'_> {
 /// A division that cannot be done exactly.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum InexactDivision {
-    /// By what is not known to be non-zero.
+    /// The divisor is not known to be non-zero.
     #[error(transparent)]
     NotInvertible(#[from] NotInvertible),
     /// By what a fraction cannot have in its denominator.

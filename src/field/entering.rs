@@ -1,4 +1,4 @@
-//! What fields are made of: the two waves of every bar, as they enter it at its ends.
+//! The two waves of every bar as they enter it at its ends, of which fields are made.
 //!
 //! A wave to the right enters a bar at its left end and passes every section unchanged; one to the left
 //! enters at the right end. All fields follow from them. For contacts that stay closed they are sums of

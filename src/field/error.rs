@@ -12,7 +12,7 @@ pub enum FieldError {
     /// A number of cells that a bar is not divided into.
     #[error("{cells} cells a bar are none that are made: give from 1 to {limit}")]
     Cells {
-        /// What was asked for.
+        /// The name that was asked for.
         cells: usize,
         /// The most.
         limit: usize,
@@ -22,7 +22,7 @@ pub enum FieldError {
     UnknownBar {
         /// The name.
         name: String,
-        /// Those that there are.
+        /// The bars of the scene.
         bars: Vec<String>,
     },
     /// A time before the start.

@@ -30,7 +30,7 @@ use wavestep_polynomial::Rational;
 
 /// The newest version of the format, that of histories; pieces are written in version 1, which says all of
 /// them. Every version up to it is read.
-pub const FORMAT_VERSION: u32 = history_file::VERSION;
+const FORMAT_VERSION: u32 = history_file::VERSION;
 
 /// The version of files of pieces.
 pub(super) const VERSION: u32 = 1;

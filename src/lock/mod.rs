@@ -25,7 +25,6 @@ use wavestep_polynomial::{Rational, Symbol};
 
 pub use difference::Difference;
 pub use error::LockError;
-pub use file::FORMAT_VERSION;
 pub use history::{HistoryLock, HistoryRequest};
 
 /// How precisely the values of a lock may be worked out.

@@ -17,7 +17,7 @@ use crate::scene::{ElementIndex, Scene};
 use num_integer::Integer as _;
 use wavestep_polynomial::Rational;
 
-/// What a wave of a network is.
+/// The meaning of a wave of a network.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Role {
     /// The velocity wave to the right in a bar.
@@ -37,9 +37,9 @@ pub enum Role {
 /// A wave of a network.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct WaveRole {
-    /// What it is called.
+    /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its meaning.
     pub role: Role,
 }
 
@@ -116,7 +116,7 @@ impl Network {
         &self.lattice
     }
 
-    /// What a recurrence refuses, at its place.
+    /// A fault of the recurrence, at its place in the scene.
     pub(crate) fn refused(&self, invalid: InvalidRecurrence) -> NetworkError {
         let Fault::Rates { waves, .. } = invalid.fault else {
             return NetworkError::Recurrence(Box::new(invalid));

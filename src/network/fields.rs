@@ -38,7 +38,7 @@ pub(crate) struct FieldBar {
     pub right: Option<Way>,
     /// The wave to the left.
     pub left: Option<Way>,
-    /// What 1 is in the user's unit of velocity, strain, displacement and force.
+    /// The units of velocity, strain, displacement and force, in those of the user.
     pub units: [Root; 4],
     /// The way of a wave in a time of 1.
     pub reach: Root,

@@ -13,10 +13,10 @@ use crate::scene::ElementIndex;
 use std::ops::Range;
 use wavestep_polynomial::Symbol;
 
-/// What a law says.
+/// The kinds of laws.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Rule {
-    /// What is joined moves together.
+    /// Joined elements move together.
     Velocity,
     /// Without anything between them the forces on both sides are equal.
     Force,
@@ -43,7 +43,7 @@ pub enum Rule {
 pub struct Law {
     /// The node, counted from the left; none for what belongs to no node.
     pub node: Option<usize>,
-    /// What it says.
+    /// Its kind.
     pub rule: Rule,
     /// The left side.
     pub left: LinearForm,
@@ -174,7 +174,7 @@ impl Network {
     }
 }
 
-/// What passes the same force on: links with nothing but joints between them, and the sides of the node
+/// Elements that pass the same force on: links with nothing but joints between them, and the sides of the node
 /// that they reach.
 struct Chain {
     links: Range<usize>,
@@ -210,7 +210,7 @@ struct NodeLaws<'a> {
     strides: &'a [usize],
     chains: Vec<Chain>,
     laws: Vec<Law>,
-    /// What is continuous and starts at 0.
+    /// Forms that are continuous and start at 0.
     starts: Vec<LinearForm>,
 }
 
@@ -295,7 +295,7 @@ impl<'a> NodeLaws<'a> {
         chain.sides.iter().filter_map(of_side).chain(springs).collect()
     }
 
-    /// What a run of elements that move together obeys.
+    /// The laws of a run of elements that move together.
     fn motion(&mut self, run: usize) {
         let forms = self.velocity_forms(run);
         let imposing = self.node.imposing(run).next().map(|own| own.element);
@@ -374,7 +374,7 @@ impl<'a> NodeLaws<'a> {
         &self.chains[place.unwrap_or(self.chains.len() - 1)]
     }
 
-    /// What passes the same force on.
+    /// Elements that pass the same force on.
     fn force(&mut self, chain: &Chain) {
         let forms = self.force_forms(chain);
         let Some((first, others)) = forms.split_first() else { return };

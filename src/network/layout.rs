@@ -5,7 +5,7 @@ use crate::network::model::{Model, ModelLump};
 use crate::network::node::{ElementLaw, Link, Lumped, Node, Side};
 use crate::scene::{ElementIndex, End, Joint, Kind, Scene};
 
-/// What contacts are to a line.
+/// How a line treats contacts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Contacts {
     /// They stay closed: what touches moves together.
@@ -17,7 +17,7 @@ pub(crate) enum Contacts {
 /// A contact of a line that may open.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Contact {
-    /// The names of what is at its left and at its right.
+    /// The names of its neighbours at the left and at the right.
     pub names: [String; 2],
     /// Its node, and the run at its left.
     pub node: usize,

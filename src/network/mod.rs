@@ -30,17 +30,19 @@ mod system;
 mod unfold;
 
 pub use delay::Lattice;
-pub use equations::{Network, Role, WaveRole};
+pub(crate) use equations::WaveRole;
+pub use equations::{Network, Role};
 pub use error::NetworkError;
 pub(crate) use fields::{Extent, FieldBar, Way};
-pub use laws::{Law, Rule};
+pub(crate) use laws::{Law, Rule};
 pub(crate) use layout::{Contact, Contacts, Layout};
 pub(crate) use measures::{
     Elements, Energy, Face, Field, Lump, Measured, MeasuredValue, Reading, Section, Term, unit,
 };
 pub use model::{Model, ModelBar, ModelLump, Scale};
 pub(crate) use node::{ElementLaw, Lumped, Node, Side};
-pub use observe::{EnergyTerm, Observed, ObservedValue, Window};
+pub(crate) use observe::EnergyTerm;
+pub use observe::{Observed, ObservedValue, Window};
 pub use scaled::ScaledScene;
 pub(crate) use system::{System, Unresisted, dot};
-pub use unfold::Unfolded;
+pub(crate) use unfold::Unfolded;

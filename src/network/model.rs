@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
-/// What the units of a model are, in metres, kilograms and seconds.
+/// The units of a model, in metres, kilograms and seconds.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Scale {
     /// The unit `Z` of impedance.
@@ -55,20 +55,20 @@ pub enum ModelLump {
     Hertz(Fraction, Fraction, Rational),
     /// Stiffness and damping of a support.
     Support(Fraction, Fraction),
-    /// A load: what is given, its course, when it begins, and when it ends.
+    /// A load: whether a force or a velocity is given, its course, when it begins, and when it ends.
     Load(Drive, Expression, Fraction, Option<Fraction>),
 }
 
 /// A scene in scales of its own.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Model {
-    /// What is known of the symbols, and of the constants that were named.
+    /// The assumptions on symbols and named constants.
     pub assumptions: Assumptions,
     /// The constants that were named, with their definitions.
     pub constants: Vec<Constant>,
     /// The units.
     pub scale: Scale,
-    /// What one second is in the unit of time.
+    /// One second in the unit of time.
     pub slowness: Fraction,
     /// The bars by element.
     pub bars: BTreeMap<ElementIndex, ModelBar>,

@@ -7,7 +7,7 @@
 use crate::scene::{Drive, ElementIndex};
 use wavestep_polynomial::Rational;
 
-/// What a node has on one side.
+/// One side of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Side {
     /// A bar, by its place in the line.
@@ -18,7 +18,7 @@ pub(crate) enum Side {
     Fixed,
 }
 
-/// What a lumped element does.
+/// A lumped element.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum ElementLaw<V> {
     /// A mass with its velocity at the start.
@@ -42,7 +42,7 @@ pub(crate) struct Lumped<V> {
     pub law: ElementLaw<V>,
 }
 
-/// What stands between a run and the next.
+/// The link between a run and the next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Link {
     /// A contact, by its number in the line.

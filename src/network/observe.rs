@@ -1,4 +1,4 @@
-//! What is observed, as delayed waves: the readings of the table of measures in terms of echoes.
+//! Observables as delayed waves: the readings of the table of measures in terms of echoes.
 //!
 //! In a bar a wave that entered at the left end a delay ago meets one that entered at the right end; the
 //! clocks of the two nodes turn these into wave functions, which are differences from the uniform state at
@@ -18,11 +18,11 @@ use wavestep_polynomial::Rational;
 /// An observable of a scene: what it is in the waves, and its unit.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Observed {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// In the scene's own scales.
     pub value: ObservedValue,
-    /// What 1 in these scales is, in metres, kilograms and seconds.
+    /// The unit of its values, in metres, kilograms and seconds.
     pub unit: Root,
     /// The dimension of the unit; none for scenes without units.
     pub dimension: Dimension,

@@ -1,4 +1,4 @@
-//! A scene together with its scales, before anything is said of waves.
+//! A scene together with its scales, without waves.
 
 use crate::expression::Fraction;
 use crate::network::equations::Network;

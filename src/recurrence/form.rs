@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::ops::Neg;
 use wavestep_polynomial::Symbol;
 
-/// What a linear form does to one wave `w`: with `q` the shift by one period,
+/// The operator that a linear form applies to one wave `w`:
 ///
 /// ```text
 /// Σ_j (value_j w[n−j] + slope_j w'[n−j] + sum_j Σ_{i<n−j} w[i])

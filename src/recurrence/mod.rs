@@ -17,7 +17,8 @@ mod roots;
 mod statement;
 
 pub use form::{LinearForm, Operator};
-pub use notation::{SourceNotation, SourceProduct};
+pub use notation::SourceNotation;
+pub(crate) use notation::SourceProduct;
 pub use ordering::{Coupled, Start, Step};
 pub use recurrence::Recurrence;
 pub use statement::{

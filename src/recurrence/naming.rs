@@ -14,7 +14,7 @@ const GUESS_DIGITS: usize = 17;
 /// Into how many stretches a line is cut in search of a sign change.
 const STRETCHES: i64 = 64;
 
-/// The constants of a statement and those that are named, with what is assumed of them.
+/// The constants of a statement and those named since, with the assumptions on them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Naming {
     constants: Vec<Constant>,

@@ -10,7 +10,7 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// never what is derived.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct SourceNotation {
-    /// What a wave is measured in: the source's wave is the unit times ours.
+    /// The unit of a wave: the source's wave is the unit times ours.
     pub units: BTreeMap<WaveIndex, SourceProduct>,
     /// Waves that the source calls otherwise.
     pub waves: BTreeMap<WaveIndex, String>,
@@ -23,7 +23,7 @@ pub struct SourceNotation {
 }
 
 impl SourceNotation {
-    /// Whether nothing is said of the source.
+    /// Whether the source has no notation of its own.
     pub fn is_empty(&self) -> bool {
         *self == SourceNotation::default()
     }

@@ -325,7 +325,7 @@ fn assign_starts(
         }
         found.push((place, form, initial, row.clause));
     }
-    // What follows from the other rules, and is not stated twice, may stand.
+    // A rule that follows from the others is allowed, unless it is stated twice.
     let stated_once = |clause: Clause| match clause {
         Clause::Continuity(i) => {
             let same = |rule: &&Continuity| rule.form == statement.continuity[i].form;

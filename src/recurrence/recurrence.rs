@@ -49,7 +49,7 @@ impl Recurrence {
         Ok(Recurrence { statement, steps, hidden, coupled })
     }
 
-    /// What was stated.
+    /// The statement.
     pub fn statement(&self) -> &Statement {
         &self.statement
     }
@@ -77,7 +77,7 @@ impl Recurrence {
         self.statement.waves.len() + self.hidden
     }
 
-    /// What a wave is called.
+    /// The name of a wave.
     ///
     /// # Panics
     /// Where there are not so many waves.
@@ -117,7 +117,7 @@ impl Recurrence {
         start + forcing * period + (order as u64 + 1).saturating_mul(growth)
     }
 
-    /// The wave or the observable called `name`, as what is observed.
+    /// The wave or the observable called `name`, as an observation.
     pub fn observation(&self, name: &str) -> Option<Observation> {
         if let Some(wave) = self.wave(name) {
             let (coefficient, delay) = (Expression::one(), Fraction::zero());

@@ -25,7 +25,7 @@ pub struct Observable {
     pub observation: Observation,
 }
 
-/// What is observed: delayed waves with coefficients, and a function of scene time.
+/// An observed quantity: delayed waves with coefficients, and a function of scene time.
 ///
 /// ```text
 /// Σ_i coefficient_i · w_i(t − delay_i) + forcing(t),     with w_i' in place of w_i where asked for
@@ -54,7 +54,7 @@ pub struct ObservedWave {
 /// All that a person states of a recurrence.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Statement {
-    /// What is modelled, in words.
+    /// A title in words.
     pub title: String,
     /// Symbols with their conditions, and the factors taken to be non-zero.
     pub assumptions: Assumptions,
@@ -158,6 +158,6 @@ fn counted(equations: usize, waves: usize) -> String {
 pub struct InvalidRecurrence {
     /// The clause at fault.
     pub clause: Clause,
-    /// What is wrong with it.
+    /// The fault.
     pub fault: Fault,
 }

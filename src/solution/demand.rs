@@ -1,4 +1,4 @@
-//! Which echoes are needed for what is asked: those that reach an observed wave in time, and no others.
+//! The echoes that are needed: those that reach an observed wave in time, and no others.
 
 use crate::recurrence::{LinearForm, Recurrence, WaveIndex};
 

@@ -19,7 +19,7 @@ pub struct EchoByEcho<'a, F: Field = Exact<'a>> {
     recurrence: &'a Recurrence,
     field: F,
     steps: Vec<FieldStep<F::Value>>,
-    /// Which echoes are wanted; all of them where nothing is said.
+    /// The echoes that are wanted; `None` for all.
     demand: Option<Demand>,
     /// `echoes[wave][k]`: the transform of the k-th echo, zero where it is not wanted.
     echoes: Vec<Vec<Transform<F::Value>>>,
@@ -33,7 +33,7 @@ pub(crate) struct Failed<E> {
     pub wave: WaveIndex,
     /// The number of the echo.
     pub order: usize,
-    /// What stands in the way.
+    /// The reason.
     pub reason: E,
 }
 
@@ -113,7 +113,7 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
         Ok(())
     }
 
-    /// What the equation gives; for a differential one, `(right + jump) / (p + a)`.
+    /// The solution of the equation; of a differential one, `(right + jump) / (p + a)`.
     fn solve(&self, step: &FieldStep<F::Value>, k: usize) -> Result<Transform<F::Value>, F::Error> {
         let field = &self.field;
         let mut right = Transform::zero();

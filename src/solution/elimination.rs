@@ -1,7 +1,7 @@
 //! Elimination over all periods at once, for solutions in general n.
 //!
 //! A wave that is a finite combination of other waves at any lag (`g[n] = −f[n−1]`) is put into
-//! all equations; what is left are *base* waves that hopefully stand alone.
+//! all equations. The *base* waves that are left often have an equation of their own each.
 
 use crate::expression::Expression;
 use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};

@@ -47,7 +47,7 @@ pub struct SolveError {
     pub wave: String,
     /// The period or echo.
     pub order: usize,
-    /// What stands in the way.
+    /// The reason.
     #[source]
     pub reason: Unsolvable,
 }

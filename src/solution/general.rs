@@ -1,4 +1,4 @@
-//! What is known of a wave for every n at once.
+//! Waves for every n at once.
 
 use crate::expression::{Assumptions, Expression};
 use crate::recurrence::{LinearForm, Recurrence, Step, WaveIndex};
@@ -32,7 +32,7 @@ pub enum Proof {
     CoefficientIdentity,
 }
 
-/// No closed form in n was found: the equation that stood in the way.
+/// No closed form in n was found, because of this equation.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Unknown {
     /// The equation, a form that is zero, after elimination of explicit waves.
@@ -94,7 +94,7 @@ fn constant_sequence(form: &LinearForm, recurrence: &Recurrence) -> Option<Gener
     none.combined(&[], &constants).closed_form(assumptions).map(GeneralForm::Geometric)
 }
 
-/// `A(q) w + F(q)/(1−q) = 0`, and the wave asked for a combination of `w`.
+/// `A(q) w + F(q)/(1−q) = 0`, and the wave is a combination of delayed copies of `w`.
 fn sequence(step: &Step, form: &LinearForm, recurrence: &Recurrence) -> Option<GeneralForm> {
     let (assumptions, time) = context(recurrence);
     let operator = step.equation.operator(step.wave);
@@ -112,7 +112,7 @@ fn sequence(step: &Step, form: &LinearForm, recurrence: &Recurrence) -> Option<G
     combined.closed_form(assumptions).map(GeneralForm::Geometric)
 }
 
-/// One pole and one lag, and the wave asked for a combination of delayed copies.
+/// One pole and one lag, and the wave is a combination of delayed copies.
 fn echoes(
     step: &Step,
     form: &LinearForm,

@@ -5,7 +5,7 @@ use num_integer::Integer as _;
 use num_traits::{One, Signed, ToPrimitive};
 use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 
-/// The most ratios, with multiplicity, that a closed form is looked for with.
+/// The most ratios, with multiplicity, of a closed form.
 const MAX_RATIOS: usize = 16;
 
 /// One term `coefficient · n^power · ratio^n`.

@@ -1,10 +1,10 @@
-//! Recurrences solved, twice: period by period, and echo by echo; and in general n where it can be.
+//! Recurrences solved in two ways, period by period and echo by echo; and for general n where possible.
 //!
 //! [`PeriodByPeriod`] works in time with the integrating factor and constants by continuity;
 //! [`EchoByEcho`] works in the Laplace domain and expands in the shift `q = e^{−pD}`. From
-//! the ordered steps on they share the ring arithmetic and nothing else, so that their agreement
-//! speaks for both. [`GeneralForm`]
-//! holds what is known for every n at once. [`Solution`] puts them together.
+//! the ordered steps on they share nothing but the ring arithmetic, so that their agreement
+//! is evidence for both. [`GeneralForm`]
+//! holds a wave for every n at once. [`Solution`] puts them together.
 
 mod consequence;
 mod demand;
@@ -20,14 +20,17 @@ mod step;
 mod table;
 mod template;
 
-pub use demand::Demand;
+pub(crate) use demand::Demand;
 pub use echo::EchoByEcho;
 pub use error::{SolveError, Unsolvable};
 pub use general::{GeneralForm, Proof, Unknown};
-pub use geometric::{Geometric, GeometricTerm};
+pub use geometric::Geometric;
+pub(crate) use geometric::GeometricTerm;
 pub use observed::{ObserveError, ObservedPieces, ObservedStretch};
-pub use period::{KeptEnds, PeriodByPeriod};
+pub(crate) use period::KeptEnds;
+pub use period::PeriodByPeriod;
 pub use solved::Solution;
 pub(crate) use step::{FieldForm, FieldStep};
-pub use table::{EchoRow, EchoTable, ExpandedTerm, OrdinaryTable, OrdinaryTerm};
+pub(crate) use table::EchoRow;
+pub use table::EchoTable;
 pub use template::{EchoTemplate, Family};

@@ -1,4 +1,4 @@
-//! Observables as pieces: what is seen of waves that arrive together.
+//! Observables as pieces, where their waves arrive together.
 
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::{Observation, WaveIndex};
@@ -19,7 +19,7 @@ use wavestep_polynomial::Rational;
 pub struct ObservedPieces {
     /// When the first period begins.
     pub offset: Fraction,
-    /// The pieces asked for, in the local variable.
+    /// The pieces, in the local variable.
     pub pieces: Vec<Expression>,
 }
 
@@ -54,7 +54,7 @@ fn whole_periods(delay: &Fraction, period: &Fraction) -> Option<i64> {
     ratio.to_integer().to_i64().filter(|_| ratio.is_integer())
 }
 
-/// A common offset, less than a period where that can be told, and the lag of each delay in
+/// A common offset, less than a period where that is decided, and the lag of each delay in
 /// periods from it. A lag is negative for a wave that is seen before its own clock says.
 fn common_offset(delays: &[&Fraction], period: &Fraction) -> Option<(Fraction, Vec<i64>)> {
     let Some(first) = delays.first() else { return Some((Fraction::zero(), Vec::new())) };
@@ -176,7 +176,7 @@ impl Solution {
             let of_wave = |n: usize| usize::try_from(n as i64 - lag).ok();
             let Some(through) = of_wave(last) else { continue };
             if let Some(early) = of_wave(0).and_then(|n| n.checked_sub(1)) {
-                // What the wave was before the first period begins, which must be nothing.
+                // Before its first period the wave is zero.
                 let before = self.pieces(seen.wave, 0, early)?;
                 if before.iter().any(|piece| !piece.is_zero()) {
                     return Err(ObserveError::MixedOffsets);

@@ -22,7 +22,7 @@ use wavestep_polynomial::{Rational, Symbol};
 pub struct PeriodByPeriod<'a> {
     recurrence: &'a Recurrence,
     waves: Vec<Piecewise>,
-    /// `ends[wave][n]`, the limits at the end of each period, where they were asked for.
+    /// `ends[wave][n]`, the limits at the end of each period, where they were needed.
     ends: Vec<Vec<Option<Expression>>>,
     /// Symbols in place of the limits at the ends.
     kept: Option<KeptEnds>,
@@ -162,7 +162,7 @@ impl<'a> PeriodByPeriod<'a> {
         earlier
     }
 
-    /// What forcing adds to the form on the n-th period.
+    /// The contribution of forcing to the form on the n-th period.
     fn forcing(&self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
         let statement = self.recurrence.statement();
         let time = &Fraction::symbol(&statement.local) + &self.arrival(n);
@@ -206,7 +206,7 @@ impl<'a> PeriodByPeriod<'a> {
         Ok(sum)
     }
 
-    /// What forcing adds to the form on the n-th period, at `time`.
+    /// The contribution of forcing to the form on the n-th period, at `time`.
     fn forcing_at(
         &self,
         form: &LinearForm,

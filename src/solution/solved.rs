@@ -14,7 +14,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Integer, Rational, Univariate};
 
-/// A recurrence together with what is known of its waves in general n.
+/// A recurrence with its solutions.
 ///
 /// Pieces and echoes are derived echo by echo; where the echoes have a closed form in k, that is
 /// used, and nothing depends on which scene it is.
@@ -24,7 +24,7 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Derives nothing yet: general forms, pieces and echoes are found when asked for.
+    /// Derives nothing yet: general forms, pieces and echoes are derived on demand.
     pub fn new(recurrence: Recurrence) -> Solution {
         let general = vec![OnceCell::new(); recurrence.wave_count()];
         Solution { recurrence, general }

@@ -99,7 +99,7 @@ impl EchoTable {
     /// Calls `visit` for every term of the n-th piece `Σ_k φ_k(s + (n−k)D)`.
     ///
     /// By Taylor's theorem a coefficient `c_{k,j}` of `x^j/j!` gives, with `m = n−k` and `j = i+l`,
-    /// the integer `c_{k,i+l} m^l`: one product a term, and nothing is added up, since no two terms
+    /// the integer `c_{k,i+l} m^l`: one product a term and no sums, since no two terms
     /// agree in `λ, m, i, l`. Zero coefficients are passed over.
     ///
     /// # Panics

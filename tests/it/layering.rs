@@ -94,6 +94,7 @@ const CONFINED: [(&str, &str); 6] = [
     ("nom::", "language"),
     ("wavestep_kernels", "evaluate"),
     ("ode_solvers", "model"),
+    ("bits *=", "ball"),
     ("println!", "no layer"),
     ("eprintln!", "no layer"),
     ("std::process", "no layer"),
