@@ -63,11 +63,12 @@ fn piecewise_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Form
 }
 
 fn assert_snapshot(name: &str, value: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/formulas"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name, value));
+    crate::snapshot(
+        "formulas",
+        name,
+        "formulas of a scene that ships, or stated in the test",
+        value,
+    );
 }
 
 /// Snapshots of formulas in both notations.

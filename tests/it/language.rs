@@ -1,5 +1,6 @@
 //! The language: every text of the corpus, every limit, and random texts and trees.
 
+use crate::snapshot;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -55,9 +56,8 @@ fn accepted_texts_are_read_and_printed() {
     for (name, bytes) in corpus.into_iter().chain(self::corpus("accepted-syntax")) {
         let recurrence = read(&name, &bytes).unwrap_or_else(|error| panic!("{error}"));
         assert_prints_and_reads_back(&recurrence);
-        settings().bind(|| {
-            insta::assert_snapshot!(format!("accepted-{name}"), recurrence.to_string());
-        });
+        let file = format!("grammar/accepted/{name}.wave");
+        snapshot("language", &format!("accepted-{name}"), &file, &recurrence.to_string());
     }
 }
 
@@ -139,14 +139,6 @@ fn long_sums_are_worked_out_quickly() {
         "recurrence \"Long\"\nperiod 1, local s, time t\nwave f\nequation f[n] = {waves}\n"
     );
     meaning("long", text.as_bytes(), &[]).unwrap();
-}
-
-fn settings() -> insta::Settings {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/language"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings
 }
 
 // ---- What is read -----------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 //! Locks: written, read, compared, and files of old versions.
 
+use crate::snapshot;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -44,14 +45,6 @@ fn request(through: usize, set: &str, times: &[&str]) -> Request {
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/locks").join(name)
-}
-
-fn snapshot(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/lock"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
 /// Recurrences whose pieces hold denominators, several exponentials, and names with subscripts.
@@ -106,12 +99,17 @@ fn a_changed_coefficient_is_named() {
     let differences = lock.differences(&derived(&changed, &request(2, "", &[])));
     let report: String = differences.iter().map(ToString::to_string).collect();
     assert!(report.contains("s*exp(-s): locked -2, now -3"), "{report}");
-    snapshot("changed-coefficient", &report);
+    snapshot("lock", "changed-coefficient", "rigid-mass, `g` doubled", &report);
     // Values as well.
     let numeric = request(0, "mu=1", &["1/2", "5/2"]);
     let lock = derived(scene("rigid-mass"), &numeric);
     let differences = lock.differences(&derived(&changed, &numeric));
-    snapshot("changed-values", &differences.iter().map(ToString::to_string).collect::<String>());
+    snapshot(
+        "lock",
+        "changed-values",
+        "rigid-mass, `g` doubled",
+        &differences.iter().map(ToString::to_string).collect::<String>(),
+    );
 }
 
 /// Everything that the scene states is locked, not only its waves.
@@ -139,14 +137,26 @@ fn what_is_gone_and_what_is_new_is_named() {
     let report = |differences: Vec<wavestep::lock::Difference>| {
         differences.iter().map(ToString::to_string).collect::<String>()
     };
-    snapshot("new-pieces", &report(lock.differences(&later)));
-    snapshot("gone-pieces", &report(later.differences(&lock)));
+    snapshot("lock", "new-pieces", "two-bars through 2, then 3", &report(lock.differences(&later)));
+    snapshot(
+        "lock",
+        "gone-pieces",
+        "two-bars through 3, then 2",
+        &report(later.differences(&lock)),
+    );
     let other_impedance = scene("two-bars").replace("r*(f[n]", "(r + 1)*(f[n]");
     let changed = derived(&other_impedance, &request(2, "", &[]));
-    snapshot("changed-quotients", &report(lock.differences(&changed)));
+    snapshot(
+        "lock",
+        "changed-quotients",
+        "two-bars, `r` replaced by `r + 1`",
+        &report(lock.differences(&changed)),
+    );
     let other_time = scene("two-bars").replace("local s", "local x");
     snapshot(
+        "lock",
         "changed-variable",
+        "two-bars, `s` replaced by `x`",
         &report(lock.differences(&derived(&other_time, &request(0, "", &[])))),
     );
 }

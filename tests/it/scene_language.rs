@@ -1,5 +1,6 @@
 //! The language of scenes: every text of its corpus, what is read, and random texts and trees.
 
+use crate::snapshot;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,14 +28,6 @@ fn corpus(folder: &str) -> Vec<(String, Vec<u8>)> {
         (name, fs::read(path).unwrap())
     };
     paths.into_iter().map(read).collect()
-}
-
-fn settings() -> insta::Settings {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/scene-language"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings
 }
 
 fn source(name: &str, bytes: impl AsRef<[u8]>) -> Source {
@@ -72,7 +65,8 @@ fn accepted_scenes_are_read_and_printed() {
             Ok(stated) => assert!(matches!(stated, Stated::Scene(_))),
             Err(errors) => panic!("{}", rendered(&errors)),
         }
-        settings().bind(|| insta::assert_snapshot!(format!("accepted-{name}"), tree.to_string()));
+        let file = format!("grammar/accepted-scenes/{name}.wave");
+        snapshot("scene-language", &format!("accepted-{name}"), &file, &tree.to_string());
     }
 }
 

@@ -221,14 +221,12 @@ fn sequences_say_what_the_pieces_say() {
 }
 
 fn assert_looks(name: &str, formulas: &[Formula]) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/source-form"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| {
-        insta::assert_snapshot!(format!("{name}-text"), export::text(formulas, TEXT_WIDTH));
-        insta::assert_snapshot!(format!("{name}-latex"), export::latex(formulas, LATEX_WIDTH));
-    });
+    let asked = format!("the source's form of {name}");
+    let looks = |notation: &str, text: String| {
+        crate::snapshot("source-form", &format!("{name}-{notation}"), &asked, &text);
+    };
+    looks("text", export::text(formulas, TEXT_WIDTH));
+    looks("latex", export::latex(formulas, LATEX_WIDTH));
 }
 
 #[test]

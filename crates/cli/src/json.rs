@@ -100,6 +100,7 @@ mod tests {
             .set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/formulas"));
         settings.set_prepend_module_to_snapshot(false);
         settings.set_omit_expression(true);
+        settings.set_description("f of rigid-mass, its first three pieces");
         let json = serde_json::to_string_pretty(&json).unwrap();
         settings.bind(|| insta::assert_snapshot!("rigid-mass-json", json));
     }

@@ -40,11 +40,7 @@ fn work_done_is_as_recorded() {
         let line = format!("{name} {observable}({p}/{q})");
         writeln!(table, "{line:<40}{digits:<24}{expanded:>5} of {needed:>5}").unwrap();
     }
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/scenes"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!("work", table));
+    crate::snapshot("scenes", "work", "12 digits of the values named: echoes expanded", &table);
 }
 
 /// Five bars on one grid with two lumped elements, followed for thirty base periods. Shows the time; run

@@ -1,38 +1,21 @@
 //! The built command in doubles: tolerances that are kept, methods by name, what is refused and how,
 //! and C files.
 
+use super::{anywhere, command, folder, run, words};
 use num_rational::BigRational;
 use num_traits::{FromPrimitive as _, Signed as _};
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 use wavestep::language::parse_number;
-
-/// A folder of its own for the files of a test, empty.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("answer-command-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// The command with the words of a line as arguments.
-fn command(line: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.args(line.split_whitespace()).stdin(Stdio::null());
-    command.env("COLUMNS", "100").env("NO_COLOR", "1");
-    command
-}
 
 /// Standard output and standard error of a command that does its work.
 fn both(line: &str) -> (String, String) {
-    let Output { status, stdout, stderr } = command(line).output().unwrap();
-    let stderr = String::from_utf8(stderr).unwrap();
-    assert!(status.success(), "{line}: {stderr}");
-    (String::from_utf8(stdout).unwrap(), stderr)
+    let (code, out, err) = run(anywhere(), &words(line));
+    assert_eq!(code, 0, "{line}: {err}");
+    (out, err)
 }
 
 /// The value that a line of output ends with.
@@ -308,10 +291,8 @@ const REFUSALS: [(&str, i32, &str, &str); 20] = [
 #[test]
 fn refusals_say_what_is_wrong_and_what_helps() {
     for (line, code, message, remedy) in REFUSALS {
-        let Output { status, stdout, stderr } = command(line).output().unwrap();
-        let stderr = String::from_utf8(stderr).unwrap();
-        assert_eq!(status.code(), Some(code), "{line}: {stderr}");
-        assert!(stdout.is_empty(), "{line}");
+        let (found, stdout, stderr) = run(anywhere(), &words(line));
+        assert_eq!((found, stdout.as_str()), (code, ""), "{line}: {stderr}");
         assert!(stderr.starts_with(&format!("error: {message}")), "{line}: {stderr}");
         assert!(stderr.contains(&format!("\nhelp: {remedy}")), "{line}: {stderr}");
     }
@@ -321,9 +302,8 @@ fn refusals_say_what_is_wrong_and_what_helps() {
 fn options_that_contradict_each_other_are_usage() {
     let line = "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-9";
     for other in ["--digits 20", "--stats", "--max-bits 100"] {
-        let Output { status, stderr, .. } = command(&format!("{line} {other}")).output().unwrap();
-        let stderr = String::from_utf8(stderr).unwrap();
-        assert_eq!(status.code(), Some(2), "{other}");
+        let (code, _, stderr) = run(anywhere(), &words(&format!("{line} {other}")));
+        assert_eq!(code, 2, "{other}");
         assert!(stderr.contains("cannot be used with"), "{other}: {stderr}");
     }
 }
@@ -332,7 +312,8 @@ fn options_that_contradict_each_other_are_usage() {
 #[test]
 fn a_reader_that_goes_away_ends_it_quietly() {
     let line = "eval pushed-bar --quantity velocity --from 0 --to 10 --points 50000 --tol 1e-9";
-    let mut child = command(line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut command = command(anywhere(), &words(line));
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
     let Output { status, stderr, .. } = child.wait_with_output().unwrap();
     assert_eq!(status.code(), Some(0));
@@ -345,7 +326,7 @@ fn a_reader_that_goes_away_ends_it_quietly() {
 /// it names writes the same file.
 #[test]
 fn a_c_file_tells_how_it_was_written() {
-    let folder = folder("c");
+    let folder = folder("answer-c");
     let file = folder.join("gauge.c");
     let line = "export hopkinson --as c --quantity gauge_output --to 500us --tol 1e-6";
     let (stdout, _) = both(&format!("{line} -o {}", file.display()));
@@ -368,10 +349,9 @@ fn a_c_file_tells_how_it_was_written() {
 /// A file that cannot be written is a fault of usage, and no part of it is left.
 #[test]
 fn a_file_is_written_whole_or_not_at_all() {
-    let folder = folder("nowhere");
+    let folder = folder("answer-nowhere");
     let file = folder.join("missing").join("f.c");
     let line = "export rigid-mass --set mu=1 --as c --quantity f --to 2 -o";
-    let output = command(&format!("{line} {}", file.display())).output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(run(anywhere(), &words(&format!("{line} {}", file.display()))).0, 2);
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }

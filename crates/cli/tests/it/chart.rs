@@ -1,15 +1,12 @@
 //! `wavestep chart`: its files, and what stands in them.
 
+use super::{anywhere, run};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
-fn wavestep(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_wavestep")).args(arguments).output().unwrap()
-}
-
+/// A folder that is not there yet.
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let folder = anywhere().join(name);
     let _ = std::fs::remove_dir_all(&folder);
     folder
 }
@@ -22,23 +19,25 @@ fn json(folder: &Path, name: &str) -> Value {
 #[test]
 fn charts_of_a_scene() {
     let folder = folder("charts-of-a-scene");
-    let output = wavestep(&[
-        "chart",
-        "mass-on-fixed-bar",
-        "--set",
-        "mu=1",
-        "--quantity",
-        "strain_impact",
-        "--to",
-        "12",
-        "--points",
-        "60",
-        "--quick",
-        "-o",
-        folder.to_str().unwrap(),
-    ]);
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{errors}");
+    let (code, told, errors) = run(
+        anywhere(),
+        &[
+            "chart",
+            "mass-on-fixed-bar",
+            "--set",
+            "mu=1",
+            "--quantity",
+            "strain_impact",
+            "--to",
+            "12",
+            "--points",
+            "60",
+            "--quick",
+            "-o",
+            folder.to_str().unwrap(),
+        ],
+    );
+    assert_eq!(code, 0, "{errors}");
     let work = json(&folder, "work-precision.json");
     let mut proven = 0;
     for method in work["methods"].as_array().unwrap() {
@@ -83,7 +82,6 @@ fn charts_of_a_scene() {
     let map = json(&folder, "map-marched-unproven.json");
     assert_eq!(map["y"]["places"].to_string(), "[0.0001,1.0,10000.0]");
     let page = std::fs::read_to_string(folder.join("index.html")).unwrap();
-    let told = String::from_utf8(output.stdout).unwrap();
     let mut pictures = 0;
     for file in told.lines() {
         assert!(Path::new(file).exists(), "{file}");
@@ -97,21 +95,23 @@ fn charts_of_a_scene() {
 #[test]
 fn charts_of_a_recurrence() {
     let folder = folder("charts-of-a-recurrence");
-    let output = wavestep(&[
-        "chart",
-        "two-bars",
-        "--set",
-        "r=1/2",
-        "--to",
-        "8",
-        "--points",
-        "20",
-        "--quick",
-        "-o",
-        folder.to_str().unwrap(),
-    ]);
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{errors}");
+    let (code, _, errors) = run(
+        anywhere(),
+        &[
+            "chart",
+            "two-bars",
+            "--set",
+            "r=1/2",
+            "--to",
+            "8",
+            "--points",
+            "20",
+            "--quick",
+            "-o",
+            folder.to_str().unwrap(),
+        ],
+    );
+    assert_eq!(code, 0, "{errors}");
     let work = json(&folder, "work-precision.json").to_string();
     assert!(work.contains("rigid models a scene of bars, and this is a recurrence"), "{work}");
 }
@@ -137,12 +137,12 @@ fn bad_requests_are_refused() {
         ),
     ];
     for (arguments, part) in cases {
-        let output = wavestep(arguments);
-        let errors = String::from_utf8(output.stderr).unwrap();
-        assert!(!output.status.success() && errors.contains(part), "{arguments:?}: {errors}");
+        let (code, _, errors) = run(anywhere(), arguments);
+        assert!(code != 0 && errors.contains(part), "{arguments:?}: {errors}");
         assert!(errors.contains("help: "), "{errors}");
         assert!(!folder.exists(), "no partial files");
     }
-    let output = wavestep(&["chart", "two-bars", "--set", "r=1", "--quick", "-o", "/dev/null/no"]);
-    assert!(String::from_utf8(output.stderr).unwrap().contains("cannot be made"));
+    let (code, _, errors) =
+        run(anywhere(), &["chart", "two-bars", "--set", "r=1", "--quick", "-o", "/dev/null/no"]);
+    assert!(code != 0 && errors.contains("cannot be made"));
 }

@@ -1,9 +1,9 @@
 //! The built command: what it prints, where, and with which exit code.
 
+use super::{anywhere, command, folder, run, snapshot, words};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::path::Path;
+use std::process::{Output, Stdio};
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -39,68 +39,36 @@ const SCENES: [&str; 25] = [
     "hertz-striker",
 ];
 
-/// A folder of its own for the files of a test, empty.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("command-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.current_dir(folder).args(arguments).stdin(Stdio::null());
-    command.env("COLUMNS", "100").env("NO_COLOR", "1");
-    command
-}
-
-fn run_in(folder: &Path, arguments: &[&str]) -> Output {
-    let start = Instant::now();
-    let output = command(folder, arguments).output().unwrap();
-    assert!(start.elapsed() < Duration::from_secs(30), "{arguments:?} is slow");
-    output
-}
-
-/// The arguments of a line; quotes are not needed here.
-fn split(line: &str) -> Vec<&str> {
-    line.split_whitespace().collect()
-}
-
 /// The standard output of a command that does its work, and is quiet about it.
 fn output_in(folder: &Path, line: &str) -> String {
-    let Output { status, stdout, stderr } = run_in(folder, &split(line));
-    let stderr = String::from_utf8(stderr).unwrap();
-    assert!(status.success(), "{line}: {stderr}");
-    assert_eq!(stderr, "", "{line}");
-    String::from_utf8(stdout).unwrap()
+    let (code, stdout, stderr) = run(folder, &words(line));
+    assert_eq!((code, stderr.as_str()), (0, ""), "{line}");
+    stdout
 }
 
 fn output(line: &str) -> String {
-    output_in(Path::new(env!("CARGO_TARGET_TMPDIR")), line)
+    output_in(anywhere(), line)
+}
+
+/// Compares the output of a command with what is recorded.
+fn recorded(name: &str, line: &str) {
+    snapshot("command", name, line, &output(line));
 }
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-fn snapshot(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/command"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
-}
-
 // ---- What is printed --------------------------------------------------------------------------
 
 #[test]
 fn help_is_as_recorded() {
-    snapshot("help", &output("--help"));
+    recorded("help", "--help");
     for subcommand in ["derive", "eval", "find", "export", "chart", "dispersion", "check", "scenes"]
     {
         let help = output(&format!("{subcommand} --help"));
         assert_eq!(help, output(&format!("help {subcommand}")));
-        snapshot(&format!("help-{subcommand}"), &help);
+        snapshot("command", &format!("help-{subcommand}"), &format!("{subcommand} --help"), &help);
     }
     assert!(output("--version").starts_with("wavestep "));
 }
@@ -108,15 +76,16 @@ fn help_is_as_recorded() {
 #[test]
 fn scenes_are_listed_and_correct() {
     let list = output("scenes");
-    assert_eq!(list.lines().map(|line| split(line)[0]).collect::<Vec<_>>(), SCENES);
-    snapshot("scenes", &list);
+    assert_eq!(list.lines().map(|line| words(line)[0]).collect::<Vec<_>>(), SCENES);
+    snapshot("command", "scenes", "scenes", &list);
     // In `incommensurate` nothing has a common measure, and the last two are not linear.
     let linear = &SCENES[..SCENES.len() - 2];
     for scene in linear.iter().filter(|scene| **scene != "incommensurate") {
-        let report = output(&format!("check {scene}"));
+        let line = format!("check {scene}");
+        let report = output(&line);
         let derived = ["derived in two ways, equal on periods 0 to", "derived echo by echo"];
         assert!(derived.iter().any(|told| report.contains(told)), "{report}");
-        snapshot(&format!("check-{scene}"), &report);
+        snapshot("command", &format!("check-{scene}"), &line, &report);
     }
 }
 
@@ -136,7 +105,7 @@ fn derivations_are_as_recorded() {
         ("derive-two-bars-general-latex", "derive two-bars --general --format latex"),
         ("derive-constant-force-general", "derive constant-force --general"),
     ] {
-        snapshot(name, &output(line));
+        recorded(name, line);
     }
 }
 
@@ -156,7 +125,7 @@ fn values_are_as_recorded() {
             "eval rigid-mass --set mu=1 --quantity f --piece 2 --local 1/2 --format json",
         ),
     ] {
-        snapshot(name, &output(line));
+        recorded(name, line);
     }
 }
 
@@ -233,27 +202,30 @@ const STRANGE: &str = "\u{FEFF}recurrence \"Größe \\\\ & % $ _ {x} <b>\"\r\n\
 
 #[test]
 fn a_scene_of_ones_own_works_everywhere() {
-    let folder = folder("own");
+    let folder = folder("command-own");
     fs::write(folder.join("strange.wave"), STRANGE).unwrap();
-    snapshot("own-check", &output_in(&folder, "check strange.wave"));
-    snapshot("own-derive", &output_in(&folder, "derive strange.wave --through 1"));
+    let recorded =
+        |name: &str, line: &str| snapshot("command", name, line, &output_in(&folder, line));
+    recorded("own-check", "check strange.wave");
+    recorded("own-derive", "derive strange.wave --through 1");
     for form in ["period", "echo", "piecewise"] {
         let line = format!("derive strange.wave --through 1 --form {form} --format");
-        snapshot(&format!("own-{form}-latex"), &output_in(&folder, &format!("{line} latex")));
+        recorded(&format!("own-{form}-latex"), &format!("{line} latex"));
         let document = json(&output_in(&folder, &format!("{line} json")));
         assert_eq!(document["title"], "Größe \\\\ & % $ _ {x} <b>");
         assert_eq!(document["waves"].as_array().unwrap().len(), 2);
     }
     let values = "--set μ=1 --set r_1=3/4";
-    let text = output_in(&folder, &format!("eval strange.wave {values} --quantity Σ --at 15/4"));
+    let line = format!("eval strange.wave {values} --quantity Σ --at 15/4");
+    let text = output_in(&folder, &line);
     let again =
         output_in(&folder, &format!("eval strange.wave {values} --quantity Sigma --at 15/4"));
     assert_eq!(text.split('=').next_back(), again.split('=').next_back());
-    snapshot("own-eval", &text);
+    snapshot("command", "own-eval", &line, &text);
     let general = "recurrence \"One pole\"\nperiod 1, local s, time t\nwave u\n\
                    equation u[n]' + 3*u[n] = 2*u[n-1]\ncontinuous u[n] starts at 1\n";
     fs::write(folder.join("general.wave"), general).unwrap();
-    snapshot("own-general", &output_in(&folder, "derive general.wave --general"));
+    recorded("own-general", "derive general.wave --general");
     json(&output_in(&folder, "derive general.wave --general --format json"));
     output_in(&folder, "derive general.wave --general --format latex");
 }
@@ -262,22 +234,19 @@ fn a_scene_of_ones_own_works_everywhere() {
 
 /// Refused: the exit code, one error on standard error, nothing on standard output.
 fn assert_fails(folder: &Path, name: &str, arguments: &[&str], code: i32) {
-    let start = Instant::now();
-    let Output { status, stdout, stderr } = run_in(folder, arguments);
-    assert!(start.elapsed() < Duration::from_secs(10), "{name} is slow");
-    let stderr = String::from_utf8(stderr).unwrap();
-    assert_eq!(status.code(), Some(code), "{name}: {stderr}");
+    let (found, stdout, stderr) = run(folder, arguments);
+    assert_eq!(found, code, "{name}: {stderr}");
     assert!(stdout.is_empty(), "{name} prints to standard output");
     assert!(!stderr.contains("panicked"), "{name}: {stderr}");
     assert_eq!(stderr.matches("error:").count(), 1, "{name}: {stderr}");
     assert!(stderr.len() < 2000, "{name}: {stderr}");
     assert!(stderr.contains("help") || stderr.contains("tip"), "{name} has no remedy: {stderr}");
-    snapshot(&format!("error-{name}"), &stderr);
+    snapshot("command", &format!("error-{name}"), &arguments.join(" "), &stderr);
 }
 
 #[test]
 fn bad_scenes_are_explained() {
-    let folder = folder("scenes");
+    let folder = folder("command-scenes");
     let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).unwrap();
     let head = "recurrence \"A\"\nperiod 1, local s, time t\nwave f\nequation f[n] = ";
     write("bad.wave", format!("{head}f[n-1] +\n").as_bytes());
@@ -297,7 +266,7 @@ fn bad_scenes_are_explained() {
 
 #[test]
 fn bad_arguments_are_explained() {
-    let folder = folder("arguments");
+    let folder = folder("command-arguments");
     let eval = "eval rigid-mass --set mu=1 --quantity f";
     let at = "eval rigid-mass --quantity f --at 1";
     for (name, line) in [
@@ -344,14 +313,14 @@ fn bad_arguments_are_explained() {
         ("piece-and-general", "derive rigid-mass --general --piece 3".to_owned()),
         ("form-unknown", "derive rigid-mass --form foo".to_owned()),
     ] {
-        assert_fails(&folder, name, &split(&line), 2);
+        assert_fails(&folder, name, &words(&line), 2);
     }
-    assert_fails(&folder, "at-empty", &[&split(eval)[..], &["--at", ""]].concat(), 2);
+    assert_fails(&folder, "at-empty", &[&words(eval)[..], &["--at", ""]].concat(), 2);
 }
 
 #[test]
 fn what_cannot_be_computed_is_explained() {
-    let folder = folder("computation");
+    let folder = folder("command-computation");
     let poles = "recurrence \"Two poles\"\nsymbol a > 0\nperiod 1, local s, time t\nwave f, g\n\
                  equation f[n]' + a*f[n] = g[n-1]\nequation g[n]' + 2*a*g[n] = f[n]\n\
                  continuous f[n] starts at 1\ncontinuous g[n] starts at 0\n";
@@ -372,26 +341,23 @@ fn what_cannot_be_computed_is_explained() {
         ("bits-few", 3, format!("{eval} --at 33/10 --max-bits 16")),
         ("bits-none", 3, format!("{eval} --at 33/10 --max-bits 0")),
     ] {
-        assert_fails(&folder, name, &split(&line), code);
+        assert_fails(&folder, name, &words(&line), code);
     }
 }
 
 #[test]
 fn no_arguments_show_the_help() {
-    let Output { status, stdout, stderr } = run_in(&folder("none"), &[]);
-    assert_eq!(status.code(), Some(2));
-    assert!(stdout.is_empty());
-    assert_eq!(String::from_utf8(stderr).unwrap(), output("--help"));
+    assert_eq!(run(anywhere(), &[]), (2, String::new(), output("--help")));
 }
 
 #[test]
 fn a_reader_that_goes_away_ends_the_command_quietly() {
-    let folder = folder("pipe");
+    let folder = folder("command-pipe");
     for line in [
         "derive rigid-mass --wave f --piece 30 --format json",
         "eval constant-force --quantity f --from 0 --to 10 --points 20000",
     ] {
-        let mut child = command(&folder, &split(line))
+        let mut child = command(&folder, &words(line))
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -452,7 +418,7 @@ fn completions_and_the_manual_name_every_subcommand() {
 
 #[test]
 fn the_form_of_a_source_that_says_nothing_is_refused() {
-    let folder = folder("source-form");
+    let folder = folder("command-source-form");
     let text =
         "recurrence \"plain\"\nperiod 1, local s, time t\nwave f\nequation f[n] = f[n-1] + 1\n";
     fs::write(folder.join("plain.wave"), text).unwrap();
@@ -462,9 +428,8 @@ fn the_form_of_a_source_that_says_nothing_is_refused() {
         ("derive rigid-mass --source-form --general", "no form for every n"),
         ("derive rigid-mass --source-form --observable velocity", "cannot be used with"),
     ] {
-        let Output { status, stdout, stderr } = run_in(&folder, &split(line));
-        let stderr = String::from_utf8(stderr).unwrap();
-        assert_eq!((status.code(), stdout.len()), (Some(2), 0), "{line}: {stderr}");
+        let (code, stdout, stderr) = run(&folder, &words(line));
+        assert_eq!((code, stdout.as_str()), (2, ""), "{line}: {stderr}");
         assert!(stderr.contains(expected), "{line}: {stderr}");
     }
 }
@@ -483,9 +448,8 @@ fn negative_numbers_are_values_of_options() {
         (["eval", "rigid-mass", "--quantity", "f", "--at", "1", "--tol", "-1"], "-1"),
         (["eval", "rigid-mass", "--quantity", "f", "--local", "0", "--piece", "-1"], "--piece"),
     ] {
-        let output = run_in(Path::new("."), &arguments);
-        let errors = String::from_utf8(output.stderr).unwrap();
-        assert!(!output.status.success() && output.stdout.is_empty(), "{arguments:?}");
+        let (code, out, errors) = run(anywhere(), &arguments);
+        assert!(code != 0 && out.is_empty(), "{arguments:?}");
         assert!(errors.contains(reason) && !errors.contains("unexpected argument"), "{errors}");
     }
 }

@@ -1,24 +1,18 @@
 //! `wavestep dispersion`: what it prints, its exit codes, and that its forms agree.
 
+use super::{anywhere, run};
 use serde_json::Value;
-use std::process::{Command, Output};
-
-fn wavestep(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.arg("dispersion").args(arguments).env("NO_COLOR", "1").output().unwrap()
-}
 
 fn text(arguments: &[&str]) -> String {
-    let output = wavestep(arguments);
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success() && errors.is_empty(), "{arguments:?}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
+    let (code, out, errors) = run(anywhere(), &[&["dispersion"], arguments].concat());
+    assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
+    out
 }
 
 fn refused(arguments: &[&str]) -> (i32, String) {
-    let output = wavestep(arguments);
-    assert!(output.stdout.is_empty(), "{arguments:?}");
-    (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
+    let (code, out, errors) = run(anywhere(), &[&["dispersion"], arguments].concat());
+    assert!(out.is_empty(), "{arguments:?}");
+    (code, errors)
 }
 
 #[test]

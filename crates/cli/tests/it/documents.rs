@@ -4,11 +4,10 @@
 //!
 //! With `UPDATE_DOCUMENTS=1` the output in the documents is written anew; read it before you keep it.
 
-use super::ROOT;
+use super::{ROOT, folder, run};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use wavestep::language::{self, Diagnostic, Source};
 use wavestep_cli::diagnostic::{Style, render};
 
@@ -64,16 +63,11 @@ fn arguments(line: &str) -> Vec<String> {
 }
 
 /// A command with what it prints.
-fn run(line: &str, folder: &Path) -> String {
+fn shown(line: &str, folder: &Path) -> String {
     let arguments = arguments(line.strip_prefix("$ wavestep ").expect("a command of wavestep"));
-    let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
-        .current_dir(folder)
-        .args(arguments)
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the command runs");
-    let text = |bytes| String::from_utf8(bytes).expect("text");
-    format!("{line}\n{}{}", text(output.stdout), text(output.stderr))
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let (_, out, err) = run(folder, &arguments);
+    format!("{line}\n{out}{err}")
 }
 
 /// What is wrong with a text that states a recurrence or a scene.
@@ -85,9 +79,7 @@ fn refusals(name: &str, lines: &[&str]) -> Vec<Diagnostic> {
 /// The document with the real output of its commands, and how many they are. Files that it names,
 /// as in "```wave mine.wave", are written first.
 fn with_real_output(name: &str) -> (String, usize) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name.replace('/', "-"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
+    let folder = folder(&name.replace('/', "-"));
     let document = read(name);
     let (mut real, mut commands) = (String::new(), 0);
     let mut refused = None;
@@ -105,7 +97,7 @@ fn with_real_output(name: &str) -> (String, usize) {
         let text: String = match info {
             "console" => {
                 let asked = lines.iter().filter(|line| line.starts_with("$ "));
-                asked.inspect(|_| commands += 1).map(|line| run(line, &folder)).collect()
+                asked.inspect(|_| commands += 1).map(|line| shown(line, &folder)).collect()
             }
             "text" if refused.is_some() => refused.take().expect("just seen"),
             _ => lines.iter().map(|line| format!("{line}\n")).collect(),

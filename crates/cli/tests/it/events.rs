@@ -1,41 +1,27 @@
 //! The command `events`, and what other commands say of contacts that open.
 
-use std::path::Path;
-use std::process::{Command, Output};
-
-fn run(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.current_dir(Path::new(env!("CARGO_TARGET_TMPDIR"))).env("NO_COLOR", "1");
-    command.args(arguments).output().expect("the command runs")
-}
+use super::{anywhere, run, snapshot, words};
 
 fn output(arguments: &[&str]) -> String {
-    let output = run(arguments);
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{arguments:?}: {told}");
-    String::from_utf8(output.stdout).unwrap()
+    let (code, out, told) = run(anywhere(), arguments);
+    assert_eq!(code, 0, "{arguments:?}: {told}");
+    out
 }
 
 fn refusal(arguments: &[&str]) -> (i32, String) {
-    let output = run(arguments);
-    assert!(output.stdout.is_empty());
-    (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
-}
-
-fn snapshot(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/history"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
+    let (code, out, told) = run(anywhere(), arguments);
+    assert!(out.is_empty());
+    (code, told)
 }
 
 #[test]
 fn the_time_line_reads_well() {
-    let text = output(&["events", "bars-of-equal-length"]);
-    snapshot("events-text", &text);
-    let latex = output(&["events", "bars-of-equal-length", "--format", "latex"]);
-    snapshot("events-latex", &latex);
+    for (name, line) in [
+        ("events-text", "events bars-of-equal-length"),
+        ("events-latex", "events bars-of-equal-length --format latex"),
+    ] {
+        snapshot("history", name, line, &output(&words(line)));
+    }
 }
 
 #[test]
@@ -59,7 +45,7 @@ fn eval_goes_on_across_phases() {
     let arguments = |scene| ["eval", scene, "--quantity", "left", "--at", "5/2"];
     assert_eq!(output(&arguments("bars-of-equal-length")), "left(5/2) = 0\n");
     let closed = output(&["scenes", "bars-of-equal-length"]).replace("contacts open\n", "");
-    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("closed.wave");
+    let file = anywhere().join("closed.wave");
     std::fs::write(&file, closed).unwrap();
     let closed = output(&arguments(file.to_str().unwrap()));
     assert_eq!(closed, "left(5/2) = 0.5 = 1/2\n");
@@ -108,8 +94,8 @@ fn what_does_not_follow_contacts_says_so() {
 /// The form with closed contacts says until when it holds.
 #[test]
 fn derive_says_until_when_its_form_holds() {
-    let output = run(&["derive", "saint-venant", "--set", "mu=1", "--through", "1"]);
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success());
+    let line = "derive saint-venant --set mu=1 --through 1";
+    let (code, _, told) = run(anywhere(), &words(line));
+    assert_eq!(code, 0);
     assert_eq!(told, "note: this holds until t = 3.06766764162, when hammer and rod part\n");
 }

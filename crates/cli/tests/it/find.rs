@@ -1,8 +1,7 @@
 //! `wavestep find`: how answers look, that equal extrema meet where they should, and what is refused.
 
+use super::{anywhere, run, snapshot, words};
 use num_rational::BigRational;
-use std::path::Path;
-use std::process::{Command, Stdio};
 use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::scenes;
@@ -12,23 +11,6 @@ const BITS: u64 = 1 << 12;
 
 fn number(text: &str) -> BigRational {
     parse_number(text).unwrap()
-}
-
-fn command(line: &str) -> (i32, String, String) {
-    let arguments: Vec<&str> = line.split_whitespace().collect();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.current_dir(Path::new(env!("CARGO_TARGET_TMPDIR"))).stdin(Stdio::null());
-    let output = command.args(arguments).env("NO_COLOR", "1").output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
-fn snapshot(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/find"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
 }
 
 #[test]
@@ -46,7 +28,7 @@ fn answers_look_as_recorded() {
             "rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu --digits 6",
         ),
     ] {
-        let (code, text, errors) = command(&format!("find {line}"));
+        let (code, text, errors) = run(anywhere(), &words(&format!("find {line}")));
         // This window reaches beyond the end of what is true of its contact.
         let note = match name {
             "critical" => {
@@ -56,10 +38,10 @@ fn answers_look_as_recorded() {
             _ => "",
         };
         assert_eq!((code, errors.as_str()), (0, note), "{line}");
-        snapshot(name, &text);
+        snapshot("find", name, &format!("find {line}"), &text);
     }
     let line = "find rigid-mass --set mu=1 --zero strain_impact --from 2 --to 4 --format json";
-    let told: serde_json::Value = serde_json::from_str(&command(line).1).unwrap();
+    let told: serde_json::Value = serde_json::from_str(&run(anywhere(), &words(line)).1).unwrap();
     assert_eq!(told["roots"][0]["time"]["decimal"], "3.06766764161831");
     assert_eq!(told["roots"][1]["time"]["exact"], "4");
 }
@@ -69,7 +51,7 @@ fn answers_look_as_recorded() {
 fn equal_extrema_meet_where_the_formula_says() {
     let line = "find rigid-mass --min strain_fixed --equal mu=1/10..1 --between 3*mu,5*mu,7*mu \
                 --digits 12 --format json";
-    let (code, text, _) = command(line);
+    let (code, text, _) = run(anywhere(), &words(line));
     assert_eq!(code, 0);
     let told: serde_json::Value = serde_json::from_str(&text).unwrap();
     let [low, high] = ["low", "high"].map(|key| number(told[key].as_str().unwrap()));
@@ -90,11 +72,11 @@ fn equal_extrema_meet_where_the_formula_says() {
 
 #[test]
 fn undecided_roots_end_with_code_3_and_a_report() {
-    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("double.wave");
+    let file = anywhere().join("double.wave");
     let text = "recurrence \"Double\"\nperiod 2, local s, time t\nwave f\nequation f[n] = f[n-1]\n\
                 observe q = f[n] + (t - 1/3)^2\n";
     std::fs::write(file, text).unwrap();
-    let (code, text, errors) = command("find double.wave --zero q --from 0 --to 1");
+    let (code, text, errors) = run(anywhere(), &words("find double.wave --zero q --from 0 --to 1"));
     assert_eq!(code, 3);
     assert!(text.contains("undecided; the difference is") && text.contains("0 roots, 1 undecided"));
     assert!(errors.contains("error: 1 interval stays undecided"));
@@ -135,7 +117,7 @@ fn mistakes_are_told_with_a_remedy() {
             "1 to 60",
         ),
     ] {
-        let (found, text, errors) = command(&format!("find {line}"));
+        let (found, text, errors) = run(anywhere(), &words(&format!("find {line}")));
         assert_eq!((found, text.as_str()), (code, ""), "{line}: {errors}");
         assert!(errors.contains(message) && errors.contains(remedy), "{line}: {errors}");
     }

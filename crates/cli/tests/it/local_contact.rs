@@ -1,17 +1,11 @@
 //! Local contacts in the command: tested values, and what refuses.
 
+use super::{anywhere, run, words};
+
 /// Values say that they are tested; what is proven elsewhere refuses, with the exit code of its reason.
 #[test]
 fn the_command_tells_tested_values_from_certified_ones() {
-    let run = |line: &str| {
-        let output = std::process::Command::new(env!("CARGO_BIN_EXE_wavestep"))
-            .args(line.split_whitespace())
-            .env("NO_COLOR", "1")
-            .output()
-            .unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-    };
+    let run = |line: &str| run(anywhere(), &words(line));
     let (code, values, told) = run("eval hertz-striker --quantity force --at 0 --at 60us");
     assert!(code == 0 && values.starts_with("force(0 s) = 0 N\nforce(0.00006 s) = 63433."));
     assert!(told.contains("tested, not certified: computed to 1e-10"), "{told}");
@@ -19,7 +13,7 @@ fn the_command_tells_tested_values_from_certified_ones() {
     assert!(json.contains("\"bound\":null") && json.contains("\"method\":\"steps:1e-10\""));
     let (code, checked, _) = run("check local-contact");
     assert!(code == 0 && checked.contains("`tip` is a local contact"), "{checked}");
-    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("hertz-striker.csv");
+    let file = anywhere().join("hertz-striker.csv");
     let (code, _, told) =
         run(&format!("plot hertz-striker --quantity force -o {}", file.display()));
     assert!(code == 0 && told.contains("tested, not certified"), "{told}");

@@ -1,9 +1,8 @@
 //! `wavestep lock` and `wavestep check`: what is written and compared, and what is refused.
 
-use super::ROOT;
+use super::{ROOT, folder, run};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 use wavestep::language::{Source, read_recurrence};
 use wavestep::lock::{Lock, Request};
 use wavestep::scenes;
@@ -13,54 +12,36 @@ fn scene(name: &str) -> &'static str {
     scenes::find(name).expect("a scene of the library").text
 }
 
-fn run(arguments: &[&str], folder: &Path) -> (i32, String, String) {
-    let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_wavestep"))
-        .args(arguments)
-        .current_dir(folder)
-        .env("NO_COLOR", "1")
-        .output()
-        .expect("the command runs");
-    let text = |bytes| String::from_utf8(bytes).expect("text");
-    (status.code().expect("an exit code"), text(stdout), text(stderr))
-}
-
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lock-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
 #[test]
 fn the_command_locks_and_checks() {
-    let folder = folder("command");
+    let folder = folder("lock-command");
     fs::write(folder.join("my.wave"), scene("rigid-mass")).expect("a file");
     let lock = ["lock", "my.wave", "--through", "2", "-o", "my.lock"];
-    let (code, out, err) = run(&lock, &folder);
+    let (code, out, err) = run(&folder, &lock);
     assert_eq!((code, &*out, &*err), (0, "my.lock: locked 6 pieces\n", ""));
     let check = ["check", "my.wave", "--locked", "my.lock"];
-    let (code, out, err) = run(&check, &folder);
+    let (code, out, err) = run(&folder, &check);
     assert_eq!((code, &*out, &*err), (0, "my.lock: 6 pieces as locked\n", ""));
     let changed = scene("rigid-mass").replace("starts at 1 ", "starts at 1/2 ");
     fs::write(folder.join("my.wave"), changed).expect("a file");
-    let (code, out, err) = run(&check, &folder);
+    let (code, out, err) = run(&folder, &check);
     assert_eq!(code, 1);
     assert!(out.starts_with("f[0] differs\n  exp(-s): locked 1, now 1/2\n"), "{out}");
     let message = "error: my.wave differs in 5 places from my.lock\nhelp: ";
     assert!(err.starts_with(message), "{err}");
     // Without a file, what would be in it; an old file stays whole when there is nothing to write.
-    let (_, out, _) = run(&["lock", "two-bars", "--through", "2"], &folder);
+    let (_, out, _) = run(&folder, &["lock", "two-bars", "--through", "2"]);
     let source = Source::new("two-bars", scene("two-bars")).unwrap();
     let solution = Solution::new(read_recurrence(&source, &Default::default()).unwrap());
     let lock = Lock::derive(&solution, &Request { through: 2, ..Request::default() }).unwrap();
     assert_eq!(out, lock.to_text());
     let before = fs::read_to_string(folder.join("my.lock")).expect("a file");
     let (code, _, err) =
-        run(&["lock", "my.wave", "--through", "2", "--at", "1", "-o", "my.lock"], &folder);
+        run(&folder, &["lock", "my.wave", "--through", "2", "--at", "1", "-o", "my.lock"]);
     assert_eq!((code, err.contains("mu has no value")), (2, true), "{err}");
     assert_eq!(fs::read_to_string(folder.join("my.lock")).expect("a file"), before);
     // What is no ordinary file is written to, and stays what it is.
-    let (code, _, _) = run(&["lock", "two-bars", "--through", "0", "-o", "/dev/null"], &folder);
+    let (code, _, _) = run(&folder, &["lock", "two-bars", "--through", "0", "-o", "/dev/null"]);
     assert!(code == 0 && !fs::metadata("/dev/null").expect("a device").is_file());
     let files = fs::read_dir(&folder).expect("a folder").count();
     assert_eq!(files, 2, "no partial file is left");
@@ -68,7 +49,7 @@ fn the_command_locks_and_checks() {
 
 #[test]
 fn bad_requests_are_refused() {
-    let folder = folder("refused");
+    let folder = folder("lock-refused");
     fs::write(folder.join("m.wave"), scene("rigid-mass")).expect("a file");
     let long = "recurrence \"long\"\nperiod 1, local s, time t\nwave f\n\
                 equation f[n] = 1e100*f[n-1] + 1/3\n";
@@ -84,7 +65,7 @@ fn bad_requests_are_refused() {
         (&["check", "rigid-mass", "--locked", "x", "--set", "mu=1"], "cannot be used with"),
     ];
     for (arguments, expected) in cases {
-        let (code, out, err) = run(arguments, &folder);
+        let (code, out, err) = run(&folder, arguments);
         assert_eq!((code, &*out), (2, ""), "{arguments:?}: {err}");
         assert!(err.contains(expected), "{arguments:?}: {err}");
     }
@@ -92,19 +73,17 @@ fn bad_requests_are_refused() {
 
 #[test]
 fn the_command_locks_events_and_checks_them() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("history-locks");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
+    let folder = folder("lock-history");
     let scene = wavestep::scenes::find("bars-of-equal-length").unwrap().text;
     fs::write(folder.join("my.wave"), scene).unwrap();
     fs::write(folder.join("closed.wave"), scene.replace("contacts open\n", "")).unwrap();
-    let (code, out, err) = run(&["lock", "my.wave", "--at", "5/2", "-o", "my.lock"], &folder);
+    let (code, out, err) = run(&folder, &["lock", "my.wave", "--at", "5/2", "-o", "my.lock"]);
     assert_eq!((code, &*out, &*err), (0, "my.lock: locked 2 events and 5 values\n", ""));
     let check = ["check", "my.wave", "--locked", "my.lock"];
-    let (code, out, err) = run(&check, &folder);
+    let (code, out, err) = run(&folder, &check);
     assert_eq!((code, &*out, &*err), (0, "my.lock: 2 events and 5 values as locked\n", ""));
     fs::write(folder.join("my.wave"), scene.replace("velocity = 1", "velocity = 2")).unwrap();
-    let (code, out, err) = run(&check, &folder);
+    let (code, out, err) = run(&folder, &check);
     assert_eq!(code, 1);
     assert!(out.starts_with("event 1 differs\n  force after: locked 1/2, now 1\n"), "{out}");
     assert!(err.starts_with("error: my.wave differs in "), "{err}");
@@ -112,13 +91,13 @@ fn the_command_locks_events_and_checks_them() {
     // Values that were set are in the file.
     let set =
         ["lock", "saint-venant", "--set", "mu=1", "--at", "1/2", "--at", "5", "-o", "sv.lock"];
-    assert_eq!(run(&set, &folder).1, "sv.lock: locked 4 events and 10 values\n");
-    let (code, out, _) = run(&["check", "saint-venant", "--locked", "sv.lock"], &folder);
+    assert_eq!(run(&folder, &set).1, "sv.lock: locked 4 events and 10 values\n");
+    let (code, out, _) = run(&folder, &["check", "saint-venant", "--locked", "sv.lock"]);
     assert_eq!((code, &*out), (0, "sv.lock: 4 events and 10 values as locked\n"));
     let kept = fs::read(Path::new(ROOT).join("tests/locks/version-2.lock")).unwrap();
     assert_eq!(fs::read(folder.join("sv.lock")).unwrap(), kept);
     let closed = ["lock", "closed.wave", "--through", "1", "-o", "closed.lock"];
-    assert_eq!(run(&closed, &folder).0, 0);
+    assert_eq!(run(&folder, &closed).0, 0);
     let cases: [(&[&str], &str); 8] = [
         (&["lock", "saint-venant"], "the history needs numbers, and `mu` has no value"),
         (&["lock", "my.wave", "--through", "1"], "where contacts open there are no periods"),
@@ -130,7 +109,7 @@ fn the_command_locks_events_and_checks_them() {
         (&["check", "my.wave", "--locked", "closed.lock"], "contacts open in my.wave now"),
     ];
     for (arguments, expected) in cases {
-        let (code, out, err) = run(arguments, &folder);
+        let (code, out, err) = run(&folder, arguments);
         assert_eq!((code, &*out), (2, ""), "{arguments:?}: {err}");
         assert!(err.contains(expected), "{arguments:?}: {err}");
     }

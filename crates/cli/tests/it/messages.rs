@@ -1,6 +1,6 @@
 //! How mistakes in texts are told: the lines that they are about, with marks, remarks and remedies.
 
-use super::ROOT;
+use super::{ROOT, snapshot};
 use num_rational::BigRational;
 use std::collections::BTreeMap;
 use std::fs;
@@ -36,13 +36,9 @@ fn values(values: &[(&str, &str)]) -> BTreeMap<String, BigRational> {
 }
 
 /// Compares what is told of errors with what is recorded.
-fn explained(folder: &str, name: String, errors: &[Diagnostic]) {
+fn explained(folder: &str, name: String, asked: &str, errors: &[Diagnostic]) {
     let texts: Vec<String> = errors.iter().map(|error| render(error, Style::Plain)).collect();
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(format!("{ROOT}/snapshots/{folder}"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name, texts.join("\n\n")));
+    snapshot(folder, &name, asked, &texts.join("\n\n"));
 }
 
 const BAR: &str = "\
@@ -75,7 +71,12 @@ fn rejected_texts_are_explained() {
     for (name, bytes) in corpus {
         let error =
             source(&name, bytes).and_then(|source| parse_recurrence(&source)).expect_err(&name);
-        explained("language", format!("rejected-{name}"), &[error]);
+        explained(
+            "language",
+            format!("rejected-{name}"),
+            &format!("grammar/rejected/{name}.wave"),
+            &[error],
+        );
     }
 }
 
@@ -87,7 +88,12 @@ fn texts_without_meaning_are_explained() {
     for (name, bytes) in corpus {
         let source = source(&name, bytes).unwrap();
         let error = read_recurrence(&source, &BTreeMap::new()).expect_err(&name);
-        explained("language", format!("rejected-names-{name}"), &[error]);
+        explained(
+            "language",
+            format!("rejected-names-{name}"),
+            &format!("grammar/rejected-names/{name}.wave"),
+            &[error],
+        );
     }
 }
 
@@ -107,7 +113,7 @@ fn wrong_values_are_explained() {
     ] {
         let source = source("symbols", SYMBOLS).unwrap();
         let error = read_recurrence(&source, &values(set)).expect_err(name);
-        explained("language", format!("value-{name}"), &[error]);
+        explained("language", format!("value-{name}"), &format!("{set:?}"), &[error]);
     }
 }
 
@@ -121,7 +127,7 @@ fn wrong_listings_are_explained() {
         ("statement", "wave f, g\n"),
     ] {
         let error = parse_listing(&Source::new("text", text).unwrap()).expect_err(name);
-        explained("language", format!("listing-{name}"), &[error]);
+        explained("language", format!("listing-{name}"), text, &[error]);
     }
 }
 
@@ -147,7 +153,7 @@ fn wrong_numbers_are_explained() {
         ("tower", "9^9^9^9"),
     ] {
         let error = parse_number(text).expect_err(name);
-        explained("language", format!("number-{name}"), &[error]);
+        explained("language", format!("number-{name}"), text, &[error]);
     }
 }
 
@@ -172,7 +178,12 @@ fn rejected_scenes_are_explained() {
     for (name, bytes) in corpus("rejected-scenes") {
         let source = source(&name, bytes).unwrap();
         let errors = read_scene(&source, &BTreeMap::new()).expect_err(&name);
-        explained("scene-language", format!("rejected-{name}"), &errors);
+        explained(
+            "scene-language",
+            format!("rejected-{name}"),
+            &format!("grammar/rejected-scenes/{name}.wave"),
+            &errors,
+        );
     }
 }
 
@@ -181,7 +192,7 @@ fn wrong_values_of_scenes_are_explained() {
     for (name, set) in [("outside", ("a", "0")), ("unknown", ("b", "1")), ("pi", ("pi", "3"))] {
         let source = source("text", BAR).unwrap();
         let errors = read_scene(&source, &values(&[set])).expect_err(name);
-        explained("scene-language", format!("value-{name}"), &errors);
+        explained("scene-language", format!("value-{name}"), &format!("{set:?}"), &errors);
     }
 }
 
@@ -213,6 +224,6 @@ fn damaged_files_are_explained() {
         assert_ne!(text, good, "{name}");
         let source = Source::new("damaged.lock", &text);
         let error = source.and_then(|source| Lock::read(&source)).expect_err(name);
-        explained("lock", format!("damaged-{name}"), &[error]);
+        explained("lock", format!("damaged-{name}"), "a lock of constant-force, damaged", &[error]);
     }
 }

@@ -1,28 +1,26 @@
 //! Fields and pictures of contacts that open, by the command.
 
-use super::ROOT;
+use super::{ROOT, anywhere, run};
 use serde_json::Value as Json;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
-fn run(arguments: &[&str]) -> String {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.current_dir(env!("CARGO_TARGET_TMPDIR")).env("NO_COLOR", "1");
-    let Output { status, stdout, stderr } = command.args(arguments).output().expect("it runs");
-    assert!(status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&stderr));
-    String::from_utf8(stdout).unwrap()
+/// The standard output of a command that does its work.
+fn output(arguments: &[&str]) -> String {
+    let (code, out, err) = run(anywhere(), arguments);
+    assert_eq!(code, 0, "{arguments:?}: {err}");
+    out
 }
 
 #[test]
 fn the_commands_follow_contacts_that_open() {
     let rows =
-        run(&["field", "bars-of-equal-length", "--time", "3", "--mesh", "2", "--bar", "first"]);
+        output(&["field", "bars-of-equal-length", "--time", "3", "--mesh", "2", "--bar", "first"]);
     let row = rows.lines().nth(2).unwrap();
     assert_eq!(row, "first,0.5,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0");
-    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("phases.json");
+    let file = anywhere().join("phases.json");
     let drawn = |arguments: &[&str]| -> Json {
-        run(&[&["plot"], arguments, &["-o", "phases.json"]].concat());
+        output(&[&["plot"], arguments, &["-o", "phases.json"]].concat());
         serde_json::from_slice(&fs::read(&file).unwrap()).unwrap()
     };
     let diagram =
@@ -52,8 +50,8 @@ fn pictures_of_the_page_are_fresh() {
         assert!(page.contains(&format!("({})", file.trim_start_matches("docs/"))), "{file}");
         let mut arguments: Vec<&str> = arguments.split_whitespace().skip(1).collect();
         arguments.extend(["-o", "page.svg"]);
-        run(&arguments);
-        let drawn = fs::read(Path::new(env!("CARGO_TARGET_TMPDIR")).join("page.svg")).unwrap();
+        output(&arguments);
+        let drawn = fs::read(anywhere().join("page.svg")).unwrap();
         if std::env::var_os("UPDATE_DOCUMENTS").is_some() {
             fs::write(root.join(file), &drawn).unwrap();
         }

@@ -1,39 +1,26 @@
 //! Pictures of scenes: the numbers that they show are right, the files are what they say, texts are
 //! texts and lie apart, and what cannot be drawn is refused without leaving a file.
 
+use super::{folder, run};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
 
 use serde_json::Value;
-
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("picture-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.current_dir(folder).args(arguments).stdin(Stdio::null());
-    command.env("COLUMNS", "100").env("NO_COLOR", "1").output().unwrap()
-}
 
 /// Draws, and gives the bytes of the file.
 fn drawn(folder: &Path, arguments: &[&str], file: &str) -> Vec<u8> {
     let all = [&["plot"], arguments, &["-o", file]].concat();
-    let Output { status, stdout, stderr } = run(folder, &all);
-    assert!(status.success(), "{all:?}: {}", String::from_utf8_lossy(&stderr));
+    let (code, stdout, stderr) = run(folder, &all);
+    assert_eq!(code, 0, "{all:?}: {stderr}");
     let bytes = fs::read(folder.join(file)).unwrap();
-    assert_eq!(String::from_utf8(stdout).unwrap(), format!("{file}: {} bytes\n", bytes.len()));
+    assert_eq!(stdout, format!("{file}: {} bytes\n", bytes.len()));
     bytes
 }
 
 fn refused(folder: &Path, arguments: &[&str]) -> (i32, String) {
-    let Output { status, stdout, stderr } = run(folder, arguments);
-    assert!(!status.success() && stdout.is_empty(), "{arguments:?}");
-    (status.code().unwrap(), String::from_utf8(stderr).unwrap())
+    let (code, stdout, stderr) = run(folder, arguments);
+    assert!(code != 0 && stdout.is_empty(), "{arguments:?}");
+    (code, stderr)
 }
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
@@ -61,7 +48,7 @@ const PICTURES: [&[&str]; 9] = [
 /// Tags open and close in turn, texts stand in `text` elements with a font size, no resource is loaded.
 #[test]
 fn svg_is_well_formed() {
-    let folder = folder("svg");
+    let folder = folder("picture-svg");
     for picture in PICTURES {
         let svg = String::from_utf8(drawn(&folder, picture, "picture.svg")).unwrap();
         let mut open: Vec<&str> = Vec::new();
@@ -85,7 +72,7 @@ fn svg_is_well_formed() {
 
 #[test]
 fn png_has_the_size_and_texts() {
-    let folder = folder("png");
+    let folder = folder("picture-png");
     let arguments = |width: &'static str, title: &'static str| {
         ["hopkinson", "--to", "300us", "--quantity", "force", "--width", width, "--title", title]
     };
@@ -102,7 +89,7 @@ fn png_has_the_size_and_texts() {
 /// Lines run through exact values; jumps are where fronts arrive.
 #[test]
 fn curves_show_exact_values() {
-    let folder = folder("curves");
+    let folder = folder("picture-curves");
     let scene = ["mass-on-fixed-bar", "--set", "mu=1", "--quantity", "strain_fixed", "--to", "7"];
     let data = json(&folder, &scene);
     let series = &data["panels"][0]["series"][0];
@@ -131,7 +118,7 @@ fn curves_show_exact_values() {
 /// The cells of a diagram cover the line and the window once, and their values are those of the field.
 #[test]
 fn diagrams_cover_the_window() {
-    let folder = folder("diagram");
+    let folder = folder("picture-diagram");
     for (scene, to, area) in [
         (&["mass-on-fixed-bar", "--set", "mu=1"][..], "5", 5.0),
         (&["striker-on-long-bar", "--set", "r=2"], "3", 6.0),
@@ -167,7 +154,7 @@ fn diagrams_cover_the_window() {
 /// Both sides of a front stand at its place, and the bars follow one another.
 #[test]
 fn fields_along_the_line_jump_at_fronts() {
-    let folder = folder("along");
+    let folder = folder("picture-along");
     let arguments =
         ["hopkinson", "--at-time", "50us,100us", "--quantity", "velocity", "--title", "x"];
     let data = json(&folder, &arguments);
@@ -184,7 +171,7 @@ fn fields_along_the_line_jump_at_fronts() {
 /// Without `--to` pulses come to all places that are observed, and pass.
 #[test]
 fn windows_last_until_pulses_have_passed() {
-    let folder = folder("window");
+    let folder = folder("picture-window");
     let data = json(&folder, &["hopkinson", "--quantity", "gauge_output"]);
     let points: Vec<(f64, f64)> = data["panels"][0]["series"][0]["points"]
         .as_array()
@@ -202,7 +189,7 @@ fn windows_last_until_pulses_have_passed() {
 /// Without units velocities, strains and momenta have panels of their own.
 #[test]
 fn kinds_without_units_have_panels_of_their_own() {
-    let folder = folder("kinds");
+    let folder = folder("picture-kinds");
     let data = json(&folder, &["mass-on-fixed-bar", "--set", "mu=1", "--to", "3"]);
     let panels = data["panels"].as_array().unwrap();
     let names: Vec<&str> =
@@ -213,7 +200,7 @@ fn kinds_without_units_have_panels_of_their_own() {
 
 #[test]
 fn numbers_are_written_as_csv() {
-    let folder = folder("csv");
+    let folder = folder("picture-csv");
     let csv = drawn(&folder, &["rigid-mass", "--set", "mu=1", "--quantity", "f"], "data.csv");
     let csv = String::from_utf8(csv).unwrap();
     assert!(csv.starts_with("panel,series,time,value\nf,f,0e0,1e0\n"), "{}", &csv[..60]);
@@ -221,7 +208,7 @@ fn numbers_are_written_as_csv() {
 
 #[test]
 fn units_have_prefixes() {
-    let folder = folder("units");
+    let folder = folder("picture-units");
     let svg = String::from_utf8(drawn(&folder, PICTURES[2], "picture.svg")).unwrap();
     for label in ["time (µs)", "strain (10⁻⁶)", "force (kN)", "compression (µm)", "energy (J)"]
     {
@@ -233,7 +220,7 @@ fn units_have_prefixes() {
 
 #[test]
 fn what_cannot_be_drawn_leaves_no_file() {
-    let folder = folder("refused");
+    let folder = folder("picture-refused");
     fs::write(folder.join("old.svg"), "kept").unwrap();
     for (arguments, code, message) in [
         (&["rigid-mass", "-o", "a.svg"][..], 2, "mu has no value"),
@@ -258,16 +245,15 @@ fn what_cannot_be_drawn_leaves_no_file() {
 
 #[test]
 fn field_is_told_as_csv_and_json() {
-    let folder = folder("field");
+    let folder = folder("picture-field");
     let scene = ["field", "mass-on-fixed-bar", "--set", "mu=1", "--time", "5/4", "--mesh", "8"];
-    let Output { status, stdout, .. } = run(&folder, &scene);
-    let csv = String::from_utf8(stdout).unwrap();
-    assert!(status.success() && csv.lines().count() == 10);
+    let (code, csv, _) = run(&folder, &scene);
+    assert!(code == 0 && csv.lines().count() == 10);
     let columns = csv.lines().next().unwrap().split(',').count();
     assert!(columns == 10 && csv.lines().all(|line| line.split(',').count() == columns));
     let json_of = |more: &[&str]| -> Value {
         let all = [&scene[..], &["--format", "json"], more].concat();
-        serde_json::from_slice(&run(&folder, &all).stdout).unwrap()
+        serde_json::from_str(&run(&folder, &all).1).unwrap()
     };
     let nodes = json_of(&[]);
     assert_eq!((&nodes["schema_version"], &nodes["side"]), (&1.into(), &"right".into()));
@@ -284,7 +270,7 @@ fn field_is_told_as_csv_and_json() {
     let left = json_of(&["--side", "left"]);
     assert_ne!(left["bars"][0]["velocity"][6], rod["velocity"][6]);
     assert_eq!(left["bars"][0]["velocity"][5], rod["velocity"][5]);
-    let Output { stdout, .. } = run(
+    let (_, stdout, _) = run(
         &folder,
         &[
             "field",
@@ -301,7 +287,7 @@ fn field_is_told_as_csv_and_json() {
             "2m",
         ],
     );
-    let units: Value = serde_json::from_slice(&stdout).unwrap();
+    let units: Value = serde_json::from_str(&stdout).unwrap();
     assert_eq!((&units["units"]["force"], &units["x_unit"]), (&"N".into(), &"m".into()));
     assert_eq!(units["bars"][0]["x"][4].as_f64(), Some(2.0));
     for (more, message) in [

@@ -1,47 +1,31 @@
 //! The built command on scenes: derivations explained, lattices, units, energies, and what is refused.
 
+use super::{anywhere, folder, run, snapshot, words};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
 
 use serde_json::Value;
 use wavestep::scenes::SCENES;
 
-/// A folder of its own for the files of a test, empty.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("scene-command-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-    command.current_dir(folder).args(arguments).stdin(Stdio::null());
-    command.env("COLUMNS", "100").env("NO_COLOR", "1").output().unwrap()
-}
-
 /// The standard output of a command that does its work.
 fn output(arguments: &[&str]) -> String {
-    let Output { status, stdout, stderr } = run(Path::new(env!("CARGO_TARGET_TMPDIR")), arguments);
-    assert!(status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&stderr));
-    String::from_utf8(stdout).unwrap()
+    let (code, stdout, stderr) = run(anywhere(), arguments);
+    assert_eq!(code, 0, "{arguments:?}: {stderr}");
+    stdout
+}
+
+/// Compares the output of a command with what is recorded.
+fn recorded(folder: &Path, name: &str, line: &str) {
+    let (code, stdout, stderr) = run(folder, &words(line));
+    assert_eq!(code, 0, "{line}: {stderr}");
+    snapshot("scene-command", name, line, &stdout);
 }
 
 /// The exit code and the message of a command that refuses.
 fn refusal(folder: &Path, arguments: &[&str]) -> (i32, String) {
-    let Output { status, stdout, stderr } = run(folder, arguments);
-    assert!(!status.success() && stdout.is_empty(), "{arguments:?}");
-    (status.code().unwrap(), String::from_utf8(stderr).unwrap())
-}
-
-fn snapshot(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings
-        .set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/scene-command"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
+    let (code, stdout, stderr) = run(folder, arguments);
+    assert!(code != 0 && stdout.is_empty(), "{arguments:?}");
+    (code, stderr)
 }
 
 /// A mass, a cushion and a bar with a fixed end: complex poles, and a node in the line.
@@ -74,10 +58,9 @@ fn every_scene_on_one_grid_is_explained() {
 #[test]
 fn derivations_look_as_recorded() {
     for scene in ["mass-on-fixed-bar", "cushioned-impact", "striker-on-long-bar", "hopkinson"] {
-        snapshot(&format!("explain-{scene}"), &output(&["derive", scene, "--explain"]));
+        recorded(anywhere(), &format!("explain-{scene}"), &format!("derive {scene} --explain"));
     }
-    let latex = output(&["derive", "mass-on-fixed-bar", "--explain", "--format", "latex"]);
-    snapshot("explain-latex", &latex);
+    recorded(anywhere(), "explain-latex", "derive mass-on-fixed-bar --explain --format latex");
 }
 
 /// The book's equations appear in the derivations of the twins, as the book has them.
@@ -117,28 +100,24 @@ fn the_equations_of_the_source_are_derived() {
 
 #[test]
 fn forms_look_as_recorded() {
-    let folder = folder("forms");
+    let folder = folder("scene-forms");
     fs::write(folder.join("cushion.wave"), CUSHION).unwrap();
-    let file = folder.join("cushion.wave");
-    let file = file.to_str().unwrap();
-    snapshot("derive-complex-poles", &output(&["derive", file, "--wave", "cushion"]));
-    snapshot("derive-between-arrivals", &output(&["derive", file, "--observable", "momentum"]));
-    snapshot("derive-lattice", &output(&["derive", "incommensurate", "--wave", "g_striker"]));
-    let latex = ["derive", "incommensurate", "--wave", "g_striker", "--format", "latex"];
-    snapshot("derive-lattice-latex", &output(&latex));
-    snapshot(
-        "derive-named-rate",
-        &output(&["derive", "pile", "--wave", "cushion", "--through", "1"]),
-    );
     let cubic = CUSHION.replace("- rod", "- cap - rod");
     let cubic = cubic.replace("bar rod", "mass cap { mass = 1 }\nbar rod");
     fs::write(folder.join("cubic.wave"), cubic).unwrap();
-    let cubic = folder.join("cubic.wave");
-    let cubic = ["derive", cubic.to_str().unwrap(), "--wave", "cushion", "--through", "0"];
-    snapshot("derive-named-cubic", &output(&cubic));
-    snapshot("check-scene", &output(&["check", file]));
-    snapshot("check-lattice", &output(&["check", "incommensurate"]));
-    snapshot("scenes", &output(&["scenes"]));
+    for (name, line) in [
+        ("derive-complex-poles", "derive cushion.wave --wave cushion"),
+        ("derive-between-arrivals", "derive cushion.wave --observable momentum"),
+        ("derive-lattice", "derive incommensurate --wave g_striker"),
+        ("derive-lattice-latex", "derive incommensurate --wave g_striker --format latex"),
+        ("derive-named-rate", "derive pile --wave cushion --through 1"),
+        ("derive-named-cubic", "derive cubic.wave --wave cushion --through 0"),
+        ("check-scene", "check cushion.wave"),
+        ("check-lattice", "check incommensurate"),
+        ("scenes", "scenes"),
+    ] {
+        recorded(&folder, name, line);
+    }
 }
 
 #[test]
@@ -170,7 +149,7 @@ fn values_have_units_and_times_may_have_them() {
 
 #[test]
 fn rational_values_of_scenes_are_told_exactly() {
-    let folder = folder("rational");
+    let folder = folder("scene-rational");
     fs::write(folder.join("cushion.wave"), CUSHION).unwrap();
     let file = folder.join("cushion.wave");
     let file = file.to_str().unwrap();
@@ -192,10 +171,8 @@ fn rational_values_of_scenes_are_told_exactly() {
 #[test]
 fn statistics_go_to_standard_error() {
     let arguments = ["eval", "pushed-bar", "--quantity", "velocity", "--at", "9", "--stats"];
-    let Output { status, stdout, stderr } = run(Path::new("."), &arguments);
-    assert!(status.success());
-    assert_eq!(String::from_utf8(stdout).unwrap(), "velocity(9) = 9\n");
-    let stderr = String::from_utf8(stderr).unwrap();
+    let (code, stdout, stderr) = run(anywhere(), &arguments);
+    assert_eq!((code, stdout.as_str()), (0, "velocity(9) = 9\n"));
     assert!(stderr.starts_with("echoes expanded: "), "{stderr}");
 }
 
@@ -203,7 +180,7 @@ fn statistics_go_to_standard_error() {
 
 #[test]
 fn what_scenes_cannot_be_asked_is_refused() {
-    let folder = folder("refused");
+    let folder = folder("scene-refused");
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
     write("cushion.wave", CUSHION);
     let symbolic = CUSHION.replace("mass = 1,", "mass = m,");
@@ -239,8 +216,8 @@ fn what_scenes_cannot_be_asked_is_refused() {
         let (code, message) = refusal(&folder, &arguments);
         report.push_str(&format!("$ wavestep {line}\n{message}[exit {code}]\n\n"));
     }
-    snapshot("refusals", &report);
+    snapshot("scene-command", "refusals", "the commands in it", &report);
     // What the exact form cannot hold is a number all the same.
     let energy = run(&folder, &["eval", "cubic.wave", "--quantity", "energy", "--at", "7"]);
-    assert_eq!(String::from_utf8(energy.stdout).unwrap(), "energy(7) = 0.500000000000000\n");
+    assert_eq!(energy.1, "energy(7) = 0.500000000000000\n");
 }

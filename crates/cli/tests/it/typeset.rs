@@ -1,11 +1,11 @@
 //! LaTeX that typesetters take: TeX with amsmath where it is installed, KaTeX where node and the
 //! package are. Each is left out with a message where it is missing.
 
-use super::ROOT;
+use super::{ROOT, anywhere, folder, run, words};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 const SCENES: [&str; 4] = ["two-bars", "constant-force", "pulse-shape", "rigid-mass"];
@@ -35,23 +35,11 @@ fn displays() -> BTreeMap<String, String> {
     asked.push("mass-on-fixed-bar --observable momentum".to_owned());
     asked.push("hopkinson --wave specimen --piece 6".to_owned());
     let latex = |asked: String| {
-        let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
-            .args(["derive", "--format", "latex"])
-            .args(asked.split_whitespace())
-            .output()
-            .expect("the command runs");
-        assert!(output.status.success(), "{asked}: {}", String::from_utf8_lossy(&output.stderr));
-        (asked, String::from_utf8(output.stdout).expect("text"))
+        let (code, out, err) = run(anywhere(), &words(&format!("derive --format latex {asked}")));
+        assert_eq!(code, 0, "{asked}: {err}");
+        (asked, out)
     };
     asked.into_iter().map(latex).collect()
-}
-
-/// An empty directory of this test's own.
-fn directory(name: &str) -> PathBuf {
-    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&directory);
-    fs::create_dir_all(&directory).expect("a directory");
-    directory
 }
 
 /// Whether a program is installed.
@@ -88,7 +76,7 @@ fn tex_typesets_every_display() {
     if !installed("pdflatex") {
         return skip("TeX is not installed (Debian package texlive-latex-base)");
     }
-    let directory = directory("tex");
+    let directory = folder("typeset-tex");
     let all = displays();
     // What the lengths of lines promise: 84 fits A4 with margins of 2 cm, 60 the class as it is.
     let (narrow, wide): (Vec<_>, Vec<_>) =
@@ -111,16 +99,13 @@ fn tex_typesets_every_derivation() {
     if !installed("pdflatex") {
         return skip("TeX is not installed (Debian package texlive-latex-base)");
     }
-    let directory = directory("tex-derivations");
+    let directory = folder("typeset-tex-derivations");
     let margins = "\\usepackage[a4paper,margin=2cm]{geometry}";
     for scene in ["mass-on-fixed-bar", "cushioned-impact", "pile", "hopkinson", "percussive-drill"]
     {
-        let output = Command::new(env!("CARGO_BIN_EXE_wavestep"))
-            .args(["derive", scene, "--explain", "--format", "latex"])
-            .output()
-            .expect("the command runs");
-        assert!(output.status.success(), "{scene}");
-        let text = String::from_utf8(output.stdout).expect("text");
+        let (code, text, err) =
+            run(anywhere(), &["derive", scene, "--explain", "--format", "latex"]);
+        assert_eq!(code, 0, "{scene}: {err}");
         typeset(&directory, scene, margins, &text).unwrap_or_else(|log| panic!("{log}"));
     }
 }

@@ -1,20 +1,15 @@
 //! How long closed contacts are true, as commands say it.
 
-use std::path::Path;
-use std::process::Command;
+use super::{anywhere, run, words};
 
 /// The command says so on standard error; what it derives stays what it is.
 #[test]
 fn commands_say_how_long_closed_contacts_are_true() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let scene = wavestep::scenes::find("saint-venant").unwrap().text;
-    std::fs::write(folder.join("validity.wave"), scene.replace("contacts open\n", "")).unwrap();
+    std::fs::write(anywhere().join("validity.wave"), scene.replace("contacts open\n", "")).unwrap();
     let run = |line: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_wavestep"));
-        command.current_dir(folder).env("NO_COLOR", "1").args(line.split(' '));
-        let output = command.output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (text(output.stdout), text(output.stderr))
+        let (_, out, err) = run(anywhere(), &words(line));
+        (out, err)
     };
     let pulls = "from t = 3.06766764162 on the contact between hammer and rod would pull; with \
                  `contacts open` it opens then";

@@ -1,7 +1,7 @@
 //! Dispersion: formulas and their derivatives, certified quadrature against closed forms and against
 //! another rule, cut-offs, errors, and pulses on their way.
 
-use insta::assert_snapshot;
+use crate::snapshot;
 use num_traits::ToPrimitive as _;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -33,14 +33,6 @@ fn spectrum(text: &str) -> Formula {
     read_spectrum(&Source::new("spectrum", text).unwrap()).unwrap()
 }
 
-fn settings() -> insta::Settings {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/dispersion"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings
-}
-
 /// All relations that have names, with parameters set to 1/2 where numbers are needed.
 fn with_numbers(one: Builtin) -> Relation {
     let parameters = one.relation().parameters();
@@ -69,7 +61,7 @@ fn relations_that_have_names_look_like_this() {
             }
         }
     }
-    settings().bind(|| assert_snapshot!("relations", shown));
+    snapshot("dispersion", "relations", "all relations that have names", &shown);
 }
 
 const FORMULAS: [&str; 26] = [
@@ -456,7 +448,7 @@ fn errors_name_what_is_wrong_and_where() {
     for text in ["2*k + sinh(k)", "k/0", "f[n]", "3", "k/(k - k)", "k^x", "k^(1/2", "0^(-1)*k"] {
         told += &format!("\n{}\n", try_read(text).unwrap_err());
     }
-    settings().bind(|| assert_snapshot!("errors", told));
+    snapshot("dispersion", "errors", "formulas that are refused", &told);
 }
 
 #[test]

@@ -6,14 +6,11 @@ use std::path::Path;
 use wavestep_studies::book::{table_latex, table_markdown};
 
 use super::{ALL, examined};
-use crate::ROOT;
+use crate::{ROOT, snapshot};
 
-fn snapshot(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/book"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
+fn recorded(number: &str, format: &str, text: &str) {
+    let asked = format!("book {number} --format {format}");
+    snapshot("book", &format!("{number}.{format}"), &asked, text);
 }
 
 #[test]
@@ -24,14 +21,14 @@ fn equations_are_shown_as_text() {
         let found = examined(number);
         let text = found.to_text(100);
         assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-        snapshot(&format!("{number}.text"), &text);
+        recorded(number, "text", &text);
     }
 }
 
 #[test]
 fn equations_are_shown_as_latex() {
     for number in ["6.31", "6.63", "6.75", "6.80", "6.7-acceleration"] {
-        snapshot(&format!("{number}.latex"), &examined(number).to_latex());
+        recorded(number, "latex", &examined(number).to_latex());
     }
 }
 
@@ -48,7 +45,7 @@ fn equations_are_shown_as_json() {
     assert_eq!(document["reading"], "clear");
     assert!(document["refuted"]["witness"].as_str().is_some_and(|told| told.contains("against")));
     let text = serde_json::to_string_pretty(&document).expect("JSON");
-    snapshot("6.75.json", &text);
+    recorded("6.75", "json", &text);
     let unsure = examined("6.31").to_json();
     assert_eq!(unsure["readings"][0]["supported"], true);
     assert_eq!(unsure["readings"][1]["supported"], false);
