@@ -5,12 +5,6 @@ use super::number::{decimal, power_of_ten};
 use serde_json::{Value, json};
 
 /// How distances along an axis stand for values.
-///
-/// ```
-/// use wavestep_draw::{Axis, Scale};
-///
-/// assert_eq!(Axis::logarithmic("time").scale, Scale::Logarithmic);
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Scale {
     /// Equal distances are equal differences.
@@ -20,13 +14,6 @@ pub enum Scale {
 }
 
 /// What is measured along an axis, in which unit, and on which scale.
-///
-/// ```
-/// use wavestep_draw::Axis;
-///
-/// assert_eq!(Axis::linear("time").unit("s").label(), "time (s)");
-/// assert_eq!(Axis::logarithmic("mass ratio").label(), "mass ratio");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Axis {
     /// The name of the quantity.

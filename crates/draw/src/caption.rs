@@ -5,21 +5,6 @@ use serde_json::{Map, Value, json};
 /// The small print under a picture: how its numbers were obtained.
 ///
 /// Empty fields are left out.
-///
-/// ```
-/// use wavestep_draw::Caption;
-///
-/// let caption = Caption {
-///     norm: "greatest error over the largest value".into(),
-///     sampling: "1000 points, uniform in time".into(),
-///     versions: vec![("wavestep".into(), "0.1.0".into())],
-///     seed: Some(7),
-///     command: "cargo bench --bench accuracy".into(),
-///     ..Caption::default()
-/// };
-/// assert_eq!(caption.sentences()[2], "Versions: wavestep 0.1.0.");
-/// assert_eq!(caption.sentences()[3], "Seed: 7.");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Caption {
     /// The norm in which errors are measured.

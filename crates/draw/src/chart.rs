@@ -6,20 +6,6 @@ use serde_json::Value;
 /// A chart: data that can be drawn, and written for other programs.
 ///
 /// Equal charts give equal bytes.
-///
-/// ```
-/// use wavestep_draw::{Axis, Caption, Chart, Curve, Curves};
-///
-/// let points = vec![(1.0, 1e-15), (10.0, 1e-9), (100.0, 0.5)];
-/// let curve = Curve { name: "expanded form".into(), points };
-/// let (order, error) = (Axis::linear("order n"), Axis::logarithmic("error"));
-/// let chart = Curves::new("Error & order", order, error, vec![curve], Caption::default())?;
-/// assert!(chart.svg().contains("Error &amp; order"));
-/// assert_eq!(chart.json()["kind"], "curves");
-/// assert_eq!(chart.csv().lines().nth(2), Some("expanded form,1e1,1e-9"));
-/// assert!(chart.svg_named("second").contains("id=\"second-title\""));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 pub trait Chart {
     /// The title.
     fn title(&self) -> &str;

@@ -11,13 +11,6 @@ use super::{Axis, Caption, Chart, PlotError, Scale};
 use serde_json::{Value, json};
 
 /// A line through points `(x, y)`, in their order.
-///
-/// ```
-/// use wavestep_draw::Curve;
-///
-/// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0), (2.0, 4.0)] };
-/// assert_eq!(curve.points.len(), 2);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Curve {
     /// The name, as the legend gives it.
@@ -27,13 +20,6 @@ pub struct Curve {
 }
 
 /// A shaded rectangle; a side that is `None` lies at the edge of the picture.
-///
-/// ```
-/// use wavestep_draw::Region;
-///
-/// let beyond = Region { x: (Some(100.0), None), y: (None, None), name: "refused".into() };
-/// assert_eq!(beyond.x.1, None);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Region {
     /// From where to where across.
@@ -54,27 +40,6 @@ pub struct Region {
 /// At least one point is finite. All that is finite has a place on its axis, or is zero on a
 /// logarithmic upward axis. Marked places, levels and sides of the region have a place on their
 /// axis.
-///
-/// ```
-/// use wavestep_draw::{Axis, Caption, Chart, Curve, Curves, Region};
-///
-/// let curve = |name: &str, points: &[_]| Curve { name: name.into(), points: points.to_vec() };
-/// let curves = vec![
-///     curve("expanded form", &[(10.0, 1e-13), (30.0, 1e-3), (40.0, 29.0)]),
-///     curve("exact", &[(10.0, 0.0), (40.0, 0.0)]),
-/// ];
-/// let (order, error) = (Axis::linear("order n"), Axis::logarithmic("error"));
-/// let chart = Curves::new("Digits lost", order, error, curves, Caption::default())?
-///     .level(1e-2, "useful no longer")?
-///     .mark(20.0, "first echo")?
-///     .region(Region { x: (Some(30.0), None), y: (None, None), name: "refused".into() })?;
-/// assert_eq!(chart.curves()[1].name, "exact");
-/// assert!(chart.svg().contains("useful no longer"));
-/// assert_eq!(chart.json()["levels"][0]["y"], 1e-2);
-/// // One point is far above all others.
-/// assert!(chart.ceiling(1.0)?.svg().contains("off the scale"));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Curves {
     title: String,

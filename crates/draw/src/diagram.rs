@@ -32,30 +32,12 @@ const COVERED: f64 = 0.08;
 const STEPS: f64 = 64.0;
 
 /// A range of places and one of times: `[(left, right), (first, last)]`.
-///
-/// ```
-/// use wavestep_draw::{Line, Window};
-///
-/// let window: Window = [(0.0, 2.0), (0.0, 1.0)];
-/// let line = Line { from: (0.0, 0.0), to: (2.0, 2.0), jumps: true };
-/// assert_eq!(line.clipped(window).unwrap().to, (1.0, 1.0));
-/// ```
 pub type Window = [(f64, f64); 2];
 
 /// An area with the value of the quantity in it.
 ///
 /// # Invariants
 /// - at least three corners, all finite.
-///
-/// ```
-/// use wavestep_draw::Cell;
-///
-/// // A square that stands on its corner, clipped to the places 0 … 1 and the times 0 … 1.
-/// let square = [(1.0, 0.0), (2.0, 1.0), (1.0, 2.0), (0.0, 1.0)];
-/// let cell = Cell::clipped(&square, 0.5, [(0.0, 1.0), (0.0, 1.0)]).unwrap();
-/// assert_eq!((cell.value(), cell.outline().len()), (0.5, 3));
-/// assert_eq!(Cell::clipped(&square, 0.5, [(3.0, 4.0), (0.0, 1.0)]), None);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Cell {
     outline: Vec<(f64, f64)>,
@@ -113,15 +95,6 @@ impl Cell {
 }
 
 /// The line of a front: where the quantity jumps, or, drawn thin, where its slope does.
-///
-/// ```
-/// use wavestep_draw::Line;
-///
-/// let line = Line { from: (0.0, 0.0), to: (2.0, 2.0), jumps: true };
-/// let seen = line.clipped([(0.0, 1.0), (0.5, 3.0)]).unwrap();
-/// assert_eq!((seen.from, seen.to), ((0.5, 0.5), (1.0, 1.0)));
-/// assert_eq!(line.clipped([(3.0, 4.0), (0.0, 1.0)]), None);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Line {
     /// Where it begins.
@@ -156,13 +129,6 @@ impl Line {
 }
 
 /// What stands below the axis of places.
-///
-/// ```
-/// use wavestep_draw::{Part, Shape};
-///
-/// let rod = Part { name: "rod".into(), from: 0.0, to: 2.0, shape: Shape::Bar(1.0) };
-/// assert!(rod.from < rod.to);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Part {
     /// What it is called.
@@ -176,12 +142,6 @@ pub struct Part {
 }
 
 /// How an element is drawn below the axis of places.
-///
-/// ```
-/// use wavestep_draw::Shape;
-///
-/// assert_ne!(Shape::Bar(1.0), Shape::Lump);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Shape {
     /// A bar, whose thickness stands for its impedance: a share of that of the stoutest, 0 … 1.
@@ -200,33 +160,6 @@ pub enum Shape {
 ///
 /// # Invariants
 /// There is a cell; the window and the scale of colours are not empty.
-///
-/// ```
-/// use wavestep_draw::{Axis, Caption, Cell, Chart, Diagram, Line, Part, Shape};
-///
-/// // A bar of length 1 is pushed at its left end: behind the front it moves with 1.
-/// let window = [(0.0, 1.0), (0.0, 1.0)];
-/// let cell = |corners: &[_], value| Cell::clipped(corners, value, window).unwrap();
-/// let cells = vec![
-///     cell(&[(0.0, 0.0), (1.0, 1.0), (0.0, 1.0)], 1.0),
-///     cell(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)], 0.0),
-/// ];
-/// let (x, t) = (Axis::linear("place").unit("m"), Axis::linear("time").unit("ms"));
-/// let velocity = Axis::linear("velocity").unit("m/s");
-/// let diagram = Diagram::new("A push", [x, t, velocity], window, cells, Caption::default())?
-///     .lines(vec![Line { from: (0.0, 0.0), to: (1.0, 1.0), jumps: true }])
-///     .parts(vec![Part { name: "rod".into(), from: 0.0, to: 1.0, shape: Shape::Bar(1.0) }])
-///     .level(0.5, "half way")?;
-/// assert_eq!(diagram.colours(), (0.0, 1.0));
-/// assert_eq!(diagram.clone().coloured(0.0, 2.0)?.titled("").colours(), (0.0, 2.0));
-/// let svg = diagram.svg();
-/// for text in ["place (m)", "time (ms)", "velocity (m/s)", "rod", "half way"] {
-///     assert!(svg.contains(text), "{text}");
-/// }
-/// assert_eq!(diagram.csv().lines().count(), 3);
-/// assert!(diagram.measured(["x/L", "ct/L", "v/V"]).svg().contains(">ct/L</text>"));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Diagram {
     title: String,

@@ -17,13 +17,6 @@ const RULES: &str = "\
 .plot .thin{fill:none;stroke:currentColor;stroke-width:.9;stroke-linejoin:round}";
 
 /// How a series is drawn.
-///
-/// ```
-/// use wavestep_draw::{Look, Series};
-///
-/// let series = Series::new("measured", vec![(0.0, 1.0)]).look(Look::Points);
-/// assert_eq!(series.look, Look::Points);
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Look {
     /// A line through the points.
@@ -37,15 +30,6 @@ pub enum Look {
 }
 
 /// Points `(x, y)` in their order, with the places where the quantity jumps.
-///
-/// ```
-/// use wavestep_draw::Series;
-///
-/// // A step from 0 to 1: the line is interrupted, the jump drawn thin and dotted.
-/// let points = vec![(0.0, 0.0), (1.0, 0.0), (f64::NAN, f64::NAN), (1.0, 1.0), (2.0, 1.0)];
-/// let step = Series::new("step", points).jumping(vec![(1.0, 0.0, 1.0)]).styled(2);
-/// assert_eq!((step.jumps.len(), step.style), (1, Some(2)));
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
     /// The name, as the legend gives it; without one it has no entry there.
@@ -87,17 +71,6 @@ impl Series {
 }
 
 /// Series over one upward axis.
-///
-/// ```
-/// use wavestep_draw::{Axis, Panel, Series};
-///
-/// let series = Series::new("force", vec![(0.0, 1.0), (1.0, 2.0)]);
-/// let panel = Panel::new(Axis::linear("force").unit("kN"), vec![series])
-///     .reaching(0.0, 4.0)
-///     .level(1.5, "yield")
-///     .note((1.0, 2.0), "the wave returns");
-/// assert_eq!((panel.series().len(), panel.axis().label().as_str()), (1, "force (kN)"));
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Panel {
     y: Axis,
@@ -125,16 +98,6 @@ impl Panel {
     }
 
     /// The same with the names of its series where they end, and not in a legend.
-    ///
-    /// ```
-    /// use wavestep_draw::{Axis, Caption, Chart, Figure, Panel, Series};
-    ///
-    /// let series = |name: &str, end: f64| Series::new(name, vec![(0.0, 0.0), (1.0, end)]);
-    /// let panel = Panel::new(Axis::linear("y"), vec![series("low", 1.0), series("high", 2.0)]);
-    /// let figure = |panel| Figure::new("", Axis::linear("x"), vec![panel], Caption::default());
-    /// let named = figure(panel.clone().named_at_ends()).unwrap().svg();
-    /// assert!(named.contains(">high</text>") && named != figure(panel).unwrap().svg());
-    /// ```
     #[must_use]
     pub fn named_at_ends(self) -> Panel {
         Panel { named_at_ends: true, ..self }
@@ -197,30 +160,6 @@ impl Panel {
 ///
 /// # Invariants
 /// There is a panel, and a finite point; all that is finite has a place on its axis.
-///
-/// ```
-/// use wavestep_draw::{Axis, Caption, Chart, Figure, Panel, Series};
-///
-/// let series = |name: &str, y: f64| Series::new(name, vec![(0.0, 0.0), (1.0, y), (2.0, y / 2.0)]);
-/// let (velocity, force) = (Axis::linear("velocity").unit("m/s"), Axis::linear("force").unit("kN"));
-/// let panels = vec![
-///     Panel::new(velocity, vec![series("striker", 3.0), series("output", -2.0)]),
-///     Panel::new(force, vec![series("specimen", 40.0)]).level(35.0, "limit"),
-/// ];
-/// let figure = Figure::new("Impact", Axis::linear("time").unit("µs"), panels, Caption::default())?
-///     .window(0.0, 2.0)?
-///     .mark(1.0, "first arrival")?;
-/// assert_eq!(figure.panels().len(), 2);
-/// assert_eq!(figure.clone().titled("").title(), "");
-/// assert_eq!(figure.extent(), (0.0, 2.0));
-/// assert!(figure.clone().across(Axis::linear("ct/L")).svg().contains(">ct/L</text>"));
-/// let svg = figure.svg();
-/// for text in ["velocity (m/s)", "time (µs)", "specimen", "limit", "first arrival"] {
-///     assert!(svg.contains(text), "{text}");
-/// }
-/// assert!(figure.csv().starts_with("panel,series,time (µs),value\n"));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Figure {
     title: String,

@@ -10,13 +10,6 @@
 ///
 /// the least time for at most the error `e`: errors ascend and times descend, both strictly. Cost:
 /// O(m log m) for `m` points.
-///
-/// ```
-/// use wavestep_draw::frontier;
-///
-/// let points = [(1e-3, 1.0), (1e-9, 5.0), (1e-6, 9.0), (1e-12, 7.0), (1e-2, 1.0)];
-/// assert_eq!(frontier(&points), [3, 1, 0]); // (1e-6, 9.0) is beaten by (1e-9, 5.0).
-/// ```
 pub fn frontier(points: &[(f64, f64)]) -> Vec<usize> {
     let finite = |&i: &usize| points[i].0.is_finite() && points[i].1.is_finite();
     let mut order: Vec<usize> = (0..points.len()).filter(finite).collect();

@@ -16,13 +16,6 @@ use std::fmt::Write;
 const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
 
 /// A level of the error at which something changes, drawn as a step line.
-///
-/// ```
-/// use wavestep_draw::Level;
-///
-/// let level = Level { value: 1e-8, name: "8 digits lost".into() };
-/// assert_eq!(level.name, "8 digits lost");
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Level {
     /// The level, above zero.
@@ -42,25 +35,6 @@ pub struct Level {
 /// Places ascend strictly, are finite, and are above zero on logarithmic axes; there is one cell
 /// for each pair, and at least one; no error is negative; the colour scale spans at least one power
 /// of ten.
-///
-/// ```
-/// use wavestep_draw::{Axis, Caption, Chart, Level, Map};
-///
-/// let cells = vec![Some(1e-15), Some(1e-12), None, Some(1e-9), Some(1e-2), Some(f64::INFINITY)];
-/// let map = Map::new(
-///     "Expanded form",
-///     (Axis::linear("order n"), vec![10.0, 20.0, 30.0]),
-///     (Axis::logarithmic("mass ratio"), vec![0.25, 1.0]),
-///     cells,
-///     Caption::default(),
-/// )?
-/// .level(Level { value: 1e-3, name: "useless".into() })?
-/// .decades(-16, 0)?;
-/// assert_eq!(map.cell(2, 0), None);
-/// assert_eq!(map.cell(1, 1), Some(1e-2));
-/// assert!(map.svg().contains("useless"));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Map {
     title: String,

@@ -5,18 +5,6 @@ use super::text::{csv_field, escape};
 use std::fmt::Write;
 
 /// A small table under a chart: what can be read from the chart, in numbers.
-///
-/// ```
-/// use wavestep_draw::Listing;
-///
-/// let listing = Listing {
-///     caption: "Orders at which digits are lost".into(),
-///     heads: vec!["mu".into(), "8 digits".into()],
-///     rows: vec![vec!["1".into(), "30".into()]],
-/// };
-/// assert!(listing.rows.iter().all(|row| row.len() == listing.heads.len()));
-/// assert_eq!(listing.csv(), "mu,8 digits\n1,30\n");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Listing {
     /// What it lists.
@@ -59,17 +47,6 @@ impl Listing {
 }
 
 /// A chart on a page, with what the reader should see in it.
-///
-/// ```
-/// use wavestep_draw::{Axis, Caption, Curve, Curves, Section};
-///
-/// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0)] };
-/// let (order, cost) = (Axis::linear("order"), Axis::linear("cost"));
-/// let chart = Curves::new("Cost", order, cost, vec![curve], Caption::default())?;
-/// let section = Section { heading: "Cost", explanation: "It grows.", chart: &chart, listing: None };
-/// assert_eq!(section.chart.title(), "Cost");
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 #[derive(Clone, Copy)]
 pub struct Section<'a> {
     /// The heading.
@@ -83,20 +60,6 @@ pub struct Section<'a> {
 }
 
 /// A row of the table of a page.
-///
-/// ```
-/// use wavestep_draw::Row;
-///
-/// let row = Row {
-///     method: "exact".into(),
-///     setting: "n = 20".into(),
-///     error: 0.0,
-///     bound: Some(1e-28),
-///     seconds: 4e-9,
-///     speed_up: Some(250.0),
-/// };
-/// assert!((row.points_a_second() / 2.5e8 - 1.0).abs() < 1e-15);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Row {
     /// The method.
@@ -121,13 +84,6 @@ impl Row {
 }
 
 /// The table of a page: rows in an order of the caller's choice.
-///
-/// ```
-/// use wavestep_draw::Table;
-///
-/// let table = Table { compared_with: "modes, N = 10".into(), rows: vec![] };
-/// assert!(table.rows.is_empty());
-/// ```
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Table {
     /// The method to which speed-ups refer; empty if there are none.
@@ -206,20 +162,6 @@ fn ratio_text(ratio: f64) -> String {
 /// It is one file of HTML 5, complete in itself: pictures stand in the markup, and nothing is run
 /// or loaded. Colours follow the reader's choice of light or dark; in print they are light, and a
 /// picture is not broken between pages. Cost: linear in the size of the result.
-///
-/// ```
-/// use wavestep_draw::{Axis, Caption, Curve, Curves, Section, Table, page};
-///
-/// let curve = Curve { name: "cost".into(), points: vec![(1.0, 2.0), (2.0, 4.0)] };
-/// let (order, cost) = (Axis::linear("order"), Axis::linear("cost"));
-/// let chart = Curves::new("Cost", order, cost, vec![curve], Caption::default())?;
-/// let (heading, explanation) = ("Cost < price", "It grows.");
-/// let section = Section { heading, explanation, chart: &chart, listing: None };
-/// let page = page("Speed", &[section, section], &Table::default());
-/// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<h2>Cost &lt; price</h2>"));
-/// assert!(!page.contains("<script") && page.contains("id=\"chart-2-title\""));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 pub fn page(title: &str, sections: &[Section<'_>], table: &Table) -> String {
     let title = escape(title);
     let mut page = format!(

@@ -17,18 +17,6 @@ const MAX_WIDTH: u32 = 10_000;
 ///
 /// # Cost
 /// Linear in the number of pixels and shapes.
-///
-/// ```
-/// use wavestep_draw::png;
-///
-/// let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='3'><text>A</text></svg>";
-/// let picture = png(svg, 90)?;
-/// // The signature of PNG; width and height stand in the first chunk.
-/// assert_eq!(&picture[1..4], b"PNG");
-/// assert_eq!((picture[19], picture[23]), (90, 30));
-/// assert!(png("<p>", 90).is_err());
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, PlotError> {
     if width == 0 || width > MAX_WIDTH {
         return Err(PlotError::NotDrawn(NotDrawn::Width { width, limit: MAX_WIDTH }));

@@ -10,19 +10,6 @@ use super::{Axis, Caption, Chart, PlotError, Scale, frontier};
 use serde_json::{Value, json};
 
 /// What one setting of a method costs and reaches.
-///
-/// ```
-/// use wavestep_draw::Point;
-///
-/// let point = Point {
-///     setting: "N = 10".into(),
-///     error: 3e-9,
-///     bound: Some(1e-8),
-///     seconds: 2e-7,
-///     prepared: Some(5e-6),
-/// };
-/// assert!(point.bound.unwrap() >= point.error && point.prepared.unwrap() >= point.seconds);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Point {
     /// The setting in few letters: `N = 10`.
@@ -38,13 +25,6 @@ pub struct Point {
 }
 
 /// A method with what was measured at its settings, in their order.
-///
-/// ```
-/// use wavestep_draw::Method;
-///
-/// let method = Method { name: "vibration modes".into(), points: vec![] };
-/// assert!(method.points.is_empty());
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Method {
     /// The name, as the legend gives it.
@@ -63,27 +43,6 @@ pub struct Method {
 /// # Invariants
 /// At least one point has a finite error and time. Errors and bounds are not negative, times are
 /// above zero, where they are numbers; points that are not finite are left out and counted.
-///
-/// ```
-/// use wavestep_draw::{Caption, Chart, Method, Point, WorkPrecision};
-///
-/// let point = |setting: &str, error, seconds| Point {
-///     setting: setting.into(), error, bound: None, seconds, prepared: None,
-/// };
-/// let methods = vec![
-///     Method { name: "modes".into(), points: vec![point("N = 10", 1e-2, 1e-6)] },
-///     Method {
-///         name: "exact".into(),
-///         points: vec![point("", 0.0, 1e-7), point("", f64::NAN, 1.0)],
-///     },
-/// ];
-/// let chart = WorkPrecision::new("Rigid mass", methods, Caption::default())?;
-/// let chart = chart.reference_radius(1e-20)?;
-/// assert_eq!(chart.json()["frontier"][0]["method"], "exact");
-/// assert_eq!((chart.methods().len(), &chart.json()["left_out"]), (2, &1.into()));
-/// assert!(chart.svg().contains("1 point is not finite"));
-/// # Ok::<(), wavestep_draw::PlotError>(())
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct WorkPrecision {
     title: String,

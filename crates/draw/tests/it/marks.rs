@@ -1,6 +1,9 @@
-//! Marks of charts: rings for preparation, labels beside lines, points above a ceiling.
+//! Marks of charts: rings for preparation, labels beside lines, points above a ceiling; what is clipped, and
+//! pixels.
 
-use wavestep_draw::{Axis, Caption, Chart, Curve, Curves, Method, Point, WorkPrecision};
+use wavestep_draw::{
+    Axis, Caption, Cell, Chart, Curve, Curves, Line, Method, Point, WorkPrecision, png,
+};
 
 fn point(setting: &str, error: f64, seconds: f64) -> Point {
     Point { setting: setting.into(), error, bound: None, seconds, prepared: None }
@@ -84,4 +87,28 @@ fn what_is_above_the_ceiling_stands_at_the_upper_edge() {
     // Where nothing is above, a ceiling changes nothing in the picture.
     let low = points[..2].to_vec();
     assert_eq!(chart(low.clone()).ceiling(100.0).unwrap().svg(), chart(low).svg());
+}
+
+#[test]
+fn shapes_are_clipped_to_the_window() {
+    let window = [(0.0, 1.0), (0.0, 1.0)];
+    let line = Line { from: (0.0, 0.0), to: (2.0, 2.0), jumps: true };
+    let seen = line.clipped([(0.0, 1.0), (0.5, 3.0)]).unwrap();
+    assert_eq!((seen.from, seen.to), ((0.5, 0.5), (1.0, 1.0)));
+    assert_eq!(line.clipped([(3.0, 4.0), (0.0, 1.0)]), None);
+    // A square that stands on its corner.
+    let square = [(1.0, 0.0), (2.0, 1.0), (1.0, 2.0), (0.0, 1.0)];
+    let cell = Cell::clipped(&square, 0.5, window).unwrap();
+    assert_eq!((cell.value(), cell.outline().len()), (0.5, 3));
+    assert_eq!(Cell::clipped(&square, 0.5, [(3.0, 4.0), (0.0, 1.0)]), None);
+}
+
+/// The signature of PNG; width and height stand in the first chunk.
+#[test]
+fn pixels_have_the_resolution_asked_for() {
+    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='3'><text>A</text></svg>";
+    let picture = png(svg, 90).unwrap();
+    assert_eq!(&picture[1..4], b"PNG");
+    assert_eq!((picture[19], picture[23]), (90, 30));
+    assert!(png("<p>", 90).is_err());
 }

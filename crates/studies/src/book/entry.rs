@@ -8,14 +8,6 @@ use wavestep::language::{Source, normalise_name, parse_expression};
 use wavestep_polynomial::Rational;
 
 /// How the two parts of an equation are related.
-///
-/// ```
-/// use wavestep_studies::book::{Equation, Relation};
-///
-/// let read = |text| Equation::read(text).unwrap().relation();
-/// assert_eq!(read("g[n] = -f[n-1]"), Relation::Equals);
-/// assert_eq!(read("alpha[n] starts at 0"), Relation::Starts);
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Relation {
     /// Both sides are equal, on every period that they name.
@@ -25,19 +17,6 @@ pub enum Relation {
 }
 
 /// An equation of the source, as trees of the language.
-///
-/// ```
-/// use wavestep_studies::book::Equation;
-///
-/// let equation = Equation::read("v[0] = V/2 when r = 1").unwrap();
-/// assert_eq!(equation.left().to_string(), "v[0]");
-/// assert_eq!(equation.right().to_string(), "V/2");
-/// assert_eq!(equation.to_string(), "v[0] = V/2 when r = 1");
-/// let (name, value) = equation.condition().unwrap();
-/// assert_eq!((name, value.to_string().as_str()), ("r", "1"));
-/// let other = equation.with_right(equation.left().clone());
-/// assert_eq!(other.to_string(), "v[0] = v[0] when r = 1");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Equation {
     left: Tree,
@@ -123,15 +102,6 @@ impl fmt::Display for Equation {
 }
 
 /// What is to be done with an equation.
-///
-/// ```
-/// use wavestep_studies::book::{Content, find};
-///
-/// let content = |number| find(number).unwrap().1.content.clone();
-/// assert!(matches!(content("6.80"), Content::Claim(equations) if equations.len() == 1));
-/// assert!(matches!(content("6.31"), Content::Readings(readings) if readings.len() == 2));
-/// assert!(matches!(content("6.93"), Content::Definition(_)));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Content {
     /// Equations that the source derives.
@@ -145,12 +115,6 @@ pub enum Content {
 }
 
 /// A numbered equation of the source, or a limit that it states in words.
-///
-/// ```
-/// let (section, entry) = wavestep_studies::book::find("6.80").unwrap();
-/// assert_eq!((section.number.as_str(), entry.number.as_str()), ("6.10", "6.80"));
-/// assert_eq!(entry.unsure, None);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Entry {
     /// Its number, or that of its section with a word: `6.7-acceleration`.
@@ -179,19 +143,6 @@ pub(super) struct Setting {
 }
 
 /// A section of the source with its equations.
-///
-/// ```
-/// let sections = wavestep_studies::book::sections();
-/// let numbers: Vec<&str> = sections.iter().map(|section| section.number.as_str()).collect();
-/// assert_eq!(numbers, ["6.6", "6.7", "6.8", "6.9", "6.10", "6.11"]);
-/// assert!(sections[5].stage().is_none()); // waves of dispersion run in no scene of bars
-/// // The source's names for what is in the scene.
-/// let section = &sections[4];
-/// assert_eq!(section.scene(), Some("mass-on-fixed-bar"));
-/// assert!(section.dictionary().contains(&"v_0 = V*velocity".to_owned()));
-/// let equation = wavestep_studies::book::Equation::read("v_0[n] = 0").unwrap();
-/// assert_eq!(section.dictionary_of(&[equation]), ["v_0 = V*velocity"]);
-/// ```
 #[derive(Clone, Debug)]
 pub struct Section {
     /// Its number.

@@ -11,15 +11,6 @@ use wavestep::expression::Expression;
 use wavestep::language::syntax::{Expression as Tree, Node};
 
 /// What is found about a numbered equation.
-///
-/// ```
-/// use wavestep_studies::book::examine;
-///
-/// let found = examine("6.78").unwrap();
-/// assert_eq!(found.entry.states, "The wave during the first period.");
-/// assert_eq!(found.derived[0].to_line(), "f[0] = V/c*exp(-mu*z/L)");
-/// assert_eq!(found.steps, ["both sides are the same expression in normal form"]);
-/// ```
 #[derive(Clone, Debug)]
 pub struct Examination {
     /// The section that it stands in.
@@ -45,13 +36,6 @@ pub struct Examination {
 /// # Cost
 /// The first five periods of the scene of its section; for estimates a search of all extrema for each
 /// of the masses at which they are measured.
-///
-/// ```
-/// use wavestep_studies::book::{Verdict, examine};
-///
-/// assert!(matches!(examine("6.40").unwrap().verdict, Verdict::Proved(_)));
-/// assert!(examine("7.1").is_err());
-/// ```
 pub fn examine(number: &str) -> Result<Examination, UnknownNumber> {
     let (section, entry) = find(number)?;
     let stage = match entry.content {
@@ -68,14 +52,6 @@ pub fn examine(number: &str) -> Result<Examination, UnknownNumber> {
 ///
 /// # Cost
 /// As [`examine`], for each; scenes are derived once a section.
-///
-/// ```
-/// use wavestep_studies::book::{Verdict, examine_all};
-///
-/// let all = examine_all();
-/// let refuted = all.iter().filter(|found| matches!(found.verdict, Verdict::Refuted(_)));
-/// assert!(refuted.map(|found| found.entry.number.as_str()).any(|number| number == "6.75"));
-/// ```
 #[must_use]
 pub fn examine_all() -> Vec<Examination> {
     let mut all = Vec::new();

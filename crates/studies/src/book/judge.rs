@@ -31,21 +31,6 @@ impl Stage {
     ///
     /// # Cost
     /// The first pieces of all waves, once for a stage.
-    ///
-    /// ```
-    /// use wavestep_studies::book::{Equation, Finding, Ground, find};
-    ///
-    /// let (section, _) = find("6.40").unwrap();
-    /// let stage = section.stage().unwrap();
-    /// let judged = |text| stage.judge(&Equation::read(text).unwrap()).unwrap();
-    /// let general = "F_prime[n] = V/c_2*r/(1 + r)*rho^n";
-    /// assert_eq!(judged(general), Finding::Holds(Ground::EveryPower));
-    /// // With a wrong ratio the first period agrees, and the second does not.
-    /// let Finding::Fails(witness) = judged("F_prime[n] = V/c_2*r/(1 + r)*(rho/2)^n") else {
-    ///     panic!("a slip")
-    /// };
-    /// assert_eq!(witness.period, Some(1));
-    /// ```
     pub fn judge(&self, equation: &Equation) -> Result<Finding, Refusal> {
         let [left, right] = self.sides(equation)?;
         if equation.relation() == Relation::Starts {

@@ -5,16 +5,6 @@
 //! language of this library. A section names a scene of bars and elements and says what the source calls
 //! the waves in it; from there on the scene is derived by its parts, and nothing of the source's own
 //! derivation is used. What stands in no file is the verdict: [`examine`] computes it.
-//!
-//! ```
-//! use wavestep_studies::book::{Verdict, examine};
-//!
-//! let found = examine("6.75").unwrap();
-//! let Verdict::Refuted(slip) = &found.verdict else { panic!("a slip in the source") };
-//! assert!(slip.1.is_certain());
-//! let corrected = found.derived[0].to_line();
-//! assert!(corrected.contains("- 1/2*t_tilde^2*(3 "), "{corrected}");
-//! ```
 
 mod checks;
 mod entry;
@@ -57,13 +47,6 @@ static SECTIONS: LazyLock<Vec<Section>> = LazyLock::new(|| {
 });
 
 /// All sections with their equations, in the order of the source.
-///
-/// ```
-/// use wavestep_studies::book::sections;
-///
-/// let count: usize = sections().iter().map(|section| section.entries.len()).sum();
-/// assert!(count >= 72);
-/// ```
 #[must_use]
 pub fn sections() -> &'static [Section] {
     &SECTIONS
@@ -108,11 +91,6 @@ impl UnknownNumber {
 ///
 /// # Errors
 /// [`UnknownNumber`] where there is none.
-///
-/// ```
-/// let (section, entry) = wavestep_studies::book::find("6.7-acceleration").unwrap();
-/// assert_eq!((section.number.as_str(), entry.number.as_str()), ("6.7", "6.7-acceleration"));
-/// ```
 pub fn find(number: &str) -> Result<(&'static Section, &'static Entry), UnknownNumber> {
     let wanted = number.trim();
     let all = sections().iter().flat_map(|s| s.entries.iter().map(move |entry| (s, entry)));

@@ -35,22 +35,6 @@ pub(super) struct Quantity {
 
 /// The scene of a section of the book: the recurrence that the network of its parts gives, and what
 /// the source calls the waves in it. Nothing in it is taken from the source's derivation.
-///
-/// ```
-/// use wavestep_studies::book::{Equation, find};
-///
-/// let (section, _) = find("6.80").unwrap();
-/// let stage = section.stage().unwrap();
-/// let judged = |text| stage.judge(&Equation::read(text).unwrap()).unwrap();
-/// // The fixed end, for every n; and a slip in it.
-/// assert!(judged("g[n] = -f[n-1]").holds());
-/// assert!(!judged("g[n] = f[n-1]").holds());
-/// assert_eq!(stage.scene(), "mass-on-fixed-bar");
-/// assert_eq!(stage.solution().recurrence().statement().waves, ["f", "g"]);
-/// // B_1 is the wave at the start of period 1, by 6.79.
-/// let value = |text: &str| stage.expression(Equation::read(text).unwrap().right()).unwrap();
-/// assert_eq!(value("x = B_1"), value("x = V/c*(1 + exp(-2*mu))"));
-/// ```
 pub struct Stage {
     scene: String,
     solution: Solution,

@@ -32,14 +32,6 @@ fn of_section<'a>(
 }
 
 /// Number, statement and verdict, a line for each.
-///
-/// ```
-/// use wavestep_studies::book::{examine, table};
-///
-/// let text = table(&[examine("6.78").unwrap()]);
-/// assert!(text.contains("6.78"), "{text}");
-/// assert!(text.ends_with("1 equation: 1 proved\n"), "{text}");
-/// ```
 #[must_use]
 pub fn table(all: &[Examination]) -> String {
     let width = all.iter().map(|found| found.entry.number.len()).max().unwrap_or_default();
@@ -65,13 +57,6 @@ pub fn table(all: &[Examination]) -> String {
 }
 
 /// Number, statement and verdict as a table of LaTeX.
-///
-/// ```
-/// use wavestep_studies::book::{examine, table_latex};
-///
-/// let latex = table_latex(&[examine("6.78").unwrap()]);
-/// assert!(latex.contains("6.78 & The wave during the first period. & proved"), "{latex}");
-/// ```
 #[must_use]
 pub fn table_latex(all: &[Examination]) -> String {
     let row = |found: &Examination| {
@@ -89,14 +74,6 @@ pub fn table_json(all: &[Examination]) -> Value {
 }
 
 /// The page `docs/equations.md`: a table for each section, with formulas.
-///
-/// ```
-/// use wavestep_studies::book::{examine, table_markdown};
-///
-/// let page = table_markdown(&[examine("6.75").unwrap()]);
-/// assert!(page.contains("| 6.75 | The compression during the fifth period. |"), "{page}");
-/// assert!(page.contains("**refuted as read**"), "{page}");
-/// ```
 #[must_use]
 pub fn table_markdown(all: &[Examination]) -> String {
     let mut out = String::from(

@@ -10,20 +10,6 @@ use wavestep_polynomial::Rational;
 const DIGITS: usize = 12;
 
 /// How an equation is known to hold.
-///
-/// ```
-/// use wavestep_studies::book::{Equation, Finding, Ground, find};
-///
-/// let (section, _) = find("6.76").unwrap();
-/// let stage = section.stage().unwrap();
-/// let ground = |text| match stage.judge(&Equation::read(text).unwrap()).unwrap() {
-///     Finding::Holds(ground) => ground,
-///     Finding::Fails(_) => panic!("{text} fails"),
-/// };
-/// assert_eq!(ground("f[0] = V/c*exp(-mu*z/L)"), Ground::SameExpression);
-/// assert_eq!(ground("g[n] = -f[n-1]"), Ground::EveryPeriod);
-/// assert!(Ground::EveryPeriod.to_string().contains("for every n"));
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Ground {
     /// Both sides are the same expression in normal form.
@@ -64,17 +50,6 @@ impl fmt::Display for Ground {
 }
 
 /// Values of both sides of an equation that differ, with proof.
-///
-/// ```
-/// use wavestep_studies::book::{Equation, Finding, find};
-///
-/// let (section, _) = find("6.80").unwrap();
-/// let stage = section.stage().unwrap();
-/// let slip = Equation::read("f[0] = V/c*exp(mu*z/L)").unwrap();
-/// let Ok(Finding::Fails(witness)) = stage.judge(&slip) else { panic!("a slip") };
-/// assert!(witness.is_certain());
-/// assert_eq!(witness.to_string(), "0.606530659713 against 1.64872127070 at V = 1, c = 1, s = 1/2");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Witness {
     /// On which period, where the equation is about all of them.
@@ -110,12 +85,6 @@ impl fmt::Display for Witness {
 }
 
 /// Whether an equation holds.
-///
-/// ```
-/// use wavestep_studies::book::{Finding, Ground};
-///
-/// assert!(Finding::Holds(Ground::Continuity).holds());
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Finding {
     /// It does.
@@ -133,17 +102,6 @@ impl Finding {
 }
 
 /// What is found about a numbered equation.
-///
-/// ```
-/// use wavestep_studies::book::{Verdict, examine};
-///
-/// let verdict = |number| examine(number).unwrap().verdict;
-/// assert!(matches!(verdict("6.80"), Verdict::Proved(_)));
-/// assert!(matches!(verdict("6.75"), Verdict::Refuted(_)));
-/// assert!(matches!(verdict("6.31"), Verdict::Unsure(_)));
-/// assert!(matches!(verdict("6.93"), Verdict::Definition));
-/// assert_eq!(verdict("6.80").to_string(), "proved");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Verdict {
     /// Equal to what is derived, with the ground for each of its equations.

@@ -16,17 +16,6 @@ const MAX_EXPONENT: i64 = 1 << 12;
 const MAX_POWER_BITS: u64 = 1 << 15;
 
 /// An elementary function of one argument.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Formula, Function};
-///
-/// // Odd functions send the sign out, even ones drop it.
-/// let k = Formula::wave_number();
-/// let minus = k.negate();
-/// assert_eq!(minus.apply(Function::Sine), k.apply(Function::Sine).negate());
-/// assert_eq!(minus.apply(Function::Sinc), k.apply(Function::Sinc));
-/// assert_eq!(Function::Sinc.name(), "sinc");
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Function {
     /// `sin`
@@ -88,26 +77,6 @@ pub(crate) enum Node {
 /// - The terms of a sum are sorted, at least two, no sums, and no two differ by a number only.
 /// - The factors of a product are sorted, at least two, no products; a number comes first and is not 1.
 /// - Exponents are neither 0 nor 1; sums to small whole powers are multiplied out.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Formula, Function};
-/// use wavestep_polynomial::Rational;
-///
-/// let k = Formula::wave_number();
-/// let number = |a: i64, b: i64| Formula::number(&Rational::new(a.into(), b.into()));
-/// // k sqrt(1 + k²/12) has the derivative (1 + k²/6)/sqrt(1 + k²/12).
-/// let stiff = number(1, 1).add(&number(1, 12).multiply(&k).multiply(&k));
-/// let root = stiff.power(&Rational::new(1.into(), 2.into()))?;
-/// let numerator = number(1, 1).add(&number(1, 6).multiply(&k).multiply(&k));
-/// assert_eq!(k.multiply(&root).derivative(), numerator.divide(&root)?);
-/// // 2 sin(k/2) has the derivative cos(k/2).
-/// let half = number(1, 2).multiply(&k);
-/// let lattice = number(2, 1).multiply(&half.apply(Function::Sine));
-/// assert_eq!(lattice.derivative(), half.apply(Function::Cosine));
-/// assert_eq!(lattice.symbols().len(), 1);
-/// assert!(lattice.subtract(&lattice).is_zero() && lattice.as_number().is_none());
-/// # Ok::<(), wavestep_studies::dispersion::FormulaError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Formula(Arc<Node>);
 
@@ -301,21 +270,6 @@ impl Formula {
     ///
     /// # Errors
     /// [`FormulaError`] where a divisor becomes zero.
-    ///
-    /// ```
-    /// use wavestep_studies::dispersion::{Formula, FormulaError};
-    /// use wavestep_polynomial::{Rational, Symbol};
-    ///
-    /// let c = Symbol::new("c").unwrap();
-    /// let inverse = Formula::wave_number().divide(&Formula::symbol(&c))?;
-    /// let at = |value: i64| {
-    ///     let value = Formula::number(&Rational::from_integer(value.into()));
-    ///     inverse.substitute(&[(c.clone(), value)].into())
-    /// };
-    /// assert_eq!(at(1)?, Formula::wave_number());
-    /// assert_eq!(at(0), Err(FormulaError::DivisionByZero));
-    /// # Ok::<(), FormulaError>(())
-    /// ```
     pub fn substitute(&self, values: &BTreeMap<Symbol, Formula>) -> Result<Formula, FormulaError> {
         let all = |parts: &[Formula]| -> Result<Vec<Formula>, FormulaError> {
             parts.iter().map(|part| part.substitute(values)).collect()
@@ -353,17 +307,6 @@ impl Formula {
 
     /// The coefficients `a_m` of `Σ a_m k^m`, by exponent, where it is a polynomial in `k` whose
     /// coefficients may hold other symbols.
-    ///
-    /// ```
-    /// use wavestep_studies::dispersion::{Builtin, Formula};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let cubic = Builtin::Cubic.relation();
-    /// let coefficients = cubic.frequency().polynomial().unwrap();
-    /// let twelfth = Formula::number(&Rational::new((-1).into(), 12.into()));
-    /// assert!(coefficients.into_iter().eq([(1, Formula::wave_number().derivative()), (3, twelfth)]));
-    /// assert!(Builtin::Lattice.relation().frequency().polynomial().is_none());
-    /// ```
     #[must_use]
     pub fn polynomial(&self) -> Option<BTreeMap<u32, Formula>> {
         let k = wave_number();

@@ -1,23 +1,6 @@
 //! Waves whose velocity depends on their wavelength: dispersion relations `ω(k)` as formulas, the
 //! velocities of crests and groups derived from them, and the velocity of a pulse's peak, in closed form
 //! or by certified quadrature.
-//!
-//! ```
-//! use wavestep_studies::dispersion::{Builtin, Pulse, Shape, Travel, peak_velocity, propagate};
-//! use wavestep_studies::dispersion::formula_text;
-//! use wavestep_polynomial::Rational;
-//!
-//! let cubic = Builtin::Cubic.relation();
-//! assert_eq!(formula_text(cubic.frequency()), "k - k^3/12");
-//! assert_eq!(formula_text(cubic.group_velocity()), "1 - k^2/4");
-//! let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(10.into()))?;
-//! let peak = peak_velocity(&cubic, &pulse, 6, 1000)?;
-//! assert_eq!(peak.value.to_string(), "0.987101");
-//! // Seen on its way, the peak is about as fast.
-//! let seen = propagate(&cubic, &pulse, Travel::until(5.0))?;
-//! assert!((seen.velocity - 0.9871).abs() < 2e-4);
-//! # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-//! ```
 
 mod beats;
 mod cut_off;

@@ -22,23 +22,6 @@ const BOUND_BITS: u64 = 64;
 const SAMPLE_BITS: u64 = 60;
 
 /// The velocity of a pulse's peak.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Formula, Pulse, Shape, peak_velocity};
-/// use wavestep_polynomial::Rational;
-///
-/// let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(10.into()))?;
-/// let peak = peak_velocity(&Builtin::Cubic.relation(), &pulse, 12, 1000)?;
-/// // 1 − (π² − 6)/(3b²)
-/// assert_eq!(peak.value.to_string(), "0.987101318663");
-/// let number = |a: i64, b: i64| Formula::number(&Rational::new(a.into(), b.into()));
-/// let square = Formula::symbol(&wavestep_polynomial::Symbol::new("pi").unwrap());
-/// let square = square.multiply(&square);
-/// let expected = number(51, 50).subtract(&number(1, 300).multiply(&square));
-/// assert_eq!(peak.exact, Some(expected));
-/// assert_eq!(peak.cut_off.to_string(), "0.628318530718");
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeakVelocity {
     /// In closed form, where there is one: a number that may hold π.
@@ -77,17 +60,6 @@ fn power(base: &Formula, exponent: i64) -> Formula {
 ///
 /// For the triangle `sin²(θ/2) = (1 − cos θ)/2`, and `T_m = ½ ∫_0^π (1 − cos θ) θ^(m−1) dθ = ½(π^m/m +
 /// (m − 1) S_(m−2))` stands for `S_m`; `T_1 = π/2`.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Shape, exact_peak_velocity};
-/// use wavestep_studies::dispersion::formula_text;
-///
-/// let cubic = Builtin::Cubic.relation();
-/// let exact = |shape| exact_peak_velocity(&cubic, shape).map(|c| formula_text(&c));
-/// assert_eq!(exact(Shape::Square).unwrap(), "1 + 2/b^2 - pi^2/(3*b^2)");
-/// assert_eq!(exact(Shape::Triangle).unwrap(), "1 - 2/(3*b^2) - pi^2/(9*b^2)");
-/// assert_eq!(exact(Shape::Gaussian), None);
-/// ```
 #[must_use]
 pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula> {
     // Where all waves are equally fast, so is every sum of them.
@@ -137,21 +109,6 @@ pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula>
 ///   [`DispersionError::DivisionByZero`] with the place;
 /// - [`DispersionError::NoPeak`] where the second integral may be zero;
 /// - those of [`Pulse::cut_off`], and of too few bits.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, DispersionError, Pulse, Shape, peak_velocity};
-/// use wavestep_polynomial::Rational;
-///
-/// // With b = 2π/k_co, a short pulse of the beam is a fast one: c_pp = k_co (1 − 4/π²).
-/// let beam = Builtin::Beam.relation();
-/// let pulse = Pulse::with_cut_off(Shape::Square, &Rational::from_integer(2.into()))?;
-/// assert_eq!(peak_velocity(&beam, &pulse, 10, 1000)?.value.to_string(), "1.189430531");
-/// // Beyond √12 the cubic relation has negative frequencies.
-/// let pulse = Pulse::with_cut_off(Shape::Square, &Rational::from_integer(4.into()))?;
-/// let error = peak_velocity(&Builtin::Cubic.relation(), &pulse, 10, 1000).unwrap_err();
-/// assert!(matches!(error, DispersionError::NegativeFrequency(_)));
-/// # Ok::<(), DispersionError>(())
-/// ```
 pub fn peak_velocity(
     relation: &Relation,
     pulse: &Pulse,
@@ -196,18 +153,6 @@ pub fn peak_velocity(
 ///
 /// # Errors
 /// As [`peak_velocity`], without those of negative frequencies.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Pulse, Shape, peak_velocity, peak_velocity_by_quadrature};
-/// use wavestep_polynomial::Rational;
-///
-/// let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(7.into()))?;
-/// let cubic = Builtin::Cubic.relation();
-/// let quadrature = peak_velocity_by_quadrature(&cubic, &pulse, 12, 1000)?;
-/// let exact = peak_velocity(&cubic, &pulse, 12, 1000)?;
-/// assert_eq!(quadrature.to_string(), exact.value.to_string());
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 pub fn peak_velocity_by_quadrature(
     relation: &Relation,
     pulse: &Pulse,
@@ -230,17 +175,6 @@ fn quotient(relation: &Relation, pulse: &Pulse, bits: u64) -> Result<Ball, Dispe
 ///
 /// # Errors
 /// As [`peak_velocity`].
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Shape, peak_velocity_at};
-///
-/// // Of long pulses the peak has the velocity of long waves.
-/// let lattice = Builtin::Lattice.relation();
-/// let [long, short] = [0.01, 3.0].map(|k| peak_velocity_at(&lattice, Shape::Square, k).unwrap());
-/// assert!((long.value - 1.0).abs() < 1e-5);
-/// assert!(short.value < lattice.phase_velocity_at(1.0)?.value);
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 pub fn peak_velocity_at(
     relation: &Relation,
     shape: Shape,
@@ -257,20 +191,6 @@ pub fn peak_velocity_at(
 }
 
 /// One wave of a finite sum.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Component, peak_velocity_of_sum};
-/// use wavestep_polynomial::Rational;
-///
-/// // ω = k²: (1·1·1 + 1·2·4)/(1 + 4) = 9/5.
-/// let wave = |k: i64| Component {
-///     amplitude: Rational::from_integer(1.into()),
-///     wave_number: Rational::from_integer(k.into()),
-/// };
-/// let velocity = peak_velocity_of_sum(&Builtin::Beam.relation(), &[wave(1), wave(2)], 60)?;
-/// assert!(velocity.contains(&Rational::new(9.into(), 5.into())));
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Component {
     /// `U_i`.
@@ -283,13 +203,6 @@ pub struct Component {
 ///
 /// # Errors
 /// [`DispersionError::NoPeak`] where the second sum is zero, and those of [`Relation::enclose`].
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, DispersionError, peak_velocity_of_sum};
-///
-/// let nothing = peak_velocity_of_sum(&Builtin::Beam.relation(), &[], 60);
-/// assert_eq!(nothing, Err(DispersionError::NoPeak));
-/// ```
 pub fn peak_velocity_of_sum(
     relation: &Relation,
     components: &[Component],

@@ -31,13 +31,6 @@ const ON_GRID: f64 = 1e-9;
 const NEWTON_STEPS: usize = 8;
 
 /// Until when a pulse travels, and on which grid.
-///
-/// ```
-/// use wavestep_studies::dispersion::Travel;
-///
-/// let travel = Travel::until(10.0);
-/// assert_eq!((travel.length, travel.points), (None, None));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Travel {
     /// The time `T > 0`.
@@ -58,19 +51,6 @@ impl Travel {
 }
 
 /// What is seen of a pulse at the end of its way.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Pulse, Shape, Travel, propagate};
-/// use wavestep_polynomial::Rational;
-///
-/// // Without dispersion the pulse keeps its form.
-/// let pulse = Pulse::in_space(Shape::Triangle, &Rational::from_integer(4.into()))?;
-/// let seen = propagate(&Builtin::String.relation(), &pulse, Travel::until(9.0))?;
-/// assert!((seen.velocity - 1.0).abs() < 1e-9);
-/// assert!((seen.height / seen.first_height - 1.0).abs() < 1e-9);
-/// assert!(seen.points.is_power_of_two() && seen.displacement.len() == seen.points);
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     /// Where the highest point is at the end; the pulse is centred at 0 at first.
@@ -109,18 +89,6 @@ struct Wave {
 ///
 /// # Cost
 /// A ball evaluation for each component, and a transform of `points` numbers.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Pulse, Shape, Travel, peak_velocity, propagate};
-/// use wavestep_polynomial::Rational;
-///
-/// let cubic = Builtin::Cubic.relation();
-/// let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(20.into()))?;
-/// let seen = propagate(&cubic, &pulse, Travel::until(5.0))?;
-/// let predicted: f64 = peak_velocity(&cubic, &pulse, 10, 1000)?.value.to_string().parse().unwrap();
-/// assert!((seen.velocity - predicted).abs() < 1e-6);
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 pub fn propagate(
     relation: &Relation,
     pulse: &Pulse,

@@ -14,13 +14,6 @@ use super::relation::{Relation, value};
 use wavestep::ball::Ball;
 
 /// The shape of a pulse.
-///
-/// ```
-/// use wavestep_studies::dispersion::Shape;
-///
-/// assert_eq!(Shape::find("triangle"), Some(Shape::Triangle));
-/// assert!(Shape::ALL.iter().all(|shape| Shape::find(shape.name()) == Some(*shape)));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// 1 on the length `b`: `U = sinc(kb/2)`.
@@ -86,23 +79,6 @@ enum Extent {
 ///
 /// # Invariants
 /// - The length or duration is positive; a spectrum of one's own holds no symbols but `k` and `pi`.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Pulse, Shape};
-/// use wavestep_polynomial::Rational;
-///
-/// let ten = Rational::from_integer(10.into());
-/// let pulse = Pulse::in_space(Shape::Square, &ten)?;
-/// let cut_off = pulse.cut_off(&Builtin::Cubic.relation(), 60)?;
-/// assert!(cut_off.to_string().starts_with("0.62831853071795864")); // 2π/10
-/// let cut = Pulse::with_cut_off(Shape::Square, &ten)?.cut_off(&Builtin::Cubic.relation(), 60)?;
-/// assert!(cut.contains(&ten));
-/// // Where ω = k, a duration is a length.
-/// let string = Builtin::String.relation();
-/// let timed = Pulse::in_time(Shape::Square, &ten)?;
-/// assert_eq!(timed.spectrum(&string), pulse.spectrum(&string));
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pulse {
     content: Content,
@@ -151,22 +127,6 @@ impl Pulse {
     ///
     /// # Errors
     /// [`DispersionError::MissingValue`] where it holds symbols other than `k` and `pi`.
-    ///
-    /// ```
-    /// use wavestep_studies::dispersion::{Builtin, DispersionError, Formula, Pulse, Shape, peak_velocity};
-    /// use wavestep_polynomial::{Rational, Symbol};
-    ///
-    /// let pulse = Pulse::in_space(Shape::Square, &Rational::from_integer(10.into()))?;
-    /// let named = Formula::symbol(&Symbol::new("a").unwrap());
-    /// assert!(matches!(pulse.with_spectrum(named), Err(DispersionError::MissingValue(_))));
-    /// // The factor of a spectrum does not matter.
-    /// let beam = Builtin::Beam.relation();
-    /// let twice = pulse.spectrum(&beam).add(&pulse.spectrum(&beam));
-    /// let [one, other] = [pulse.clone(), pulse.with_spectrum(twice)?]
-    ///     .map(|pulse| peak_velocity(&beam, &pulse, 10, 1000).unwrap().value.to_string());
-    /// assert_eq!(one, other);
-    /// # Ok::<(), DispersionError>(())
-    /// ```
     pub fn with_spectrum(&self, spectrum: Formula) -> Result<Pulse, DispersionError> {
         let pi = super::formula::pi();
         let mut symbols = spectrum.symbols().into_iter();

@@ -15,20 +15,6 @@ use wavestep::ball::{Ball, Value};
 const SAMPLE_BITS: u64 = 80;
 
 /// What is known of a wave from its wavenumber.
-///
-/// ```
-/// use wavestep::ball::Ball;
-/// use wavestep_studies::dispersion::{Builtin, Quantity};
-/// use wavestep_polynomial::Rational;
-///
-/// // A flexural wave: the envelope is twice as fast as its crests.
-/// let beam = Builtin::Beam.relation();
-/// let k = Ball::from_rational(&Rational::new(3.into(), 2.into()), 60);
-/// let at = |quantity| beam.enclose(quantity, &k, 60).unwrap();
-/// assert!(at(Quantity::Frequency).contains(&Rational::new(9.into(), 4.into())));
-/// assert!(at(Quantity::PhaseVelocity).contains(&Rational::new(3.into(), 2.into())));
-/// assert!(at(Quantity::GroupVelocity).contains(&Rational::from_integer(3.into())));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// `ω`.
@@ -40,15 +26,6 @@ pub enum Quantity {
 }
 
 /// A double with a bound: the true value is at most `bound` away.
-///
-/// ```
-/// use wavestep_studies::dispersion::Builtin;
-///
-/// let sample = Builtin::Lattice.relation().phase_velocity_at(1.0)?;
-/// assert!((sample.value - 2.0 * 0.5f64.sin()).abs() <= sample.bound + 1e-15);
-/// assert!(sample.bound < 1e-15);
-/// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// The double.
@@ -61,26 +38,6 @@ pub struct Sample {
 ///
 /// # Invariants
 /// - The frequency depends on `k`; the velocities are `ω/k` and `dω/dk`.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Formula, Quantity, Relation};
-/// use wavestep_polynomial::Rational;
-///
-/// // Waves in deep water, ω = √k: groups are half as fast as crests.
-/// let half = Rational::new(1.into(), 2.into());
-/// let water = Relation::new(Formula::wave_number().power(&half)?)?;
-/// let half = Formula::number(&half);
-/// assert_eq!(water.group_velocity(), &half.multiply(water.phase_velocity()));
-/// assert_eq!(water.formula(Quantity::Frequency), water.frequency());
-/// let (four, two) = (Rational::from_integer(4.into()), Rational::from_integer(2.into()));
-/// assert_eq!(water.exact(Quantity::Frequency, &four), Some(two.clone()));
-/// let root = water.digits(Quantity::Frequency, &two, 10, 1000)?;
-/// assert_eq!(root.to_string(), "1.414213562");
-/// let (omega, group) = (water.frequency_at(2.0)?, water.group_velocity_at(2.0)?);
-/// assert!((omega.value - 4.0 * group.value).abs() <= omega.bound + 4.0 * group.bound + 1e-15);
-/// assert!(Relation::new(half).is_err());
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relation {
     frequency: Formula,
@@ -144,20 +101,6 @@ impl Relation {
     /// # Errors
     /// For names that are no parameters, values that are not positive, and values for which the
     /// formula makes no sense.
-    ///
-    /// ```
-    /// use wavestep_studies::dispersion::{Builtin, Formula};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let love = Builtin::Love.relation();
-    /// assert_eq!(love.parameters().len(), 1);
-    /// let set = |value: i64| {
-    ///     love.with_values(&[("kappa".to_owned(), Rational::from_integer(value.into()))].into())
-    /// };
-    /// assert!(set(2)?.parameters().is_empty());
-    /// assert_eq!(set(-2).unwrap_err().to_string(), "`kappa` is -2, which is not positive");
-    /// # Ok::<(), wavestep_studies::dispersion::DispersionError>(())
-    /// ```
     pub fn with_values(
         &self,
         values: &BTreeMap<String, Rational>,
@@ -276,20 +219,6 @@ pub(super) fn certified(
 
 /// Relations that have names. Lengths and times are in units in which long waves of the string have
 /// velocity 1, unless another is said.
-///
-/// ```
-/// use wavestep_studies::dispersion::{Builtin, Formula};
-///
-/// assert_eq!(Builtin::find("beam"), Some(Builtin::Beam));
-/// assert_eq!(Builtin::Beam.name(), "beam");
-/// // The string is the only one without dispersion: crests and groups have one velocity.
-/// let same = Builtin::ALL.iter().filter(|one| {
-///     let relation = one.relation();
-///     relation.phase_velocity() == relation.group_velocity()
-/// });
-/// assert!(same.eq(&[Builtin::String]));
-/// assert!(Builtin::Love.title().contains("Poisson"));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builtin {
     /// `ω = k`.

@@ -17,20 +17,6 @@ use wavestep_polynomial::{Rational, Symbol};
 const MAX_PERIODS: usize = 60;
 
 /// The strains at the fixed end at the beginnings of periods, as exact functions of the mass ratio.
-///
-/// ```
-/// use wavestep_studies::figures::LargestStrain;
-/// use wavestep_polynomial::Rational;
-///
-/// let strains = LargestStrain::new(3).unwrap();
-/// // Equal masses, μ = 1: 2 V/c, then 2 (1 + e^(−2)) V/c, twice 1.1353….
-/// let one = Rational::from_integer(1.into());
-/// assert!(strains.strain(0, &one, 60).contains(&Rational::from_integer(2.into())));
-/// assert!(strains.strain(1, &one, 60).to_string().starts_with("2.27067056647322"));
-/// // A mass of 5.686 bars strains the bar most in the third period, no longer in the second.
-/// let ratio = strains.overtaking(1, 60).unwrap();
-/// assert!(ratio.to_string().starts_with("5.68611974353"));
-/// ```
 pub struct LargestStrain {
     mu: Symbol,
     /// The wave functions f_n, in s and mu.
@@ -86,16 +72,6 @@ impl LargestStrain {
     ///
     /// # Panics
     /// If there is no such period.
-    ///
-    /// ```
-    /// use wavestep_studies::figures::LargestStrain;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let strains = LargestStrain::new(3).unwrap();
-    /// // With equal masses the contact opens in the second period, at (3 + e^(−2)/2) L/c.
-    /// let one = Rational::from_integer(1.into());
-    /// assert!(strains.is_pushed(1, &one) && !strains.is_pushed(2, &one));
-    /// ```
     pub fn is_pushed(&self, period: usize, mu: &Rational) -> bool {
         let zero = Ball::from_rational(&Rational::default(), 8);
         self.forces[..period].iter().all(|force| zero.is_below(&self.enclose(force, mu, 64)))
@@ -124,14 +100,6 @@ impl LargestStrain {
     /// The largest ratio `1/μ` of the striking mass to that of the bar at which the force is zero at the end
     /// of a period, `2(n + 1) L/c`: with larger masses the contact lasts longer. Found as in
     /// [`overtaking`](Self::overtaking).
-    ///
-    /// ```
-    /// use wavestep_studies::figures::LargestStrain;
-    ///
-    /// // Masses of up to 1.728 bars leave before 4 L/c.
-    /// let ratio = LargestStrain::new(1).unwrap().outlasting(1, 60).unwrap();
-    /// assert!(ratio.to_string().starts_with("1.72833218876"));
-    /// ```
     pub fn outlasting(&self, period: usize, bits: u64) -> Option<Ball> {
         self.last_change(self.forces.get(period)?, period, bits)
     }
@@ -165,16 +133,6 @@ impl LargestStrain {
     /// digits; `None` where it stays beyond the periods that are known.
     ///
     /// For certified digits there is [`History`](wavestep::history::History); this is for pictures.
-    ///
-    /// ```
-    /// use wavestep_studies::figures::LargestStrain;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let strains = LargestStrain::new(2).unwrap();
-    /// let equal = strains.release(&Rational::from_integer(1.into())).unwrap();
-    /// assert!((equal - 3.0 - (-2.0_f64).exp() / 2.0).abs() < 1e-9);
-    /// assert!(strains.release(&Rational::new(1.into(), 50.into())).is_none());
-    /// ```
     pub fn release(&self, mu: &Rational) -> Option<f64> {
         let period = (0..self.forces.len()).find(|n| !self.is_pushed(n + 1, mu))?;
         let length = mu + mu;
@@ -203,15 +161,6 @@ impl LargestStrain {
     }
 
     /// `[1 + (1/μ + 1/3)^{1/2}]`, the estimate 6.86 in `V/c`.
-    ///
-    /// ```
-    /// use wavestep_studies::figures::LargestStrain;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// // 1/μ = 2/3: twice V/c.
-    /// let estimate = LargestStrain::estimate(&Rational::new(2.into(), 3.into()), 60);
-    /// assert!(estimate.contains(&Rational::from_integer(2.into())));
-    /// ```
     pub fn estimate(ratio: &Rational, bits: u64) -> Ball {
         let third = Rational::new(1.into(), 3.into());
         let root = Ball::square_root(&(ratio + third), bits).expect("a positive number");

@@ -43,11 +43,6 @@ fn release(strains: &LargestStrain) -> Sampled {
 ///
 /// # Errors
 /// [`FigureError::Plot`], where nothing can be drawn.
-///
-/// ```
-/// let figure = wavestep_studies::figures::saint_venant().unwrap();
-/// assert!(figure.svg().contains("release"));
-/// ```
 pub fn saint_venant() -> Result<Box<dyn Chart>, FigureError> {
     let strains = LargestStrain::new(PERIODS).expect("few periods");
     let mut largest = Vec::new();

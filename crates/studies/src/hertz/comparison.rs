@@ -104,18 +104,6 @@ fn largest_between(
 ///
 /// # Cost
 /// Some ten evaluations of [`PowerLaw::share`] for each decimal place.
-///
-/// ```
-/// use wavestep_studies::hertz::{PowerLaw, distance_from_spring};
-/// use wavestep_polynomial::Rational;
-///
-/// // Hertz' contact is 11 % behind the spring soon after the touch.
-/// let distance = distance_from_spring(&PowerLaw::hertz(), 6).unwrap();
-/// assert!(distance.to_string().starts_with("0.11168"));
-/// // A spring is its own equivalent.
-/// let spring = PowerLaw::new(Rational::from_integer(1.into())).unwrap();
-/// assert!(distance_from_spring(&spring, 6).unwrap().contains(&Rational::from_integer(0.into())));
-/// ```
 pub fn distance_from_spring(law: &PowerLaw, places: u32) -> Result<Ball, HertzError> {
     let precision = 4 * u64::from(places) + SPARE_BITS;
     if law.exponent().is_one() {

@@ -15,30 +15,6 @@ use wavestep_polynomial::Rational;
 ///
 /// # Invariants
 /// All enclosures are of positive numbers.
-///
-/// ```
-/// use wavestep::ball::Ball;
-/// use wavestep_studies::hertz::{LongBars, PowerLaw};
-/// use wavestep_polynomial::Rational;
-///
-/// let number = |a: i64, b: i64| Ball::from_rational(&Rational::new(a.into(), b.into()), 100);
-/// // Z = 1 and 3 meet at V = 4; 8 units of force at 4 of compression, and no more at once.
-/// let bars = LongBars::new(
-///     PowerLaw::hertz(),
-///     (number(8, 1), number(4, 1)),
-///     [number(1, 1), number(3, 1)],
-///     number(4, 1),
-///     100,
-/// ).unwrap();
-/// assert!(bars.largest_force().contains(&Rational::from_integer(3.into())));
-/// // The spring that needs the same unit of time has the secant of the contact at its limit.
-/// let spring = bars.equivalent_spring();
-/// let compression = bars.largest_compression();
-/// assert!(spring.stiffness().multiply(compression, 100).contains(&Rational::from_integer(3.into())));
-/// // A spring has half of its force after ln 2 units of time, the contact a little later.
-/// let half = Rational::new(1.into(), 2.into());
-/// assert!(spring.rise_time(&half).unwrap().is_below(&bars.rise_time(&half).unwrap()));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct LongBars {
     law: PowerLaw,
@@ -51,18 +27,6 @@ pub struct LongBars {
 
 /// The spring `X = k₁ α` with the unit of time of a contact: `k₁ = X_max/α_max`, the same as 6.57,
 /// `k₁ (1/Z₁ + 1/Z₂) = [k (1/Z₁ + 1/Z₂)]^{1/m} V^{1−1/m}`.
-///
-/// ```
-/// use wavestep::ball::Ball;
-/// use wavestep_studies::hertz::{LongBars, PowerLaw};
-/// use wavestep_polynomial::Rational;
-///
-/// let one = || Ball::from_rational(&Rational::from_integer(1.into()), 60);
-/// let law = PowerLaw::new(Rational::from_integer(1.into())).unwrap();
-/// let bars = LongBars::new(law, (one(), one()), [one(), one()], one(), 60).unwrap();
-/// // A contact with m = 1 is its own equivalent.
-/// assert!(bars.equivalent_spring().stiffness().contains(&Rational::from_integer(1.into())));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EquivalentSpring {
     stiffness: Ball,
@@ -135,56 +99,18 @@ impl LongBars {
     }
 
     /// `k = F₀/α₀^m` of `X = k α^m` (6.49), in units of force by the m-th power of those of length.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
-    /// let [force, compression, velocity] = [8, 4, 4].map(number);
-    /// let impedances = [number(1), number(3)];
-    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
-    /// // 8 = k 4^(3/2)
-    /// assert!(bars.unwrap().stiffness().contains(&Rational::from_integer(1.into())));
-    /// ```
     #[must_use]
     pub fn stiffness(&self) -> &Ball {
         &self.stiffness
     }
 
     /// The law of the contact.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let one = || Ball::from_rational(&Rational::from_integer(1.into()), 60);
-    /// let bars = LongBars::new(PowerLaw::hertz(), (one(), one()), [one(), one()], one(), 60);
-    /// assert_eq!(bars.unwrap().law(), &PowerLaw::hertz());
-    /// ```
     #[must_use]
     pub fn law(&self) -> &PowerLaw {
         &self.law
     }
 
     /// `t/t̄ = α_max/V`.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
-    /// let [force, compression, velocity] = [8, 4, 4].map(number);
-    /// let impedances = [number(1), number(3)];
-    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
-    /// let bars = bars.unwrap();
-    /// // α_max = V times it.
-    /// let four = bars.time_unit().multiply(&number(4), 80);
-    /// assert!(four.subtract(bars.largest_compression(), 80).contains(&Rational::from_integer(0.into())));
-    /// ```
     #[must_use]
     pub fn time_unit(&self) -> &Ball {
         &self.time_unit
@@ -201,21 +127,6 @@ impl LongBars {
 
     /// The force at a time.
     ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
-    /// let [force, compression, velocity] = [8, 4, 4].map(number);
-    /// let impedances = [number(1), number(3)];
-    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
-    /// let bars = bars.unwrap();
-    /// // After five units of time it is nearly V/(1/Z₁ + 1/Z₂) = 3.
-    /// let late = bars.time_unit().multiply(&number(5), 80);
-    /// assert!(bars.force(&late).unwrap().to_string().starts_with("2.99"));
-    /// ```
-    ///
     /// # Errors
     /// [`HertzError::Time`] where the time may be negative.
     pub fn force(&self, time: &Ball) -> Result<Ball, HertzError> {
@@ -223,21 +134,6 @@ impl LongBars {
     }
 
     /// How far the force has risen at a time.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_studies::hertz::{LongBars, PowerLaw};
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let number = |value: i64| Ball::from_rational(&Rational::from_integer(value.into()), 80);
-    /// let [force, compression, velocity] = [8, 4, 4].map(number);
-    /// let impedances = [number(1), number(3)];
-    /// let bars = LongBars::new(PowerLaw::hertz(), (force, compression), impedances, velocity, 80);
-    /// let bars = bars.unwrap();
-    /// let half = Rational::new(1.into(), 2.into());
-    /// let time = bars.rise_time(&half).unwrap();
-    /// assert!(bars.share(&time).unwrap().force().contains(&half));
-    /// ```
     ///
     /// # Errors
     /// [`HertzError::Time`] where the time may be negative.

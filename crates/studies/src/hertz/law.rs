@@ -38,40 +38,12 @@ use wavestep_polynomial::Rational;
 ///
 /// # Invariants
 /// It is from 1/10 to 100.
-///
-/// ```
-/// use wavestep_studies::hertz::PowerLaw;
-/// use wavestep_polynomial::Rational;
-///
-/// let ratio = |a: i64, b: i64| Rational::new(a.into(), b.into());
-/// // A spring: t = −ln(1 − 1/2) = ln 2.
-/// let spring = PowerLaw::new(ratio(1, 1)).unwrap();
-/// assert!(spring.time(&ratio(1, 2), 80).unwrap().to_string().starts_with("0.69314718055994530941"));
-/// // Hertz' contact rises later, and then faster.
-/// let hertz = PowerLaw::hertz();
-/// assert!(hertz.time(&ratio(1, 2), 80).unwrap().to_string().starts_with("0.8193407155080904803"));
-/// // And back: the share of the largest force at that time.
-/// let share = hertz.share(&ratio(81_934, 100_000), 80).unwrap();
-/// assert!(share.force().to_string().starts_with("0.49999"));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct PowerLaw {
     exponent: Rational,
 }
 
 /// How far the force has risen at a time.
-///
-/// ```
-/// use wavestep_studies::hertz::PowerLaw;
-/// use wavestep_polynomial::Rational;
-///
-/// // After a hundred units of time a spring lacks e^(−100) of its largest force.
-/// let hundred = Rational::from_integer(100.into());
-/// let share = PowerLaw::new(Rational::from_integer(1.into())).unwrap().share(&hundred, 60).unwrap();
-/// assert!(share.deficit().to_string().starts_with("3.7200759760208359"));
-/// // Its enclosure is relative to the deficit itself.
-/// assert!(!share.deficit().contains(&Rational::from_integer(0.into())));
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Share {
     force: Ball,
@@ -93,16 +65,6 @@ impl Share {
     }
 
     /// `α/α_max = φ^{1/m}`.
-    ///
-    /// ```
-    /// use wavestep_studies::hertz::PowerLaw;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// // In the beginning nothing resists: the compression is that of the time.
-    /// let early = Rational::new(1.into(), 1_000_000.into());
-    /// let share = PowerLaw::hertz().share(&early, 60).unwrap();
-    /// assert!(share.compression().to_string().starts_with("9.99999999"));
-    /// ```
     #[must_use]
     pub fn compression(&self) -> &Ball {
         &self.compression
@@ -131,25 +93,9 @@ fn negligible(precision: u64) -> Magnitude {
 
 impl PowerLaw {
     /// The largest exponent.
-    ///
-    /// ```
-    /// use wavestep_studies::hertz::PowerLaw;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let most = Rational::from_integer(PowerLaw::MOST.into());
-    /// assert!(PowerLaw::new(most.clone()).is_ok() && PowerLaw::new(&most + &most).is_err());
-    /// ```
     pub const MOST: i64 = 100;
 
     /// The inverse of the smallest exponent: below it the second series cancels.
-    ///
-    /// ```
-    /// use wavestep_studies::hertz::PowerLaw;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let least = Rational::new(1.into(), PowerLaw::LEAST_INVERSE.into());
-    /// assert!(PowerLaw::new(least.clone()).is_ok() && PowerLaw::new(least.pow(2)).is_err());
-    /// ```
     pub const LEAST_INVERSE: i64 = 10;
 
     /// The law `X = k α^m`.
@@ -170,12 +116,6 @@ impl PowerLaw {
     }
 
     /// m.
-    ///
-    /// ```
-    /// use wavestep_studies::hertz::PowerLaw;
-    ///
-    /// assert_eq!(PowerLaw::hertz().exponent().to_string(), "3/2");
-    /// ```
     #[must_use]
     pub fn exponent(&self) -> &Rational {
         &self.exponent
@@ -212,19 +152,6 @@ impl PowerLaw {
 
     /// The same for every m by the two series: the second derivation for m = 1 and 3/2, where tests
     /// hold it against the closed forms.
-    ///
-    /// ```
-    /// use wavestep::ball::Ball;
-    /// use wavestep_studies::hertz::PowerLaw;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// let half = Rational::new(1.into(), 2.into());
-    /// let ball = Ball::from_rational(&half, 100);
-    /// let law = PowerLaw::hertz();
-    /// let series = law.time_by_series(&ball, &ball, 100).unwrap();
-    /// let closed = law.time(&half, 100).unwrap();
-    /// assert!(series.subtract(&closed, 100).contains(&Rational::from_integer(0.into())));
-    /// ```
     ///
     /// # Errors
     /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
@@ -309,17 +236,6 @@ impl PowerLaw {
     }
 
     /// The same for an enclosed time, which must not be negative.
-    ///
-    /// ```
-    /// use wavestep_studies::hertz::PowerLaw;
-    /// use wavestep_polynomial::Rational;
-    ///
-    /// // Back from the time of nine tenths.
-    /// let share = Rational::new(9.into(), 10.into());
-    /// let law = PowerLaw::hertz();
-    /// let time = law.time(&share, 80).unwrap();
-    /// assert!(law.share_at(&time, 60).unwrap().force().contains(&share));
-    /// ```
     ///
     /// # Errors
     /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
@@ -473,14 +389,6 @@ fn hertz_time(p: &Ball, deficit: &Ball, precision: u64) -> Result<Ball, HertzErr
 ///
 /// # Errors
 /// [`HertzError::Poisson`] where ν is not above −1 and at most 1/2.
-///
-/// ```
-/// use wavestep_studies::hertz::equal_bars_constant;
-/// use wavestep_polynomial::Rational;
-///
-/// let constant = equal_bars_constant(&Rational::new(3.into(), 10.into()), 80).unwrap();
-/// assert!(constant.to_string().starts_with("0.47733"));
-/// ```
 pub fn equal_bars_constant(poisson: &Rational, precision: u64) -> Result<Ball, HertzError> {
     if *poisson <= ratio(-1, 1) || *poisson > ratio(1, 2) {
         return Err(HertzError::Poisson(poisson.to_string()));

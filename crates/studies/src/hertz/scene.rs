@@ -9,23 +9,6 @@ use wavestep::network::{ModelLump, ScaledScene};
 use wavestep::scene::{ElementIndex, End, Kind};
 
 /// A local contact between two bars, and until when waves that return are not felt there.
-///
-/// ```
-/// use wavestep_studies::hertz::ContactOfScene;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::ScaledScene;
-/// use wavestep_polynomial::Rational;
-///
-/// let text = "scene \"A\"\nbar a { impedance = 1, travel = 5, velocity = 8 }\nhertz tip { stiffness = 1/2 }\nbar b { impedance = 1 }\nline free - a - tip - b - endless";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let contact = ContactOfScene::new(&ScaledScene::of(&scene).unwrap(), 80).unwrap();
-/// // X_max = V Z/2 = 4 = k α^{3/2}: α = 4, and a wave returns after 10.
-/// let four = Rational::from_integer(4.into());
-/// assert!(contact.bars.largest_force().contains(&four));
-/// assert!(contact.bars.largest_compression().contains(&four));
-/// assert!(contact.first_return.unwrap().contains(&Rational::from_integer(10.into())));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct ContactOfScene {
     /// The element.

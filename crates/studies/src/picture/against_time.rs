@@ -6,15 +6,6 @@ use wavestep::scene::{Dimension, Measure};
 use wavestep_draw::{Caption, Figure, Panel, Series};
 
 /// A quantity with its values on a window of time.
-///
-/// ```
-/// use wavestep_studies::picture::{Course, Sampled};
-/// use wavestep::scene::Dimension;
-///
-/// let values = Sampled { points: vec![(0.0, 1.0), (1.0, 2.0)], jumps: vec![] };
-/// let course = Course { name: "F".into(), dimension: Dimension::FORCE, measure: None, values };
-/// assert_eq!(course.values.points.len(), 2);
-/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Course {
     /// What it is called.
@@ -32,24 +23,6 @@ pub struct Course {
 ///
 /// # Errors
 /// [`PictureError::Plot`] where there is nothing finite to draw.
-///
-/// ```
-/// use wavestep_studies::picture::{Course, Sampled, against_time};
-/// use wavestep_draw::{Caption, Chart};
-/// use wavestep::scene::Dimension;
-///
-/// let course = |name: &str, dimension, largest| Course {
-///     name: name.into(),
-///     dimension,
-///     measure: None,
-///     values: Sampled { points: vec![(0.0, 0.0), (2e-3, largest)], jumps: vec![] },
-/// };
-/// let courses =
-///     [course("head", Dimension::FORCE, 4e6), course("hammer", Dimension::VELOCITY, 3.0)];
-/// let figure = against_time("Pile", &courses, true, (0.0, 2e-3), Caption::default()).unwrap();
-/// assert_eq!(figure.panels()[0].axis().label(), "head (MN)");
-/// assert!(figure.svg().contains("time (ms)") && figure.svg().contains("hammer (m/s)"));
-/// ```
 pub fn against_time(
     title: &str,
     courses: &[Course],

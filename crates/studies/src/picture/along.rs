@@ -17,25 +17,6 @@ const POINTS: usize = 160;
 ///
 /// # Errors
 /// [`PictureError`].
-///
-/// ```
-/// use wavestep::field::{FieldEvaluator, Quantity};
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep_studies::picture::along_the_line;
-/// use wavestep_draw::{Caption, Chart};
-///
-/// let text = wavestep::scenes::find("hopkinson").unwrap().text;
-/// let scene = read_scene(&Source::new("hopkinson", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let times = [parse_number("50e-6")?, parse_number("100e-6")?];
-/// let fields = [Quantity::Velocity, Quantity::Force];
-/// let evaluator = FieldEvaluator::new(&network, &times[1]).unwrap();
-/// let figure = along_the_line(&evaluator, &fields, &times, Caption::default()).unwrap();
-/// assert_eq!(figure.panels().len(), 2);
-/// assert!(figure.svg().contains("t = 50 µs") && figure.svg().contains("force (kN)"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn along_the_line(
     evaluator: &FieldEvaluator,
     quantities: &[Quantity],

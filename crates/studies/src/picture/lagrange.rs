@@ -23,26 +23,6 @@ const FLAT: f64 = 1.0 / 96.0;
 ///
 /// # Errors
 /// [`PictureError`].
-///
-/// ```
-/// use wavestep::field::{FieldEvaluator, Quantity};
-/// use wavestep::language::{Source, parse_number, read_scene};
-/// use wavestep::network::Network;
-/// use wavestep_studies::picture::lagrange;
-/// use wavestep_draw::{Caption, Chart};
-///
-/// let text = wavestep::scenes::find("pushed-bar").unwrap().text;
-/// let scene = read_scene(&Source::new("pushed-bar", text)?, &Default::default()).unwrap();
-/// let network = Network::new(&scene).unwrap();
-/// let (from, to) = (parse_number("0")?, parse_number("4")?);
-/// let evaluator = FieldEvaluator::new(&network, &to).unwrap();
-/// let diagram =
-///     lagrange(&evaluator, Quantity::Velocity, [&from, &to], Caption::default()).unwrap();
-/// // The bar moves the faster the more often the front has passed: 0, 1, 2, 3, 4.
-/// assert_eq!(diagram.colours(), (0.0, 4.0));
-/// assert_eq!(diagram.json()["lines"].as_array().unwrap().len(), 4);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn lagrange(
     evaluator: &FieldEvaluator,
     quantity: Quantity,

@@ -1,6 +1,7 @@
 //! What stands on wavestep: equations, figures, charts, dispersion, local contact.
 
 mod book;
+mod charts;
 mod dispersion;
 mod figures;
 mod hertz;

@@ -7,11 +7,15 @@ use wavestep::network::Network;
 use wavestep_polynomial::Rational;
 use wavestep_studies::picture::sampled;
 
-fn shipped(name: &str, values: &[(&str, &str)]) -> Network {
+fn network(text: &str, values: &[(&str, &str)]) -> Network {
     let number = |(name, value): &(&str, &str)| ((*name).to_owned(), parse_number(value).unwrap());
-    let text = wavestep::scenes::find(name).expect("a built-in scene").text;
-    let scene = read_scene(&Source::new(name, text).unwrap(), &values.iter().map(number).collect());
+    let source = Source::new("text", text).unwrap();
+    let scene = read_scene(&source, &values.iter().map(number).collect());
     Network::new(&scene.unwrap_or_else(|errors| panic!("{}", errors[0]))).unwrap()
+}
+
+fn shipped(name: &str, values: &[(&str, &str)]) -> Network {
+    network(wavestep::scenes::find(name).expect("a built-in scene").text, values)
 }
 
 fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -44,4 +48,17 @@ fn lines_go_through_values() {
             assert!(off[0].min(off[1]) < 1e-9, "{name} {observable} at {time}: {drawn} {known:?}");
         }
     }
+}
+
+/// The bar is stopped, and thrown back from the wall.
+#[test]
+fn jumps_are_where_waves_pass() {
+    let rod = network(
+        "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed\n\
+         contacts open\nobserve v = velocity(rod.at(1/2))",
+        &[],
+    );
+    let window = [rational(0, 1), rational(9, 1)];
+    let signal = FollowedSignal::new(&rod, "v", [&window[0], &window[1]]).unwrap();
+    assert_eq!(sampled(&signal).unwrap().jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
 }

@@ -29,10 +29,6 @@ impl Checked {
 }
 
 /// The names of all checks that entries may ask for.
-///
-/// ```
-/// assert!(wavestep_studies::book::CHECKS.contains(&"energy-estimate"));
-/// ```
 pub const CHECKS: [&str; 13] = [
     "equal-bars",
     "energy-estimate",

@@ -1,0 +1,167 @@
+//! What the charts of accuracy and speed show of the rigid mass.
+
+use std::cell::Cell;
+use std::time::Duration;
+use wavestep::answer::{Kind, Problem};
+use wavestep::evaluate::Signal;
+use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
+use wavestep::network::Network;
+use wavestep_draw::{Axis, Caption, Curves};
+use wavestep_studies::study::{
+    LADDER, Loss, Measured, Outcome, Reference, Sampling, Settings, at_arrivals, cost_over_order,
+    derivation_cost, errors_by_order, ladder, losses, near_confluence, near_jump, order_map,
+    over_courant, over_order, over_time, work_precision,
+};
+
+const ONCE: Settings = Settings { runs: 1, time: Duration::ZERO };
+
+fn text(name: &str) -> Source {
+    Source::new(name, wavestep::scenes::find(name).unwrap().text).unwrap()
+}
+
+/// The wave f of the rigid mass, μ = 1, until a time.
+fn with_wave(to: &str, work: impl FnOnce(&Problem<'_>)) {
+    let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
+    let recurrence = read_recurrence(&text("rigid-mass"), &values).unwrap();
+    let f = recurrence.observation("f").unwrap();
+    let signal = Signal::of_recurrence(&recurrence, &f).unwrap();
+    let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
+    work(&Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to });
+}
+
+/// The same as a scene, which models take: the strain under the mass.
+fn with_scene(to: &str, work: impl FnOnce(&Problem<'_>)) {
+    let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
+    let scene = read_scene(&text("mass-on-fixed-bar"), &values).unwrap();
+    let network = Network::new(&scene).unwrap();
+    let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
+    let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
+    let scene = Some((&network, 1));
+    work(&Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to });
+}
+
+fn reference(problem: &Problem<'_>, to: f64) -> Reference {
+    Reference::new(problem, &Sampling { points: 40, seed: 1 }.times(0.0, to)).unwrap()
+}
+
+/// The last error of the curve called `name`.
+fn last(chart: &Curves, name: &str) -> f64 {
+    chart.curves().iter().find(|curve| curve.name == name).unwrap().points.last().unwrap().1
+}
+
+/// The formula as printed loses what sums in pairs keep.
+#[test]
+fn expanded_formulas_lose_digits_with_time_and_order() {
+    with_wave("60", |problem| {
+        let (reference, axis) = (reference(problem, 60.0), Axis::linear("time t"));
+        let chart = over_time(&reference, problem, axis, 10, Caption::default()).unwrap();
+        assert!(last(&chart, "expanded") > 1e-8 && last(&chart, "stable") < 1e-13);
+    });
+    with_wave("8", |problem| {
+        let chart = over_order(problem, 2.0, &[5, 40], Caption::default()).unwrap();
+        assert!(last(&chart, "expanded") > 1e-3 && last(&chart, "double-double") < 1e-15);
+        let kinds = [Kind::Expanded, Kind::Compiled, Kind::Rigid];
+        let rows = errors_by_order(problem, 2.0, &[1, 30], &kinds);
+        let [expanded, compiled, rigid] = &rows[..] else { panic!("a row for each") };
+        assert!(expanded.errors[0].unwrap() < 1e-14 && expanded.errors[1].unwrap() > 1e-8);
+        assert!(compiled.errors.iter().all(|error| error.unwrap() < 1e-15));
+        // A model has no values without a scene.
+        assert_eq!(rigid.errors, [None, None]);
+        assert!(rigid.refusal.as_ref().unwrap().to_string().contains("a scene of bars"));
+    });
+    // At a distance of 1/10 and 1/100 the formula loses digits, the polynomials do not.
+    let chart = near_confluence(2, Caption::default()).unwrap();
+    let [expanded, compiled] = chart.curves() else { panic!("two methods") };
+    assert_eq!(expanded.points.len(), 3);
+    assert!(expanded.points[2].1 > 1e3 * compiled.points[2].1);
+}
+
+#[test]
+fn arrivals_are_all_there() {
+    with_wave("9", |problem| {
+        let chart = at_arrivals(problem, 100, Caption::default()).unwrap();
+        let compiled = chart.curves().iter().find(|curve| curve.name == "compiled").unwrap();
+        assert!(compiled.points.iter().map(|(n, _)| *n).eq([1.0, 2.0, 3.0, 4.0]));
+        assert!(compiled.points.iter().all(|(_, error)| *error < 1e-15));
+    });
+}
+
+#[test]
+fn models_miss_jumps_and_keep_to_the_courant_number() {
+    with_scene("9", |problem| {
+        // Thirty modes miss part of the jump that three thousand follow at a distance.
+        let chart = near_jump(problem, "", Caption::default()).unwrap();
+        let [few, _, many] = chart.curves() else { panic!("three sums") };
+        assert!(few.points.first().unwrap().1 > many.points.last().unwrap().1);
+    });
+    with_scene("8", |problem| {
+        let reference = reference(problem, 8.0);
+        let chart = over_courant(problem, (&reference, 50), Caption::default()).unwrap();
+        let mean = &chart.curves()[0];
+        assert_eq!(mean.name, "50 cells, mean");
+        // Best where a step of time takes a wave through one cell: at Courant's number 1.
+        let (last, others) = mean.points.split_last().unwrap();
+        assert!(last.0 == 1.0 && others.iter().all(|(_, error)| *error > last.1));
+    });
+}
+
+#[test]
+fn the_ladder_keeps_its_bounds() {
+    // Tolerances of one way descend, so that its line goes from coarse to fine.
+    let compiled = LADDER.iter().filter(|(kind, _)| *kind == Kind::Compiled);
+    let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| *tolerance).collect();
+    assert!(tolerances.is_sorted_by(|a, b| a > b) && tolerances.len() > 5);
+    with_wave("8", |problem| {
+        let reference = reference(problem, 8.0);
+        let ticks = Cell::new(0);
+        let outcomes = ladder(problem, &reference, (ONCE, true), |_| ticks.set(ticks.get() + 1));
+        assert_eq!(ticks.get(), outcomes.len());
+        // Models refuse a recurrence; every bound of the others is kept.
+        assert!(outcomes[0].result.is_err());
+        let mut measured = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
+        assert!(measured.all(|way| way.bound.is_none_or(|bound| way.error <= bound)));
+        let measured = |kind, seconds| Outcome {
+            step: (kind, None),
+            result: Ok(Measured { kind, error: 1e-16, bound: None, preparation: 0.0, seconds }),
+        };
+        let outcomes = [measured(Kind::Compiled, 1e-9), measured(Kind::Certified, 1e-6)];
+        let (chart, table) =
+            work_precision("Values", &outcomes, &reference, Caption::default()).unwrap();
+        assert_eq!(chart.methods()[0].name, "compiled");
+        // Nothing was prepared.
+        assert_eq!(chart.methods()[0].points[0].prepared, Some(1e-9));
+        // A thousand times as fast as certified values.
+        assert!((table.rows[0].speed_up.unwrap() - 1000.0).abs() < 1e-9);
+    });
+}
+
+#[test]
+fn costs_are_told_for_every_order() {
+    let recurrence = read_recurrence(&text("rigid-mass"), &Default::default()).unwrap();
+    let f = recurrence.observation("f").unwrap();
+    let cost = derivation_cost(&recurrence, &f, &[2, 20], ONCE).unwrap();
+    let [(2.0, few), (20.0, many)] = cost[..] else { panic!("two orders") };
+    assert!(few > 0.0 && many > 0.0);
+    with_wave("8", |problem| {
+        let [_, preparation] =
+            cost_over_order(problem, None, 2.0, &[1, 4], ONCE, Caption::default()).unwrap();
+        let curve = |name: &str| preparation.curves().iter().find(|curve| curve.name == name);
+        assert!(curve("compiled, period n").is_some());
+        assert_eq!(curve("derivation of 0 to n, numbers set").unwrap().points.len(), 2);
+    });
+}
+
+#[test]
+fn maps_and_losses_are_drawn_from_their_rows() {
+    let rows = [(0.25, vec![Some(1e-16), Some(1e-9)]), (1.0, vec![Some(1e-14), None])];
+    let map = order_map(Kind::Expanded, "mu", &[10, 40], &rows, Caption::default()).unwrap();
+    // Columns are orders, rows values of the parameter.
+    assert_eq!((map.cell(1, 0), map.cell(1, 1)), (Some(1e-9), None));
+    let rows = [
+        Loss { parameter: 0.01, half: None, all: None },
+        Loss { parameter: 1.0, half: Some(24), all: Some(46) },
+    ];
+    let (chart, listing) = losses(Kind::Expanded, "mu", 200, &rows, Caption::default()).unwrap();
+    assert_eq!(chart.curves()[1].points, [(1.0, 46.0)]);
+    assert_eq!(listing.rows, [["0.01", "> 200", "> 200"], ["1", "24", "46"]]);
+}
