@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::time::Duration;
 use wavestep::answer::{Kind, Problem};
-use wavestep::evaluate::Signal;
+use wavestep::evaluate::ClosedForm;
 use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
 use wavestep::network::Network;
 use wavestep_draw::{Axis, Caption, Curves};
@@ -24,7 +24,7 @@ fn with_wave(to: &str, work: impl FnOnce(&Problem<'_>)) {
     let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
     let recurrence = read_recurrence(&text("rigid-mass"), &values).unwrap();
     let f = recurrence.observation("f").unwrap();
-    let signal = Signal::of_recurrence(&recurrence, &f).unwrap();
+    let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
     work(&Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to });
 }
@@ -35,7 +35,7 @@ fn with_scene(to: &str, work: impl FnOnce(&Problem<'_>)) {
     let scene = read_scene(&text("mass-on-fixed-bar"), &values).unwrap();
     let network = Network::new(&scene).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
-    let signal = Signal::of_scene(&network, &network.observables()[1], &to).unwrap();
+    let signal = ClosedForm::of_scene(&network, &network.observables()[1], &to).unwrap();
     let scene = Some((&network, 1));
     work(&Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to });
 }
