@@ -12,6 +12,7 @@ use wavestep::lock::{Lock, Request};
 use wavestep::scenes;
 use wavestep::solution::Solution;
 use wavestep_cli::diagnostic::{Style, render};
+use wavestep_studies::dispersion::{Pulse, Shape, peak_velocity, read_relation};
 
 /// The texts of a folder of the grammar, in the order of their names.
 fn corpus(folder: &str) -> Vec<(String, Vec<u8>)> {
@@ -226,4 +227,27 @@ fn damaged_files_are_explained() {
         let error = source.and_then(|source| Lock::read(&source)).expect_err(name);
         explained("lock", format!("damaged-{name}"), "a lock of constant-force, damaged", &[error]);
     }
+}
+
+#[test]
+fn refused_formulas_of_wavenumbers_are_explained() {
+    let read = |text| read_relation(&Source::new("relation", text)?, &BTreeMap::new());
+    let mut told = String::new();
+    for (text, length) in [
+        ("k - k^3/12", 1),      // negative beyond √12
+        ("k*(k - 1)", 2),       // negative from the start
+        ("sqrt(1 - k)", 2),     // not real beyond 1
+        ("sqrt((k - 1)^2)", 2), // a corner at 1
+        ("k + 1/(k - 1)^2", 2), // a pole at 1
+        ("c*k^2", 2),           // no value for c
+    ] {
+        let length = BigRational::from_integer(length.into());
+        let pulse = Pulse::in_space(Shape::Gaussian, &length).unwrap();
+        let error = peak_velocity(&read(text).unwrap(), &pulse, 12, 1000).unwrap_err();
+        told += &format!("{text}: {error}\n    {}\n", error.remedy());
+    }
+    for text in ["2*k + sinh(k)", "k/0", "f[n]", "3", "k/(k - k)", "k^x", "k^(1/2", "0^(-1)*k"] {
+        told += &format!("\n{}\n", render(&read(text).unwrap_err(), Style::Plain));
+    }
+    snapshot("dispersion", "errors", "formulas that are refused", &told);
 }

@@ -43,7 +43,7 @@ fn lines_go_through_values() {
         for (time, drawn) in points.step_by(7) {
             let at = Rational::from_float(*time).unwrap();
             let known = [Limit::Left, Limit::Right]
-                .map(|side| double(&value(&signal, &at, side, 9, 1 << 12).unwrap()));
+                .map(|side| double(&value(&signal, &at, side, 12, 1 << 12).unwrap()));
             let off = known.map(|known| (known - drawn).abs());
             assert!(off[0].min(off[1]) < 1e-9, "{name} {observable} at {time}: {drawn} {known:?}");
         }
