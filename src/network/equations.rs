@@ -5,16 +5,16 @@
 //! trip later: the wave functions of successive periods, as textbooks have them.
 
 use crate::expression::{Expression, Fraction};
+use crate::network::clocks::Clocks;
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
 use crate::network::layout::{Contacts, Layout};
-use crate::network::model::{Model, ModelLump};
+use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observe::Observed;
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
-use num_integer::Integer as _;
 use wavestep_polynomial::Rational;
 
 /// The meaning of a wave of a network.
@@ -95,7 +95,7 @@ impl Network {
             loads: Vec::new(),
             layout,
         };
-        network.set_clocks()?;
+        network.set_clocks();
         network.name_waves();
         network.set_observables()?;
         Ok(network)
@@ -231,98 +231,13 @@ impl Network {
     }
 
     /// Finds the clocks of the nodes, and the lattice on which all delays can be counted.
-    fn set_clocks(&mut self) -> Result<(), NetworkError> {
-        let travel: Vec<Option<Fraction>> =
-            self.layout.bars.iter().map(|bar| self.scaled.model.bars[bar].travel.clone()).collect();
+    fn set_clocks(&mut self) {
         let starting: Vec<bool> = self.layout.nodes.iter().map(|node| self.starts(node)).collect();
-        let reference = starting.iter().position(|starts| *starts).unwrap_or(0);
-        // How often each bar is passed on the way from the reference.
-        let count = self.layout.nodes.len();
-        let bars_between = |node: usize| -> Vec<usize> {
-            let (low, high) = (node.min(reference), node.max(reference));
-            (0..travel.len())
-                .filter(|bar| {
-                    let [left, right] = self.layout.ends[*bar];
-                    left.is_some_and(|left| left >= low && left < high)
-                        && right.is_some_and(|right| right > low && right <= high)
-                })
-                .collect()
-        };
-        let ways: Vec<Vec<usize>> = (0..count).map(bars_between).collect();
-        let finite: Vec<usize> = (0..travel.len())
-            .filter(|bar| {
-                travel[*bar].is_some() && self.layout.ends[*bar].iter().all(Option::is_some)
-            })
-            .collect();
-        let mut times: Vec<Fraction> =
-            finite.iter().map(|bar| travel[*bar].clone().expect("a finite bar")).collect();
-        let mut moments = Vec::new();
-        for (place, node) in self.layout.nodes.iter().enumerate() {
-            for own in &node.elements {
-                if let ModelLump::Load(_, _, from, until) = &self.scaled.model.lumps[&own.element] {
-                    moments.push((own.element, place, from.clone(), until.clone()));
-                    times.push(from.clone());
-                    times.extend(until.clone());
-                }
-            }
-        }
-        times.retain(|time| !time.is_zero());
-        if times.is_empty() {
-            // Nothing returns: one period holds everything.
-            times.push(Fraction::one());
-        }
-        let (lattice, counts) = Lattice::spanned_by(&times);
-        let count_of = |time: &Fraction| -> Vec<i64> {
-            match times.iter().position(|other| other == time) {
-                Some(place) => counts[place].clone(),
-                None => vec![0; lattice.periods().len()],
-            }
-        };
-        let add =
-            |a: Vec<i64>, b: &[i64]| -> Vec<i64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
-        let passage = |bar: &usize| count_of(travel[*bar].as_ref().expect("a finite bar"));
-        let zero = vec![0; lattice.periods().len()];
-        let late: Vec<Vec<i64>> = ways
-            .iter()
-            .map(|way| way.iter().map(passage).fold(zero.clone(), |sum, part| add(sum, &part)))
-            .collect();
-        let mut round_trips = vec![None; travel.len()];
-        for bar in &finite {
-            round_trips[*bar] =
-                Some(passage(bar).iter().map(|count| 2 * count).collect::<Vec<_>>());
-        }
-        let loads: Vec<_> = moments
-            .iter()
-            .map(|(element, node, from, until)| {
-                let at = |time: &Fraction| add(late[*node].clone(), &count_of(time));
-                (*element, at(from), until.as_ref().map(at))
-            })
-            .collect();
-        let clocks: Vec<Option<Vec<i64>>> =
-            late.iter().zip(&starting).map(|(late, starts)| starts.then(|| late.clone())).collect();
-        // As coarse as what is used allows.
-        let mut steps = vec![0_i64; lattice.periods().len()];
-        let used = round_trips.iter().flatten().chain(clocks.iter().flatten());
-        let moments = loads.iter().flat_map(|(_, from, until)| std::iter::once(from).chain(until));
-        for counts in used.chain(moments) {
-            for (step, count) in steps.iter_mut().zip(counts) {
-                *step = step.gcd(count);
-            }
-        }
-        steps.iter_mut().filter(|step| **step == 0).for_each(|step| *step = 1);
-        let coarser = |counts: Vec<i64>| -> Vec<i64> {
-            counts.iter().zip(&steps).map(|(count, step)| count / step).collect()
-        };
-        self.reference = reference;
-        self.leads = late.iter().map(|counts| lattice.delay(counts)).collect();
-        self.lattice = lattice.coarsened(&steps);
-        self.round_trips = round_trips.into_iter().map(|trip| trip.map(&coarser)).collect();
-        self.clocks = clocks.into_iter().map(|clock| clock.map(&coarser)).collect();
-        self.loads = loads
-            .into_iter()
-            .map(|(element, from, until)| (element, coarser(from), until.map(&coarser)))
-            .collect();
-        Ok(())
+        let clocks = Clocks::of(&self.layout, &self.scaled.model, &starting);
+        (self.reference, self.lattice, self.leads) =
+            (clocks.reference, clocks.lattice, clocks.leads);
+        (self.round_trips, self.clocks) = (clocks.round_trips, clocks.counted);
+        self.loads = clocks.loads;
     }
 
     /// Whether nothing beside a run gives its velocity.
