@@ -102,139 +102,53 @@ impl Lowering<'_> {
     fn explained(&self, scene: &Scene, fault: &Fault) -> (String, Vec<String>, String) {
         let name = fault.parts.first().map_or_else(String::new, |part| self.name_at(*part));
         let second = fault.parts.get(1).map_or_else(String::new, |part| self.name_at(*part));
-        let own = |labels: &[&str]| labels.iter().map(|label| (*label).to_owned()).collect();
-        let (labels, remedy): (Vec<String>, String) = match fault.mistake {
-            Mistake::IllFormed | Mistake::NotPositive | Mistake::Negative => {
-                (own(&["not possible"]), "check the values given".to_owned())
+        let noun = || match fault.parts.first() {
+            Some(Part::Position(position)) => {
+                self.declaration(scene.line.elements[*position]).kind.noun()
             }
-            Mistake::Repeated => {
-                return (
-                    format!("`{name}` stands in the line twice"),
-                    own(&["again here", "first here"]),
-                    "declare another element with the same properties, or remove one of the two"
-                        .to_owned(),
-                );
+            _ => "spring".to_owned(),
+        };
+        let message = match fault.mistake {
+            Mistake::Repeated => format!("`{name}` stands in the line twice"),
+            Mistake::Unused => format!("`{name}` does not stand in the line"),
+            Mistake::Held => format!("the {} `{name}` can do nothing at a fixed end", noun()),
+            Mistake::Idle => format!("this {} has nothing to press against", noun()),
+            _ => fault.to_string(),
+        };
+        let remedy = match fault.mistake {
+            Mistake::NotMeasurable => return self.not_measurable(scene, fault),
+            Mistake::NoLength => {
+                let (labels, remedy) = self.without_length(scene, fault, &name);
+                return (message, labels, remedy);
             }
-            Mistake::Unused => {
-                return (
-                    format!("`{name}` does not stand in the line"),
-                    own(&["declared here", "not in this line"]),
-                    format!("put `{name}` into the line, or remove it"),
-                );
+            Mistake::MixedDimensions => {
+                let mut labels = self.units_of_terms(scene, fault);
+                labels.truncate(2);
+                return (message, labels, "observe them by a statement each".to_owned());
             }
-            Mistake::NoStiffness => (
-                own(&["both are zero"]),
-                "give a positive `stiffness` or a positive `damping`".to_owned(),
-            ),
-            Mistake::EndsBeforeBegin => (
-                own(&["ends here", "begins here"]),
-                "let `until` be later than `from`, which is 0 if it is left out".to_owned(),
-            ),
-            Mistake::ExponentTooSmall => (
-                own(&["smaller"]),
-                "give a larger `exponent`; a ball on a flat body has 3/2".to_owned(),
-            ),
-            Mistake::ExponentTooLarge => (
-                own(&["larger"]),
-                "give a smaller `exponent`; a ball on a flat body has 3/2".to_owned(),
-            ),
-            Mistake::NothingMoves => (
-                own(&["at rest, and without load"]),
-                "give something in the line a `velocity` or a `strain`, or add a load".to_owned(),
-            ),
-            Mistake::EndlessWithoutBar => (
-                own(&["`endless` here", "not a bar"]),
-                format!("put a bar without length between `{second}` and `endless`"),
-            ),
+            Mistake::Unused => format!("put `{name}` into the line, or remove it"),
+            Mistake::Held => {
+                format!("remove `{name}`, or put a bar or a spring between it and the fixed end")
+            }
+            Mistake::Idle => {
+                format!("put a mass, a support or a load at the free end, or remove `{name}`")
+            }
+            Mistake::EndlessWithoutBar => {
+                format!("put a bar without length between `{second}` and `endless`")
+            }
             Mistake::EndlessWithLength => {
                 let property = match fault.parts.get(2) {
                     Some(Part::Property(_, Property::Travel)) => "travel",
                     _ => "length",
                 };
-                (
-                    own(&["`endless` here", "this bar", "has a length"]),
-                    format!(
-                        "leave out the `{property}` of `{second}`, or end the line with `free` or `fixed`"
-                    ),
+                format!(
+                    "leave out the `{property}` of `{second}`, or end the line with `free` or `fixed`"
                 )
             }
-            Mistake::NoLength => self.without_length(scene, fault, &name),
-            Mistake::EndlessBothSides => (
-                own(&["this bar", "endless here", "and here"]),
-                "end the line with `free` or `fixed` on one side, or join something to the bar"
-                    .to_owned(),
-            ),
-            Mistake::ContactAtEnd => (
-                own(&["a contact", "with this end"]),
-                "write `-` beside `free` and `endless`".to_owned(),
-            ),
-            Mistake::Held => {
-                let what = match fault.parts.first() {
-                    Some(Part::Position(position)) => {
-                        self.declaration(scene.line.elements[*position]).kind.noun()
-                    }
-                    _ => String::new(),
-                };
-                return (
-                    format!("the {what} `{name}` can do nothing at a fixed end"),
-                    own(&["cannot move", "fixed here"]),
-                    format!(
-                        "remove `{name}`, or put a bar or a spring between it and the fixed end"
-                    ),
-                );
-            }
-            Mistake::Idle => {
-                let noun = match fault.parts.first() {
-                    Some(Part::Position(position)) => {
-                        self.declaration(scene.line.elements[*position]).kind.noun()
-                    }
-                    _ => "spring".to_owned(),
-                };
-                return (
-                    format!("this {noun} has nothing to press against"),
-                    own(&["can do nothing", "nothing to press against"]),
-                    format!("put a mass, a support or a load at the free end, or remove `{name}`"),
-                );
-            }
-            Mistake::TwoVelocities => (
-                own(&["imposes a velocity", "imposes one too"]),
-                "impose one velocity, the sum of both if that is meant".to_owned(),
-            ),
-            Mistake::NotMeasurable => return self.not_measurable(scene, fault),
-            Mistake::NoArea => (
-                own(&["given by impedance, without an area"]),
-                "observe the force, or give the bar an area, a modulus and a density".to_owned(),
-            ),
-            Mistake::NoWaveSpeed => (
-                own(&["given by impedance, without a wave speed", "this bar"]),
-                "give the bar by an area, a modulus and a density".to_owned(),
-            ),
-            Mistake::NoSuchEnd => (
-                own(&["no such end"]),
-                "observe the other end, or `at` a distance from it".to_owned(),
-            ),
-            Mistake::ShareOfEndless => {
-                (own(&["a share"]), "give a distance from the end of the bar".to_owned())
-            }
-            Mistake::OutsideBar => (
-                own(&["not certainly inside"]),
-                "give a share from 0 to 1, or a distance from 0 to the length".to_owned(),
-            ),
-            Mistake::MixedDimensions => {
-                let units = self.units_of_terms(scene, fault);
-                let mut labels = units.into_iter();
-                let (label, first) = (labels.next(), labels.next());
-                (
-                    vec![label.unwrap_or_default(), first.unwrap_or_default()],
-                    "observe them by a statement each".to_owned(),
-                )
-            }
-            Mistake::Infinite => (
-                own(&["of an endless bar", "in motion or strained from the start"]),
-                "observe a finite bar, or let the endless one start at rest".to_owned(),
-            ),
+            mistake => plain_remedy(mistake).to_owned(),
         };
-        (fault.to_string(), labels, remedy)
+        let labels = labels(fault.mistake).iter().map(|label| (*label).to_owned()).collect();
+        (message, labels, remedy)
     }
 
     fn without_length(&self, scene: &Scene, fault: &Fault, name: &str) -> (Vec<String>, String) {
@@ -335,6 +249,64 @@ impl Lowering<'_> {
 
     fn kind_with_article(&self, element: ElementIndex) -> String {
         format!("a {}", self.declaration(element).kind.noun())
+    }
+}
+
+/// What the parts of a mistake are, in their order.
+fn labels(mistake: Mistake) -> &'static [&'static str] {
+    match mistake {
+        Mistake::IllFormed | Mistake::NotPositive | Mistake::Negative => &["not possible"],
+        Mistake::Repeated => &["again here", "first here"],
+        Mistake::Unused => &["declared here", "not in this line"],
+        Mistake::NoStiffness => &["both are zero"],
+        Mistake::EndsBeforeBegin => &["ends here", "begins here"],
+        Mistake::ExponentTooSmall => &["smaller"],
+        Mistake::ExponentTooLarge => &["larger"],
+        Mistake::NothingMoves => &["at rest, and without load"],
+        Mistake::EndlessWithoutBar => &["`endless` here", "not a bar"],
+        Mistake::EndlessWithLength => &["`endless` here", "this bar", "has a length"],
+        Mistake::EndlessBothSides => &["this bar", "endless here", "and here"],
+        Mistake::ContactAtEnd => &["a contact", "with this end"],
+        Mistake::Held => &["cannot move", "fixed here"],
+        Mistake::Idle => &["can do nothing", "nothing to press against"],
+        Mistake::TwoVelocities => &["imposes a velocity", "imposes one too"],
+        Mistake::NoArea => &["given by impedance, without an area"],
+        Mistake::NoWaveSpeed => &["given by impedance, without a wave speed", "this bar"],
+        Mistake::NoSuchEnd => &["no such end"],
+        Mistake::ShareOfEndless => &["a share"],
+        Mistake::OutsideBar => &["not certainly inside"],
+        Mistake::Infinite => &["of an endless bar", "in motion or strained from the start"],
+        Mistake::NoLength | Mistake::NotMeasurable | Mistake::MixedDimensions => &[],
+    }
+}
+
+/// The remedy of a mistake that needs no names.
+fn plain_remedy(mistake: Mistake) -> &'static str {
+    match mistake {
+        Mistake::Repeated => {
+            "declare another element with the same properties, or remove one of the two"
+        }
+        Mistake::NoStiffness => "give a positive `stiffness` or a positive `damping`",
+        Mistake::EndsBeforeBegin => {
+            "let `until` be later than `from`, which is 0 if it is left out"
+        }
+        Mistake::ExponentTooSmall => "give a larger `exponent`; a ball on a flat body has 3/2",
+        Mistake::ExponentTooLarge => "give a smaller `exponent`; a ball on a flat body has 3/2",
+        Mistake::NothingMoves => {
+            "give something in the line a `velocity` or a `strain`, or add a load"
+        }
+        Mistake::EndlessBothSides => {
+            "end the line with `free` or `fixed` on one side, or join something to the bar"
+        }
+        Mistake::ContactAtEnd => "write `-` beside `free` and `endless`",
+        Mistake::TwoVelocities => "impose one velocity, the sum of both if that is meant",
+        Mistake::NoArea => "observe the force, or give the bar an area, a modulus and a density",
+        Mistake::NoWaveSpeed => "give the bar by an area, a modulus and a density",
+        Mistake::NoSuchEnd => "observe the other end, or `at` a distance from it",
+        Mistake::ShareOfEndless => "give a distance from the end of the bar",
+        Mistake::OutsideBar => "give a share from 0 to 1, or a distance from 0 to the length",
+        Mistake::Infinite => "observe a finite bar, or let the endless one start at rest",
+        _ => "check the values given",
     }
 }
 
