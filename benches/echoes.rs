@@ -3,7 +3,8 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use wavestep_kernels::Limit;
-use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Method, Term, Time};
+use wavestep_kernels::double_double::DoubleDouble;
+use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Method, Term};
 
 /// `μ = 1`, echoes to `n`, and times that fill the period of echo `n`.
 fn rigid_mass(n: usize, points: usize) -> (EchoSum, Vec<f64>) {
@@ -38,7 +39,7 @@ fn one_by_one(criterion: &mut Criterion) {
             group.bench_function(BenchmarkId::from_parameter(n), |bencher| {
                 bencher.iter(|| {
                     let value = |&time| {
-                        sum.value(method, Time::from(time), Limit::Right).expect("in range")
+                        sum.value(method, DoubleDouble::from(time), Limit::Right).expect("in range")
                     };
                     black_box(&times).iter().map(value).sum::<f64>()
                 });

@@ -215,6 +215,10 @@ impl<W: Work> Task for InLanes<W> {
 
 /// Does work with the widest registers that the machine has.
 pub(crate) fn widest<W: Work>(work: W) -> W::Output {
+    // Every such machine fuses multiply-adds.
+    #[cfg(target_arch = "aarch64")]
+    return work.run::<Eight<crate::vector::Scalar<true>, WIDTH>>();
+    #[cfg(not(target_arch = "aarch64"))]
     dispatch(Level::Avx512, InLanes(work))
 }
 

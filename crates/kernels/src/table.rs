@@ -306,8 +306,8 @@ impl Table {
     /// error + Σ |low_k| + 2⁻⁵³ (Σ_{k<n} T_k + Σ_{1≤k≤n} T_k + Σ k |c_k|),   T_k = Σ_{j≥k} |c_j|
     /// ```
     ///
-    /// with `|c_k| r^k` for `|c_k|` where `|u| ≤ r < 1` on the piece; the last sum is left out if `t − centre` is exact on the whole piece, and with a little
-    /// more for underflow. O(1).
+    /// with `|c_k| r^k` for `|c_k|` where `|u| ≤ r < 1` on the piece, and a little more for underflow; the
+    /// last sum is left out if `t − centre` is exact on the whole piece. O(1).
     pub fn bound(&self) -> f64 {
         self.bound
     }
@@ -320,7 +320,7 @@ impl Table {
         self.certified_bound
     }
 
-    /// Evaluation on one thread with the widest instructions of this machine.
+    /// Evaluation with the widest instructions of this machine.
     pub fn evaluator(&self) -> crate::Evaluator<'_> {
         crate::Evaluator::new(self)
     }

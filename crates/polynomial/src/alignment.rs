@@ -1,7 +1,7 @@
 //! Two polynomials over one list of symbols.
 
-use crate::polynomial::Monomial;
 use crate::symbol::Symbol;
+use crate::term::Monomial;
 use std::sync::Arc;
 
 /// The union of two lists of symbols, and the way from each of them into it.

@@ -4,7 +4,7 @@
 //! for `j!`. Small ones are kept for the life of the process, each row of Pascal's triangle from
 //! the time it is first asked for; larger ones are computed when asked.
 
-use crate::polynomial::Polynomial;
+use crate::term::MAX_EXPONENT;
 use num_bigint::BigInt;
 use num_traits::One;
 use std::sync::OnceLock;
@@ -18,9 +18,9 @@ static ROWS: [OnceLock<Vec<BigInt>>; KEPT_ROWS] = [const { OnceLock::new() }; KE
 /// How many factorials are kept in one block.
 const BLOCK: usize = 64;
 
-/// How many blocks of factorials are kept: up to [`Polynomial::MAX_EXPONENT`]. All of them would
+/// How many blocks of factorials are kept: up to [`MAX_EXPONENT`]. All of them would
 /// take about 11 MB.
-const KEPT_BLOCKS: usize = Polynomial::MAX_EXPONENT as usize / BLOCK + 1;
+const KEPT_BLOCKS: usize = MAX_EXPONENT as usize / BLOCK + 1;
 
 static FACTORIALS: [OnceLock<Vec<BigInt>>; KEPT_BLOCKS] = [const { OnceLock::new() }; KEPT_BLOCKS];
 
@@ -59,7 +59,7 @@ fn kept_factorial(n: u32) -> Option<&'static BigInt> {
     factorials.get(n as usize % BLOCK)
 }
 
-/// Multiplies `value` by `n!`. One product up to [`Polynomial::MAX_EXPONENT`].
+/// Multiplies `value` by `n!`. One product up to [`MAX_EXPONENT`].
 pub(crate) fn multiply_by_factorial(value: &mut BigInt, n: u32) {
     match kept_factorial(n) {
         Some(kept) => *value *= kept,
@@ -68,10 +68,6 @@ pub(crate) fn multiply_by_factorial(value: &mut BigInt, n: u32) {
 }
 
 /// The binomial coefficient `C(n, k)`, zero for `k > n`. O(min(k, n−k)) products by a word.
-///
-/// ```
-/// assert_eq!(wavestep_polynomial::binomial(80, 3), 82160.into());
-/// ```
 pub fn binomial(n: u32, k: u32) -> BigInt {
     if k > n {
         return BigInt::ZERO;
@@ -84,12 +80,8 @@ pub fn binomial(n: u32, k: u32) -> BigInt {
     value
 }
 
-/// The factorial `n!`. A copy for `n` up to [`Polynomial::MAX_EXPONENT`]; beyond, O(n) products,
+/// The factorial `n!`. A copy for `n` up to [`MAX_EXPONENT`]; beyond, O(n) products,
 /// all but the last few short.
-///
-/// ```
-/// assert_eq!(wavestep_polynomial::factorial(5), 120.into());
-/// ```
 pub fn factorial(n: u32) -> BigInt {
     match kept_factorial(n) {
         Some(kept) => kept.clone(),

@@ -1,19 +1,14 @@
 //! Derivative and antiderivative: in divided powers, shifts of exponents.
 
 use crate::alignment::{Places, common_symbols};
-use crate::polynomial::{Polynomial, Term, add_exponents};
+use crate::polynomial::Polynomial;
 use crate::symbol::Symbol;
+use crate::term::{Term, add_exponents};
 use std::sync::Arc;
 
 impl Polynomial {
     /// The partial derivative `∂p/∂x`: exponents of `x` go down by one, `x^[j] → x^[j−1]`.
     /// O(terms).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    /// let p: Polynomial = "x^3*y + x".parse().unwrap();
-    /// assert_eq!(p.derivative(&Symbol::new("x").unwrap()).to_string(), "3*x^2*y + 1");
-    /// ```
     pub fn derivative(&self, x: &Symbol) -> Polynomial {
         let Some(column) = self.column(x) else { return Polynomial::zero() };
         let lowered = self.terms.iter().filter(|term| term.exponents[column] > 0).map(|term| {
@@ -27,12 +22,6 @@ impl Polynomial {
 
     /// The antiderivative `∫_0^x p dx`, which is zero at `x = 0`: exponents of `x` go up by one,
     /// `x^[j] → x^[j+1]`. O(terms).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    /// let p: Polynomial = "3*x^2*y + 1".parse().unwrap();
-    /// assert_eq!(p.antiderivative(&Symbol::new("x").unwrap()).to_string(), "x^3*y + x");
-    /// ```
     ///
     /// # Panics
     /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].

@@ -17,11 +17,6 @@ const SHORT: usize = 24;
 
 /// An integer in decimal digits, several times faster than its `Display` where it has at most
 /// 400 digits. O(limbs²).
-///
-/// ```
-/// use wavestep_polynomial::{decimal, Integer};
-/// assert_eq!(decimal(&(-Integer::from(2).pow(70))), "-1180591620717411303424");
-/// ```
 pub fn decimal(value: &BigInt) -> String {
     let mut limbs: SmallVec<[u64; SHORT]> = value.iter_u64_digits().collect();
     if limbs.len() > SHORT {

@@ -3,8 +3,9 @@
 use crate::alignment::{Places, common_symbols};
 use crate::binomial::multiply_by_factorial;
 use crate::integer::lcm;
-use crate::polynomial::{Monomial, Polynomial, Term};
+use crate::polynomial::Polynomial;
 use crate::symbol::Symbol;
+use crate::term::{Monomial, Term};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
@@ -21,14 +22,6 @@ impl Polynomial {
     /// A divisor with square roots is first multiplied, together with the dividend, by its
     /// conjugates until it has none: `p/d = p m/(d m)`. The polynomials with square roots have no
     /// divisors of zero, so one quotient exists where the other does.
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let p: Polynomial = "x^2 - y^2".parse().unwrap();
-    /// let d: Polynomial = "x + y".parse().unwrap();
-    /// assert_eq!(p.divide(&d).unwrap().to_string(), "x - y");
-    /// assert!(p.divide(&"x + 1".parse().unwrap()).is_none());
-    /// ```
     ///
     /// # Panics
     /// Where the divisor is zero.

@@ -29,12 +29,6 @@ pub(crate) fn lcm(a: &BigInt, b: &BigInt) -> BigInt {
 
 /// The fraction in lowest terms; `denominator` is positive. The same as `Rational::new`, which takes
 /// some ten times as long where the numbers are words.
-///
-/// ```
-/// use wavestep_polynomial::{Rational, fraction};
-///
-/// assert_eq!(fraction(6.into(), 4.into()), Rational::new(3.into(), 2.into()));
-/// ```
 pub fn fraction(numerator: BigInt, denominator: BigInt) -> BigRational {
     let common = gcd(&numerator, &denominator);
     if common.is_one() {
@@ -45,10 +39,9 @@ pub fn fraction(numerator: BigInt, denominator: BigInt) -> BigRational {
 }
 
 /// The integer with these limbs in base `2^64`, the lowest first. One allocation.
-pub(crate) fn from_limbs(negative: bool, limbs: &[u64]) -> BigInt {
+pub(crate) fn from_limbs(sign: Sign, limbs: &[u64]) -> BigInt {
     let halves = limbs.iter().flat_map(|limb| [*limb as u32, (*limb >> 32) as u32]);
     let halves: SmallVec<[u32; 64]> = halves.collect();
-    let sign = if negative { Sign::Minus } else { Sign::Plus };
     BigInt::from_biguint(sign, BigUint::from_slice(&halves))
 }
 

@@ -11,11 +11,13 @@ mod polynomial;
 mod product;
 mod query;
 mod ratio;
+mod reduction;
 mod root;
 mod row;
 mod substitution;
 mod sum;
 mod symbol;
+mod term;
 mod text;
 mod univariate;
 

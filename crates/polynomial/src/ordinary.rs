@@ -18,16 +18,6 @@ use std::collections::BTreeMap;
 /// # Invariants
 /// - `m > 0`, and no prime divides `m` and all integers;
 /// - one integer for each term of a polynomial, in its order.
-///
-/// ```
-/// use wavestep_polynomial::{Integer, Ordinary, Polynomial};
-/// let p: Polynomial = "2*x^2 + 3*x".parse().unwrap();
-/// let q: Polynomial = "5*y - 1/2".parse().unwrap();
-/// let thirds = Ordinary::new([&p, &q], &3.into()); // p/3 and q/3
-/// assert_eq!(*thirds.denominator(), Integer::from(6));
-/// assert_eq!(thirds.integers(1), [10, -1].map(Integer::from));
-/// assert_eq!(thirds.coefficients(0).next().unwrap().1.to_string(), "2/3");
-/// ```
 pub struct Ordinary<'a> {
     polynomials: Vec<&'a Polynomial>,
     denominator: BigInt,
@@ -130,39 +120,4 @@ fn factorial_ratios<'a>(polynomials: &[&'a Polynomial]) -> BTreeMap<&'a Symbol, 
         ratios
     };
     highest.into_iter().map(|(x, n)| (x, table(n))).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const TEXTS: [&str; 6] =
-        ["0", "7/3", "x", "4/3*x^3 - 1/6*x", "1/2*x^2*y^5 + 3/35*x*y - 9/8", "6*x^9 - 12*y^4"];
-
-    /// Alone and together, the coefficients are those of the polynomials, over the least
-    /// denominator.
-    #[test]
-    fn coefficients_are_those_of_the_polynomials() {
-        let all: Vec<Polynomial> = TEXTS.iter().map(|text| text.parse().unwrap()).collect();
-        let groups = (0..all.len()).map(|i| &all[i..=i]).chain([&all[..], &all[2..5]]);
-        for (polynomials, divisor) in groups.flat_map(|group| [1, 2, 12, 35].map(|d| (group, d))) {
-            let ordinary = Ordinary::new(polynomials, &divisor.into());
-            let mut least = BigInt::one();
-            for (i, p) in polynomials.iter().enumerate() {
-                let divided = p / &BigRational::from_integer(divisor.into());
-                assert!(ordinary.coefficients(i).eq(divided.terms()), "({p})/{divisor}");
-                let back = ordinary.integers(i).iter();
-                let back = back.map(|n| fraction(n.clone(), ordinary.denominator().clone()));
-                assert!(back.eq(divided.terms().map(|(_, c)| c)), "({p})/{divisor}");
-                least = divided.terms().fold(least, |d, (_, c)| d.lcm(c.denom()));
-            }
-            assert_eq!(*ordinary.denominator(), least, "over {divisor}");
-        }
-    }
-
-    #[test]
-    #[should_panic(expected = "coefficients over 0")]
-    fn the_divisor_is_positive() {
-        let _ = Ordinary::new([&Polynomial::one()], &BigInt::ZERO);
-    }
 }

@@ -3,31 +3,13 @@
 use crate::alignment::Places;
 use crate::binomial::multiply_by_factorial;
 use crate::integer::gcd;
-use crate::root::reduce_roots;
+use crate::reduction::reduce_roots;
 use crate::symbol::Symbol;
+use crate::term::{MAX_EXPONENT, Monomial, Term, add_exponents};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
-use smallvec::SmallVec;
 use std::sync::Arc;
-
-/// Exponents of one term, one for each symbol of the polynomial that holds it.
-pub(crate) type Monomial = SmallVec<[u32; 4]>;
-
-/// One term: `numerator · Π_i x_i^{a_i} / a_i!`, before the polynomial's denominator.
-#[derive(PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub(crate) struct Term {
-    pub exponents: Monomial,
-    pub numerator: BigInt,
-}
-
-impl Clone for Term {
-    /// By `from_slice`: `SmallVec::clone` goes item by item and takes twice the time.
-    fn clone(&self) -> Term {
-        let exponents = Monomial::from_slice(&self.exponents);
-        Term { exponents, numerator: self.numerator.clone() }
-    }
-}
 
 /// A polynomial over the rationals in named symbols.
 ///
@@ -55,13 +37,6 @@ impl Clone for Term {
 /// - `d > 0` and `gcd(d, all numerators) = 1`; the zero polynomial has `d = 1`.
 ///
 /// Equal polynomials therefore have one representation, and `==` compares it.
-///
-/// ```
-/// use wavestep_polynomial::Polynomial;
-/// let p: Polynomial = "1/2*x^2 - y".parse().unwrap();
-/// let q: Polynomial = "x + y".parse().unwrap();
-/// assert_eq!((&p * &q).to_string(), "1/2*x^3 + 1/2*x^2*y - x*y - y^2");
-/// ```
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Polynomial {
     pub(crate) symbols: Arc<[Symbol]>,
@@ -69,25 +44,9 @@ pub struct Polynomial {
     pub(crate) denominator: BigInt,
 }
 
-/// The exponent of a product of powers.
-///
-/// # Panics
-/// Where it exceeds [`Polynomial::MAX_EXPONENT`].
-pub(crate) fn add_exponents(a: u32, b: u32) -> u32 {
-    let sum = a.checked_add(b).filter(|sum| *sum <= Polynomial::MAX_EXPONENT);
-    sum.unwrap_or_else(|| panic!("an exponent exceeds {}", Polynomial::MAX_EXPONENT))
-}
-
 impl Polynomial {
     /// The largest exponent of a symbol.
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let power = |exponent: u32| format!("x^{exponent}").parse::<Polynomial>();
-    /// assert!(power(Polynomial::MAX_EXPONENT).is_ok());
-    /// assert!(power(Polynomial::MAX_EXPONENT + 1).is_err());
-    /// ```
-    pub const MAX_EXPONENT: u32 = 4095;
+    pub const MAX_EXPONENT: u32 = MAX_EXPONENT;
 
     /// The polynomial 0. O(1).
     pub fn zero() -> Polynomial {
@@ -100,22 +59,11 @@ impl Polynomial {
     }
 
     /// An integer constant. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// assert_eq!(Polynomial::integer(-3).to_string(), "-3");
-    /// ```
     pub fn integer(value: impl Into<BigInt>) -> Polynomial {
         Polynomial::constant(&BigRational::from_integer(value.into()))
     }
 
     /// A rational constant. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Rational};
-    /// let third = Polynomial::constant(&Rational::new(2.into(), 6.into()));
-    /// assert_eq!(third.to_string(), "1/3");
-    /// ```
     pub fn constant(value: &BigRational) -> Polynomial {
         let mut constant = Polynomial::zero();
         if !value.is_zero() {
@@ -127,27 +75,12 @@ impl Polynomial {
     }
 
     /// The polynomial `x`. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    /// let p = &Polynomial::symbol(&Symbol::new("x").unwrap()) + &Polynomial::one();
-    /// assert_eq!((&p * &p).to_string(), "x^2 + 2*x + 1");
-    /// assert_eq!(&p - &p, Polynomial::zero());
-    /// ```
     pub fn symbol(x: &Symbol) -> Polynomial {
         Polynomial::monomial(&BigRational::one(), &[(x, 1)])
     }
 
     /// The single term `coefficient · Π x_i^{e_i}` (ordinary powers); a symbol may come twice.
     /// One product with a factorial for each symbol.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Rational, Symbol};
-    /// let (x, y) = (Symbol::new("x").unwrap(), Symbol::new("y").unwrap());
-    /// let half = Rational::new(1.into(), 2.into());
-    /// let p = Polynomial::monomial(&half, &[(&y, 3), (&x, 1), (&y, 1)]);
-    /// assert_eq!(p.to_string(), "1/2*x*y^4");
-    /// ```
     ///
     /// # Panics
     /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
@@ -232,13 +165,6 @@ impl Polynomial {
 
     /// Whether the invariants of the type hold, for tests. O(terms), and gcds while they are
     /// not 1.
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let p: Polynomial = "2/4*x - 3/6*x + 4/4".parse().unwrap();
-    /// assert!(p.is_valid());
-    /// assert_eq!(p, Polynomial::one());
-    /// ```
     pub fn is_valid(&self) -> bool {
         let width = self.symbols.len();
         let in_form = self.symbols.windows(2).all(|pair| pair[0] < pair[1])

@@ -2,8 +2,9 @@
 
 use crate::alignment::{Places, common_symbols};
 use crate::binomial::multiply_by_binomial;
-use crate::polynomial::{Monomial, Polynomial, Term, add_exponents};
+use crate::polynomial::Polynomial;
 use crate::symbol::Symbol;
+use crate::term::{Monomial, Term, add_exponents};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
@@ -103,12 +104,6 @@ impl Div<&BigRational> for &Polynomial {
 
 impl Polynomial {
     /// `p^exponent`, by repeated squaring; `p^0 = 1`, also for 0. O(log exponent) products.
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let p: Polynomial = "x - 1".parse().unwrap();
-    /// assert_eq!(p.pow(3).to_string(), "x^3 - 3*x^2 + 3*x - 1");
-    /// ```
     ///
     /// # Panics
     /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].

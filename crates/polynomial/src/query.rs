@@ -1,9 +1,10 @@
-//! What a polynomial says of itself: degrees, terms, coefficients, content.
+//! Degrees, terms, coefficients and content.
 
 use crate::binomial::{factorial, multiply_by_factorial};
 use crate::integer::{fraction, gcd, lcm};
-use crate::polynomial::{Polynomial, Term};
+use crate::polynomial::Polynomial;
 use crate::symbol::Symbol;
+use crate::term::Term;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -11,13 +12,6 @@ use std::collections::BTreeMap;
 
 impl Polynomial {
     /// Whether this is 0. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let p: Polynomial = "x*y - 1/2".parse().unwrap();
-    /// assert!((&p - &p).is_zero());
-    /// assert!(p.pow(0).is_one());
-    /// ```
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
@@ -33,14 +27,6 @@ impl Polynomial {
     }
 
     /// The value, where no symbol occurs. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Rational};
-    /// let p: Polynomial = "x + 1/2".parse().unwrap();
-    /// assert_eq!(p.as_constant(), None);
-    /// let x: Polynomial = "x".parse().unwrap();
-    /// assert_eq!((&p - &x).as_constant(), Some(Rational::new(1.into(), 2.into())));
-    /// ```
     pub fn as_constant(&self) -> Option<BigRational> {
         match &self.terms[..] {
             [] => Some(BigRational::zero()),
@@ -52,13 +38,6 @@ impl Polynomial {
     }
 
     /// The symbols that occur, ascending by name. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    /// let p: Polynomial = "s*mu + a - a".parse().unwrap();
-    /// assert_eq!(p.symbols(), ["mu", "s"].map(|name| Symbol::new(name).unwrap()));
-    /// assert_eq!(p.term_count(), 1);
-    /// ```
     pub fn symbols(&self) -> &[Symbol] {
         &self.symbols
     }
@@ -69,13 +48,6 @@ impl Polynomial {
     }
 
     /// The degree in `x`: 0 where `x` does not occur, and for the zero polynomial. O(terms).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    /// let p: Polynomial = "x^2*y + y^2".parse().unwrap();
-    /// assert_eq!(p.degree(&Symbol::new("y").unwrap()), 2);
-    /// assert_eq!(p.total_degree(), 3);
-    /// ```
     pub fn degree(&self, x: &Symbol) -> u32 {
         let column = self.column(x);
         column.map_or(0, |i| self.terms.iter().map(|term| term.exponents[i]).max().unwrap_or(0))
@@ -88,13 +60,6 @@ impl Polynomial {
 
     /// The terms in the documented order: exponents by [`Polynomial::symbols`], and the reduced
     /// coefficient of the *ordinary* powers. One gcd a term.
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let p: Polynomial = "y - 2*x^2*y".parse().unwrap();
-    /// let (exponents, coefficient) = p.terms().next().unwrap();
-    /// assert_eq!((exponents, coefficient), (&[2, 1][..], Polynomial::integer(-2).as_constant().unwrap()));
-    /// ```
     pub fn terms(&self) -> impl Iterator<Item = (&[u32], BigRational)> + '_ {
         self.terms.iter().map(|term| {
             let mut denominator = self.denominator.clone();
@@ -105,14 +70,6 @@ impl Polynomial {
 
     /// The shared denominator `d` and the integers `c_α` of the divided-power form, in the
     /// documented order. O(1) a term.
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let p: Polynomial = "x^3 - 1/2*x".parse().unwrap(); // (12 x^[3] − x^[1]) / 2
-    /// let (denominator, terms) = p.divided_terms();
-    /// assert_eq!(*denominator, 2.into());
-    /// assert_eq!(terms.collect::<Vec<_>>(), [(&[3][..], &12.into()), (&[1][..], &(-1).into())]);
-    /// ```
     pub fn divided_terms(&self) -> (&BigInt, impl Iterator<Item = (&[u32], &BigInt)> + '_) {
         let terms = self.terms.iter().map(|term| (&term.exponents[..], &term.numerator));
         (&self.denominator, terms)
@@ -120,26 +77,12 @@ impl Polynomial {
 
     /// The coefficient of the first term in the documented order, of ordinary powers; 0 for 0.
     /// One gcd.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Rational};
-    /// let p: Polynomial = "3*y^2 - 1/2*x".parse().unwrap(); // x weighs most
-    /// assert_eq!(p.leading_coefficient(), Rational::new((-1).into(), 2.into()));
-    /// ```
     pub fn leading_coefficient(&self) -> BigRational {
         self.terms().next().map_or_else(BigRational::zero, |(_, coefficient)| coefficient)
     }
 
     /// The non-zero coefficients of `x^j` (ordinary powers), `j` descending, each a polynomial in
     /// the other symbols. O(terms · log), and gcds with `j!`.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    /// let p: Polynomial = "x^2*y + 3*x^2 - y".parse().unwrap();
-    /// let by_x = p.coefficients(&Symbol::new("x").unwrap());
-    /// assert_eq!(by_x[0], (2, "y + 3".parse().unwrap()));
-    /// assert_eq!(by_x[1], (0, "-y".parse().unwrap()));
-    /// ```
     pub fn coefficients(&self, x: &Symbol) -> Vec<(u32, Polynomial)> {
         let mut coefficients = self.divided_coefficients(x);
         for (power, coefficient) in &mut coefficients {
@@ -150,13 +93,6 @@ impl Polynomial {
 
     /// The non-zero coefficients of `x^j/j!`, `j` descending, each a polynomial in the other
     /// symbols. O(terms · log).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol};
-    /// let p: Polynomial = "x^3*y - 2*x".parse().unwrap(); // 6y x^3/3! − 2x
-    /// let by_x = p.divided_coefficients(&Symbol::new("x").unwrap());
-    /// assert_eq!(by_x, [(3, "6*y".parse().unwrap()), (1, Polynomial::integer(-2))]);
-    /// ```
     pub fn divided_coefficients(&self, x: &Symbol) -> Vec<(u32, Polynomial)> {
         let Some(column) = self.column(x) else {
             return if self.is_zero() { Vec::new() } else { vec![(0, self.clone())] };
@@ -174,13 +110,6 @@ impl Polynomial {
 
     /// The content: the positive rational `c` such that `p/c` has coprime integer coefficients in
     /// ordinary powers; 0 for 0. Three gcds a term.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Rational};
-    /// let p: Polynomial = "-4/3*x^2 + 2*y".parse().unwrap();
-    /// assert_eq!(p.content(), Rational::new(2.into(), 3.into()));
-    /// assert_eq!(p.primitive_part().1.to_string(), "2*x^2 - 3*y");
-    /// ```
     pub fn content(&self) -> BigRational {
         let mut numerator = BigInt::zero();
         let mut denominator = BigInt::one();

@@ -2,7 +2,7 @@
 //!
 //! A polynomial of degree 1000 is a thousand integers of some hundred bits; one allocation for each
 //! would cost more than the arithmetic. Only what rows need is here: combinations of two rows,
-//! products with a word, decimal digits. Everything else goes by way of [`Integer`].
+//! products with a word, remainders by one. Everything else goes by way of `Integer`.
 
 use crate::integer::from_limbs;
 use num_bigint::{BigInt, Sign};
@@ -16,17 +16,6 @@ use std::fmt;
 /// - the highest limb of an entry is not zero; zero has no limbs and no sign.
 ///
 /// Equal rows have one representation.
-///
-/// ```
-/// use wavestep_polynomial::{Integer, IntegerRow};
-/// let row: IntegerRow = [1, -4, 6].map(Integer::from).iter().collect();
-/// // Pascal's rule: a row and the same row one place on.
-/// let next = IntegerRow::combination(&1.into(), &row, &(-1).into(), &row, 1);
-/// assert_eq!(next, [1, -5, 10, -6].map(Integer::from).iter().collect());
-/// assert_eq!(next.get(2).to_integer(), Integer::from(10));
-/// assert_eq!(next.len(), 4);
-/// assert!(IntegerRow::default().is_empty());
-/// ```
 #[derive(Clone, PartialEq, Eq, Hash, Default)]
 pub struct IntegerRow {
     limbs: Vec<u64>,
@@ -41,15 +30,6 @@ struct Entry {
 }
 
 /// An integer that lies in a row.
-///
-/// ```
-/// use wavestep_polynomial::{Integer, IntegerRow};
-/// let row: IntegerRow = [-10, 0].map(Integer::from).iter().collect();
-/// let (ten, zero) = (row.get(0), row.get(1));
-/// assert!(ten.is_negative() && zero.is_zero());
-/// assert_eq!(ten.bits(), 4);
-/// assert_eq!(ten.modulo(7), 4); // −10 = 4 − 2·7
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct IntegerRef<'a> {
     negative: bool,
@@ -170,14 +150,6 @@ impl IntegerRow {
     /// Replaces the row by its entries from the second on, each times `word`. Started from the
     /// divided-power coefficients of `p`, the l-th row is that of `word^l p^{(l)}`, which Taylor's
     /// theorem asks for. `spare` holds the new limbs meanwhile, and the old ones after. O(limbs).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Integer, IntegerRow};
-    /// let row = |values: &[i64]| values.iter().map(|v| Integer::from(*v)).collect::<IntegerRow>();
-    /// let (mut c, mut spare) = (row(&[1, -4, 6]), IntegerRow::default());
-    /// c.advance(10, &mut spare);
-    /// assert_eq!(c, row(&[-40, 60]));
-    /// ```
     pub fn advance(&mut self, word: u64, spare: &mut IntegerRow) {
         spare.limbs.clear();
         spare.entries.clear();
@@ -200,7 +172,7 @@ impl IntegerRow {
 impl IntegerRef<'_> {
     /// The integer itself. One allocation.
     pub fn to_integer(self) -> BigInt {
-        from_limbs(self.negative, self.limbs)
+        from_limbs(if self.negative { Sign::Minus } else { Sign::Plus }, self.limbs)
     }
 
     /// Whether this is 0. O(1).

@@ -2,8 +2,9 @@
 
 use crate::alignment::align;
 use crate::integer::lcm;
-use crate::polynomial::{Polynomial, Term};
+use crate::polynomial::Polynomial;
 use crate::symbol::Symbol;
+use crate::term::Term;
 use num_bigint::BigInt;
 use num_traits::One;
 use std::borrow::Cow;
@@ -12,13 +13,20 @@ use std::iter::Sum;
 use std::ops::{Add, AddAssign, Neg, Sub, SubAssign};
 use std::sync::Arc;
 
+/// Whether the right side is added or subtracted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sign {
+    Plus,
+    Minus,
+}
+
 /// `left + right`, or `left − right`, by merging two descending lists. `lefts` are the terms of the
 /// left side, moved or copied as the caller likes; the numerators of the right side are added to
 /// them in place, and copied only where the left side has no such term.
 fn merge(
     (symbols, denominator, lefts): (&Arc<[Symbol]>, &BigInt, impl Iterator<Item = Term>),
     right: &Polynomial,
-    subtract: bool,
+    sign: Sign,
 ) -> Polynomial {
     let aligned = align(symbols, &right.symbols);
     let common = lcm(denominator, &right.denominator);
@@ -45,7 +53,7 @@ fn merge(
     });
     let new_term = |(exponents, value): (_, Cow<'_, BigInt>)| {
         let value = value.into_owned();
-        Term { exponents, numerator: if subtract { -value } else { value } }
+        Term { exponents, numerator: if sign == Sign::Minus { -value } else { value } }
     };
     let (mut next_left, mut next_right) = (lefts.next(), rights.next());
     loop {
@@ -60,10 +68,9 @@ fn merge(
                     (next_left, next_right) = (Some(l), rights.next());
                 }
                 Ordering::Equal => {
-                    if subtract {
-                        l.numerator -= &*r.1
-                    } else {
-                        l.numerator += &*r.1
+                    match sign {
+                        Sign::Plus => l.numerator += &*r.1,
+                        Sign::Minus => l.numerator -= &*r.1,
                     }
                     terms.push(l);
                     (next_left, next_right) = (lefts.next(), rights.next());
@@ -80,23 +87,23 @@ fn merge(
 }
 
 /// [`merge`] into a copy of `left`.
-fn merge_copied(left: &Polynomial, right: &Polynomial, subtract: bool) -> Polynomial {
-    merge((&left.symbols, &left.denominator, left.terms.iter().cloned()), right, subtract)
+fn merge_copied(left: &Polynomial, right: &Polynomial, sign: Sign) -> Polynomial {
+    merge((&left.symbols, &left.denominator, left.terms.iter().cloned()), right, sign)
 }
 
 /// [`merge`] into `left` itself.
-fn merge_owned(left: Polynomial, right: &Polynomial, subtract: bool) -> Polynomial {
+fn merge_owned(left: Polynomial, right: &Polynomial, sign: Sign) -> Polynomial {
     if right.is_zero() {
         return left;
     }
-    merge((&left.symbols, &left.denominator, left.terms.into_iter()), right, subtract)
+    merge((&left.symbols, &left.denominator, left.terms.into_iter()), right, sign)
 }
 
 impl Add for &Polynomial {
     type Output = Polynomial;
     /// O(terms of both).
     fn add(self, other: &Polynomial) -> Polynomial {
-        merge_copied(self, other, false)
+        merge_copied(self, other, Sign::Plus)
     }
 }
 
@@ -104,33 +111,27 @@ impl Sub for &Polynomial {
     type Output = Polynomial;
     /// O(terms of both).
     fn sub(self, other: &Polynomial) -> Polynomial {
-        merge_copied(self, other, true)
+        merge_copied(self, other, Sign::Minus)
     }
 }
 
 impl AddAssign<&Polynomial> for Polynomial {
     /// O(terms of both); the numerators of `self` are not copied.
     fn add_assign(&mut self, other: &Polynomial) {
-        *self = merge_owned(std::mem::take(self), other, false);
+        *self = merge_owned(std::mem::take(self), other, Sign::Plus);
     }
 }
 
 impl SubAssign<&Polynomial> for Polynomial {
     /// O(terms of both); the numerators of `self` are not copied.
     fn sub_assign(&mut self, other: &Polynomial) {
-        *self = merge_owned(std::mem::take(self), other, true);
+        *self = merge_owned(std::mem::take(self), other, Sign::Minus);
     }
 }
 
 impl Sum for Polynomial {
     /// Neighbours are added first, so that `n` polynomials of one term each take
     /// O(n log n), where one addition after the other would take O(n²).
-    ///
-    /// ```
-    /// use wavestep_polynomial::Polynomial;
-    /// let terms = ["x", "y", "-x"].map(|text| text.parse::<Polynomial>().unwrap());
-    /// assert_eq!(terms.into_iter().sum::<Polynomial>().to_string(), "y");
-    /// ```
     fn sum<I: Iterator<Item = Polynomial>>(polynomials: I) -> Polynomial {
         let mut sums: Vec<Polynomial> = polynomials.collect();
         while sums.len() > 1 {
@@ -138,7 +139,7 @@ impl Sum for Polynomial {
             let pair = || {
                 let left = rest.next()?;
                 Some(match rest.next() {
-                    Some(right) => merge_owned(left, &right, false),
+                    Some(right) => merge_owned(left, &right, Sign::Plus),
                     None => left,
                 })
             };

@@ -50,13 +50,6 @@ impl fmt::Debug for Polynomial {
 }
 
 /// What [`Polynomial::from_str`] could not read, and where.
-///
-/// ```
-/// use wavestep_polynomial::{Expected, Polynomial};
-/// let error = "x + 3/0".parse::<Polynomial>().unwrap_err();
-/// assert_eq!((error.offset, error.expected), (6, Expected::Denominator));
-/// assert_eq!(error.to_string(), "at byte 6: expected a denominator other than zero");
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ReadError {
     /// Byte offset of the place in the text.
@@ -66,16 +59,6 @@ pub struct ReadError {
 }
 
 /// What a reader of polynomials may miss.
-///
-/// ```
-/// use wavestep_polynomial::{Expected, Polynomial};
-/// let missed = |text: &str| text.parse::<Polynomial>().unwrap_err().expected;
-/// assert_eq!(missed("x +"), Expected::Factor);
-/// assert_eq!(missed("x y"), Expected::Operator);
-/// assert_eq!(missed("x^y"), Expected::Exponent);
-/// assert_eq!(missed("1/x"), Expected::Denominator);
-/// assert_eq!(missed("sqrt(6)"), Expected::Radicand);
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Expected {
     /// A number or a name.

@@ -1,15 +1,16 @@
 //! Dense polynomials in one unnamed variable, in the divided-power basis.
 
-use crate::binomial::{multiply_by_binomial, multiply_by_factorial};
+use crate::binomial::multiply_by_factorial;
 use crate::integer::{fraction, gcd, lcm};
-use crate::polynomial::{Polynomial, Term, add_exponents};
-use crate::row::{IntegerRef, IntegerRow};
+use crate::polynomial::Polynomial;
+use crate::row::IntegerRow;
 use crate::symbol::Symbol;
+use crate::term::{Term, add_exponents};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use smallvec::smallvec;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::Add;
 use std::sync::Arc;
 
 /// A dense polynomial in one variable,
@@ -23,13 +24,6 @@ use std::sync::Arc;
 /// - `d > 0` and `gcd(d, all c_j) = 1`.
 ///
 /// Equal polynomials have one representation.
-///
-/// ```
-/// use wavestep_polynomial::Univariate;
-/// // 1 − 4x + 2x²: the Laguerre polynomial L_2 at 2x, whose divided-power coefficients are integers.
-/// let p = Univariate::new([1, -4, 4].map(Into::into), 1.into());
-/// assert_eq!(p.derivative(), Univariate::new([-4, 4].map(Into::into), 1.into()));
-/// ```
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Univariate {
     coefficients: IntegerRow,
@@ -51,15 +45,6 @@ impl Univariate {
     ///
     /// # Panics
     /// Where the denominator is zero.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Integer, IntegerRow, Univariate};
-    /// let row = |values: [i64; 2]| values.map(Integer::from).iter().collect::<IntegerRow>();
-    /// let p = Univariate::from_row(row([2, -4]), 6.into()); // (2 − 4x)/6
-    /// assert_eq!(p.coefficients(), &row([1, -2]));
-    /// assert_eq!(*p.denominator(), Integer::from(3));
-    /// assert!(p.is_valid());
-    /// ```
     pub fn from_row(mut coefficients: IntegerRow, mut denominator: BigInt) -> Univariate {
         assert!(!denominator.is_zero(), "a polynomial over the denominator zero");
         coefficients.trim();
@@ -82,39 +67,16 @@ impl Univariate {
     }
 
     /// The polynomial 0. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::Univariate;
-    /// let constant = Univariate::new([5.into()], 7.into());
-    /// assert_eq!(constant.derivative(), Univariate::zero());
-    /// assert!(Univariate::new([0.into()], 7.into()).is_zero());
-    /// ```
     pub fn zero() -> Univariate {
         Univariate { coefficients: IntegerRow::default(), denominator: BigInt::one() }
     }
 
     /// A constant. O(1).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Rational, Univariate};
-    /// let half = Rational::new(1.into(), 2.into());
-    /// assert_eq!(Univariate::constant(&half).evaluate(&half), half);
-    /// ```
     pub fn constant(value: &BigRational) -> Univariate {
         Univariate::new([value.numer().clone()], value.denom().clone())
     }
 
     /// `p` read as a polynomial in `x`, or `None` where another symbol occurs. O(degree).
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Polynomial, Symbol, Univariate};
-    /// let x = Symbol::new("x").unwrap();
-    /// let p: Polynomial = "x^3 - 1/2".parse().unwrap();
-    /// let dense = Univariate::from_polynomial(&p, &x).unwrap();
-    /// assert_eq!(dense.degree(), Some(3));
-    /// assert_eq!(dense.to_polynomial(&x), p);
-    /// assert!(Univariate::from_polynomial(&p, &Symbol::new("y").unwrap()).is_none());
-    /// ```
     pub fn from_polynomial(p: &Polynomial, x: &Symbol) -> Option<Univariate> {
         if p.symbols().iter().any(|symbol| symbol != x) {
             return None;
@@ -169,12 +131,6 @@ impl Univariate {
     }
 
     /// The reduced coefficient of `x^j` (ordinary powers), 0 beyond the degree. One gcd.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Rational, Univariate};
-    /// let exponential = Univariate::new([1; 5].map(Into::into), 1.into());
-    /// assert_eq!(exponential.coefficient(4), Rational::new(1.into(), 24.into()));
-    /// ```
     pub fn coefficient(&self, j: usize) -> BigRational {
         let numerator = self.coefficients.get(j);
         if numerator.is_zero() {
@@ -186,20 +142,7 @@ impl Univariate {
     }
 
     /// `a p + b q`. O(degree) where the factors over the common denominator fit 32 bits.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Rational, Univariate};
-    /// let (p, q) = (Univariate::new([2.into()], 3.into()), Univariate::new([0.into(), 1.into()], 2.into()));
-    /// let (a, b) = (Rational::from_integer(3.into()), Rational::from_integer((-2).into()));
-    /// let sum = Univariate::combination(&a, &p, &b, &q); // 2 − x
-    /// assert_eq!(sum, Univariate::new([2, -1].map(Into::into), 1.into()));
-    /// ```
-    pub fn combination(
-        a: &BigRational,
-        p: &Univariate,
-        b: &BigRational,
-        q: &Univariate,
-    ) -> Univariate {
+    fn combination(a: &BigRational, p: &Univariate, b: &BigRational, q: &Univariate) -> Univariate {
         let (below_a, below_b) = (a.denom() * &p.denominator, b.denom() * &q.denominator);
         let denominator = lcm(&below_a, &below_b);
         let a = a.numer() * (&denominator / &below_a);
@@ -209,12 +152,6 @@ impl Univariate {
     }
 
     /// `factor · p`. Cost as for [`Univariate::combination`].
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Rational, Univariate};
-    /// let p = Univariate::new([2, -1].map(Into::into), 1.into());
-    /// assert_eq!(p.scale(&Rational::from_integer((-1).into())), -&p);
-    /// ```
     pub fn scale(&self, factor: &BigRational) -> Univariate {
         Univariate::combination(factor, self, &BigRational::zero(), &Univariate::zero())
     }
@@ -224,54 +161,6 @@ impl Univariate {
         let mut lowered = IntegerRow::default();
         self.coefficients.iter().skip(1).for_each(|value| lowered.push(value));
         Univariate::from_row(lowered, self.denominator.clone())
-    }
-
-    /// The antiderivative `∫_0^x p`: the coefficients go up by one place. O(degree).
-    ///
-    /// ```
-    /// use wavestep_polynomial::Univariate;
-    /// let p = Univariate::new([1, 2].map(Into::into), 1.into()); // 1 + 2x
-    /// let integral = Univariate::new([0, 1, 2].map(Into::into), 1.into()); // x + x²
-    /// assert_eq!(p.antiderivative(), integral);
-    /// ```
-    pub fn antiderivative(&self) -> Univariate {
-        let mut raised = IntegerRow::default();
-        raised.push_integer(&BigInt::ZERO);
-        self.coefficients.iter().for_each(|value| raised.push(value));
-        Univariate::from_row(raised, self.denominator.clone())
-    }
-
-    /// The Taylor shift `p(x + h)`: `c_i' = Σ_{j ≥ i} c_j h^{j−i}/(j−i)!`. O(degree²)
-    /// products.
-    ///
-    /// ```
-    /// use wavestep_polynomial::{Rational, Univariate};
-    /// let square = Univariate::new([0, 0, 2].map(Into::into), 1.into());
-    /// let shifted = square.shift(&Rational::from_integer(3.into())); // x² + 6x + 9
-    /// assert_eq!(shifted, Univariate::new([9, 6, 2].map(Into::into), 1.into()));
-    /// ```
-    pub fn shift(&self, h: &BigRational) -> Univariate {
-        let coefficients = self.integers();
-        let length = coefficients.len();
-        // Powers h^m/m! over the one denominator den(h)^n n!.
-        let mut powers = vec![BigInt::one()];
-        let mut scale = BigInt::one();
-        for m in 1..length {
-            let step = h.denom() * BigInt::from(m);
-            powers.iter_mut().for_each(|power| *power *= &step);
-            let last = &powers[m - 1] / &step;
-            powers.push(last * h.numer());
-            scale *= step;
-        }
-        let shifted = (0..length).map(|i| {
-            let products = coefficients[i..].iter().zip(&powers).map(|(c, power)| c * power);
-            products.sum()
-        });
-        Univariate::new(shifted, &self.denominator * scale)
-    }
-
-    fn integers(&self) -> Vec<BigInt> {
-        self.coefficients.iter().map(IntegerRef::to_integer).collect()
     }
 
     /// The value at a rational point, by Horner's rule `c_j + x/(j+1) (…)`. O(degree) products.
@@ -299,40 +188,6 @@ impl Add for &Univariate {
     /// O(degree).
     fn add(self, other: &Univariate) -> Univariate {
         Univariate::combination(&BigRational::one(), self, &BigRational::one(), other)
-    }
-}
-
-impl Sub for &Univariate {
-    type Output = Univariate;
-    /// O(degree).
-    fn sub(self, other: &Univariate) -> Univariate {
-        Univariate::combination(&BigRational::one(), self, &-BigRational::one(), other)
-    }
-}
-
-impl Neg for &Univariate {
-    type Output = Univariate;
-    /// O(degree).
-    fn neg(self) -> Univariate {
-        self.scale(&-BigRational::one())
-    }
-}
-
-impl Mul for &Univariate {
-    type Output = Univariate;
-    /// O(degree of one × degree of the other): `x^[a] x^[b] = C(a+b, a) x^[a+b]`.
-    fn mul(self, other: &Univariate) -> Univariate {
-        let length = (self.coefficients.len() + other.coefficients.len()).saturating_sub(1);
-        let mut products = vec![BigInt::zero(); length];
-        let others = other.integers();
-        for (a, left) in self.integers().iter().enumerate() {
-            for (b, right) in others.iter().enumerate() {
-                let mut product = left * right;
-                multiply_by_binomial(&mut product, index(a), index(b));
-                products[a + b] += product;
-            }
-        }
-        Univariate::new(products, &self.denominator * &other.denominator)
     }
 }
 

@@ -14,9 +14,7 @@ use crate::limits::MAX_SUMMED_ECHOES;
 use crate::solution::{EchoTemplate, Family, Solution};
 use std::cmp::Ordering;
 use wavestep_kernels::double_double::{DoubleDouble, two_sum};
-use wavestep_kernels::echoes::{
-    self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term, Time,
-};
+use wavestep_kernels::echoes::{self, EchoSum, Echoes, Expansion, ExponentialPolynomial, Term};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// One wave that is seen.
@@ -187,7 +185,7 @@ impl EchoSums {
             let (since, error) = two_sum(time, -delay[0]);
             let since = (since, error + (low - delay[1]));
             let (since, rest) = self.arrivals.sided(since, time.abs(), exact_delay, (at, side))?;
-            let since = Time::new(since, rest)?;
+            let since = pair([since, rest, 0.0])?;
             if since.high() < 0.0 || (since.high() == 0.0 && since.low() < 0.0) {
                 continue;
             }

@@ -1,7 +1,7 @@
 //! Echoes at many points, side by side: a block of points shares every loop, and is so large that
 //! no step of the recurrence waits for the one before.
 
-use super::delay::{Delays, Time, counts, since};
+use super::delay::{Delays, counts, since};
 use super::description::{Echoes, Family};
 use super::error::EchoError;
 use super::exponential::exponential_lanes;
@@ -46,7 +46,7 @@ impl EchoSum {
         if times.is_empty() {
             return Ok(());
         }
-        self.admit(Time::from(latest), limit)?;
+        self.admit(DoubleDouble::from(latest), limit)?;
         widest(Fill { sum: self, times, limit, values });
         Ok(())
     }
@@ -285,7 +285,7 @@ impl<'a, L: Lanes, const V: usize> Block<'a, L, V> {
         }
     }
 
-    /// Adds an echo of which not all points have heard.
+    /// Adds an echo that has not arrived at all points.
     #[inline(always)]
     fn add_masked<P: Polynomials>(&self, k: usize, total: &mut Vectors<L, V>) {
         let zero = L::splat(0.0);
@@ -567,8 +567,9 @@ mod tests {
             for version in each_way(&Values(&sum, &times)) {
                 for (&time, value) in times.iter().zip(&version) {
                     let method = Method::Scaled;
-                    let right =
-                        sum.value(method, Time::from(time), Limit::Right).expect("in range");
+                    let right = sum
+                        .value(method, DoubleDouble::from(time), Limit::Right)
+                        .expect("in range");
                     assert!((value - right).abs() < 1e-14, "{time}: {value} and not {right}");
                 }
             }

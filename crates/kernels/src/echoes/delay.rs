@@ -1,52 +1,9 @@
 //! When echoes arrive, and how long ago: `T − kD` without error. A rounding there would cost as many
 //! ulps as the echo has reflections behind it, because `φ_k'` is about `−(2k+1)` at a front.
 
-use super::error::EchoError;
 use super::expansion::Expansion;
 use crate::Limit;
 use crate::double_double::{DoubleDouble, fast_two_sum, two_sum};
-
-/// A time as the sum of two doubles.
-///
-/// # Invariants
-/// - both parts are finite, and the second is at most half an ulp of the first.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Time(DoubleDouble);
-
-impl Time {
-    /// The sum of two doubles, in any order.
-    ///
-    /// # Errors
-    /// When a part is not finite.
-    pub fn new(high: f64, low: f64) -> Result<Time, EchoError> {
-        let (high, low) = two_sum(high, low);
-        match high.is_finite() && low.is_finite() {
-            true => Ok(Time(DoubleDouble { high, low })),
-            false => Err(EchoError::NotFinite),
-        }
-    }
-
-    /// The time, rounded to a double.
-    pub fn high(self) -> f64 {
-        self.0.high
-    }
-
-    /// What the double lacks.
-    pub fn low(self) -> f64 {
-        self.0.low
-    }
-
-    pub(super) fn pair(self) -> DoubleDouble {
-        self.0
-    }
-}
-
-impl From<f64> for Time {
-    /// The time that a double is. Sums refuse what is not finite.
-    fn from(high: f64) -> Time {
-        Time(DoubleDouble::from(high))
-    }
-}
 
 /// `kD` for `k = 0 … last`, each as three doubles: exact where `kD` has at most 159 bits, as it has
 /// whenever `D` is a double or a sum of two without a gap between them; else with a relative error of
@@ -69,12 +26,12 @@ impl Delays {
 
     /// `T − kD`: its sign and its being 0 are those of the difference with the three doubles, and
     /// it has a relative error of at most `2^−103`.
-    pub fn since(&self, k: usize, time: Time) -> DoubleDouble {
-        since(self.0[k], time.pair())
+    pub fn since(&self, k: usize, time: DoubleDouble) -> DoubleDouble {
+        since(self.0[k], time)
     }
 
     /// Whether echo `k` has arrived; one that arrives at this very time has, in the limit from the right.
-    pub fn has_arrived(&self, k: usize, time: Time, limit: Limit) -> bool {
+    pub fn has_arrived(&self, k: usize, time: DoubleDouble, limit: Limit) -> bool {
         counts(self.since(k, time).high, limit)
     }
 }
@@ -117,13 +74,13 @@ mod tests {
         let delays = Delays::new(period, 200);
         let [a, b, c] = delays.of(200);
         assert_eq!(c, 0.0);
-        let exact = Time::new(a, b).expect("a time");
+        let exact = DoubleDouble::sum(a, b);
         assert_eq!(delays.since(200, exact).high, 0.0);
         assert!(delays.has_arrived(200, exact, Limit::Right));
         assert!(!delays.has_arrived(200, exact, Limit::Left));
-        let after = Time::new(a, b.next_up()).expect("a time");
+        let after = DoubleDouble::sum(a, b.next_up());
         assert_eq!(delays.since(200, after).high, b.next_up() - b);
-        let before = Time::new(a, b.next_down()).expect("a time");
+        let before = DoubleDouble::sum(a, b.next_down());
         assert!(!delays.has_arrived(200, before, Limit::Right));
     }
 
@@ -131,7 +88,7 @@ mod tests {
     fn the_third_double_decides_too() {
         let delays =
             Delays::new(Expansion::new([1.0, 2f64.powi(-60), 2f64.powi(-130)]).unwrap(), 1);
-        let time = Time::new(1.0, 2f64.powi(-60)).unwrap();
+        let time = DoubleDouble::sum(1.0, 2f64.powi(-60));
         assert_eq!(delays.since(1, time).high, -2f64.powi(-130));
     }
 }

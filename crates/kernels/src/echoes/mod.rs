@@ -33,7 +33,6 @@ mod naive;
 mod stable;
 mod sum;
 
-pub use delay::Time;
 pub use description::{Echoes, ExponentialPolynomial, Family, Term};
 pub use error::EchoError;
 pub use expansion::Expansion;

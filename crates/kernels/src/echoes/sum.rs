@@ -1,7 +1,7 @@
 //! A wave, ready to be summed: delays, powers of the ratio and reciprocals are formed once.
 
 use super::LARGEST_ECHO;
-use super::delay::{Delays, Time, counts};
+use super::delay::{Delays, counts};
 use super::description::Echoes;
 use super::error::EchoError;
 use super::exponential::exponential;
@@ -104,7 +104,12 @@ impl EchoSum {
     ///
     /// # Errors
     /// When the time is not finite, too late for the rates, or echo `last + 1` has arrived.
-    pub fn value(&self, method: Method, time: Time, limit: Limit) -> Result<f64, EchoError> {
+    pub fn value(
+        &self,
+        method: Method,
+        time: DoubleDouble,
+        limit: Limit,
+    ) -> Result<f64, EchoError> {
         self.pair(method, time, limit).map(DoubleDouble::high)
     }
 
@@ -115,7 +120,7 @@ impl EchoSum {
     pub fn pair(
         &self,
         method: Method,
-        time: Time,
+        time: DoubleDouble,
         limit: Limit,
     ) -> Result<DoubleDouble, EchoError> {
         self.admit(time, limit)?;
@@ -123,7 +128,7 @@ impl EchoSum {
         let mut sum = DoubleDouble::ZERO;
         for k in 0..=self.last() {
             let since = match rounded {
-                true => DoubleDouble::from(time.high() - k as f64 * self.echoes.period.high()),
+                true => DoubleDouble::from(time.high - k as f64 * self.echoes.period.high()),
                 false => self.delays.since(k, time),
             };
             if !counts(since.high, limit) {
@@ -139,7 +144,13 @@ impl EchoSum {
     }
 
     /// Echo `k`, whose time since arrival and absolute time are given.
-    fn echo(&self, method: Method, k: usize, since: DoubleDouble, time: Time) -> DoubleDouble {
+    fn echo(
+        &self,
+        method: Method,
+        k: usize,
+        since: DoubleDouble,
+        time: DoubleDouble,
+    ) -> DoubleDouble {
         let echoes = &self.echoes;
         if let Some(parts) = echoes.first.get(k) {
             return match method {
@@ -148,8 +159,8 @@ impl EchoSum {
             };
         }
         match method {
-            Method::Expanded => DoubleDouble::from(naive::expanded(echoes, k, time.high())),
-            Method::Plain => DoubleDouble::from(naive::plain(echoes, k, time.high())),
+            Method::Expanded => DoubleDouble::from(naive::expanded(echoes, k, time.high)),
+            Method::Plain => DoubleDouble::from(naive::plain(echoes, k, time.high)),
             Method::Scaled => DoubleDouble::from(self.scaled_echo(k, since)),
             Method::DoubleDouble => {
                 stable::echo(echoes, self.ratios[k], &self.reciprocal_pairs, k, since)
@@ -164,11 +175,11 @@ impl EchoSum {
 
     /// Refuses times that are not finite, too late for the rates, or after the arrival of echo
     /// `last + 1`.
-    pub(super) fn admit(&self, time: Time, limit: Limit) -> Result<(), EchoError> {
-        if !time.high().is_finite() {
+    pub(super) fn admit(&self, time: DoubleDouble, limit: Limit) -> Result<(), EchoError> {
+        if !time.high.is_finite() {
             return Err(EchoError::NotFinite);
         }
-        if time.high() * self.echoes.fastest() > LARGEST_ARGUMENT {
+        if time.high * self.echoes.fastest() > LARGEST_ARGUMENT {
             return Err(EchoError::TimeTooLarge);
         }
         match self.delays.has_arrived(self.delays.last(), time, limit) {

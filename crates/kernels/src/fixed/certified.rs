@@ -41,9 +41,8 @@ struct Prepared {
     reduction: Reduction,
 }
 
-/// The sum `Σ wᵢ Y(T − dᵢ)` at given times, as correctly rounded doubles; times that are
-/// doubles are the exact numbers that they are. At a jump `side` says which limit is meant. Before the start, Y is
-/// zero exactly.
+/// The sum `Σ wᵢ Y(T − dᵢ)` at given times, as correctly rounded doubles; times that are doubles are the
+/// exact numbers that they are. Before the start, Y is zero exactly.
 ///
 /// The weights are scaled by a power of two so that the largest is from 1/2 to below 1 in
 /// size; then a weighted value is off by `|w|·radius`, and by one unit more for the weight and the
@@ -166,47 +165,4 @@ fn binary_exponent(value: &BigRational) -> i64 {
         }
     };
     (least..).find(|&scale| fits(scale)).unwrap_or(least)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fixed::{March, MarchOptions};
-
-    fn rational(numerator: i64, denominator: i64) -> BigRational {
-        BigRational::new(numerator.into(), denominator.into())
-    }
-
-    /// Times in any order have the doubles that a march with shorter pieces gives, which is held as a
-    /// whole: 201 periods of the rigid mass, μ = 1, seen twice.
-    #[test]
-    fn sums_are_those_of_a_march_that_is_held() {
-        let [one, two] = [rational(1, 1), rational(2, 1)];
-        let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
-        let tap = |weight: i64, delay: i64| Tap {
-            weight: rational(weight, 1),
-            delay: rational(delay, 2),
-        };
-        let times: Vec<f64> = (0..200).map(|i| f64::from(i * 77 % 200) * 2.01 - 3.0).collect();
-        let taps = [tap(1, 0), tap(-3, 5)];
-        let found = certified(&equation, &taps, &times, Limit::Right).unwrap();
-        let march = March::new(&equation, 201, &MarchOptions::default()).unwrap();
-        assert_eq!(march.pieces_per_period(), 32);
-        let seen = [(1_i128, 0), (-3, 5)];
-        for (time, value) in times.iter().zip(&found.values) {
-            let (mut sum, mut radius) = (0, 0);
-            for (weight, delay) in seen {
-                let reduction = Reduction::new(&two, &rational(delay, 2)).unwrap();
-                let Some(position) = reduction.of_double(*time, Limit::Right).unwrap() else {
-                    continue;
-                };
-                let part = march.value(&position).unwrap();
-                sum += weight * part.midpoint;
-                radius += weight.unsigned_abs() * part.radius;
-            }
-            let expected = round_to_double(sum, radius, i64::from(FRACTION_BITS));
-            assert_eq!(Some(*value), expected, "{time}");
-        }
-        assert!(found.undecided.is_empty());
-    }
 }

@@ -1,7 +1,6 @@
 //! Interpolation at the nodes of Chebyshev, from fixed-point values to coefficients in doubles.
 //!
-//! Nothing here is proven, and nothing needs to be: what is made of the coefficients is compared with the
-//! function afterwards.
+//! Nothing here is proven: the polynomials are compared with the function afterwards.
 
 use super::multiplier::{Fraction, Multiplier};
 use super::value::FRACTION_BITS;
@@ -41,8 +40,8 @@ impl Interpolation {
             let mut product = vec![zero; count];
             product[0] = DoubleDouble::from(1.0);
             let mut denominator = DoubleDouble::from(1.0);
-            for (i, &other) in nodes.iter().enumerate().filter(|&(i, _)| i != j) {
-                let _ = i;
+            let others = nodes.iter().enumerate().filter(|&(i, _)| i != j);
+            for (_, &other) in others {
                 for k in (0..count).rev() {
                     let below = if k > 0 { product[k - 1] } else { zero };
                     product[k] = below + product[k] * DoubleDouble::from(-other);

@@ -1,4 +1,4 @@
-//! A piece on a part of where it holds: `p(a + bu)` in fixed-point numbers.
+//! A part of a piece: `p(a + bu)` in fixed-point numbers.
 
 use num_rational::BigRational;
 
@@ -72,7 +72,7 @@ mod tests {
     use num_bigint::BigInt;
     use num_traits::Signed as _;
 
-    /// The part and the piece have the same values, but for the rounding that is told.
+    /// The part and the piece have the same values, but for the stated rounding.
     #[test]
     fn parts_are_the_piece_elsewhere() {
         let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());

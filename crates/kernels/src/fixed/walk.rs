@@ -1,7 +1,7 @@
 //! A march period by period: two periods are held at a time, however many there are.
 //!
-//! Who needs values alone asks for them on the way. What a march of a thousand periods would hold is then
-//! never written, and the two periods stay in the processor's cache.
+//! Code that needs only values asks for them on the way. A march of a thousand periods is then never
+//! written out, and its two periods stay in the processor's cache.
 
 use super::certificate::Certificate;
 use super::error::FixedError;

@@ -1,9 +1,9 @@
 //! The proof that computed polynomials are near the true wave.
 //!
 //! The doubles that a march computes are exact numbers: polynomials `p_n` and `u_n`, meant to be
-//! `y_n` and `v_n = y_n − ρ y_{n−1}`. A certificate takes them as they are, whoever made them,
+//! `y_n` and `v_n = y_n − ρ y_{n−1}`. A certificate takes them as they are, however they were made,
 //! measures by how much they miss the equations, and bounds by how much they miss the wave.
-//! `docs/energy-bound.md` tells the same at more length, with what came out in practice.
+//! The proofs are in `docs/energy-bound.md`; here is what they prove, and how it is computed.
 //!
 //! # What is measured
 //!
@@ -21,52 +21,30 @@
 //!
 //! # A passive reflection: the energy
 //!
-//! **Lemma.** Let `|ρ| ≤ 1`, `|ρA| ≤ B`, `s = ρ²A + B > 0`, `κ = 1/(s + √(s² − C²))`. For
-//! `v' + B v = −C g` on `[0, 1]` and `y = ρ g + v`: `‖y‖² + κ v(1)² ≤ ‖g‖² + κ v(0)²`, norms in L².
-//! *Proof.* `κ (v²)' = 2κ v (−B v − C g)`, so it suffices that
-//! `g² − (ρg + v)² + 2κ v (B v + C g) = (1 − ρ²) g² + 2 (κC − ρ) g v + (2κB − 1) v² ≥ 0`. The
-//! determinant of this form is `(1 − ρ²)(2κB − 1) − (κC − ρ)² = −(κ²C² − 2κs + 1)`, which is zero
-//! for this `κ`; `s ≥ |C|` because `s ∓ C = (1 ∓ ρ)(B ∓ ρA) ≥ 0`. With determinant zero the form
-//! has one sign, that of its diagonal: `1 − ρ² ≥ 0`, and `2κB ≥ 1` is `√(s² − C²) ≤ 2B − s`, which
-//! holds because `2B − s = B − ρ²A ≥ 0` and `(B − ρ²A)² − (s² − C²) = C² − 4Bρ²A = ρ²(A − B)² ≥ 0`.
-//! ∎
-//!
-//! So the state `(Δ_n, d̃_n(1))` has the norm `E² = ‖Δ‖² + κ d̃(1)²`, and a step without residual
-//! does not enlarge it. By linearity the residual adds the answer to `−B R` from rest:
-//! `h(x) = −∫_0^x e^{−B(x−t)} B R dt`. Its output `R + h` is `R` through the filter `p/(p + B)`,
-//! which is causal and at most 1 on the imaginary axis: `‖R + h‖ ≤ ‖R‖`; and
-//! `h(1)² ≤ B² ‖R‖²/(2B)`. With `Γ = √(1 + κB/2)`
+//! Let `|ρ| ≤ 1`, `|ρA| ≤ B`, `s = ρ²A + B > 0`, `κ = 1/(s + √(s² − C²))` and `Γ = √(1 + κB/2)`. A step
+//! without residual does not enlarge the norm `E² = ‖Δ‖² + κ d̃(1)²` of the state `(Δ_n, d̃_n(1))`, and a
+//! residual adds
 //!
 //! `E_n ≤ E_{n−1} + Γ ‖R_n‖ + √κ |j_n|`.
 //!
-//! The derivatives obey the same equations: with `ζ = d̃' = −B (d̃ + R_n) − C Δ_{n−1}`,
-//! `ζ' + Bζ = −C Δ_{n−1}' − B R_n'`, `Δ_n' = ρ Δ_{n−1}' + ζ + R_n'`. At the joint `d̃ + R` jumps by
-//! `J_n − ρ J_{n−1}`, so `ζ` jumps by `−B (J_n − ρ J_{n−1}) − C J_{n−1}`, and with `F` the energy
-//! of the derivatives
+//! The derivatives obey the same equations, with an energy `F` of their own:
 //!
 //! `F_n ≤ F_{n−1} + Γ ‖R_n'‖ + √κ (B |J_n| + (B|ρ| + |C|) |J_{n−1}|)`.
 //!
-//! On an interval of length 1, `f(x)² = f(y)² + 2∫ f f'` averaged over `y` gives
-//! `max |Δ_n|² ≤ ‖Δ_n‖² + 2 ‖Δ_n‖ ‖Δ_n'‖ ≤ E² + 2 E F`.
+//! Together, `max |Δ_n|² ≤ ‖Δ_n‖² + 2 ‖Δ_n‖ ‖Δ_n'‖ ≤ E² + 2 E F`.
 //!
 //! # Any reflection: the wave is its own impulse response
 //!
-//! The computed wave `P` satisfies `(d/dT + B) P = ρ q (d/dT − A) P + δ(T) + μ` with the measure
-//! `μ` that has the density `R_n'` on the periods and the weight `J_n − ρ J_{n−1}` at the joints.
-//! Hence `Δ = Y * μ` and `|Δ| ≤ sup|Y| · m`, `m = ∫ |dμ|`, up to the time looked at. As
-//! `sup|Y| ≤ sup|P| + sup|Y| m`, and a sum of absolute coefficients bounds a polynomial,
-//! `|Δ| ≤ m M/(1 − m)` with `M = max_n Σ|c_k|`, where `m < 1`.
+//! The computed wave obeys the equation of the true one with a measure `μ` added, which has the density
+//! `R_n'` on the periods and the weight `J_n − ρ J_{n−1}` at the joints. With `m = ∫ |dμ|` and the largest
+//! sum of absolute coefficients, `M = max_n Σ|c_k|`: `|Δ| ≤ m M/(1 − m)` where `m < 1`.
 //!
 //! # Norms of R from its coefficients
 //!
-//! With `t = cos θ`, `b_k = k |R_k|`, `dx = dt/2`:
-//! - `‖R‖² ≤ ½ ∫ R² dt/√(1 − t²) = (π/4)(2 R_0² + Σ R_k²)`;
-//! - `∫|R'| dx = ∫_0^π |Σ k R_k sin kθ| dθ ≤ √π √((π/2) Σ b_k²) = (π/√2) √(Σ b_k²)`;
-//! - `‖R'‖² = 2 ∫_{−1}^{1} (dR/dt)² dt = 2 ∫_0^π S²/sin θ dθ`, `S = Σ k R_k sin kθ`. Let
-//!   `η² = Σ b_k²/Σ k² b_k² ≤ 1`. Between `η` and `π − η` the integral is at most
-//!   `(π/2) Σ b_k²/sin η`. Near the ends `S(θ)² ≤ θ ∫_0^θ S'²`, so both parts are at most
-//!   `(η²/sin η) (π/2) Σ k² b_k²`. Together, as `sin η ≥ η sin 1`:
-//!   `‖R'‖² ≤ (2π/sin 1) √(Σ b_k² · Σ k² b_k²)`.
+//! With `b_k = k |R_k|`:
+//! - `‖R‖² ≤ (π/4)(2 R_0² + Σ R_k²)`;
+//! - `∫|R'| dx ≤ (π/√2) √(Σ b_k²)`;
+//! - `‖R'‖² ≤ (2π/sin 1) √(Σ b_k² · Σ k² b_k²)`.
 //!
 //! # Rounding in the measurement
 //!

@@ -5,7 +5,7 @@
 
 use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
 
-/// The value of the series at `x` in `[0, 1]`, within [`evaluation_error`]. O(N). An empty series
+/// The value of the series at `x` in `[0, 1]`, within [`Sizes::evaluation_error`]. O(N). An empty series
 /// is zero.
 pub fn value(coefficients: &[f64], x: f64) -> f64 {
     let mut found = [0.0];
@@ -87,32 +87,6 @@ fn store<L: Lanes>(lanes: L, values: &mut [f64]) {
     values.copy_from_slice(&lanes.to_array()[..values.len()]);
 }
 
-/// A bound of `|value(c, x) − p(x)|` for all `x` in `[0, 1]`: `9 ε Σ (k + 1) |c_k|`, `ε = 2⁻⁵³`,
-/// for fewer than 2²⁰ coefficients. O(N).
-///
-/// *Proof.* By symmetry let `t = 2x − 1 = cos θ ≥ 0`, `0 ≤ θ ≤ π/2`. The recurrence is
-/// `d_k = (c_k + d_{k+1}) + h b_{k+1}`, `b_k = d_k + b_{k+1}`, `h = 2(t − 1) = 4(x − 1)`, an exact
-/// double, and `p = (c_0 + (h/2) b_1) + d_1`. With `A_k = Σ_{j≥k} |c_j|`,
-///
-/// - `b_k = Σ_{j≥k} c_j U_{j−k}(t)`, so `|b_k| ≤ A_k/sin θ` and
-///   `|h b_k| ≤ 4 sin²(θ/2)/sin θ A_k ≤ 2 A_k`;
-/// - `d_k = b_k − b_{k+1} = Σ_{j≥k} c_j cos((j−k+½)θ)/cos(θ/2)`, so `|d_k| ≤ √2 A_k`, and so
-///   `|c_k + d_{k+1}| = |d_k − h b_{k+1}| ≤ (2 + √2) A_k`.
-///
-/// An error in `d_k` acts as the same error in `c_k`: it reaches `p` times `T_k`, at most 1. The
-/// three roundings there are at most `ε ((2 + √2) + 2 + √2) A_k`. An error `ζ` in `b_k` alone acts
-/// as `ζ` in `c_k` and `−ζ` in `c_{k−1}`: it reaches `p` times `|T_k − T_{k−1}| ≤ 2 sin(θ/2)`, and
-/// with `ζ ≤ ε A_k/sin θ` that is at most `ε √2 A_k`. All together `(4 + 3√2) ε A_k < 8.25 ε A_k`;
-/// the last line is no worse, and `Σ_k A_k = Σ_k (k + 1) |c_k|`. The sizes above are those of the
-/// exact recurrence. An error in `d_k` moves those below by what the same coefficient would; the pair
-/// of `ζ` and `−ζ` moves `b_j` by `√2 ζ` and `d_j` by `2ζ tan(θ/2) ≤ 2ε A_k` at most: the computed sizes
-/// are larger by the factor `1 + 9Nε` at most. That, and the rounding of this sum itself, are far within
-/// `9/8.25`. Below the normal doubles a
-/// product is off by at most `2⁻¹⁰⁷⁵`: `1e−290` covers all of them. ∎
-pub fn evaluation_error(coefficients: &[f64]) -> f64 {
-    sizes(coefficients).evaluation_error()
-}
-
 /// Sums of the sizes of coefficients. For fewer than 2²⁰ of them each is off by less than `2⁻³⁴` of
 /// itself: no term takes part in more than 2¹⁸ + 8 roundings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -126,7 +100,28 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// A bound of the error of evaluation, see [`evaluation_error`].
+    /// A bound of `|value(c, x) − p(x)|` for all `x` in `[0, 1]`: `9 ε Σ (k + 1) |c_k|`, `ε = 2⁻⁵³`,
+    /// for fewer than 2²⁰ coefficients. O(N).
+    ///
+    /// *Proof.* By symmetry let `t = 2x − 1 = cos θ ≥ 0`, `0 ≤ θ ≤ π/2`. The recurrence is
+    /// `d_k = (c_k + d_{k+1}) + h b_{k+1}`, `b_k = d_k + b_{k+1}`, `h = 2(t − 1) = 4(x − 1)`, an exact
+    /// double, and `p = (c_0 + (h/2) b_1) + d_1`. With `A_k = Σ_{j≥k} |c_j|`,
+    ///
+    /// - `b_k = Σ_{j≥k} c_j U_{j−k}(t)`, so `|b_k| ≤ A_k/sin θ` and
+    ///   `|h b_k| ≤ 4 sin²(θ/2)/sin θ A_k ≤ 2 A_k`;
+    /// - `d_k = b_k − b_{k+1} = Σ_{j≥k} c_j cos((j−k+½)θ)/cos(θ/2)`, so `|d_k| ≤ √2 A_k`, and so
+    ///   `|c_k + d_{k+1}| = |d_k − h b_{k+1}| ≤ (2 + √2) A_k`.
+    ///
+    /// An error in `d_k` acts as the same error in `c_k`: it reaches `p` times `T_k`, at most 1. The
+    /// three roundings there are at most `ε ((2 + √2) + 2 + √2) A_k`. An error `ζ` in `b_k` alone acts
+    /// as `ζ` in `c_k` and `−ζ` in `c_{k−1}`: it reaches `p` times `|T_k − T_{k−1}| ≤ 2 sin(θ/2)`, and
+    /// with `ζ ≤ ε A_k/sin θ` that is at most `ε √2 A_k`. All together `(4 + 3√2) ε A_k < 8.25 ε A_k`;
+    /// the last line is no worse, and `Σ_k A_k = Σ_k (k + 1) |c_k|`. The sizes above are those of the
+    /// exact recurrence. An error in `d_k` moves those below by what the same coefficient would; the pair
+    /// of `ζ` and `−ζ` moves `b_j` by `√2 ζ` and `d_j` by `2ζ tan(θ/2) ≤ 2ε A_k` at most: the computed sizes
+    /// are larger by the factor `1 + 9Nε` at most. That, and the rounding of this sum itself, are far within
+    /// `9/8.25`. Below the normal doubles a
+    /// product is off by at most `2⁻¹⁰⁷⁵`: `1e−290` covers all of them. ∎
     pub fn evaluation_error(&self) -> f64 {
         9.0 * (f64::EPSILON / 2.0) * self.weighted + 1e-290
     }
@@ -220,59 +215,5 @@ impl<'a, L: Lanes> Reinsch<'a, L> {
     fn end(self) -> L {
         let Some(constant) = self.coefficients.first() else { return L::splat(0.0) };
         (L::splat(*constant) + L::splat(0.5) * self.h * self.b) + self.d
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn single_polynomials_are_cosines() {
-        for k in 0..60 {
-            let mut c = vec![0.0; k + 1];
-            c[k] = 1.0;
-            for i in 0..=100 {
-                let x = f64::from(i) / 100.0;
-                let exact = (k as f64 * (2.0 * x - 1.0).acos()).cos();
-                // acos is off by an ulp, which the cosine multiplies by k sin(kθ)/ sin θ at most.
-                let error = (value(&c, x) - exact).abs();
-                assert!(error < 1e-15 + 1e-15 * (k * k) as f64, "{k} {x}: {error:e}");
-            }
-            assert_eq!(value(&c, 1.0), 1.0);
-            assert_eq!(value(&c, 0.0), if k % 2 == 0 { 1.0 } else { -1.0 });
-        }
-    }
-
-    /// Series of all pairs of lengths, side by side and alone.
-    #[test]
-    fn series_side_by_side_do_not_mix() {
-        let series = |length: usize, factor: f64| -> Vec<f64> {
-            (0..length).map(|k| (k as f64 * factor).sin()).collect()
-        };
-        let (here, there) = ([0.1, 0.8, 0.4], [0.3, 0.9]);
-        for (one, other) in (0..12).flat_map(|one| (0..12).map(move |other| (one, other))) {
-            let (one, other) = (series(one, 1.3), series(other, 0.7));
-            let (mut alone, mut paired) = (([0.0; 3], [0.0; 2]), ([1.0; 3], [1.0; 2]));
-            values(&one, &here, &mut alone.0);
-            values(&other, &there, &mut alone.1);
-            values_of([
-                Samples { coefficients: &one, points: &here, values: &mut paired.0 },
-                Samples { coefficients: &other, points: &there, values: &mut paired.1 },
-            ]);
-            assert_eq!(paired, alone);
-        }
-    }
-
-    #[test]
-    fn groups_give_the_same_bits() {
-        let c: Vec<f64> = (0..33).map(|k| (k as f64).sin() / (1.0 + k as f64)).collect();
-        for length in 0..50 {
-            let points: Vec<f64> = (0..length).map(|i| (i as f64 * 0.37).fract()).collect();
-            let mut found = vec![0.0; length];
-            values(&c, &points, &mut found);
-            assert!(points.iter().zip(&found).all(|(x, v)| value(&c, *x) == *v));
-        }
-        assert_eq!(value(&[], 0.5), 0.0);
     }
 }

@@ -29,22 +29,16 @@ impl<T: Scalar> FirstOrder<T> {
             beta,
             pivots: Vec::new(),
             ratios: Vec::new(),
-            exponential: vec![T::ONE],
+            exponential: Vec::new(),
             solved: Vec::new(),
         };
-        // z_1 = −θ_1 · 2 z_0, z_k = −θ_k z_{k−1}, scaled to the value 1 at 0.
-        let mut term = T::from(2.0);
-        for k in 1.. {
+        let mut exponential = unscaled_exponential(|k| {
             equation.reserve(k);
-            term = -equation.ratios[k] * term;
-            if term.size() < 1e-40 {
-                break;
-            }
-            equation.exponential.push(term);
-        }
-        let at_zero = value_at_zero(&equation.exponential);
-        equation.exponential.iter_mut().for_each(|c| *c = *c / at_zero);
-        equation
+            equation.ratios[k]
+        });
+        let at_zero = value_at_zero(&exponential);
+        exponential.iter_mut().for_each(|c| *c = *c / at_zero);
+        FirstOrder { exponential, ..equation }
     }
 
     /// Makes the factors for all places up to `k`, each time twice as far.
@@ -52,18 +46,7 @@ impl<T: Scalar> FirstOrder<T> {
         if k < self.ratios.len() {
             return;
         }
-        let length = (k + 1).next_power_of_two().max(32);
-        // An error of the ratio above shrinks by θ² a place, which is at most (2β/k)² and below 1.
-        let start = length + 64 + (10.0 * self.beta.size().sqrt()) as usize;
-        (self.pivots, self.ratios) = (vec![T::ZERO; length], vec![T::ZERO; length]);
-        let mut above = T::ZERO;
-        for k in (1..start).rev() {
-            let pivot = T::ONE / (T::from(k as f64) + self.beta * above);
-            above = self.beta * pivot;
-            if k < length {
-                (self.pivots[k], self.ratios[k]) = (pivot, above);
-            }
-        }
+        (self.pivots, self.ratios) = factors(self.beta, (k + 1).next_power_of_two().max(32));
     }
 
     /// The solution with a value at 0, into `solution`; what follows the last coefficient of `r` is
@@ -105,6 +88,39 @@ impl<T: Scalar> FirstOrder<T> {
             *c = *c + rest * *e;
         }
     }
+}
+
+/// `1/(k + β θ_{k+1})` and `θ_k` at the places `k < length`; place 0 is not used.
+///
+/// `θ_k` is about `e^{−arsinh(k/2β)}` for `β > 0`, and an error of the ratio above shrinks by `θ²` a place:
+/// by `e^{−50}` over `10√β` places, and faster where `β` is small.
+pub(super) fn factors<T: Scalar>(beta: T, length: usize) -> (Vec<T>, Vec<T>) {
+    let start = length + 64 + (10.0 * beta.size().sqrt()) as usize;
+    let (mut pivots, mut ratios) = (vec![T::ZERO; length], vec![T::ZERO; length]);
+    let mut above = T::ZERO;
+    for k in (1..start).rev() {
+        let pivot = T::ONE / (T::from(k as f64) + beta * above);
+        above = beta * pivot;
+        if k < length {
+            (pivots[k], ratios[k]) = (pivot, above);
+        }
+    }
+    (pivots, ratios)
+}
+
+/// The coefficients of a multiple of `e^{λx}`, from the ratios `θ_k`: `c_0 = 1`, `c_1 = −θ_1 · 2 c_0`,
+/// `c_k = −θ_k c_{k−1}`.
+pub(super) fn unscaled_exponential<T: Scalar>(mut ratio: impl FnMut(usize) -> T) -> Vec<T> {
+    let mut coefficients = vec![T::ONE];
+    let mut term = T::from(2.0);
+    for k in 1.. {
+        term = -ratio(k) * term;
+        if term.size() < 1e-40 {
+            break;
+        }
+        coefficients.push(term);
+    }
+    coefficients
 }
 
 /// `Σ (−1)^k c_k`, the smallest first.

@@ -3,7 +3,7 @@
 //!
 //! A bar returns every wave after one period, changed by the reflection at its ends. On each period
 //! the answer is a smooth function, held as the Chebyshev coefficients of a polynomial whose degree
-//! grows as the answer does. A [`Certificate`] looks at the polynomials alone, whoever made them,
+//! grows as the answer does. A [`Certificate`] looks at the polynomials alone, however they were made,
 //! and proves how far they are from the true wave.
 //!
 //! | file | concept |

@@ -10,6 +10,8 @@
 //! The `θ_k` are the ratios `I_k(B/2)/I_{k−1}(B/2)` of modified Bessel functions. They depend on
 //! `B` alone, whatever the number of coefficients, and are made once.
 
+use super::first_order::{factors, unscaled_exponential, value_at_zero};
+
 /// The factors of the elimination, and the solution `e^{−Bx}` of the equation without `g`.
 pub(crate) struct Relaxation {
     beta: f64,
@@ -43,29 +45,16 @@ impl Relaxation {
             ratio: Vec::new(),
             up: Default::default(),
             down: Default::default(),
-            decay: vec![1.0],
+            decay: Vec::new(),
             padded: Vec::new(),
             solved: Vec::new(),
         };
         step.reserve(64);
-        step.make_decay();
-        step
-    }
-
-    /// The coefficients of `e^{−Bx}`: `c_k = −θ_k c_{k−1}`, with `c_0` counted twice, scaled to the
-    /// value 1 at `x = 0`, where all terms are positive.
-    fn make_decay(&mut self) {
-        for k in 1.. {
-            self.reserve(k);
-            let before = if k == 1 { 2.0 } else { self.decay[k - 1] };
-            let term = -self.ratio[k] * before;
-            if term.abs() < 1e-40 {
-                break;
-            }
-            self.decay.push(term);
-        }
-        let scale = 1.0 / self.decay.iter().rev().map(|c| c.abs()).sum::<f64>();
-        self.decay.iter_mut().for_each(|c| *c *= scale);
+        // Scaled to the value 1 at x = 0, where all terms are positive.
+        let mut decay = unscaled_exponential(|k| step.ratio(k));
+        let scale = 1.0 / value_at_zero(&decay);
+        decay.iter_mut().for_each(|c| *c *= scale);
+        Relaxation { decay, ..step }
     }
 
     /// The coefficients of `e^{−Bx}`, value 1 at `x = 0`.
@@ -85,29 +74,19 @@ impl Relaxation {
             return;
         }
         let length = (k + MARGIN + 1).next_power_of_two().max(2 * self.ratio.len());
-        // θ_k is about e^{−arsinh(k/2β)}, and an error of the ratio above shrinks by θ² a place: by
-        // e^{−50} over 10√β places, and faster where β is small.
-        let start = length + 64 + (10.0 * self.beta.sqrt()) as usize;
-        (self.pivot, self.ratio) = (vec![0.0; length], vec![0.0; length]);
-        let mut above = 0.0;
-        for k in (1..start).rev() {
-            let pivot = 1.0 / (k as f64 + self.beta * above);
-            above = self.beta * pivot;
-            if k < length {
-                (self.pivot[k], self.ratio[k]) = (pivot, above);
-            }
-        }
-        let product = |from: &[f64], places: [Option<usize>; 2]| match places {
-            [Some(a), Some(b)] if a < length && b < length => from[a] * from[b],
-            _ => 0.0,
+        (self.pivot, self.ratio) = factors(self.beta, length);
+        // Products that would reach beyond the last place or below the first are 0.
+        let upward = |from: &[f64], step: usize| -> Vec<f64> {
+            let other = |k: usize| from.get(k + step).copied().unwrap_or(0.0);
+            from.iter().enumerate().map(|(k, own)| own * other(k)).collect()
         };
-        let pairs = |from: &[f64], step: usize, upward: bool| -> Vec<f64> {
-            let other = |k: usize| if upward { Some(k + step) } else { k.checked_sub(step) };
-            (0..length).map(|k| product(from, [Some(k), other(k)])).collect()
+        let downward = |from: &[f64], step: usize| -> Vec<f64> {
+            let other = |k: usize| k.checked_sub(step).map_or(0.0, |k| from[k]);
+            from.iter().enumerate().map(|(k, own)| own * other(k)).collect()
         };
-        let (up, down) = (pairs(&self.ratio, 1, true), pairs(&self.ratio, 1, false));
-        self.up = [up.clone(), pairs(&up, 2, true)];
-        self.down = [down.clone(), pairs(&down, 2, false)];
+        let (up, down) = (upward(&self.ratio, 1), downward(&self.ratio, 1));
+        self.up = [up.clone(), upward(&up, 2)];
+        self.down = [down.clone(), downward(&down, 2)];
         (self.padded, self.solved) = (vec![0.0; length], vec![0.0; length]);
     }
 

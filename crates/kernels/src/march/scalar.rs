@@ -231,7 +231,7 @@ impl March {
         self.bound_by(&chebyshev::sizes(&self.wave))
     }
 
-    /// The same from the sizes of the coefficients, for who has them already. O(1).
+    /// The same from the sizes of the coefficients, where these are known already. O(1).
     pub fn bound_by(&self, sizes: &chebyshev::Sizes) -> Option<f64> {
         if self.failed.is_some() {
             return None;

@@ -1,4 +1,4 @@
-//! What several waves obey that drive each other with delays of whole periods.
+//! A system of waves that drive each other with delays of whole periods.
 //!
 //! Time is counted in periods. On the `n`-th period, with `x` from 0 to 1, each wave is a sum of earlier
 //! pieces, of their derivatives, and of a state of its own that obeys a differential equation of first
@@ -34,7 +34,7 @@ pub struct State<T> {
     pub rate: T,
     /// What drives it.
     pub drive: Vec<Term<T>>,
-    /// With what weights it jumps where waves do.
+    /// The weights with which it jumps where waves jump.
     pub jumps: Vec<Term<T>>,
     /// Its value before the first jump.
     pub initial: T,
@@ -45,9 +45,9 @@ pub struct State<T> {
 pub struct WaveStep<T> {
     /// Which wave.
     pub wave: usize,
-    /// The pieces that it holds.
+    /// Earlier pieces that are added.
     pub values: Vec<Term<T>>,
-    /// The derivatives that it holds, by period.
+    /// Derivatives of earlier pieces that are added, by period.
     pub slopes: Vec<Term<T>>,
     /// Its state, where it has one.
     pub state: Option<State<T>>,
@@ -69,16 +69,16 @@ pub struct WaveSystem<T> {
 pub enum SystemError {
     /// There are no waves.
     Empty,
-    /// This wave has not one step, or is named and has none.
+    /// A wave that does not have exactly one step.
     Steps(usize),
-    /// The step of a wave names another one that is known only after it.
+    /// The step of a wave needs another one of the same period, whose step comes later.
     NotYetKnown {
-        /// Whose step it is.
+        /// The wave.
         wave: usize,
-        /// What it names.
+        /// The wave that it needs.
         other: usize,
     },
-    /// The step of this wave holds an infinity, or what is no number.
+    /// A number in the step of this wave is not finite.
     NotFinite(usize),
 }
 

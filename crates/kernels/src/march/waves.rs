@@ -25,16 +25,16 @@ const MAX_COEFFICIENTS: usize = 1 << 13;
 /// Why a march cannot go on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum WaveMarchError {
-    /// A pole turns so often in a period that more spans were needed than are taken.
+    /// A pole turns so often in a period that more spans would be needed than allowed.
     TooManySpans {
-        /// The most that are taken.
+        /// The most that are allowed.
         limit: usize,
     },
-    /// A polynomial of this period needs more coefficients than are taken.
+    /// A polynomial of this period needs more coefficients than allowed.
     TooManyCoefficients {
         /// Which period.
         period: usize,
-        /// The most that are taken.
+        /// The most that are allowed.
         limit: usize,
     },
     /// Waves of this period are too large for a double.
@@ -340,7 +340,7 @@ impl<T> Scratch<T> {
     }
 }
 
-/// How many spans of a period a pole needs: decay needs none, its polynomials are as short.
+/// How many spans of a period a pole needs. Decay needs none: its polynomials are as short.
 fn turning<T: Scalar>(rate: T) -> f64 {
     let Complex { re, im } = rate.complex();
     im.abs().max(if re > 0.0 { rate.size() } else { 0.0 })

@@ -7,9 +7,9 @@
 //! perform the same operations on a point and give the same double. On ascending grids the blocks that
 //! lie in one piece are counted beforehand, and are not looked at one by one.
 
-use super::Simd;
 use super::horner::{Blended, Broadcast, Evaluate, Transposed};
 use super::points::Points;
+use super::{Simd, Task};
 use crate::table::Table;
 
 /// Longer outputs are streamed past the caches: they are larger than a second-level cache.
@@ -18,14 +18,50 @@ const STREAMED: usize = 1 << 18;
 /// Blocks that touch more pieces than this gather their coefficients.
 const NEIGHBOURS: usize = 6;
 
+/// Where neighbouring points are expected.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Neighbours {
+    /// Mostly in one piece.
+    Together,
+    /// Anywhere.
+    Apart,
+}
+
+/// The evaluation of many points, as many as `out` has places. The output is the indices of those in
+/// doubt.
+pub(crate) struct Many<'a, P, E> {
+    pub(crate) table: &'a Table,
+    pub(crate) points: P,
+    pub(crate) evaluate: E,
+    pub(crate) neighbours: Neighbours,
+    pub(crate) out: &'a mut [f64],
+}
+
+impl<P: Points, E: Evaluate> Task for Many<'_, P, E> {
+    type Output = Vec<usize>;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Vec<usize> {
+        let Self { table, points, evaluate, neighbours, out } = self;
+        let job = Job { simd, table, points, evaluate, neighbours };
+        let mut undecided = Vec::new();
+        match if S::MANY_REGISTERS { E::MANY_IN_FLIGHT } else { E::FEW_IN_FLIGHT } {
+            8.. => job.run::<8>(out, &mut undecided),
+            6.. => job.run::<6>(out, &mut undecided),
+            4.. => job.run::<4>(out, &mut undecided),
+            _ => job.run::<2>(out, &mut undecided),
+        }
+        undecided
+    }
+}
+
 /// What is evaluated, and how.
-pub(super) struct Job<'a, S, P, E> {
-    pub(super) simd: S,
-    pub(super) table: &'a Table,
-    pub(super) points: P,
-    pub(super) evaluate: E,
-    /// Whether neighbouring points are expected in one piece.
-    pub(super) sorted: bool,
+struct Job<'a, S, P, E> {
+    simd: S,
+    table: &'a Table,
+    points: P,
+    evaluate: E,
+    neighbours: Neighbours,
 }
 
 impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
@@ -130,7 +166,7 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
     ) -> ([S::Values; N], [u32; N]) {
         let (simd, table) = (self.simd, self.table);
         let times: [S::Values; N] = self.points.times(simd, at);
-        if self.sorted {
+        if self.neighbours == Neighbours::Together {
             if self.inside(&times, table.lookup.span(*piece, *piece)) {
                 let rows = Broadcast::new(E::rows(table), *piece);
                 return self.evaluate.evaluate(simd, table, rows, &times);
@@ -219,7 +255,7 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
 
     /// All points, `out.len()` of them; the indices of those in doubt are appended, ascending.
     #[inline(always)]
-    pub(super) fn run<const N: usize>(&self, out: &mut [f64], undecided: &mut Vec<usize>) {
+    fn run<const N: usize>(&self, out: &mut [f64], undecided: &mut Vec<usize>) {
         let simd = self.simd;
         let streamed = out.len() >= STREAMED;
         let vector = size_of::<S::Values>();
@@ -232,7 +268,7 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         let size = N * S::LANES;
         let mut blocks = body.chunks_exact_mut(size);
         while blocks.len() > 0 {
-            if self.sorted && self.points.ascend() {
+            if self.neighbours == Neighbours::Together && self.points.ascend() {
                 let rows = Broadcast::new(E::rows(self.table), piece);
                 let within = self.blocks_within::<N>(at, piece, blocks.len());
                 for block in blocks.by_ref().take(within) {

@@ -1,8 +1,8 @@
 //! The instructions of x86-64, and the choice of a level at run time.
 //!
 //! This is the only file with unsafe code. Two things need it: instructions may be used only where
-//! the machine has them, which holds in all code that is generic over a level's type, because only the
-//! two functions below name these types; and pointers may be read and written only within their slices,
+//! the machine has them, which holds in all code that is generic over a level's type, because
+//! [`dispatch`] alone names these types; and pointers may be read and written only within their slices,
 //! which is asserted before.
 #![allow(unsafe_code)]
 
@@ -29,17 +29,6 @@ pub(crate) fn dispatch<T: Task>(level: Level, task: T) -> T::Output {
     }
 }
 
-/// Runs a task on single doubles, with the roundings of a level.
-pub(crate) fn dispatch_scalar<T: Task>(level: Level, task: T) -> T::Output {
-    #[cfg(target_arch = "x86_64")]
-    if level > Level::Baseline && Level::Avx2.is_available() {
-        // SAFETY: the machine has fused multiply-add.
-        return unsafe { x86::with_fused(task) };
-    }
-    let _ = level;
-    task.run(Scalar::<false>)
-}
-
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::{Parts, Scalar, Simd, Task};
@@ -58,11 +47,6 @@ mod x86 {
     /// Eight doubles, used only in functions that enable AVX-512F and what `Quad` has.
     #[derive(Clone, Copy)]
     struct Octet;
-
-    #[target_feature(enable = "fma")]
-    pub(super) fn with_fused<T: Task>(task: T) -> T::Output {
-        task.run(Scalar::<true>)
-    }
 
     #[target_feature(enable = "avx2,fma")]
     pub(super) fn with_avx2<T: Task>(task: T) -> T::Output {
@@ -94,7 +78,7 @@ mod x86 {
     #[inline(always)]
     fn octet_lanes(lanes: __m256i) -> [i32; 8] {
         let mut indices = [0; 8];
-        // SAFETY: a vector of this kind comes from a witness of AVX-512, and the array holds it.
+        // SAFETY: only `Octet` calls this, so the machine has the instruction; the array holds the vector.
         unsafe { _mm256_storeu_si256(indices.as_mut_ptr().cast(), lanes) };
         indices
     }

@@ -8,14 +8,13 @@ mod horner;
 mod instructions;
 mod points;
 mod scalar;
-mod tasks;
 
+pub(crate) use blocks::{Many, Neighbours};
 pub(crate) use horner::{Certified, Evaluate, Plain};
-pub(crate) use instructions::{dispatch, dispatch_scalar};
-pub(crate) use points::{Grid, Times};
-#[cfg(test)]
+pub(crate) use instructions::dispatch;
+pub(crate) use points::{Grid, Points, Times};
+#[cfg(any(test, target_arch = "aarch64"))]
 pub(crate) use scalar::Scalar;
-pub(crate) use tasks::{Many, Single};
 
 use crate::lanes::Lanes;
 use points::Parts;
@@ -23,8 +22,7 @@ use points::Parts;
 /// The operations of a vector of doubles.
 ///
 /// Code that is generic over implementing types runs where the machine has their instructions: only
-/// [`dispatch`] and [`dispatch_scalar`] can name the types. All methods are inlined into functions that
-/// enable the instructions.
+/// [`dispatch`] can name the types. All methods are inlined into functions that enable the instructions.
 pub(crate) trait Simd: Copy {
     /// A vector of doubles.
     type Values: Copy;

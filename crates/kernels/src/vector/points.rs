@@ -22,14 +22,13 @@ pub(crate) trait Points: Copy {
     fn times_padded<S: Simd>(self, simd: S, at: usize) -> S::Values;
 }
 
-/// `t_i = RN(from + (first + i) step)`.
+/// `t_i = RN(from + i step)`.
 ///
 /// It is the exact sum rounded once, on every machine.
 #[derive(Clone, Copy)]
 pub(crate) struct Grid {
     from: f64,
     step: f64,
-    first: usize,
     parts: Parts,
 }
 
@@ -82,10 +81,9 @@ impl Parts {
 }
 
 impl Grid {
-    /// `count` doubles from the index `first` on.
-    pub(crate) fn new(from: f64, step: f64, first: usize, count: usize) -> Self {
-        let padded = first.saturating_add(count).saturating_add(128);
-        Self { from, step, first, parts: Parts::new(from, step, padded) }
+    /// The first `count` doubles.
+    pub(crate) fn new(from: f64, step: f64, count: usize) -> Self {
+        Self { from, step, parts: Parts::new(from, step, count.saturating_add(128)) }
     }
 }
 
@@ -100,12 +98,12 @@ impl Points for Grid {
     #[inline(always)]
     fn guess_below(self, at: usize, upper: f64) -> usize {
         // NaN becomes 0, and so does what is negative.
-        ((upper - self.from) / self.step - (self.first + at) as f64) as usize
+        ((upper - self.from) / self.step - at as f64) as usize
     }
 
     #[inline(always)]
     fn times<S: Simd, const N: usize>(self, simd: S, at: usize) -> [S::Values; N] {
-        simd.grid(self.first + at, self.from, self.step, &self.parts)
+        simd.grid(at, self.from, self.step, &self.parts)
     }
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! Vectors of one double: single values, and machines without vectors that are known here.
+//! Vectors of one double, for machines whose vector instructions are not used here.
 
 use super::Simd;
 use super::points::{MAX_STEP, Parts};

@@ -146,3 +146,9 @@ fn symbols_are_ordered_by_name() {
     assert_eq!(format!("{:?}", symbol("mu")), "mu");
     assert!(["", "1", "_", "a-b", "a b"].iter().all(|name| Symbol::new(name).is_none()));
 }
+
+#[test]
+fn errors_say_what_was_expected_and_where() {
+    let error = "x + 3/0".parse::<Polynomial>().unwrap_err();
+    assert_eq!(error.to_string(), "at byte 6: expected a denominator other than zero");
+}

@@ -24,20 +24,15 @@ proptest! {
     fn ring_operations_agree(p in univariates(), q in univariates()) {
         let (a, b) = (sparse(&p), sparse(&q));
         prop_assert_eq!(sparse(&(&p + &q)), &a + &b);
-        prop_assert_eq!(sparse(&(&p - &q)), &a - &b);
-        prop_assert_eq!(sparse(&(&p * &q)), &a * &b);
-        prop_assert_eq!(sparse(&-&p), -&a);
-        prop_assert_eq!(sparse(&(&p - &p)), Polynomial::zero());
+        prop_assert_eq!(sparse(&p.scale(&rational(-7, 3))), &a * &rational(-7, 3));
+        prop_assert_eq!(sparse(&(&p + &p.scale(&rational(-1, 1)))), Polynomial::zero());
     }
 
     #[test]
     fn calculus_agrees(p in univariates(), h in rationals()) {
         let (a, x) = (sparse(&p), symbol("x"));
         prop_assert_eq!(sparse(&p.derivative()), a.derivative(&x));
-        prop_assert_eq!(sparse(&p.antiderivative()), a.antiderivative(&x));
-        prop_assert_eq!(sparse(&p.shift(&h)), a.shift(&x, &Polynomial::constant(&h)));
         prop_assert_eq!(Ok(p.evaluate(&h)), a.evaluate(|_| Some(h.clone())));
-        prop_assert_eq!(p.shift(&h).evaluate(&rational(0, 1)), p.evaluate(&h));
     }
 
     #[test]
@@ -71,7 +66,6 @@ fn zero() {
     assert_eq!(Univariate::zero().degree(), None);
     assert_eq!(Univariate::new(vec![0.into()], (-6).into()), Univariate::zero());
     assert_eq!(Univariate::zero().coefficient(usize::MAX), rational(0, 1));
-    assert_eq!(sparse(&(&Univariate::zero() * &Univariate::zero())), Polynomial::zero());
 }
 
 #[test]
@@ -84,7 +78,6 @@ fn another_symbol_is_refused() {
 fn the_exponential_series_is_its_own_derivative_but_for_the_last_term() {
     let series = |n: usize| Univariate::new(vec![1.into(); n], 1.into());
     assert_eq!(series(9).derivative(), series(8));
-    assert_eq!(series(9).antiderivative(), &series(10) - &series(1));
     assert_eq!(series(4).evaluate(&rational(1, 1)), rational(8, 3));
 }
 
@@ -97,7 +90,7 @@ fn the_denominator_is_not_zero() {
 #[test]
 #[should_panic(expected = "an exponent exceeds 4095")]
 fn the_sparse_form_bounds_the_degree() {
-    let highest = Univariate::new(vec![1.into(); 4096], 1.into());
-    assert_eq!(highest.to_polynomial(&symbol("x")).degree(&symbol("x")), 4095);
-    let _ = highest.antiderivative().to_polynomial(&symbol("x"));
+    let series = |length: usize| Univariate::new(vec![1.into(); length], 1.into());
+    assert_eq!(series(4096).to_polynomial(&symbol("x")).degree(&symbol("x")), 4095);
+    let _ = series(4097).to_polynomial(&symbol("x"));
 }

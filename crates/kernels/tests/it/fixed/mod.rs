@@ -129,6 +129,25 @@ fn coarse_marches_are_within_their_bounds() {
     assert!(largest > 1e-3);
 }
 
+#[test]
+fn what_cannot_be_marched_is_refused() {
+    let [zero, one, two] = [0, 1, 2].map(integer);
+    let refused =
+        |period, rate, reflection| DelayEquation::new(period, rate, &one, reflection).unwrap_err();
+    assert_eq!(refused(&zero, &one, &one), FixedError::PeriodNotPositive);
+    assert_eq!(refused(&one, &zero, &one), FixedError::RateNotPositive);
+    assert_eq!(refused(&one, &one, &two), FixedError::ReflectionTooLarge);
+    let equation = DelayEquation::new(&one, &one, &one, &one).unwrap();
+    let refused = |periods, pieces, terms| {
+        March::new(&equation, periods, &MarchOptions { pieces, terms }).unwrap_err()
+    };
+    assert_eq!(refused(0, None, None), FixedError::NoPeriods);
+    assert_eq!(refused(3, Some(3), None), FixedError::InvalidPieces(3));
+    assert_eq!(refused(3, None, Some(65)), FixedError::InvalidTerms(65));
+    assert_eq!(refused(u32::MAX, None, None), FixedError::TooLarge);
+    assert_eq!(Position::exact(7, (1 << 120) + 1), Err(FixedError::PositionOutside));
+}
+
 /// Values that leave the range are refused; nothing wraps around.
 #[test]
 fn growing_solutions_are_refused() {
@@ -290,6 +309,36 @@ fn certified_doubles_hold_for_any_times() {
             assert_eq!(sum.to_f64().unwrap(), *value, "{time}");
         }
     }
+}
+
+/// Times in any order have the doubles that a march with shorter pieces gives, which is held as a
+/// whole: 201 periods of the rigid mass, μ = 1, seen twice.
+#[test]
+fn sums_are_those_of_a_march_that_is_held() {
+    let [one, two] = [ratio(1, 1), ratio(2, 1)];
+    let equation = DelayEquation::new(&two, &one, &one, &one).unwrap();
+    let tap = |weight: i64, delay: i64| Tap { weight: ratio(weight, 1), delay: ratio(delay, 2) };
+    let times: Vec<f64> = (0..200).map(|i| f64::from(i * 77 % 200) * 2.01 - 3.0).collect();
+    let taps = [tap(1, 0), tap(-3, 5)];
+    let found = certified(&equation, &taps, &times, Limit::Right).unwrap();
+    let march = March::new(&equation, 201, &MarchOptions::default()).unwrap();
+    assert_eq!(march.pieces_per_period(), 32);
+    let seen = [(1_i128, 0), (-3, 5)];
+    for (time, value) in times.iter().zip(&found.values) {
+        let (mut sum, mut radius) = (0, 0);
+        for (weight, delay) in seen {
+            let reduction = Reduction::new(&two, &ratio(delay, 2)).unwrap();
+            let Some(position) = reduction.of_double(*time, Limit::Right).unwrap() else {
+                continue;
+            };
+            let part = march.value(&position).unwrap();
+            sum += weight * part.midpoint;
+            radius += weight.unsigned_abs() * part.radius;
+        }
+        let expected = round_to_double(sum, radius, i64::from(FRACTION_BITS));
+        assert_eq!(Some(*value), expected, "{time}");
+    }
+    assert!(found.undecided.is_empty());
 }
 
 #[test]

@@ -3,12 +3,14 @@
 
 mod double_double;
 mod reference;
+mod series;
 mod waves;
 
 use proptest::prelude::*;
 use reference::Reference;
 use wavestep_kernels::march::{
-    Bounds, Certificate, March, MarchError, MarchOptions, Parameter, Reflection, chebyshev,
+    Bounds, Certificate, March, MarchError, MarchOptions, Parameter, Reflection, ReflectionError,
+    chebyshev,
 };
 
 const PLAIN: MarchOptions =
@@ -184,7 +186,8 @@ fn record_changed(
         let (mut u, mut p) = (march.increment().to_vec(), march.coefficients().to_vec());
         change(period, &mut u, &mut p);
         certificate.record(&u, &p);
-        let bound = certificate.bound().map(|bound| bound + chebyshev::evaluation_error(&p));
+        let bound =
+            certificate.bound().map(|bound| bound + chebyshev::sizes(&p).evaluation_error());
         for (x, reference) in points.iter().zip(&references) {
             let error = reference.error(period, chebyshev::value(&p, *x));
             found.compare(error, bound, || format!("period {period}, x {x}"));
@@ -318,7 +321,7 @@ fn values_stay_within_the_error_of_evaluation() {
         // Signs that make all terms add up at either end, or nowhere.
         for sign in [|_| 1.0, |k: usize| 1.0 - 2.0 * (k % 2) as f64, |k| (k as f64 * 2.3).cos()] {
             let c: Vec<f64> = (0..length).map(|k| sign(k) * (1.0 + (k as f64).sin())).collect();
-            let bound = chebyshev::evaluation_error(&c);
+            let bound = chebyshev::sizes(&c).evaluation_error();
             for i in 0..=400 {
                 let x = (f64::from(i) / 400.0).powi(2);
                 for x in [x, 1.0 - x, x * 1e-3] {
@@ -370,6 +373,30 @@ fn a_conservative_step_keeps_the_energy_and_a_passive_one_does_not_gain() {
             march.advance().expect("room");
         }
     }
+}
+
+#[test]
+fn bounds_are_those_that_are_asked_for() {
+    let wave = reflection(2.0, 2.0, 1.0);
+    assert_eq!(march(&wave, PLAIN).bound(), None);
+    let proven = march(&wave, MarchOptions::default());
+    assert_eq!(proven.bound_by(&chebyshev::sizes(proven.coefficients())), proven.bound());
+    let options = MarchOptions { limit: 20, ..Default::default() };
+    let mut short = march(&wave, options);
+    let stopped = (0..20).find_map(|_| short.advance().err());
+    assert!(matches!(stopped, Some(MarchError::TooManyCoefficients { limit: 20, .. })));
+}
+
+#[test]
+fn numbers_that_are_no_reflection_are_refused() {
+    assert_eq!(Parameter::exact(f64::NAN), Err(ReflectionError::NotFinite));
+    let negative = Err(ReflectionError::NegativeRadius { radius: -1.0 });
+    assert_eq!(Parameter::within(1.0, -1.0), negative);
+    let refused = Reflection::exact(0.0, 1.0, 1.0).unwrap_err();
+    assert_eq!(refused, ReflectionError::RateNotPositive { rate: 0.0 });
+    let third = Parameter::within(1.0 / 3.0, 1e-17).expect("a number");
+    assert!(third.magnitude() > 1.0 / 3.0 && third.lower() < 1.0 / 3.0);
+    assert!(!reflection(2.0, 2.0, 1.5).is_passive());
 }
 
 #[test]

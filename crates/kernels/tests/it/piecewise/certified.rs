@@ -19,7 +19,7 @@ fn check(table: &Table, pieces: &[Piece], times: &[f64], level: Level) -> usize 
             assert!(exact.rounds_to(value), "{level:?} at {t:e}: {value:e}");
         }
         if i % 16 == 0 {
-            assert_eq!(evaluator.rounded(t), decided.then_some(value), "{level:?} at {t:e}");
+            assert_eq!(rounded(evaluator, t), decided.then_some(value), "{level:?} at {t:e}");
         }
     }
     undecided.len()
@@ -100,7 +100,7 @@ fn low_parts_count_wherever_they_matter() {
         let table = Table::new(&pieces, 1.0).expect("a table");
         for level in Level::available() {
             let evaluator = table.evaluator().with_level(level);
-            assert_eq!(evaluator.rounded(1.0), Some(1.0_f64.next_up()));
+            assert_eq!(rounded(evaluator, 1.0), Some(1.0_f64.next_up()));
             assert_eq!(check(&table, &pieces, &[1.0, -1.0, 0.25, 0.9999], level), 0);
         }
     }
@@ -146,7 +146,7 @@ fn near_midpoints_the_error_decides() {
 }
 
 #[test]
-fn grids_and_threads_agree_and_outside_is_decided() {
+fn grids_agree_and_outside_is_decided() {
     let mut random = Random(14);
     // In every third piece the error is so large that every value is in doubt.
     let (mut pieces, end) = pieces(Shape { low: 6, ..TYPICAL }, &mut random);
@@ -165,13 +165,10 @@ fn grids_and_threads_agree_and_outside_is_decided() {
             inside && piece_at(&pieces, times[i]).error > 0.0
         };
         assert_eq!(undecided, (0..count).filter(in_doubt).collect::<Vec<_>>());
-        for threads in [1, 2, 5] {
-            let evaluator = evaluator.with_threads(threads);
-            assert_eq!(evaluator.rounded_grid(from, step, &mut out), undecided);
-            assert_eq!(bits(&out), bits(&expected));
-            assert_eq!(evaluator.rounded_sorted(&times, &mut out), undecided);
-            assert_eq!(bits(&out), bits(&expected));
-        }
+        assert_eq!(evaluator.rounded_grid(from, step, &mut out), undecided);
+        assert_eq!(bits(&out), bits(&expected));
+        assert_eq!(evaluator.rounded_sorted(&times, &mut out), undecided);
+        assert_eq!(bits(&out), bits(&expected));
     }
 }
 
@@ -189,6 +186,6 @@ fn an_exact_zero_is_decided() {
     let table = Table::new(&[zero(0.0, 0.0), zero(1.0, 1e-300)], 2.0).unwrap();
     for level in Level::available() {
         let evaluator = table.evaluator().with_level(level);
-        assert_eq!((evaluator.rounded(0.3), evaluator.rounded(1.3)), (Some(0.0), None));
+        assert_eq!((rounded(evaluator, 0.3), rounded(evaluator, 1.3)), (Some(0.0), None));
     }
 }

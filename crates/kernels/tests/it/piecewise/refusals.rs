@@ -1,5 +1,6 @@
 //! What the constructor of tables refuses, and what it just accepts.
 
+use super::support::value;
 use wavestep_kernels::{MAX_DEGREE, Piece, Table, TableError};
 
 fn piece(start: f64) -> Piece {
@@ -52,8 +53,8 @@ fn the_end_is_checked() {
     }
     assert_eq!(Table::new(&[piece(0.0)], 1.0_f64.next_up()).unwrap_err(), TableError::Argument(0));
     let point = Table::new(&[piece(0.0)], 0.0).unwrap();
-    assert_eq!(point.evaluator().value(0.0), 0.5);
-    assert!(point.evaluator().value(f64::MIN_POSITIVE).is_nan());
+    assert_eq!(value(point.evaluator(), 0.0), 0.5);
+    assert!(value(point.evaluator(), f64::MIN_POSITIVE).is_nan());
 }
 
 /// The argument is checked exactly: here `u` at the end is above 1 by less than a rounding.
@@ -85,5 +86,5 @@ fn messages_tell_what_is_wrong() {
 fn missing_coefficients_are_zeros() {
     let empty = Piece { coefficients: vec![], ..piece(0.0) };
     let table = Table::new(&[empty, piece(1.0)], 2.0).unwrap();
-    assert_eq!([0.5, 1.5].map(|t| table.evaluator().value(t)), [0.0, 1.0]);
+    assert_eq!([0.5, 1.5].map(|t| value(table.evaluator(), t)), [0.0, 1.0]);
 }

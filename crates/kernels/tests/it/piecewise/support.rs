@@ -2,7 +2,7 @@
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
-use wavestep_kernels::{Piece, Table, TableError};
+use wavestep_kernels::{Evaluator, Piece, Table, TableError};
 
 /// `mantissa · 2^exponent`: what doubles, their sums and products are, exactly.
 #[derive(Clone, Debug)]
@@ -202,6 +202,19 @@ pub fn times(pieces: &[Piece], end: f64, count: usize, random: &mut Random) -> V
     }
     times.retain(|&t| start <= t && t <= end);
     times
+}
+
+/// The value at one time alone.
+pub fn value(evaluator: Evaluator<'_>, time: f64) -> f64 {
+    let mut out = [0.0];
+    evaluator.unsorted(&[time], &mut out);
+    out[0]
+}
+
+/// The correctly rounded value at one time alone, where it is decided.
+pub fn rounded(evaluator: Evaluator<'_>, time: f64) -> Option<f64> {
+    let mut out = [0.0];
+    evaluator.rounded_unsorted(&[time], &mut out).is_empty().then_some(out[0])
 }
 
 /// Bits, so that doubles compare as they are, NaN and the sign of 0 included.
