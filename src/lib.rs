@@ -60,4 +60,4 @@ pub mod signal;
 #[doc(hidden)]
 pub mod solution;
 
-pub use error::{Error, Remedy};
+pub use error::Error;

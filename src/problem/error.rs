@@ -3,7 +3,7 @@
 use super::bounds::MAX_TERMS;
 use super::{EqualError, LockRefusal};
 use crate::answer::{Tolerance, WayError};
-use crate::evaluate::EvaluateError;
+use crate::evaluate::{EvaluateError, MethodError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
 use crate::language::{Diagnostic, unit_of};
@@ -224,7 +224,7 @@ pub enum ProblemError {
     Evaluate(Box<EvaluateError>),
     /// Contacts cannot be followed.
     #[error(transparent)]
-    History(#[from] HistoryError),
+    History(HistoryError),
     /// A field has no value.
     #[error(transparent)]
     Field(Box<FieldError>),
@@ -295,27 +295,58 @@ impl From<SignalError> for ProblemError {
     }
 }
 
+// What a layer only hands on becomes the error of the layer that it comes from.
+
 impl From<EvaluateError> for ProblemError {
     fn from(error: EvaluateError) -> ProblemError {
-        ProblemError::Evaluate(Box::new(error))
+        match error {
+            EvaluateError::Solve(error) => error.into(),
+            EvaluateError::Network(error) => (*error).into(),
+            error => ProblemError::Evaluate(Box::new(error)),
+        }
+    }
+}
+
+impl From<HistoryError> for ProblemError {
+    fn from(error: HistoryError) -> ProblemError {
+        match error {
+            HistoryError::Evaluate(error) => (*error).into(),
+            HistoryError::Field(error) => (*error).into(),
+            error => ProblemError::History(error),
+        }
     }
 }
 
 impl From<FieldError> for ProblemError {
     fn from(error: FieldError) -> ProblemError {
-        ProblemError::Field(Box::new(error))
+        match error {
+            FieldError::Evaluate(error) => error.into(),
+            error => ProblemError::Field(Box::new(error)),
+        }
     }
 }
 
 impl From<WayError> for ProblemError {
     fn from(error: WayError) -> ProblemError {
-        ProblemError::Way(Box::new(error))
+        match error {
+            WayError::Method(MethodError::Evaluate(error)) => error.into(),
+            error => ProblemError::Way(Box::new(error)),
+        }
     }
 }
 
 impl From<LockError> for ProblemError {
     fn from(error: LockError) -> ProblemError {
-        ProblemError::Lock(Box::new(error))
+        match error {
+            LockError::Solve(error) => error.into(),
+            LockError::History(error) => error.into(),
+            // Fewer digits help here, more bits do not.
+            LockError::Evaluate(EvaluateError::AccuracyNotReached { .. }) => {
+                ProblemError::Lock(Box::new(error))
+            }
+            LockError::Evaluate(error) => error.into(),
+            error => ProblemError::Lock(Box::new(error)),
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use wavestep::ball::in_decimals;
 use wavestep::evaluate::Value;
 use wavestep::export::expression_text;
-use wavestep::history::{Body, Ending, Event, EventKind, History, HistoryError};
+use wavestep::history::{Body, Ending, Event, EventKind, History};
 use wavestep::language;
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
@@ -32,32 +32,6 @@ pub fn run(options: &Events) -> Result<String, Failure> {
         EventsFormat::Json => told.json(),
         EventsFormat::Latex => told.latex(),
     })
-}
-
-impl From<HistoryError> for Failure {
-    fn from(error: HistoryError) -> Failure {
-        let message = error.to_string();
-        let remedy = match &error {
-            HistoryError::MissingValue(symbol) => {
-                return Failure::usage(message, format!("give it one: --set {symbol}=1"));
-            }
-            HistoryError::Undecided { .. } => {
-                return Failure::Accuracy(
-                    message,
-                    "change a value a little, or ask for an earlier end".to_owned(),
-                );
-            }
-            HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
-                "ask for an earlier end"
-            }
-            HistoryError::Field(error) => return (**error).clone().into(),
-            HistoryError::Refused(_) | HistoryError::NoObservable(_) => {
-                "docs/scene-language.md says under `Contacts` what is followed"
-            }
-            _ => "ask for an earlier time",
-        };
-        Failure::Computation(message, remedy.to_owned())
-    }
 }
 
 struct Told<'a> {

@@ -24,7 +24,7 @@ pub fn along_the_line(
     caption: Caption,
 ) -> Result<Figure, PictureError> {
     if times.is_empty() {
-        return Err(PictureError::Evaluate(wavestep::evaluate::EvaluateError::EmptyWindow));
+        return Err(wavestep::evaluate::EvaluateError::EmptyWindow.into());
     }
     let network = evaluator.network();
     let mut found: Vec<Vec<Profile>> = Vec::with_capacity(times.len());

@@ -20,23 +20,20 @@ pub enum PictureError {
     /// What is asked for has no course.
     #[error(transparent)]
     Problem(Box<ProblemError>),
-    /// What is shown cannot be evaluated.
-    #[error(transparent)]
-    Evaluate(#[from] EvaluateError),
-    /// Fields cannot be given.
-    #[error(transparent)]
-    Field(FieldError),
     /// Numbers cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
 }
 
+impl From<EvaluateError> for PictureError {
+    fn from(error: EvaluateError) -> PictureError {
+        ProblemError::from(error).into()
+    }
+}
+
 impl From<FieldError> for PictureError {
     fn from(error: FieldError) -> PictureError {
-        match error {
-            FieldError::Evaluate(error) => PictureError::Evaluate(error),
-            error => PictureError::Field(error),
-        }
+        ProblemError::from(error).into()
     }
 }
 
