@@ -1,6 +1,6 @@
 //! Constants that have names, as numbers; and the field of enclosures.
 
-use crate::ball::{Attempt, Ball, ComplexBall, Precisions};
+use crate::ball::{Attempt, Ball, ComplexBall, Number, Precisions};
 use crate::enclosure::error::EnclosureError;
 use crate::enclosure::expression::enclose_expression;
 use crate::expression::{Constant, Definition, Expression, Field, Fraction, Root};
@@ -49,6 +49,17 @@ impl Numbers {
     /// [`EnclosureError`] where a symbol has no value.
     pub fn enclose(&self, value: &Fraction, bits: u64) -> Result<Ball, EnclosureError> {
         real_part(self.enclose_complex(&value.clone().into(), bits)?)
+    }
+
+    /// A value as a number: exact where it is rational.
+    ///
+    /// # Errors
+    /// As [`Numbers::enclose`].
+    pub(crate) fn number(&self, value: &Fraction, bits: u64) -> Result<Number, EnclosureError> {
+        match value.as_constant() {
+            Some(value) => Ok(Number::of_rational(value, bits)),
+            None => Ok(Number::Enclosed(self.enclose(value, bits)?)),
+        }
     }
 
     /// An enclosure of what a named constant is defined to be.

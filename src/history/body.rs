@@ -202,8 +202,8 @@ impl Engine {
                     return Ok(Drift::Unknown);
                 }
             }
-            let mut yielding = self.nodes[node].yielding();
-            let own = yielding.find(|own| own.element == *element);
+            let mut elements = self.nodes[node].elements.iter();
+            let own = elements.find(|own| own.element == *element);
             if let Some([stiffness, _]) = own.and_then(|own| own.law.resistance()) {
                 if stiffness.is_zero() {
                     return Ok(Drift::Unknown);

@@ -12,6 +12,7 @@ use crate::history::moment::Moment;
 use crate::history::motion::Motion;
 use crate::history::series::Series;
 use crate::limits::MAX_EVENTS;
+use crate::network::System;
 use std::cmp::Ordering;
 
 /// That a contact closed or opened.
@@ -162,13 +163,14 @@ impl Engine {
         let open = &self.open;
         let system = self.system(node, |contact| open[contact].closed)?;
         let known = |place: Option<usize>| place.map(|place| state.state[place].clone());
-        let displaced: Vec<Number> = (0..state.system.followed.len())
-            .map(|number| known(state.system.place_of_yield(number)))
-            .map(|value| value.unwrap_or_else(Number::zero))
+        let displaced: Vec<Number> = (state.system.kept.iter())
+            .map(|place| known(*place).unwrap_or_else(Number::zero))
             .collect();
         let velocity = |run: usize| known(state.system.place_of_velocity(run));
         let next = system.state(own, velocity, &displaced, &self.places[node], bits)?;
-        let loosened = system.followed != state.system.followed;
+        let is_kept = |system: &System<Number>, place: usize| system.kept[place].is_some();
+        let loosened = (0..own.elements.len())
+            .any(|place| is_kept(&system, place) != is_kept(&state.system, place));
         for contact in changes {
             let run = self.layout.contacts[*contact].run;
             let inert = system.has_inertia(run) && system.has_inertia(run + 1);

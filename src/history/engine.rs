@@ -35,8 +35,9 @@ pub(crate) struct Cell {
     pub velocities: Vec<Series>,
     /// Displacements of its runs since the start.
     pub displacements: Vec<Series>,
-    /// Compressions of its springs and supports; zero for springs that hang on an open contact.
-    pub yields: Vec<Series>,
+    /// The displacements of its elements: zero for those that have none, and for springs that hang on an
+    /// open contact.
+    pub compressions: Vec<Series>,
     /// Forces of its contacts, zero where they are open, in the order of [`Node::contacts`].
     pub forces: Vec<Series>,
     /// Gaps of its contacts, zero where they are closed.
@@ -206,7 +207,7 @@ impl Engine {
         for (number, node) in self.nodes.iter().enumerate() {
             let bits = self.cut.bits;
             let system = self.system(number, |_| true)?;
-            let still = vec![Number::zero(); system.followed.len()];
+            let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
             let state = system.state(node, velocity, &still, &self.places[number], bits)?;
             let arriving = [node.left, node.right].into_iter().zip([0, 1]);
@@ -454,11 +455,12 @@ impl Engine {
             *start = displacement.value(length, &cut);
             displacements.push(displacement);
         }
-        let yields = (0..state.system.followed.len()).map(|number| {
-            let place = state.system.place_of_yield(number);
-            place.map_or_else(Series::zero, |place| motion.state[place].clone())
-        });
-        let yields = yields.collect();
+        let compressions = state
+            .system
+            .kept
+            .iter()
+            .map(|place| place.map_or_else(Series::zero, |place| motion.state[place].clone()));
+        let compressions = compressions.collect();
         state.state = motion.state.iter().map(|series| series.value(length, &cut)).collect();
         for arriving in &mut state.arriving {
             let ends = arriving.end(&self.waves);
@@ -469,7 +471,7 @@ impl Engine {
             }
         }
         let velocities = motion.velocities;
-        let cell = Cell { velocities, displacements, yields, forces, gaps };
+        let cell = Cell { velocities, displacements, compressions, forces, gaps };
         self.cells[node].push((now, cell));
         self.states[node].now = end;
         Ok(())

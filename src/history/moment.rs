@@ -62,10 +62,7 @@ impl Clock {
     /// # Errors
     /// [`HistoryError::Value`] for a symbol without a value.
     pub fn number(&self, value: &Fraction) -> Result<Number, EnclosureError> {
-        match value.as_constant() {
-            Some(value) => Ok(Number::of_rational(value, self.bits)),
-            None => Ok(Number::Enclosed(self.numbers.enclose(value, self.bits)?)),
-        }
+        self.numbers.number(value, self.bits)
     }
 
     /// The time since the start.

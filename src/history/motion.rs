@@ -110,7 +110,7 @@ impl System<Number> {
         Motion { state: states, velocities, forces }
     }
 
-    /// The state that continues with these velocities of runs and these displacements of what yields.
+    /// The state that continues with these velocities of runs and displacements of elements.
     ///
     /// # Errors
     /// [`HistoryError::Refused`] where rigid masses of different velocities meet.
@@ -134,8 +134,8 @@ impl System<Number> {
             }
             state.push(first);
         }
-        let followed = displaced.iter().zip(&self.followed).filter(|(_, followed)| **followed);
-        state.extend(followed.map(|(value, _)| value.clone()));
+        let kept = displaced.iter().zip(&self.kept).filter(|(_, kept)| kept.is_some());
+        state.extend(kept.map(|(value, _)| value.clone()));
         Ok(state)
     }
 }

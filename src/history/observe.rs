@@ -85,11 +85,7 @@ impl Engine {
                 let node = face.lump().node;
                 one(node, Signal::Displacement(self.nodes[node].run_beside(*face)))
             }
-            Reading::Compression(lump) => {
-                let elements = &self.nodes[lump.node].elements[..lump.place];
-                let place = elements.iter().filter(|own| own.law.yields()).count();
-                one(lump.node, Signal::Yield(place))
-            }
+            Reading::Compression(lump) => one(lump.node, Signal::Compression(lump.place)),
             Reading::Force(lump) => {
                 if let Some(place) = self.contact_of_spring(*lump) {
                     return one(lump.node, Signal::Force(place));

@@ -31,8 +31,8 @@ pub(crate) enum Signal {
     Velocity(usize),
     /// The displacement of a run since the start.
     Displacement(usize),
-    /// The compression of a spring or support.
-    Yield(usize),
+    /// The compression of a spring or the displacement of a support, by its place in the node.
+    Compression(usize),
     /// The force of a contact, by its place among those of the node.
     Force(usize),
 }
@@ -59,7 +59,7 @@ impl Cell {
         match signal {
             Signal::Velocity(run) => &self.velocities[run],
             Signal::Displacement(run) => &self.displacements[run],
-            Signal::Yield(place) => &self.yields[place],
+            Signal::Compression(place) => &self.compressions[place],
             Signal::Force(place) => &self.forces[place],
         }
     }
@@ -159,7 +159,7 @@ impl Engine {
                 let mut attached = self.nodes[*node].attached(*run);
                 attached.any(|own| matches!(own.law, ElementLaw::Mass { .. }))
             }
-            Source::Node { signal: Signal::Yield(_) | Signal::Force(_), .. } => false,
+            Source::Node { signal: Signal::Compression(_) | Signal::Force(_), .. } => false,
         }
     }
 

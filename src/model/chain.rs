@@ -3,8 +3,10 @@
 use crate::limits::MAX_CELL_UPDATES;
 use crate::model::error::{ModelError, NotRepresented};
 use crate::model::leapfrog::NAME;
-use crate::model::line::{Law, Line};
-use crate::network::{Face, Field, Reading, Section, Term};
+use crate::model::line::Line;
+use crate::network::{
+    Acting, ElementLaw, Face, Field, Link, Lumped, Node, Reading, Section, Side, Term,
+};
 use crate::scene::Drive;
 
 /// Cells of a bar: from point `first` to point `first + cells`.
@@ -19,39 +21,21 @@ struct Cells {
     force: f64,
 }
 
-/// A point of a node: a run of places with one velocity.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Run {
-    point: usize,
-    /// With the halves of cells beside it.
-    mass: f64,
-    /// The velocity at the start of all that is joined here.
-    velocity: f64,
-    /// Of supports.
-    stiffness: f64,
-    damping: f64,
+/// A node on the points of the chain, or the far end of an endless bar, which is a node with a damper.
+#[derive(Clone, PartialEq, Debug)]
+struct Station {
+    node: Node<f64>,
+    /// The point of the first run; those of the others follow.
+    first: usize,
+    /// The masses of runs with the halves of cells beside them.
+    mass: Vec<f64>,
+    /// The velocities of runs after the start, when all that is joined there moves together.
+    start: Vec<f64>,
     /// The force of an endless bar that moves or is pressed from the start, beyond what its damper
     /// takes.
     push: f64,
-    held: bool,
-}
-
-/// A spring between a run and the next.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Link {
-    stiffness: f64,
-    damping: f64,
-}
-
-/// A node: runs, and the springs between them.
-#[derive(Clone, PartialEq, Debug)]
-struct Knot {
-    runs: Vec<Run>,
-    links: Vec<Link>,
-    /// The node of the line; none for the end of an endless bar.
-    node: Option<usize>,
-    /// Whether cells end at the left and begin at the right.
-    cells: [bool; 2],
+    /// The bars whose cells end at the left and begin at the right.
+    bars: [Option<usize>; 2],
 }
 
 /// A line cut into cells.
@@ -62,9 +46,9 @@ struct Knot {
 pub(crate) struct Chain {
     pub step: f64,
     bars: Vec<Cells>,
-    knots: Vec<Knot>,
-    /// Which knot a node is.
-    knot_of: Vec<usize>,
+    stations: Vec<Station>,
+    /// Which station a node is.
+    station_of: Vec<usize>,
     points: usize,
 }
 
@@ -96,21 +80,15 @@ enum Sampled {
     },
     /// The momentum of a bar.
     Momentum(usize),
-    /// Of a spring, by knot and link.
+    /// Of a spring, by its station and its place there.
     Compression {
-        knot: usize,
-        link: usize,
+        station: usize,
+        place: usize,
     },
-    SpringForce {
-        knot: usize,
-        link: usize,
-    },
-    /// Of a support, by knot and run.
-    SupportForce {
-        knot: usize,
-        run: usize,
-        stiffness: f64,
-        damping: f64,
+    /// The force in a spring or a support.
+    Resistance {
+        station: usize,
+        place: usize,
     },
 }
 
@@ -126,22 +104,21 @@ impl Chain {
             return refuse(NotRepresented::NoFiniteBar);
         }
         let size = shortest / cells as f64;
-        let mut chain = Chain {
-            step: f64::INFINITY,
-            bars: Vec::new(),
-            knots: Vec::new(),
-            knot_of: Vec::new(),
-            points: 0,
-        };
         let count = line.bars.iter().filter_map(|bar| bar.travel).sum::<f64>() / size;
         if count > MAX_CELL_UPDATES {
             let limit = MAX_CELL_UPDATES;
             return Err(ModelError::TooMuch { model: NAME, what: "cells", count, limit });
         }
-        let mut nodes = 0..line.nodes.len();
+        let mut chain = Chain {
+            step: f64::INFINITY,
+            bars: Vec::new(),
+            stations: Vec::new(),
+            station_of: vec![0; line.nodes.len()],
+            points: 0,
+        };
         for (place, bar) in line.bars.iter().enumerate() {
-            if chain.knots.is_empty() {
-                chain.knot(line, bar.nodes[0].and_then(|_| nodes.next()));
+            if place == 0 {
+                chain.place(line, bar.nodes[0], [None, Some(0)]);
             }
             let (number, crossing) = match bar.travel {
                 // A travel time that rounding leaves below a whole number of cells has that number.
@@ -158,15 +135,18 @@ impl Chain {
             let (impedance, velocity, force) = (bar.impedance, bar.velocity, bar.force);
             chain.bars.push(Cells { first, cells, impedance, crossing, velocity, force });
             chain.points += cells - 1;
-            chain.knot(line, bar.nodes[1].and_then(|_| nodes.next()));
+            let next = Some(place + 1).filter(|next| *next < line.bars.len());
+            chain.place(line, bar.nodes[1], [Some(place), next]);
         }
         chain.step *= courant;
-        chain.weigh(line);
-        for knot in &chain.knots {
-            if let Some(place) = knot.runs.iter().position(|run| !run.held && run.mass <= 0.0) {
-                let lumps = &line.nodes[knot.node.expect("bare ends have cells")].lumps;
-                let near = lumps.iter().find(|lump| lump.run + 1 >= place).unwrap_or(&lumps[0]);
-                return refuse(NotRepresented::Massless(near.name.clone()));
+        for station in &mut chain.stations {
+            station.weigh(&chain.bars);
+            let is_light =
+                |run: &usize| !station.node.is_imposed(*run) && station.mass[*run] <= 0.0;
+            if let Some(run) = (0..station.mass.len()).find(is_light) {
+                let elements = &station.node.elements;
+                let near = elements.iter().find(|own| own.run + 1 >= run).unwrap_or(&elements[0]);
+                return refuse(NotRepresented::Massless(line.name(near.element)));
             }
         }
         Ok(chain)
@@ -178,74 +158,28 @@ impl Chain {
     }
 
     /// Adds a node, or the far end of an endless bar.
-    fn knot(&mut self, line: &Line, node: Option<usize>) {
-        let runs = node.map_or(1, |node| line.nodes[node].runs);
-        let run = |place: usize| Run {
-            point: self.points + place,
-            mass: 0.0,
-            velocity: 0.0,
-            stiffness: 0.0,
-            damping: 0.0,
-            push: 0.0,
-            held: false,
+    fn place(&mut self, line: &Line, node: Option<usize>, bars: [Option<usize>; 2]) {
+        let mut push = 0.0;
+        let node = match node {
+            Some(node) => {
+                self.station_of[node] = self.stations.len();
+                line.nodes[node].clone()
+            }
+            None => {
+                // What goes on for ever: X = X_0 ± Z (v − V).
+                let sign = if bars[0].is_none() { 1.0 } else { -1.0 };
+                let bar = &line.bars[bars[0].or(bars[1]).expect("an end of a bar")];
+                push = bar.impedance * bar.velocity + sign * bar.force;
+                let law = ElementLaw::Support { stiffness: 0.0, damping: bar.impedance };
+                let damper = Lumped { element: bar.element, run: 0, law };
+                let (left, right, impedance) = (Side::Free, Side::Free, [0.0; 2]);
+                Node { left, right, impedance, elements: vec![damper], links: Vec::new() }
+            }
         };
-        let runs = (0..runs).map(run).collect::<Vec<_>>();
-        self.points += runs.len();
-        if node.is_some() {
-            self.knot_of.push(self.knots.len());
-        }
-        self.knots.push(Knot { runs, links: Vec::new(), node, cells: [false; 2] });
-    }
-
-    /// Puts masses, dampers and springs on the points.
-    fn weigh(&mut self, line: &Line) {
-        let count = self.knots.len();
-        for (place, knot) in self.knots.iter_mut().enumerate() {
-            knot.cells = [place > 0, place + 1 < count];
-            let last = knot.runs.len() - 1;
-            let sides = [(place.checked_sub(1), 0), (Some(place), last)];
-            for (bar, run) in sides {
-                if let Some(bar) = bar.and_then(|bar| self.bars.get(bar)) {
-                    let half = bar.impedance * bar.crossing / 2.0;
-                    knot.runs[run].mass += half;
-                    knot.runs[run].velocity += half * bar.velocity;
-                    if knot.node.is_none() {
-                        // What goes on for ever: X = X_0 ± Z (v − V).
-                        knot.runs[run].damping += bar.impedance;
-                        let sign = if place == 0 { 1.0 } else { -1.0 };
-                        knot.runs[run].push += bar.impedance * bar.velocity + sign * bar.force;
-                    }
-                }
-            }
-            if let Some(node) = knot.node {
-                let node = &line.nodes[node];
-                for (place, run) in knot.runs.iter_mut().enumerate() {
-                    run.held = node.is_held(place);
-                    let (mass, momentum) = node.mass_of(place);
-                    run.mass += mass;
-                    run.velocity += momentum;
-                }
-                for lump in &node.lumps {
-                    match lump.law {
-                        Law::Spring { stiffness, damping } => {
-                            knot.links.push(Link { stiffness, damping });
-                        }
-                        Law::Support { stiffness, damping } => {
-                            knot.runs[lump.run].stiffness += stiffness;
-                            knot.runs[lump.run].damping += damping;
-                        }
-                        Law::Load { drive: Drive::Velocity, .. } => knot.runs[lump.run].held = true,
-                        _ => {}
-                    }
-                }
-            }
-            for run in &mut knot.runs {
-                run.velocity = match run.held {
-                    true => 0.0,
-                    false => run.velocity / run.mass,
-                };
-            }
-        }
+        let (mass, start) = (0..node.runs()).map(|run| node.mass_of(run)).unzip();
+        let first = self.points;
+        self.points += node.runs();
+        self.stations.push(Station { node, first, mass, start, push, bars });
     }
 
     /// What is read for a term; `None` where there is no such thing.
@@ -258,8 +192,8 @@ impl Chain {
             if mirrored { cells.cells as f64 - at } else { at }
         };
         let point = |face: Face| {
-            let knot = &self.knots[self.knot_of[face.lump().node]];
-            Spot::Point(knot.runs[line.run(face)].point)
+            let station = &self.stations[self.station_of[face.lump().node]];
+            Spot::Point(station.first + station.node.run_beside(face))
         };
         let of = match &term.of {
             Reading::InBar(field, section) => {
@@ -274,18 +208,14 @@ impl Chain {
             Reading::Velocity(face) => Sampled::Velocity(point(*face)),
             Reading::Displacement(face) => Sampled::Displacement(point(*face)),
             Reading::Compression(lump) | Reading::Force(lump) => {
-                let knot = self.knot_of[lump.node];
-                let own = &line.nodes[lump.node].lumps[lump.place];
-                match (&term.of, &own.law) {
-                    (Reading::Compression(_), Law::Spring { .. }) => {
-                        Sampled::Compression { knot, link: own.run }
+                let (station, place) = (self.station_of[lump.node], lump.place);
+                let law = &self.stations[station].node.elements[place].law;
+                match (&term.of, law) {
+                    (Reading::Compression(_), ElementLaw::Spring { .. }) => {
+                        Sampled::Compression { station, place }
                     }
-                    (Reading::Force(_), Law::Spring { .. }) => {
-                        Sampled::SpringForce { knot, link: own.run }
-                    }
-                    (Reading::Force(_), Law::Support { stiffness, damping }) => {
-                        let (stiffness, damping) = (*stiffness, *damping);
-                        Sampled::SupportForce { knot, run: own.run, stiffness, damping }
+                    (Reading::Force(_), law) if law.resistance().is_some() => {
+                        Sampled::Resistance { station, place }
                     }
                     _ => return None,
                 }
@@ -302,22 +232,56 @@ impl Chain {
             velocities[bar.first..=bar.first + bar.cells].fill(bar.velocity);
             forces.push(vec![bar.force; bar.cells]);
         }
-        for run in self.knots.iter().flat_map(|knot| &knot.runs) {
-            velocities[run.point] = run.velocity;
+        for station in &self.stations {
+            velocities[station.first..][..station.start.len()].copy_from_slice(&station.start);
         }
-        let most = self.knots.iter().map(|knot| knot.runs.len()).max().unwrap_or(0);
+        let still = |station: &Station| vec![0.0; station.node.elements.len()];
         Motion {
             chain: self,
             steps: 0,
             before: velocities.clone(),
             velocities,
             forces,
-            compressions: self.knots.iter().map(|knot| vec![0.0; knot.links.len()]).collect(),
-            displacements: self.knots.iter().map(|knot| vec![0.0; knot.runs.len()]).collect(),
-            right: vec![0.0; most],
-            diagonal: vec![0.0; most],
+            displacements: self.stations.iter().map(still).collect(),
+            equations: Equations::default(),
         }
     }
+}
+
+impl Station {
+    /// Adds the halves of cells to the masses, and turns momenta into velocities.
+    fn weigh(&mut self, bars: &[Cells]) {
+        for (bar, run) in self.bars.into_iter().zip(self.node.side_runs()) {
+            if let Some(bar) = bar.map(|bar| &bars[bar]) {
+                let half = bar.impedance * bar.crossing / 2.0;
+                self.mass[run] += half;
+                self.start[run] += half * bar.velocity;
+            }
+        }
+        for (run, (start, mass)) in self.start.iter_mut().zip(&self.mass).enumerate() {
+            *start = if self.node.is_imposed(run) { 0.0 } else { *start / mass };
+        }
+    }
+
+    /// What the velocities of two runs make of the displacement of an element, or the velocity of one.
+    fn rate(&self, own: &Lumped<f64>, velocity: impl Fn(usize) -> f64) -> f64 {
+        match own.law.is_link() {
+            true => velocity(own.run) - velocity(own.run + 1),
+            false => velocity(own.run),
+        }
+    }
+}
+
+/// The equations of the runs of a node for the changes of their velocities in a step: a matrix with one
+/// diagonal beside the main one.
+#[derive(Default)]
+struct Equations {
+    diagonal: Vec<f64>,
+    /// What resists the difference of the velocities beside each link.
+    beside: Vec<f64>,
+    right: Vec<f64>,
+    /// The velocities of runs that are held or imposed.
+    imposed: Vec<Option<f64>>,
 }
 
 /// How far from its end an endless bar is observed.
@@ -330,6 +294,44 @@ fn farthest(line: &Line, bar: usize) -> f64 {
     terms.map(seen).fold(0.0, f64::max)
 }
 
+impl Equations {
+    /// Moves the known changes of runs that are held or imposed to the right side of their neighbours.
+    fn hold(&mut self, before: &[f64]) {
+        for (run, imposed) in self.imposed.iter().enumerate() {
+            let Some(change) = imposed.map(|velocity| velocity - before[run]) else { continue };
+            if run > 0 {
+                self.right[run - 1] += self.beside[run - 1] * change;
+            }
+            if run < self.beside.len() {
+                self.right[run + 1] += self.beside[run] * change;
+            }
+        }
+    }
+
+    /// The velocities after the step, by elimination from the left.
+    fn solve(&mut self, before: &[f64], velocities: &mut [f64]) {
+        let Equations { diagonal, beside, right, imposed } = self;
+        let count = diagonal.len();
+        for run in 1..count {
+            if imposed[run - 1].is_none() && imposed[run].is_none() {
+                let factor = beside[run - 1] / diagonal[run - 1];
+                diagonal[run] -= factor * beside[run - 1];
+                right[run] += factor * right[run - 1];
+            }
+        }
+        for run in (0..count).rev() {
+            if let Some(velocity) = imposed[run] {
+                velocities[run] = velocity;
+                continue;
+            }
+            if run + 1 < count && imposed[run + 1].is_none() {
+                right[run] += beside[run] * (velocities[run + 1] - before[run + 1]);
+            }
+            velocities[run] = before[run] + right[run] / diagonal[run];
+        }
+    }
+}
+
 /// The motion of a chain: forces at `steps · Δt`, velocities half a step before or after.
 pub(crate) struct Motion<'a> {
     chain: &'a Chain,
@@ -339,12 +341,9 @@ pub(crate) struct Motion<'a> {
     before: Vec<f64>,
     /// The force in each cell, by bar.
     forces: Vec<Vec<f64>>,
-    /// Of springs, by knot.
-    compressions: Vec<Vec<f64>>,
-    /// Of runs, by knot.
+    /// Of the elements of each station.
     displacements: Vec<Vec<f64>>,
-    right: Vec<f64>,
-    diagonal: Vec<f64>,
+    equations: Equations,
 }
 
 impl Motion<'_> {
@@ -361,99 +360,104 @@ impl Motion<'_> {
                 *velocity += factor * (pair[0] - pair[1]);
             }
         }
-        for knot in 0..self.chain.knots.len() {
-            self.turn(line, knot, length);
+        for station in 0..self.chain.stations.len() {
+            self.turn(line, station, length);
         }
     }
 
-    /// The velocities of a knot: with `δ = v⁺ − v⁻`,
+    /// The velocities of a station: with `δ = v⁺ − v⁻`,
     /// `(m/Δt + d/2 + kΔt/4) δ = F − d v⁻ − k u`; in the first half step dampers act with `v⁺`.
-    fn turn(&mut self, line: &Line, place: usize, length: f64) {
-        let chain = self.chain;
-        let knot = &chain.knots[place];
+    fn turn(&mut self, line: &Line, number: usize, length: f64) {
+        let station = &self.chain.stations[number];
+        let mut equations = std::mem::take(&mut self.equations);
+        self.resist(station, length, &mut equations);
+        self.load(line, number, &mut equations);
+        let before = &self.before[station.first..];
+        equations.hold(before);
+        equations.solve(before, &mut self.velocities[station.first..]);
+        self.equations = equations;
+    }
+
+    /// The left side: masses, and what resists the change of a velocity.
+    fn resist(&self, station: &Station, length: f64, equations: &mut Equations) {
         let (share, spring) = if self.steps == 0 { (1.0, 0.0) } else { (0.5, length / 4.0) };
-        let count = knot.runs.len();
-        let now = self.steps as f64 * self.chain.step;
-        let span = [(now - self.chain.step / 2.0).max(0.0), now + self.chain.step / 2.0];
-        let reach = [place.checked_sub(1), Some(place).filter(|_| knot.cells[1])];
-        let resisting = |link: &Link| share * link.damping + spring * link.stiffness;
-        for (i, run) in knot.runs.iter().enumerate() {
-            let own = share * run.damping + spring * run.stiffness;
-            self.diagonal[i] = run.mass / length + own;
-            let resisted = run.damping * self.before[run.point];
-            self.right[i] = run.push - resisted - run.stiffness * self.displacements[place][i];
-        }
-        if let [Some(bar), _] = reach {
-            self.right[0] += self.forces[bar].last().expect("a cell");
-        }
-        if let [_, Some(bar)] = reach {
-            self.right[count - 1] -= self.forces[bar][0];
-        }
-        for (i, link) in knot.links.iter().enumerate() {
-            let [left, right] = [knot.runs[i].point, knot.runs[i + 1].point];
-            let closing = self.before[left] - self.before[right];
-            let force = link.stiffness * self.compressions[place][i] + link.damping * closing;
-            self.right[i] -= force;
-            self.right[i + 1] += force;
-            self.diagonal[i] += resisting(link);
-            self.diagonal[i + 1] += resisting(link);
-        }
-        let mut imposed = vec![0.0; count];
-        if let Some(node) = knot.node {
-            for lump in &line.nodes[node].lumps {
-                let Law::Load { drive, course, from, until } = &lump.law else { continue };
-                match drive {
-                    Drive::Force => {
-                        let acting = [span[0].max(*from), span[1].min(*until)];
-                        let share = (acting[1] - acting[0]) / (span[1] - span[0]);
-                        if share > 0.0 {
-                            let middle = acting[0].midpoint(acting[1]);
-                            self.right[lump.run] += share * course.value(middle);
-                        }
-                    }
-                    Drive::Velocity => {
-                        let at = span[1];
-                        if *from <= at && at < *until {
-                            imposed[lump.run] = course.value(at);
-                        }
-                    }
-                }
+        let Equations { diagonal, beside, .. } = equations;
+        diagonal.clear();
+        diagonal.extend(station.mass.iter().map(|mass| mass / length));
+        beside.clear();
+        beside.resize(station.node.links.len(), 0.0);
+        for own in &station.node.elements {
+            let Some([stiffness, damping]) = own.law.resistance() else { continue };
+            let resisting = share * damping + spring * stiffness;
+            diagonal[own.run] += resisting;
+            if own.law.is_link() {
+                diagonal[own.run + 1] += resisting;
+                beside[own.run] += resisting;
             }
         }
-        // Elimination from the left: the matrix is symmetric, with springs beside its diagonal.
-        for (i, run) in knot.runs.iter().enumerate() {
-            if run.held {
-                // A known change counts at both neighbours.
-                let change = imposed[i] - self.before[run.point];
-                if i > 0 {
-                    self.right[i - 1] += resisting(&knot.links[i - 1]) * change;
-                }
-                if i + 1 < count {
-                    self.right[i + 1] += resisting(&knot.links[i]) * change;
-                }
-            }
+    }
+
+    /// The right side: the balance of each run but for inertia, and the velocities that are imposed.
+    fn load(&self, line: &Line, number: usize, equations: &mut Equations) {
+        let station = &self.chain.stations[number];
+        let Equations { right, imposed, .. } = equations;
+        right.clear();
+        imposed.clear();
+        for run in 0..station.node.runs() {
+            let force = |(sign, acting)| sign as f64 * self.acting(line, number, acting);
+            right.push(station.push + station.node.acting(run).map(force).sum::<f64>());
+            imposed.push(station.node.is_imposed(run).then(|| {
+                let end = self.span()[1];
+                let loads = station.node.imposing(run).map(|own| &line.loads[&own.element]);
+                let acting = loads.filter(|load| load.from <= end && end < load.until);
+                acting.map(|load| load.course.value(end)).sum()
+            }));
         }
-        let free = |i: usize| !knot.runs[i].held;
-        for i in 1..count {
-            if free(i - 1) && free(i) {
-                let factor = resisting(&knot.links[i - 1]) / self.diagonal[i - 1];
-                self.diagonal[i] -= factor * resisting(&knot.links[i - 1]);
-                self.right[i] += factor * self.right[i - 1];
+    }
+
+    /// The step from the velocities before to those after.
+    fn span(&self) -> [f64; 2] {
+        let (now, half) = (self.steps as f64 * self.chain.step, self.chain.step / 2.0);
+        [(now - half).max(0.0), now + half]
+    }
+
+    /// A term of the balance of a run at a station; masses are on the left side.
+    fn acting(&self, line: &Line, number: usize, acting: Acting) -> f64 {
+        let station = &self.chain.stations[number];
+        let place = match acting {
+            Acting::Side(side) => {
+                let forces = station.bars[side].map(|bar| &self.forces[bar]);
+                let end = |forces: &Vec<f64>| match side {
+                    0 => forces.last().copied(),
+                    _ => forces.first().copied(),
+                };
+                return forces.and_then(end).unwrap_or(0.0);
             }
+            Acting::Link(link) => match station.node.links[link] {
+                Link::Element(place) => place,
+                Link::Contact(_) => return 0.0,
+            },
+            Acting::Element(place) => place,
+        };
+        match station.node.elements[place] {
+            Lumped { element, law: ElementLaw::Load(Drive::Force), .. } => {
+                let (load, [from, to]) = (&line.loads[&element], self.span());
+                let acting = [from.max(load.from), to.min(load.until)];
+                let share = (acting[1] - acting[0]) / (to - from);
+                let middle = acting[0].midpoint(acting[1]);
+                if share > 0.0 { share * load.course.value(middle) } else { 0.0 }
+            }
+            _ => self.resistance(number, place, |point| self.before[point]),
         }
-        for i in (0..count).rev() {
-            let point = knot.runs[i].point;
-            if !free(i) {
-                self.velocities[point] = imposed[i];
-                continue;
-            }
-            if i + 1 < count && free(i + 1) {
-                let next = knot.runs[i + 1].point;
-                let change = self.velocities[next] - self.before[next];
-                self.right[i] += resisting(&knot.links[i]) * change;
-            }
-            self.velocities[point] = self.before[point] + self.right[i] / self.diagonal[i];
-        }
+    }
+
+    /// The force `k u + d u'` in a spring or a support, with these velocities of points.
+    fn resistance(&self, number: usize, place: usize, velocity: impl Fn(usize) -> f64) -> f64 {
+        let station = &self.chain.stations[number];
+        let own = &station.node.elements[place];
+        let Some([stiffness, damping]) = own.law.resistance() else { return 0.0 };
+        let rate = station.rate(own, |run| velocity(station.first + run));
+        stiffness * self.displacements[number][place] + damping * rate
     }
 
     /// A sample and its time: forces and displacements at the time of the forces, velocities and
@@ -475,16 +479,9 @@ impl Motion<'_> {
                 let sum = all.iter().sum::<f64>() - ends;
                 (later, bar.impedance * bar.crossing * sum)
             }
-            Sampled::Compression { knot, link } => (now, self.compressions[knot][link]),
-            Sampled::SpringForce { knot, link } => {
-                let runs = &self.chain.knots[knot].runs;
-                let Link { stiffness, damping } = self.chain.knots[knot].links[link];
-                let closing = self.now(runs[link].point) - self.now(runs[link + 1].point);
-                (now, stiffness * self.compressions[knot][link] + damping * closing)
-            }
-            Sampled::SupportForce { knot, run, stiffness, damping } => {
-                let velocity = self.now(self.chain.knots[knot].runs[run].point);
-                (now, stiffness * self.displacements[knot][run] + damping * velocity)
+            Sampled::Compression { station, place } => (now, self.displacements[station][place]),
+            Sampled::Resistance { station, place } => {
+                (now, self.resistance(station, place, |point| self.now(point)))
             }
             Sampled::Force { bar, at } => (now, self.force(bar, at)),
         }
@@ -547,14 +544,10 @@ impl Motion<'_> {
                 *force += factor * (pair[0] - pair[1]);
             }
         }
-        for (place, knot) in self.chain.knots.iter().enumerate() {
-            for (displacement, run) in self.displacements[place].iter_mut().zip(&knot.runs) {
-                *displacement += step * self.velocities[run.point];
-            }
-            for (compression, pair) in self.compressions[place].iter_mut().zip(knot.runs.windows(2))
-            {
-                let [left, right] = [pair[0].point, pair[1].point];
-                *compression += step * (self.velocities[left] - self.velocities[right]);
+        for (station, displacements) in self.chain.stations.iter().zip(&mut self.displacements) {
+            for (displacement, own) in displacements.iter_mut().zip(&station.node.elements) {
+                *displacement +=
+                    step * station.rate(own, |run| self.velocities[station.first + run]);
             }
         }
         self.steps += 1;

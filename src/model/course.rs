@@ -1,6 +1,6 @@
 //! The course of a load in doubles: `Σ Re(p(t) e^{λt})` with complex polynomials and rates.
 
-use crate::ball::{Ball, ComplexBall};
+use crate::ball::{Ball, ComplexBall, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
 use crate::expression::{Expression, Fraction};
 use num_traits::ToPrimitive;
@@ -29,6 +29,14 @@ pub(crate) fn double(numbers: &Numbers, value: &Fraction) -> Result<f64, Enclosu
     match value.as_constant() {
         Some(number) => Ok(number.to_f64().unwrap_or(f64::NAN)),
         None => numbers.enclose(value, BITS).map(|ball| middle(&ball)),
+    }
+}
+
+/// A number, rounded.
+pub(crate) fn double_of(value: &Number) -> f64 {
+    match value {
+        Number::Exact(value) => value.to_f64().unwrap_or(f64::NAN),
+        Number::Enclosed(ball) => middle(ball),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::model::course::double_root;
 use crate::model::error::{ModelError, NotRepresented};
-use crate::model::line::{Bar, Law, Line};
-use crate::network::{ScaledScene, Side};
+use crate::model::line::{Bar, Line, LocalContact};
+use crate::network::{Node, ScaledScene, Side};
 use crate::scene::ElementIndex;
 
 const NAME: &str = "equivalent spring";
@@ -19,19 +19,6 @@ const NAME: &str = "equivalent spring";
 /// `e^{−h_1 t}` are functions of the same `h_1 t`, `h_1 = k_1 S`. An end that is fixed is a bar of
 /// infinite impedance at rest; a strain at the start adds `X_0/Z` to the velocity of a bar.
 ///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::model::equivalent_stiffness;
-/// use wavestep::network::ScaledScene;
-///
-/// let text = "scene \"A\"\nbar a { impedance = 1, travel = 1, velocity = 8 }\nhertz tip { stiffness = 1/2 }\nbar b { impedance = 1 }\nline free - a - tip - b - endless";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// // S = 2, k S = 1: k_1 = 8^{1/3}/2.
-/// let stiffness = equivalent_stiffness(&ScaledScene::of(&scene).unwrap(), 1).unwrap();
-/// assert!((stiffness - 1.0).abs() < 1e-15);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
-///
 /// # Errors
 /// [`ModelError::Refused`] for what is no local contact, where something else stands beside it, and
 /// where what it joins does not approach; [`ModelError::MissingValue`] for symbols without values.
@@ -46,16 +33,15 @@ pub fn equivalent_stiffness(
     };
     let line = Line::of(scaled)?;
     let name = || element.name.clone();
-    let here = |node: &&crate::model::line::Node| {
-        node.lumps.iter().any(|lump| lump.name == element.name && matches!(lump.law, Law::Hertz(_)))
-    };
-    let Some(node) = line.nodes.iter().find(here) else {
+    let mut nodes = line.nodes.iter();
+    let here = nodes.find_map(|node| Some((node, node.place(contact)?)));
+    let law = |(node, place): (&Node<f64>, usize)| LocalContact::of(&node.elements[place].law);
+    let Some((node, law)) = here.and_then(|here| Some((here.0, law(here)?))) else {
         return refuse(NotRepresented::NotALocalContact(name()));
     };
-    let [lump] = &node.lumps[..] else {
+    if node.elements.len() > 1 {
         return refuse(NotRepresented::NotBetweenBars(name()));
-    };
-    let Law::Hertz(law) = lump.law else { unreachable!("just seen") };
+    }
     // 1/Z, and the velocity that what arrives would give a free end.
     let side = |side: Side, way: usize| match side {
         Side::Bar(bar) => {

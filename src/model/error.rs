@@ -225,20 +225,6 @@ pub enum SolverFailure {
     /// Pieces of this period stay rough however short they are.
     #[error("no piece of period {0} is smooth")]
     NotSmooth(i64),
-    /// Too many steps to this time.
-    #[error("more than {limit} steps are needed beyond x = {at}")]
-    TooManySteps {
-        /// The time reached.
-        at: f64,
-        /// The most steps.
-        limit: u32,
-    },
-    /// Steps that become too short at this time.
-    #[error("its steps become too short at x = {0}")]
-    StepTooShort(f64),
-    /// A system that becomes stiff at this time.
-    #[error("the equations seem to become stiff at x = {0}")]
-    Stiff(f64),
 }
 
 impl From<EnclosureError> for ModelError {

@@ -33,29 +33,6 @@ pub(crate) const NAME: &str = "leapfrog";
 /// # Invariants
 /// The step is positive and at most the shortest time in which a wave crosses a cell; every point has
 /// a mass or is held.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::model::{Leapfrog, Model};
-/// use wavestep::network::Network;
-///
-/// let text = r#"
-///     scene "Two bars collide"
-///     bar striker { impedance = 1, travel = 1, velocity = 1 }
-///     bar rod { impedance = 3, travel = 2 }
-///     line free - striker | rod - free
-///     observe v = velocity(rod.left)
-///     observe F = force(rod.left)
-/// "#;
-/// let scene = read_scene(&Source::new("leapfrog.wave", text)?, &Default::default()).unwrap();
-/// let model = Leapfrog::new(&Network::new(&scene).unwrap(), 10, 1.0).unwrap();
-/// // Z1 V/(Z1 + Z2), and Z2 times that, by characteristics.
-/// assert!((model.values(0, &[0.5]).unwrap()[0] - 0.25).abs() < 1e-15);
-/// assert!((model.values(1, &[0.5]).unwrap()[0] - 0.75).abs() < 1e-15);
-/// // 10 cells in the first bar, 20 in the second.
-/// assert_eq!((model.cells(), model.step()), (30, 0.1));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct Leapfrog {
     line: Line,

@@ -2,17 +2,20 @@
 //! with rounded numbers.
 
 use crate::enclosure::Numbers;
+use crate::expression::Fraction;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
 use crate::network::{
-    Contacts, Face, Layout, Measured, MeasuredValue, ModelLump, ScaledScene, Side, Term, unit,
+    Contacts, ElementLaw, Layout, Measured, MeasuredValue, ModelLump, Node, ScaledScene, Term, unit,
 };
-use crate::scene::{Drive, Kind, Measure};
+use crate::scene::{ElementIndex, Kind, Measure};
 use num_traits::ToPrimitive as _;
+use std::collections::BTreeMap;
 
 /// A bar in doubles.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Bar {
+    pub element: ElementIndex,
     pub name: String,
     /// `Z`.
     pub impedance: f64,
@@ -51,10 +54,30 @@ pub(crate) struct LocalContact {
 }
 
 impl LocalContact {
+    /// A local contact of a node; none for other elements.
+    pub fn of(law: &ElementLaw<f64>) -> Option<LocalContact> {
+        match law {
+            ElementLaw::LocalContact { force, compression, exponent } => Some(LocalContact {
+                force: *force,
+                compression: *compression,
+                exponent: exponent.to_f64().unwrap_or(f64::NAN),
+            }),
+            _ => None,
+        }
+    }
+
     /// The force at a compression `α`.
     pub fn force_at(&self, compression: f64) -> f64 {
         match compression > 0.0 {
             true => self.force * (compression / self.compression).powf(self.exponent),
+            false => 0.0,
+        }
+    }
+
+    /// How the force grows with the compression.
+    pub fn slope_at(&self, compression: f64) -> f64 {
+        match compression > 0.0 {
+            true => self.exponent * self.force_at(compression) / compression,
             false => 0.0,
         }
     }
@@ -81,82 +104,22 @@ impl LocalContact {
     }
 }
 
-/// What a lumped element does.
+/// What a load does in doubles.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Law {
-    Mass { mass: f64, velocity: f64 },
-    Spring { stiffness: f64, damping: f64 },
-    Hertz(LocalContact),
-    Support { stiffness: f64, damping: f64 },
-    Load { drive: Drive, course: Course, from: f64, until: f64 },
+pub(crate) struct Load {
+    pub course: Course,
+    pub from: f64,
+    pub until: f64,
 }
 
-impl Law {
-    /// Whether it stands between two places that move apart from each other.
-    pub fn parts_places(&self) -> bool {
-        matches!(self, Law::Spring { .. } | Law::Hertz(_))
-    }
-
-    /// Whether it has a displacement or a compression of its own.
-    pub fn yields(&self) -> bool {
-        self.parts_places() || matches!(self, Law::Support { .. })
-    }
-}
-
-/// A lumped element in doubles.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Lump {
-    pub name: String,
-    pub law: Law,
-    /// The run of its node that it moves with; of what parts the node the one at its left.
-    pub run: usize,
-}
-
-/// The elements between two bars, or between a bar and an end.
-///
-/// # Invariants
-/// Springs and local contacts part the node into `runs` places with one velocity each, numbered from the left.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Node {
-    pub left: Side,
-    pub right: Side,
-    pub lumps: Vec<Lump>,
-    pub runs: usize,
-}
-
-impl Node {
-    /// The sides of a run: what the node has at its left and right end, where the run reaches it.
-    pub fn sides(&self, run: usize) -> impl Iterator<Item = Side> {
-        let left = (run == 0).then_some(self.left);
-        let right = (run + 1 == self.runs).then_some(self.right);
-        left.into_iter().chain(right)
-    }
-
-    /// Whether a run cannot move.
-    pub fn is_held(&self, run: usize) -> bool {
-        self.sides(run).any(|side| side == Side::Fixed)
-    }
-
-    /// Whether a run is fixed, or moves as a load says.
-    pub fn is_imposed(&self, run: usize) -> bool {
-        let imposes = |lump: &Lump| matches!(lump.law, Law::Load { drive: Drive::Velocity, .. });
-        self.is_held(run) || self.lumps_of(run).any(imposes)
-    }
-
-    /// The lumped elements of a run; springs and local contacts are in none.
-    pub fn lumps_of(&self, run: usize) -> impl Iterator<Item = &Lump> {
-        self.lumps.iter().filter(move |lump| lump.run == run && !lump.law.parts_places())
-    }
-
-    /// The mass of the lumped masses of a run, and their momentum at the start.
+impl Node<f64> {
+    /// The mass of a run, and its momentum at the start.
     pub fn mass_of(&self, run: usize) -> (f64, f64) {
-        let mut sum = (0.0, 0.0);
-        for lump in self.lumps_of(run) {
-            if let Law::Mass { mass, velocity } = lump.law {
-                sum = (sum.0 + mass, sum.1 + mass * velocity);
-            }
-        }
-        sum
+        let masses = self.attached(run).filter_map(|own| match own.law {
+            ElementLaw::Mass { mass, velocity } => Some((mass, mass * velocity)),
+            _ => None,
+        });
+        masses.fold((0.0, 0.0), |sum, own| (sum.0 + own.0, sum.1 + own.1))
     }
 }
 
@@ -170,6 +133,21 @@ pub(crate) struct Observable {
 }
 
 impl Observable {
+    fn of(measured: &Measured, numbers: &Numbers) -> Result<Observable, ModelError> {
+        let unit = double_root(numbers, &measured.unit)?;
+        let double = |term: &Term| -> Result<Term<f64>, ModelError> {
+            let term = term.map(|value| double(numbers, value))?;
+            Ok(Term { coefficient: term.coefficient * unit, ..term })
+        };
+        let terms = match &measured.value {
+            MeasuredValue::Linear(terms) => {
+                Some(terms.iter().map(double).collect::<Result<_, _>>()?)
+            }
+            MeasuredValue::Energy(_) => None,
+        };
+        Ok(Observable { name: measured.name.clone(), terms })
+    }
+
     /// The readings; none for an energy.
     pub fn terms(&self) -> &[Term<f64>] {
         self.terms.as_deref().unwrap_or_default()
@@ -182,17 +160,13 @@ pub(crate) struct Line {
     /// The bars from left to right.
     pub bars: Vec<Bar>,
     /// The nodes from left to right.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<Node<f64>>,
+    pub loads: BTreeMap<ElementIndex, Load>,
+    /// What elements are called.
+    names: Vec<String>,
     pub observables: Vec<Observable>,
     /// What one unit of the user's time is in the scale of the line.
     slowness: f64,
-}
-
-/// Reads a network.
-struct Reader<'a> {
-    scaled: &'a ScaledScene,
-    layout: Layout,
-    numbers: Numbers,
 }
 
 impl Line {
@@ -206,8 +180,40 @@ impl Line {
         if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
             return Err(ModelError::MissingValue(symbol.clone()));
         }
-        let layout = Layout::of(scaled.scene(), scaled.model(), Contacts::Closed);
-        Reader { scaled, layout, numbers }.line()
+        let (scene, model) = (scaled.scene(), scaled.model());
+        let double = |value: &Fraction| double(&numbers, value);
+        let layout = Layout::of(scene, model, Contacts::Closed);
+        let mut bars = Vec::new();
+        for (element, nodes) in layout.bars.iter().zip(&layout.ends) {
+            let data = &model.bars[element];
+            bars.push(Bar {
+                element: *element,
+                name: scene.elements[*element].name.clone(),
+                impedance: double(&data.impedance)?,
+                travel: data.travel.as_ref().map(double).transpose()?,
+                velocity: double(&data.velocity)?,
+                force: double(&data.force)?,
+                nodes: *nodes,
+            });
+        }
+        let nodes = layout.nodes.iter().map(|node| node.map(double));
+        let mut loads = BTreeMap::new();
+        for (element, lump) in &model.lumps {
+            if let ModelLump::Load(_, course, from, until) = lump {
+                let course = Course::of(&numbers, course, &scene.time)?;
+                let until = until.as_ref().map(double).transpose()?.unwrap_or(f64::INFINITY);
+                loads.insert(*element, Load { course, from: double(from)?, until });
+            }
+        }
+        let observables = scaled.measures().iter().map(|own| Observable::of(own, &numbers));
+        Ok(Line {
+            bars,
+            nodes: nodes.collect::<Result<_, _>>()?,
+            loads,
+            names: scene.elements.iter().map(|element| element.name.clone()).collect(),
+            observables: observables.collect::<Result<_, _>>()?,
+            slowness: double(&model.slowness)?,
+        })
     }
 
     /// The line of a scene, for a model that takes linear laws.
@@ -216,14 +222,19 @@ impl Line {
     /// As [`Line::of`]; [`ModelError::Refused`] for a line with a local contact.
     pub fn linear(model: &'static str, scaled: &ScaledScene) -> Result<Line, ModelError> {
         let line = Line::of(scaled)?;
-        let mut lumps = line.nodes.iter().flat_map(|node| &node.lumps);
-        match lumps.find(|lump| matches!(lump.law, Law::Hertz(_))) {
+        let mut elements = line.nodes.iter().flat_map(|node| &node.elements);
+        match elements.find(|own| matches!(own.law, ElementLaw::LocalContact { .. })) {
             None => Ok(line),
             Some(contact) => {
-                let reason = NotRepresented::LocalContact(contact.name.clone());
+                let reason = NotRepresented::LocalContact(line.name(contact.element));
                 Err(ModelError::Refused { model, reason })
             }
         }
+    }
+
+    /// What an element is called.
+    pub fn name(&self, element: ElementIndex) -> String {
+        self.names[element].clone()
     }
 
     /// Times in the scale of the line.
@@ -266,7 +277,7 @@ impl Line {
     /// The largest velocity at the start, of a wave or of what has a mass and is not held, or 1.
     pub fn speed(&self) -> f64 {
         let masses = self.nodes.iter().flat_map(|node| {
-            let free = (0..node.runs).filter(|run| !node.is_imposed(*run));
+            let free = (0..node.runs()).filter(|run| !node.is_imposed(*run));
             free.map(|run| node.mass_of(run))
         });
         let velocities = masses.filter(|(mass, _)| *mass > 0.0).map(|(mass, own)| own / mass);
@@ -282,12 +293,6 @@ impl Line {
         self.bars.iter().find(|bar| bar.travel.is_none())
     }
 
-    /// The run of its node that is beside a lumped element.
-    pub fn run(&self, face: Face) -> usize {
-        let Lump { law, run, .. } = &self.nodes[face.lump().node].lumps[face.lump().place];
-        run + usize::from(matches!(face, Face::Right(_)) && law.parts_places())
-    }
-
     /// What the unit of time is to the user, and the strain that goes with the unit of velocity in a
     /// bar, `V/c`.
     ///
@@ -295,86 +300,11 @@ impl Line {
     /// [`ModelError::Value`] where they are no numbers.
     pub fn units_of(&self, scaled: &ScaledScene, bar: usize) -> Result<(f64, f64), ModelError> {
         let numbers = Numbers::new(&scaled.model().constants);
-        let layout = Layout::of(scaled.scene(), scaled.model(), Contacts::Closed);
-        let Kind::Bar(data) = &scaled.scene().elements[layout.bars[bar]].kind else {
+        let Kind::Bar(data) = &scaled.scene().elements[self.bars[bar].element].kind else {
             unreachable!("a bar of the line")
         };
         let strain = unit(&scaled.model().scale, Measure::Strain, Some(&data.body));
         let strain = double_root(&numbers, &strain.expect("the network has read this bar"))?;
         Ok((1.0 / self.slowness, self.bars[bar].impedance * strain))
-    }
-}
-
-impl Reader<'_> {
-    fn line(&self) -> Result<Line, ModelError> {
-        let mut bars = Vec::new();
-        for (element, nodes) in self.layout.bars.iter().zip(&self.layout.ends) {
-            let data = &self.scaled.model().bars[element];
-            let double = |value| double(&self.numbers, value);
-            bars.push(Bar {
-                name: self.scaled.scene().elements[*element].name.clone(),
-                impedance: double(&data.impedance)?,
-                travel: data.travel.as_ref().map(double).transpose()?,
-                velocity: double(&data.velocity)?,
-                force: double(&data.force)?,
-                nodes: *nodes,
-            });
-        }
-        let nodes = (0..self.layout.nodes.len()).map(|node| self.node(node));
-        let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
-        let observables = self.scaled.measures().iter().map(|measured| self.observable(measured));
-        let observables = observables.collect::<Result<Vec<_>, _>>()?;
-        let slowness = double(&self.numbers, &self.scaled.model().slowness)?;
-        Ok(Line { bars, nodes, observables, slowness })
-    }
-
-    fn node(&self, index: usize) -> Result<Node, ModelError> {
-        let scene = self.scaled.scene();
-        let node = &self.layout.nodes[index];
-        let double = |value| double(&self.numbers, value);
-        let (mut lumps, mut runs) = (Vec::new(), 1);
-        for element in node.elements.iter().map(|own| &own.element) {
-            let law = match &self.scaled.model().lumps[element] {
-                ModelLump::Mass(mass, velocity) => {
-                    Law::Mass { mass: double(mass)?, velocity: double(velocity)? }
-                }
-                ModelLump::Spring(k, d) => {
-                    Law::Spring { stiffness: double(k)?, damping: double(d)? }
-                }
-                ModelLump::Hertz(force, compression, exponent) => Law::Hertz(LocalContact {
-                    force: double(force)?,
-                    compression: double(compression)?,
-                    exponent: exponent.to_f64().unwrap_or(f64::NAN),
-                }),
-                ModelLump::Support(k, d) => {
-                    Law::Support { stiffness: double(k)?, damping: double(d)? }
-                }
-                ModelLump::Load(drive, course, from, until) => Law::Load {
-                    drive: *drive,
-                    course: Course::of(&self.numbers, course, &scene.time)?,
-                    from: double(from)?,
-                    until: until.as_ref().map(double).transpose()?.unwrap_or(f64::INFINITY),
-                },
-            };
-            let run = runs - 1;
-            runs += usize::from(law.parts_places());
-            lumps.push(Lump { name: scene.elements[*element].name.clone(), law, run });
-        }
-        Ok(Node { left: node.left, right: node.right, lumps, runs })
-    }
-
-    fn observable(&self, measured: &Measured) -> Result<Observable, ModelError> {
-        let unit = double_root(&self.numbers, &measured.unit)?;
-        let double = |term: &Term| -> Result<Term<f64>, ModelError> {
-            let term = term.map(|value| double(&self.numbers, value))?;
-            Ok(Term { coefficient: term.coefficient * unit, ..term })
-        };
-        let terms = match &measured.value {
-            MeasuredValue::Linear(terms) => {
-                Some(terms.iter().map(double).collect::<Result<_, _>>()?)
-            }
-            MeasuredValue::Energy(_) => None,
-        };
-        Ok(Observable { name: measured.name.clone(), terms })
     }
 }

@@ -11,9 +11,9 @@
 use crate::limits::{MAX_MODE_TERMS, MAX_MODES};
 use crate::model::Model;
 use crate::model::error::{BadSetting, ModelError, NotRepresented, NotSeen};
-use crate::model::line::{Law, Line};
+use crate::model::line::Line;
 use crate::model::shape::{Part, Shape, frequency};
-use crate::network::{Face, Field, Lump, Reading, ScaledScene, Side};
+use crate::network::{ElementLaw, Face, Field, Lump, Reading, ScaledScene, Side};
 
 const NAME: &str = "modes of vibration";
 
@@ -34,29 +34,6 @@ struct Mode {
 ///
 /// # Invariants
 /// Frequencies ascend; a free line has the frequency 0 first, its motion as a whole.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::model::{Model, Modes};
-/// use wavestep::network::Network;
-///
-/// let text = r#"
-///     scene "A mass strikes a bar"
-///     mass hammer { mass = 1, velocity = 1 }
-///     bar rod { impedance = 1, travel = 2 }
-///     line free - hammer - rod - fixed
-///     observe v = velocity(hammer)
-/// "#;
-/// let scene = read_scene(&Source::new("modes.wave", text)?, &Default::default()).unwrap();
-/// let modes = Modes::new(&Network::new(&scene).unwrap(), 50).unwrap();
-/// // The frequency equation cot(mu omega) = omega with mu = 2.
-/// for frequency in modes.frequencies() {
-///     let rest = (2.0 * frequency).cos() - frequency * (2.0 * frequency).sin();
-///     assert!(rest.abs() < 1e-10, "{frequency}");
-/// }
-/// assert!((modes.values(0, &[3.0]).unwrap()[0] - f64::exp(-3.0)).abs() < 0.01);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct Modes {
     line: Line,
@@ -82,18 +59,19 @@ fn parts(line: &Line) -> Result<Vec<Part>, ModelError> {
     }
     let mut parts = Vec::new();
     for (place, node) in line.nodes.iter().enumerate() {
-        for lump in &node.lumps {
-            parts.push(match lump.law {
-                Law::Spring { damping, .. } | Law::Support { damping, .. } if damping > 0.0 => {
-                    return refuse(NotRepresented::Damping(lump.name.clone()));
+        for own in &node.elements {
+            let name = || line.name(own.element);
+            if own.law.resistance().is_some_and(|[_, damping]| *damping > 0.0) {
+                return refuse(NotRepresented::Damping(name()));
+            }
+            parts.push(match own.law {
+                ElementLaw::Load(_) => return refuse(NotRepresented::Load(name())),
+                ElementLaw::LocalContact { .. } => {
+                    return refuse(NotRepresented::LocalContact(name()));
                 }
-                Law::Load { .. } => {
-                    return refuse(NotRepresented::Load(lump.name.clone()));
-                }
-                Law::Hertz(_) => unreachable!("the line is linear"),
-                Law::Mass { mass, .. } => Part::Mass { mass },
-                Law::Spring { stiffness, .. } => Part::Spring { stiffness },
-                Law::Support { stiffness, .. } => Part::Support { stiffness },
+                ElementLaw::Mass { mass, .. } => Part::Mass { mass },
+                ElementLaw::Spring { stiffness, .. } => Part::Spring { stiffness },
+                ElementLaw::Support { stiffness, .. } => Part::Support { stiffness },
             });
         }
         if let Some(bar) = line.bars.get(place) {
@@ -150,7 +128,7 @@ impl Modes {
     /// A reading of a mode, as factors of `q` and `q'`; none for what modes do not have.
     fn seen(&self, reading: &Reading<f64>, shape: &Shape) -> Option<[f64; 2]> {
         let at = |lump: Lump| shape.left_of(self.part_of_node(lump.node) + lump.place);
-        let law = |lump: Lump| &self.line.nodes[lump.node].lumps[lump.place].law;
+        let law = |lump: Lump| &self.line.nodes[lump.node].elements[lump.place].law;
         Some(match reading {
             Reading::InBar(field, section) => {
                 let part = self.part_of_bar(section.bar);
@@ -170,12 +148,12 @@ impl Modes {
             // Beyond a damper, which modes refuse.
             Reading::Velocity(Face::Right(_)) | Reading::Displacement(Face::Right(_)) => None?,
             Reading::Compression(lump) => match law(*lump) {
-                Law::Spring { stiffness, .. } => [-at(*lump)[1] / stiffness, 0.0],
+                ElementLaw::Spring { stiffness, .. } => [-at(*lump)[1] / stiffness, 0.0],
                 _ => None?,
             },
             Reading::Force(lump) => match law(*lump) {
-                Law::Spring { .. } => [-at(*lump)[1], 0.0],
-                Law::Support { stiffness, .. } => [stiffness * at(*lump)[0], 0.0],
+                ElementLaw::Spring { .. } => [-at(*lump)[1], 0.0],
+                ElementLaw::Support { stiffness, .. } => [stiffness * at(*lump)[0], 0.0],
                 _ => None?,
             },
         })
@@ -183,7 +161,7 @@ impl Modes {
 
     /// Where the parts of a node begin: behind all nodes and bars before it.
     fn part_of_node(&self, node: usize) -> usize {
-        self.line.nodes[..node].iter().map(|node| node.lumps.len() + 1).sum()
+        self.line.nodes[..node].iter().map(|node| node.elements.len() + 1).sum()
     }
 
     fn part_of_bar(&self, bar: usize) -> usize {
@@ -196,8 +174,8 @@ impl Mode {
     fn of(line: &Line, shape: Shape) -> Mode {
         let (mut momentum, mut force, mut part) = (0.0, 0.0, 0);
         for (place, node) in line.nodes.iter().enumerate() {
-            for lump in &node.lumps {
-                if let Law::Mass { mass, velocity } = lump.law {
+            for own in &node.elements {
+                if let ElementLaw::Mass { mass, velocity } = own.law {
                     momentum += mass * velocity * shape.left_of(part)[0];
                 }
                 part += 1;

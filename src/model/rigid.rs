@@ -12,8 +12,8 @@
 
 use crate::model::Model;
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::model::line::{Law, Line, Node};
-use crate::network::{Face, Field, Lump, Reading, ScaledScene, Side};
+use crate::model::line::Line;
+use crate::network::{ElementLaw, Face, Field, Lump, Lumped, Node, Reading, ScaledScene, Side};
 use crate::scene::Drive;
 
 const NAME: &str = "rigid body";
@@ -24,32 +24,6 @@ const NAME: &str = "rigid body";
 ///
 /// # Invariants
 /// The mass is positive and finite; stiffness and damping are not negative.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::model::{Model, RigidBody};
-/// use wavestep::network::Network;
-///
-/// let text = r#"
-///     scene "A striker on a rod on a spring"
-///     bar striker { impedance = 1, travel = 1, velocity = 4 }
-///     bar rod { impedance = 1, travel = 3 }
-///     support ground { stiffness = 4 }
-///     line free - striker | rod - ground - free
-///     observe v = velocity(rod.right)
-///     observe F = force(ground)
-/// "#;
-/// let scene = read_scene(&Source::new("rigid.wave", text)?, &Default::default()).unwrap();
-/// let model = RigidBody::new(&Network::new(&scene).unwrap()).unwrap();
-/// // M = 4 moves with 4/4 = 1 on k = 4: v = cos t, and the spring presses with 4 sin t.
-/// let times = [0.0, 0.5, 2.0];
-/// for (velocity, t) in model.values(0, &times).unwrap().iter().zip(times) {
-///     assert!((velocity - t.cos()).abs() < 1e-15);
-/// }
-/// assert!((model.values(1, &[2.0]).unwrap()[0] - 4.0 * f64::sin(2.0)).abs() < 1e-14);
-/// assert_eq!(model.mass(), 4.0);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct RigidBody {
     line: Line,
@@ -144,51 +118,53 @@ impl RigidBody {
     }
 
     /// Adds what a node holds.
-    fn join(&mut self, node: &Node) -> Result<(), ModelError> {
+    fn join(&mut self, node: &Node<f64>) -> Result<(), ModelError> {
         let bar = |side| matches!(side, Side::Bar(_));
         let moves = |run: usize| node.mass_of(run).0 > 0.0 || node.sides(run).any(bar);
-        let moving: Vec<usize> = (0..node.runs).filter(|run| moves(*run)).collect();
-        let springs = node.lumps.iter().filter(|lump| matches!(lump.law, Law::Spring { .. }));
-        let springs: Vec<_> = springs.collect();
+        let moving: Vec<usize> = (0..node.runs()).filter(|run| moves(*run)).collect();
+        let springs: Vec<&Lumped<f64>> =
+            node.elements.iter().filter(|own| own.law.is_link()).collect();
+        let name = |own: &Lumped<f64>| self.line.name(own.element);
         let [run] = moving[..] else {
-            let Some(spring) = springs.get(moving.first().copied().unwrap_or(0)) else {
-                return refuse(NotRepresented::NoMass);
-            };
-            return refuse(NotRepresented::SeveralBodies(spring.name.clone()));
+            return refuse(match springs.get(moving.first().copied().unwrap_or(0)) {
+                Some(spring) => NotRepresented::SeveralBodies(name(spring)),
+                None => NotRepresented::NoMass,
+            });
         };
         if node.is_held(run) {
             return refuse(NotRepresented::HeldBody);
         }
-        for (left, spring) in springs.iter().enumerate() {
+        for (left, spring) in springs.into_iter().enumerate() {
             let outer = if left < run { left } else { left + 1 };
             if !node.is_held(outer) || outer.abs_diff(run) != 1 {
-                return refuse(NotRepresented::SpringElsewhere(spring.name.clone()));
+                return refuse(NotRepresented::SpringElsewhere(name(spring)));
             }
         }
-        for lump in &node.lumps {
-            match &lump.law {
-                Law::Mass { mass, velocity } if lump.run == run => {
+        for own in &node.elements {
+            let moves = own.run == run;
+            match &own.law {
+                ElementLaw::Mass { mass, velocity } if moves => {
                     self.mass += mass;
                     self.start += mass * velocity;
                 }
-                Law::Spring { stiffness, damping } => {
-                    self.stiffness += stiffness;
-                    self.damping += damping;
+                ElementLaw::Load(Drive::Velocity) => {
+                    return refuse(NotRepresented::ImposedVelocity(name(own)));
                 }
-                Law::Support { stiffness, damping } if lump.run == run => {
-                    self.stiffness += stiffness;
-                    self.damping += damping;
-                }
-                Law::Load { drive: Drive::Velocity, .. } => {
-                    return refuse(NotRepresented::ImposedVelocity(lump.name.clone()));
-                }
-                Law::Load { course, from, until, .. } if lump.run == run => {
-                    let Some(force) = course.constant() else {
-                        return refuse(NotRepresented::VaryingForce(lump.name.clone()));
+                ElementLaw::Load(Drive::Force) if moves => {
+                    let load = &self.line.loads[&own.element];
+                    let Some(force) = load.course.constant() else {
+                        return refuse(NotRepresented::VaryingForce(name(own)));
                     };
-                    self.forces.push((force, *from, *until));
+                    self.forces.push((force, load.from, load.until));
                 }
-                _ => {}
+                law => {
+                    if let Some([stiffness, damping]) =
+                        law.resistance().filter(|_| moves || law.is_link())
+                    {
+                        self.stiffness += stiffness;
+                        self.damping += damping;
+                    }
+                }
             }
         }
         self.body.push(run);
@@ -212,13 +188,13 @@ impl RigidBody {
 
     /// A reading when the body is at `x` and moves with `v`, as factors of the two.
     fn seen(&self, reading: &Reading<f64>) -> Result<[f64; 2], NotSeen> {
-        let moves = |face: Face| match self.line.run(face) == self.body[face.lump().node] {
-            true => 1.0,
-            false => 0.0,
+        let moves = |face: Face| {
+            let node = face.lump().node;
+            f64::from(u8::from(self.line.nodes[node].run_beside(face) == self.body[node]))
         };
         // A spring at the left of the body is shortened when that moves to the left.
         let shortens = |lump: Lump| moves(Face::Left(lump)) - moves(Face::Right(lump));
-        let law = |lump: Lump| &self.line.nodes[lump.node].lumps[lump.place].law;
+        let law = |lump: Lump| &self.line.nodes[lump.node].elements[lump.place].law;
         Ok(match reading {
             Reading::InBar(Field::Velocity, _) => [0.0, 1.0],
             Reading::InBar(Field::Displacement, _) => [1.0, 0.0],
@@ -228,10 +204,10 @@ impl RigidBody {
             Reading::Displacement(face) => [moves(*face), 0.0],
             Reading::Compression(lump) => [shortens(*lump), 0.0],
             Reading::Force(lump) => match law(*lump) {
-                Law::Spring { stiffness, damping } => {
+                ElementLaw::Spring { stiffness, damping } => {
                     [shortens(*lump) * stiffness, shortens(*lump) * damping]
                 }
-                Law::Support { stiffness, damping } => {
+                ElementLaw::Support { stiffness, damping } => {
                     let moves = moves(Face::Left(*lump));
                     [moves * stiffness, moves * damping]
                 }

@@ -1,12 +1,19 @@
 //! Functions of time as Chebyshev series piece by piece, with their integrals.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// The degree of a piece.
 pub(crate) const DEGREE: usize = 24;
 
+/// How many points a piece has.
+pub(crate) const POINTS: usize = DEGREE + 1;
+
+/// The values of one function at the points of a piece.
+pub(crate) type Values = [f64; POINTS];
+
 /// The points of Chebyshev and Lobatto in `[0, 1]`, ascending, where a piece takes its values.
-pub(crate) fn points() -> [f64; DEGREE + 1] {
+pub(crate) fn points() -> Values {
     std::array::from_fn(|j| {
         let half = (PI * j as f64 / (2 * DEGREE) as f64).sin();
         half * half
@@ -19,9 +26,9 @@ struct Piece {
     /// Since the period began.
     start: f64,
     length: f64,
-    series: [f64; DEGREE + 1],
+    series: Values,
     /// `∫` from the piece's start, over its length.
-    integral: [f64; DEGREE + 2],
+    integral: [f64; POINTS + 1],
     /// The integral from time 0 to the start of the piece.
     total: f64,
 }
@@ -38,7 +45,7 @@ pub(crate) struct Track {
 }
 
 /// The sum of a series by the recurrence of Clenshaw, at `y` in `[−1, 1]`.
-fn sum(series: &[f64], y: f64) -> f64 {
+pub(crate) fn sum(series: &[f64], y: f64) -> f64 {
     let (mut next, mut after) = (0.0, 0.0);
     for c in series[1..].iter().rev() {
         (next, after) = (c + 2.0 * y * next - after, next);
@@ -46,17 +53,35 @@ fn sum(series: &[f64], y: f64) -> f64 {
     series[0] + y * next - after
 }
 
-/// The coefficients of the polynomial with these values at [`points`].
-pub(crate) fn series(values: &[f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
+/// What each value at a point adds to each coefficient.
+static COEFFICIENTS: LazyLock<[Values; POINTS]> = LazyLock::new(|| {
     let halved = |k: usize| if k == 0 || k == DEGREE { 0.5 } else { 1.0 };
-    std::array::from_fn(|k| {
+    let entry = |k: usize, j: usize| {
         // The j-th point is at cos(π (N−j)/N) in [−1, 1].
-        let term = |(j, value): (usize, &f64)| {
-            let turn = k * (DEGREE - j) % (2 * DEGREE);
-            halved(j) * value * (PI * turn as f64 / DEGREE as f64).cos()
-        };
-        values.iter().enumerate().map(term).sum::<f64>() * 2.0 * halved(k) / DEGREE as f64
-    })
+        let turn = k * (DEGREE - j) % (2 * DEGREE);
+        2.0 / DEGREE as f64 * halved(j) * halved(k) * (PI * turn as f64 / DEGREE as f64).cos()
+    };
+    std::array::from_fn(|k| std::array::from_fn(|j| entry(k, j)))
+});
+
+/// The coefficients of the polynomial with these values at [`points`].
+pub(crate) fn series(values: &Values) -> Values {
+    let sum = |row: &Values| row.iter().zip(values).map(|(c, value)| c * value).sum();
+    COEFFICIENTS.each_ref().map(sum)
+}
+
+/// The integral of a series from the start of its piece, over a piece of length 1.
+///
+/// `∫ T_k = (T_{k+1}/(k+1) − T_{k−1}/(k−1))/2`, and `T_0 + T_1` for `k = 0`, over half the length.
+pub(crate) fn integral(series: &Values) -> [f64; POINTS + 1] {
+    let mut integral = [0.0; POINTS + 1];
+    let c = |k: usize| series.get(k).copied().unwrap_or(0.0);
+    for (k, entry) in integral.iter_mut().enumerate().skip(1) {
+        let below = if k == 1 { 2.0 * c(0) } else { c(k - 1) };
+        *entry = (below - c(k + 1)) / (4 * k) as f64;
+    }
+    integral[0] = -sum(&integral, -1.0);
+    integral
 }
 
 impl Track {
@@ -71,15 +96,8 @@ impl Track {
     }
 
     /// Adds a piece to the last period.
-    pub fn push(&mut self, start: f64, length: f64, series: [f64; DEGREE + 1]) {
-        // ∫ T_k = (T_{k+1}/(k+1) − T_{k−1}/(k−1))/2, and T_0 + T_1 for k = 0, over half the length.
-        let mut integral = [0.0; DEGREE + 2];
-        let c = |k: usize| series.get(k).copied().unwrap_or(0.0);
-        for (k, entry) in integral.iter_mut().enumerate().skip(1) {
-            let below = if k == 1 { 2.0 * c(0) } else { c(k - 1) };
-            *entry = (below - c(k + 1)) / (2 * k) as f64 * length / 2.0;
-        }
-        integral[0] = -sum(&integral, -1.0);
+    pub fn push(&mut self, start: f64, length: f64, series: Values) {
+        let integral = integral(&series).map(|entry| entry * length);
         let piece = Piece { start, length, series, integral, total: self.total };
         self.total += sum(&piece.integral, 1.0);
         self.periods.last_mut().expect("a period has begun").push(piece);

@@ -41,7 +41,7 @@ pub(crate) use measures::{
     Elements, Energy, Face, Field, Lump, Measured, MeasuredValue, Reading, Section, Term, unit,
 };
 pub use model::{Model, ModelBar, ModelLump, Scale};
-pub(crate) use node::{ElementLaw, Lumped, Node, Side};
+pub(crate) use node::{Acting, ElementLaw, Link, Lumped, Node, Side};
 pub(crate) use observe::EnergyTerm;
 pub use observe::{Observed, ObservedValue, Window};
 pub use scaled::ScaledScene;

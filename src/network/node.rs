@@ -85,11 +85,6 @@ impl<V> ElementLaw<V> {
         matches!(self, ElementLaw::Spring { .. } | ElementLaw::LocalContact { .. })
     }
 
-    /// Whether it has a displacement of its own.
-    pub fn yields(&self) -> bool {
-        self.is_link() || matches!(self, ElementLaw::Support { .. })
-    }
-
     /// Stiffness and damping of a spring or a support.
     pub fn resistance(&self) -> Option<[&V; 2]> {
         match self {
@@ -223,11 +218,6 @@ impl<V> Node<V> {
             _ => None,
         });
         [(1, left), (-1, right)].into_iter().chain(attached)
-    }
-
-    /// What has a displacement: springs, local contacts and supports, from left to right.
-    pub fn yielding(&self) -> impl Iterator<Item = &Lumped<V>> {
-        self.elements.iter().filter(|own| own.law.yields())
     }
 
     /// The contact at the left of a run, by its place among those of the node.

@@ -18,8 +18,8 @@ pub(crate) struct Unresisted;
 ///
 /// # Invariants
 /// The rows of `change` belong to the state: the velocities of `heavy` groups, then the displacements that
-/// are `followed`. The rows of `output` are the velocities of all runs, then the forces of `closed` contacts.
-/// All rows are as long as state and input together.
+/// are `kept`. The rows of `output` are the velocities of all runs, then the forces of `closed` contacts. All
+/// rows are as long as state and input together.
 #[derive(Clone, Debug)]
 pub(crate) struct System<V> {
     /// The group of each run: runs of one group move together.
@@ -28,9 +28,11 @@ pub(crate) struct System<V> {
     pub held: Vec<bool>,
     /// Groups with a mass that move freely.
     pub heavy: Vec<usize>,
-    /// Which of what yields has a displacement in the state. Dampers alone have none, and springs without
-    /// load.
-    pub followed: Vec<bool>,
+    /// Where the displacement of each element of the node stands in the state. Dampers alone have none,
+    /// and springs without load.
+    pub kept: Vec<Option<usize>>,
+    /// Where each load and local contact of the node stands in the input.
+    pub driven: Vec<Option<usize>>,
     /// `[A B]` by rows.
     pub change: Vec<Vec<V>>,
     /// `[C D]` by rows.
@@ -45,15 +47,36 @@ impl<V> System<V> {
         self.change.len()
     }
 
-    /// The place of a displacement in the state.
-    pub fn place_of_yield(&self, number: usize) -> Option<usize> {
-        let before = self.followed[..number].iter().filter(|followed| **followed).count();
-        self.followed[number].then(|| self.heavy.len() + before)
+    /// How many displacements the state has, behind the velocities.
+    pub fn displacements(&self) -> usize {
+        self.change.len() - self.heavy.len()
+    }
+
+    /// How many entries the input has.
+    pub fn inputs(&self) -> usize {
+        2 + self.driven.iter().flatten().count()
     }
 
     /// The place of the velocity of a run in the state, where it moves with a mass.
     pub fn place_of_velocity(&self, run: usize) -> Option<usize> {
         self.heavy.iter().position(|group| *group == self.group[run])
+    }
+
+    /// The same system with other numbers.
+    pub fn map<W>(&self, value: impl Fn(&V) -> W) -> System<W> {
+        let rows = |rows: &[Vec<V>]| -> Vec<Vec<W>> {
+            rows.iter().map(|row| row.iter().map(&value).collect()).collect()
+        };
+        System {
+            group: self.group.clone(),
+            held: self.held.clone(),
+            heavy: self.heavy.clone(),
+            kept: self.kept.clone(),
+            driven: self.driven.clone(),
+            change: rows(&self.change),
+            output: rows(&self.output),
+            closed: self.closed.clone(),
+        }
     }
 
     /// Whether a run moves with a mass, or is held.
@@ -127,18 +150,19 @@ impl System<Number> {
             node.contacts().filter(|(contact, _)| is_closed(*contact)).collect();
         let mut joined: Vec<bool> =
             (0..node.links.len()).map(|link| closed.iter().any(|(_, own)| *own == link)).collect();
-        let mut followed: Vec<bool> = node.yielding().map(|own| own.law.remembers()).collect();
+        let mut idle = vec![false; node.elements.len()];
         // An undamped spring beside an open contact, with nothing else at its end, carries no force.
         while let Some(link) = loose(node, &joined) {
-            let spring = |own: &Lumped<Number>| own.law.is_link() && own.run == link;
-            followed[node.yielding().position(spring).expect("a spring")] = false;
+            if let Link::Element(place) = node.links[link] {
+                idle[place] = true;
+            }
             joined[link] = true;
         }
         let mut group = vec![0];
         for (run, joined) in joined.iter().enumerate() {
             group.push(group[run] + usize::from(!joined));
         }
-        Law::of(node, group, followed, bits).system(closed)
+        Law::of(node, group, &idle, bits).system(closed)
     }
 }
 
@@ -151,11 +175,8 @@ struct Law<'a> {
     mass: Vec<Number>,
     held: Vec<bool>,
     heavy: Vec<usize>,
-    /// Where the displacement of each element stands in the state.
     kept: Vec<Option<usize>>,
-    /// Where each load and local contact stands in the input.
     driven: Vec<Option<usize>>,
-    followed: Vec<bool>,
     bits: u64,
 }
 
@@ -168,7 +189,7 @@ struct Motion<'a> {
 }
 
 impl Law<'_> {
-    fn of(node: &Node<Number>, group: Vec<usize>, followed: Vec<bool>, bits: u64) -> Law<'_> {
+    fn of<'a>(node: &'a Node<Number>, group: Vec<usize>, idle: &[bool], bits: u64) -> Law<'a> {
         let groups = group.last().expect("one run at least") + 1;
         let (mut mass, mut held) = (vec![Number::zero(); groups], vec![false; groups]);
         for (run, group) in group.iter().enumerate() {
@@ -178,17 +199,15 @@ impl Law<'_> {
         let free = |group: &usize| !held[*group] && !mass[*group].is_zero();
         let heavy: Vec<usize> = (0..groups).filter(free).collect();
         let mut states = heavy.len()..;
-        let mut is_followed = followed.iter();
-        let kept = |own: &Lumped<Number>| {
-            let follows = own.law.yields() && *is_followed.next().expect("one for each");
-            follows.then(|| states.next().expect("without end"))
+        let kept = |(own, idle): (&Lumped<Number>, &bool)| {
+            (own.law.remembers() && !idle).then(|| states.next().expect("without end"))
         };
-        let kept = node.elements.iter().map(kept).collect();
+        let kept = node.elements.iter().zip(idle).map(kept).collect();
         let mut inputs = 2..;
         let driven =
             |own: &Lumped<Number>| own.law.is_driven().then(|| inputs.next().expect("without end"));
         let driven = node.elements.iter().map(driven).collect();
-        Law { node, group, groups, mass, held, heavy, kept, driven, followed, bits }
+        Law { node, group, groups, mass, held, heavy, kept, driven, bits }
     }
 
     /// The sum over the runs of a group.
@@ -313,8 +332,8 @@ impl Law<'_> {
                 output[runs + row].push(force);
             }
         }
-        let Law { group, held, heavy, followed, .. } = self;
-        Ok(System { group, held, heavy, followed, change, output, closed })
+        let Law { group, held, heavy, kept, driven, .. } = self;
+        Ok(System { group, held, heavy, kept, driven, change, output, closed })
     }
 
     /// The velocities of groups that are states or inputs; zero for the others.
@@ -367,12 +386,9 @@ fn loose(node: &Node<Number>, joined: &[bool]) -> Option<usize> {
     };
     let is_bare = |(first, last): (usize, usize), spring: usize| {
         let inside = |run: usize| first <= run && run <= last;
-        let others = node.yielding().any(|own| {
-            let within = inside(own.run) && inside(own.run + 1);
-            own.law.is_link()
-                && own.run != spring
-                && (inside(own.run) || inside(own.run + 1))
-                && !within
+        let others = node.elements.iter().any(|own| {
+            let leaves = inside(own.run) != inside(own.run + 1);
+            own.law.is_link() && own.run != spring && leaves
         });
         (first..=last).all(|run| node.is_bare(run)) && !others
     };

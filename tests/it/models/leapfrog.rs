@@ -116,3 +116,14 @@ fn characteristics_are_exact() {
         }
     }
 }
+
+/// Ten cells in the shorter of two bars, twenty in the other.
+#[test]
+fn cells_take_the_same_time_in_all_bars() {
+    let bars = "scene \"Bars\"
+        bar a { impedance = 1, travel = 1, velocity = 1 }
+        bar b { impedance = 3, travel = 2 }
+        line free - a | b - free";
+    let model = Leapfrog::new(&network(bars, &[]), 10, 1.0).unwrap();
+    assert_eq!((model.cells(), model.step()), (30, 0.1));
+}
