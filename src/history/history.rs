@@ -11,7 +11,7 @@ use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
-use crate::scene::Kind;
+use crate::scene::{Dimension, Kind};
 use std::cmp::Ordering;
 use std::ops::Range;
 use wavestep_polynomial::Rational;
@@ -210,30 +210,19 @@ pub struct History {
 
 type Outcome<T> = Result<T, HistoryError>;
 
-/// What 1 of each quantity is in the user's units.
-pub(crate) struct Units {
-    pub time: Number,
-    pub velocity: Number,
-    pub force: Number,
-}
-
-impl Units {
-    pub fn of(network: &Network, numbers: &Numbers, bits: u64) -> Result<Units, EnclosureError> {
-        let scale = &network.model().scale;
-        let number = |root: &Root| unit(root, numbers, bits);
-        Ok(Units {
-            time: number(&scale.time)?,
-            velocity: number(&scale.velocity)?,
-            force: number(&scale.force())?,
-        })
-    }
-}
-
 /// A unit as a number.
 pub(crate) fn unit(root: &Root, numbers: &Numbers, bits: u64) -> Result<Number, EnclosureError> {
     match root.exact().and_then(|value| value.as_constant()) {
         Some(value) => Ok(Number::of_rational(value, bits)),
         None => Ok(Number::Enclosed(numbers.enclose_root(root, bits)?)),
+    }
+}
+
+impl Engine {
+    /// What 1 of a dimension is in the user's units.
+    pub(crate) fn unit(&self, network: &Network, dimension: Dimension) -> Outcome<Number> {
+        let root = network.model().scale.unit(dimension).map_err(EnclosureError::from)?;
+        Ok(unit(&root, &self.clock.numbers, self.cut.bits)?)
     }
 }
 
@@ -393,13 +382,12 @@ struct Row {
 impl Story<'_> {
     fn told(self) -> Outcome<History> {
         let rows = self.rows()?;
-        let units = Units::of(self.network, &self.engine.clock.numbers, self.engine.cut.bits)?;
         let mut closed = vec![true; self.engine.layout.contacts.len()];
         let mut events = Vec::new();
         let first = rows.iter().position(|row| row.kind != EventKind::Impact);
         for (number, row) in rows.iter().enumerate() {
             closed[row.contact] = matches!(row.kind, EventKind::Impact | EventKind::Closing);
-            let mut event = self.event(row, &closed, &units)?;
+            let mut event = self.event(row, &closed)?;
             if first == Some(number) && row.kind == EventKind::Opening {
                 event.exact = self.opening(row)?;
             }
@@ -407,18 +395,23 @@ impl Story<'_> {
         }
         let mut contacts = Vec::new();
         for contact in 0..self.engine.layout.contacts.len() {
-            contacts.push(self.summary(contact, &rows, &closed, &units)?);
+            contacts.push(self.summary(contact, &rows, &closed)?);
         }
         let ending = match self.parted {
             true => Ending::Parted,
             false => {
                 let time = self.engine.clock.time(&self.end)?;
-                let time = time.multiply(&units.time, self.engine.cut.bits);
-                Ending::Followed(Value::of(&time, self.digits))
+                Ending::Followed(self.value(&time, Dimension::TIME)?)
             }
         };
         let (bits, cells) = (self.engine.cut.bits, self.engine.count());
         Ok(History { events, contacts, ending, bits, cells })
+    }
+
+    /// A number of the scene's scale as a value in the user's units.
+    fn value(&self, number: &Number, dimension: Dimension) -> Outcome<Value> {
+        let unit = self.engine.unit(self.network, dimension)?;
+        Ok(Value::of(&number.multiply(&unit, self.engine.cut.bits), self.digits))
     }
 
     /// All events until the end, in order.
@@ -470,8 +463,8 @@ impl Story<'_> {
         Ok(closed_form::opening(self.network, joint, &instant))
     }
 
-    fn event(&self, row: &Row, closed: &[bool], units: &Units) -> Outcome<Event> {
-        let (engine, bits) = (&self.engine, self.engine.cut.bits);
+    fn event(&self, row: &Row, closed: &[bool]) -> Outcome<Event> {
+        let engine = &self.engine;
         let (before, old) = engine.beside(row.contact, &row.moment, Limit::Left)?;
         let (mut after, new) = engine.beside(row.contact, &row.moment, Limit::Right)?;
         if !closed[row.contact] {
@@ -483,18 +476,21 @@ impl Story<'_> {
             Some(_) => force,
         };
         let before = if row.kind == EventKind::Closing { before } else { zero(before) };
-        let told =
-            |value: &Number, unit: &Number| Value::of(&value.multiply(unit, bits), self.digits);
         let time = engine.clock.time(&row.moment)?;
+        let force = |force: &Number| self.value(force, Dimension::FORCE);
+        let velocities = |[left, right]: [Number; 2]| -> Outcome<[Value; 2]> {
+            let velocity = |velocity: &Number| self.value(velocity, Dimension::VELOCITY);
+            Ok([velocity(&left)?, velocity(&right)?])
+        };
         Ok(Event {
             kind: row.kind,
             contact: row.contact,
             between: engine.layout.contacts[row.contact].names.clone(),
-            time: told(&time, &units.time),
+            time: self.value(&time, Dimension::TIME)?,
             exact: None,
-            forces: [before, after].map(|force| told(&force, &units.force)),
-            velocities: [old, new].map(|pair| pair.map(|v| told(&v, &units.velocity))),
-            bodies: self.bodies(&row.moment, closed, units)?,
+            forces: [force(&before)?, force(&after)?],
+            velocities: [velocities(old)?, velocities(new)?],
+            bodies: self.bodies(&row.moment, closed)?,
         })
     }
 
@@ -505,13 +501,10 @@ impl Story<'_> {
         parts(self.network, &open.collect::<Vec<_>>())
     }
 
-    fn bodies(&self, moment: &Moment, closed: &[bool], units: &Units) -> Outcome<Vec<Body>> {
+    fn bodies(&self, moment: &Moment, closed: &[bool]) -> Outcome<Vec<Body>> {
         let (engine, bits, scene) = (&self.engine, self.engine.cut.bits, self.network.scene());
-        let energy_unit = units.force.multiply(&units.velocity, bits).multiply(&units.time, bits);
-        let momentum_unit = units.force.multiply(&units.time, bits);
-        let told = |value: &Option<Number>, unit: &Number| {
-            let value = value.as_ref()?;
-            Some(Value::of(&value.multiply(unit, bits), self.digits))
+        let told = |value: &Option<Number>, dimension| {
+            value.as_ref().map(|value| self.value(value, dimension)).transpose()
         };
         let mut bodies = Vec::new();
         for part in self.parts(closed) {
@@ -536,25 +529,18 @@ impl Story<'_> {
             let names = scene.line.elements[part].iter();
             bodies.push(Body {
                 elements: names.map(|element| scene.elements[*element].name.clone()).collect(),
-                energy: told(&held.energy, &energy_unit),
-                momentum: told(&held.momentum, &momentum_unit),
-                velocity: told(&velocity, &units.velocity),
-                vibration: told(&vibration, &energy_unit),
+                energy: told(&held.energy, Dimension::ENERGY)?,
+                momentum: told(&held.momentum, Dimension::MOMENTUM)?,
+                velocity: told(&velocity, Dimension::VELOCITY)?,
+                vibration: told(&vibration, Dimension::ENERGY)?,
             });
         }
         Ok(bodies)
     }
 
     /// Durations, impulses and restitution of a contact.
-    fn summary(
-        &self,
-        contact: usize,
-        rows: &[Row],
-        closed: &[bool],
-        units: &Units,
-    ) -> Outcome<ContactSummary> {
-        let (engine, bits) = (&self.engine, self.engine.cut.bits);
-        let momentum_unit = units.force.multiply(&units.time, bits);
+    fn summary(&self, contact: usize, rows: &[Row], closed: &[bool]) -> Outcome<ContactSummary> {
+        let engine = &self.engine;
         let (mut durations, mut impulses) = (Vec::new(), Vec::new());
         let mut since = Some(Moment::at(Fraction::zero()));
         let mut any = false;
@@ -564,8 +550,8 @@ impl Story<'_> {
             if impulse.is_zero() {
                 return Ok(());
             }
-            impulses.push(Value::of(&impulse.multiply(&momentum_unit, bits), self.digits));
-            let duration = Value::of(&duration.multiply(&units.time, bits), self.digits);
+            impulses.push(self.value(&impulse, Dimension::MOMENTUM)?);
+            let duration = self.value(&duration, Dimension::TIME)?;
             durations.push(ended.then_some(duration));
             Ok(())
         };

@@ -5,12 +5,13 @@ use crate::enclosure::EnclosureError;
 use crate::evaluate::{At, EvaluateError, Known, Limit, Point, Signal, Taylor};
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, NotFollowed};
-use crate::history::history::{History, undecided, unit};
+use crate::history::history::{History, undecided};
 use crate::history::moment::Moment;
 use crate::history::part::Part;
 use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
 use crate::network::{Measured, MeasuredValue, Network};
+use crate::scene::Dimension;
 use num_traits::Zero as _;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
@@ -174,7 +175,7 @@ impl Followed {
             MeasuredValue::Linear(terms) => Some(engine.parts(network, terms, &measured.unit)?),
             MeasuredValue::Energy(_) => None,
         };
-        let time = unit(&network.model().scale.time, &engine.clock.numbers, bits)?;
+        let time = engine.unit(network, Dimension::TIME)?;
         let inverse = time.reciprocal(bits)?;
         Ok(Followed { engine, parts, pieces: OnceCell::new(), unit: [time, inverse] })
     }

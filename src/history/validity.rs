@@ -7,10 +7,11 @@ use crate::ball::{Attempt, Value};
 use crate::history::contacts::Happening;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
-use crate::history::history::{PATIENCE, Units, longest, precisions, undecided};
+use crate::history::history::{PATIENCE, longest, precisions, undecided};
 use crate::history::moment::Moment;
 use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
+use crate::scene::Dimension;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -88,8 +89,8 @@ fn followed(
         None => longest(&engine)?.scale(&Rational::from_integer(PATIENCE.into())),
     });
     let (first, end) = engine.first_opening(&until, cells)?;
-    let units = Units::of(network, &engine.clock.numbers, bits)?;
-    let time = engine.clock.time(&end)?.multiply(&units.time, bits);
+    let unit = engine.unit(network, Dimension::TIME)?;
+    let time = engine.clock.time(&end)?.multiply(&unit, bits);
     let time = Value::of(&time, digits);
     Ok(match first {
         Some(first) => {

@@ -4,9 +4,10 @@
 use crate::expression::{Fraction, Root};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
+use crate::network::measures::unit;
 use crate::network::model::{ModelBar, bar_roots};
 use crate::recurrence::WaveIndex;
-use crate::scene::{ElementIndex, Kind};
+use crate::scene::{ElementIndex, Kind, Measure};
 
 /// One of the two waves of a bar.
 #[derive(Clone, Debug)]
@@ -55,11 +56,12 @@ impl Network {
             let (impedance, _, stiffness) = bar_roots(&bar.body)?;
             let speed = stiffness.over(&impedance)?;
             let scale = self.scaled.model.scale.clone();
+            let in_bar = |measure| unit(&scale, measure, Some(&bar.body));
             let units = [
-                scale.velocity.clone(),
-                scale.force().over(&stiffness)?,
-                scale.velocity.times(&scale.time),
-                scale.force(),
+                in_bar(Measure::Velocity)?,
+                in_bar(Measure::Strain)?,
+                in_bar(Measure::Displacement)?,
+                in_bar(Measure::Force)?,
             ];
             let [left, right] = self.layout.ends[place];
             let extent = match (left, right) {

@@ -137,7 +137,7 @@ impl Model {
                 }
                 Kind::Mass(mass) => {
                     let scale = &model.scale;
-                    let unit = scale.impedance.times(&scale.time);
+                    let unit = scale.unit(Dimension::MASS)?;
                     let velocity = Root::from(mass.velocity.clone()).over(&scale.velocity)?;
                     let mass = Root::from(mass.mass.clone()).over(&unit)?;
                     let mass = model.number(&named("m"), mass);
@@ -151,7 +151,7 @@ impl Model {
                 }
                 Kind::Hertz(hertz) => {
                     let scale = &model.scale;
-                    let length = scale.velocity.times(&scale.time);
+                    let length = scale.unit(Dimension::LENGTH)?;
                     let force = Root::from(hertz.force.clone()).over(&scale.force())?;
                     let compression = Root::from(hertz.compression.clone()).over(&length)?;
                     let force = model.number(&named("F"), force);
@@ -197,7 +197,7 @@ impl Model {
         stiffness: &Fraction,
         damping: &Fraction,
     ) -> Outcome<(Fraction, Fraction)> {
-        let unit = self.scale.impedance.over(&self.scale.time)?;
+        let unit = self.scale.unit(Dimension::STIFFNESS)?;
         let stiffness = Root::from(stiffness.clone()).over(&unit)?;
         let damping = Root::from(damping.clone()).over(&self.scale.impedance)?;
         let stiffness = self.number(&format!("kappa_{name}"), stiffness);
