@@ -55,7 +55,6 @@ pub use constant::constant;
 pub use diagnostic::{Diagnostic, Label, closest};
 pub use lowering::ExactFormula;
 pub use name::RESERVED;
-pub use scene::units::unit_of;
 pub use source::Source;
 pub use syntax::Span;
 
@@ -180,15 +179,11 @@ pub fn read_quantity(
         true => Ok(number * value),
         false => Err(scope
             .error(
-                format!(
-                    "{} is needed; this is {}",
-                    scene::units::described(needed),
-                    scene::units::described(dimension)
-                ),
+                format!("{} is needed; this is {}", needed.described(), dimension.described()),
                 unit.span,
                 "another dimension",
             )
-            .with_remedy(format!("give it in {}", unit_of(needed)))),
+            .with_remedy(format!("give it in {}", needed.unit()))),
     }
 }
 

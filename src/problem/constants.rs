@@ -50,7 +50,7 @@ impl Problem {
         let network = self.network().ok().filter(|network| network.scene().dimensional)?;
         let observed = network.observables().iter().find(|observed| observed.name == name)?;
         let number = decimal(&network.model().constants, &observed.unit.clone().into())?;
-        let unit = language::unit_of(observed.dimension);
+        let unit = observed.dimension.unit();
         Some(format!("{name} in {number} {unit}").trim_end().to_owned())
     }
 }

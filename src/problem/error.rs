@@ -6,7 +6,7 @@ use crate::answer::{Tolerance, WayError};
 use crate::evaluate::{EvaluateError, MethodError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
-use crate::language::{Diagnostic, unit_of};
+use crate::language::Diagnostic;
 use crate::lock::LockError;
 use crate::model::{ModelError, equivalent_stiffness};
 use crate::network::{NetworkError, ScaledScene};
@@ -265,7 +265,7 @@ pub(super) fn equivalent_spring(scaled: &ScaledScene) -> Option<String> {
     let contact = scaled.local_contact()?;
     let stiffness = equivalent_stiffness(scaled, contact).ok()?;
     let unit = match scaled.scene().dimensional {
-        true => format!(" {}", unit_of(Dimension::STIFFNESS)),
+        true => format!(" {}", Dimension::STIFFNESS.unit()),
         false => String::new(),
     };
     let name = &scaled.scene().elements[contact].name;

@@ -31,7 +31,7 @@ impl Wanted {
 
     /// The unit of its values, empty where there is none.
     pub fn unit(&self) -> String {
-        language::unit_of(self.dimension)
+        self.dimension.unit()
     }
 
     /// What it is in waves.

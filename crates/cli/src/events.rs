@@ -59,7 +59,7 @@ impl Told<'_> {
         };
         match dimensional {
             true if dimension == Dimension::TIME => format!("{text} s"),
-            true => format!("{text} {}", language::unit_of(dimension)),
+            true => format!("{text} {}", dimension.unit()),
             false => text,
         }
     }
@@ -210,10 +210,10 @@ impl Told<'_> {
         if self.problem.has_units() {
             document["units"] = json!({
                 "time": "s",
-                "force": language::unit_of(Dimension::FORCE),
-                "velocity": language::unit_of(Dimension::VELOCITY),
-                "energy": language::unit_of(Dimension::ENERGY),
-                "momentum": language::unit_of(Dimension::MOMENTUM),
+                "force": Dimension::FORCE.unit(),
+                "velocity": Dimension::VELOCITY.unit(),
+                "energy": Dimension::ENERGY.unit(),
+                "momentum": Dimension::MOMENTUM.unit(),
             });
         }
         document.to_string() + "\n"

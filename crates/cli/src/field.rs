@@ -89,9 +89,8 @@ fn json_document(fields: &Fields, problem: &Problem, options: &Field) -> String 
         "bars": fields.bars.iter().map(bar).collect::<Vec<Json>>(),
     });
     if fields.dimensional {
-        let unit = |quantity: &Quantity| {
-            (quantity.name().to_owned(), json!(language::unit_of(quantity.dimension())))
-        };
+        let unit =
+            |quantity: &Quantity| (quantity.name().to_owned(), json!(quantity.dimension().unit()));
         let units = Quantity::ALL.iter().map(unit).collect::<serde_json::Map<_, _>>();
         document["time_unit"] = json!("s");
         document["x_unit"] = json!("m");

@@ -8,7 +8,6 @@ use num_rational::BigRational;
 use num_traits::One as _;
 use serde_json::{Map, Value, json};
 use wavestep::ball::Ball;
-use wavestep::language::unit_of;
 use wavestep::problem::{Problem, ProblemError, number};
 use wavestep::scene::Dimension;
 use wavestep_studies::hertz::{ContactOfScene, HertzError, NoContact, distance_from_spring};
@@ -89,7 +88,7 @@ fn rows(
     let bars = &contact.bars;
     let spring = bars.equivalent_spring();
     let unit = |dimension: Dimension| match dimensional {
-        true => unit_of(dimension),
+        true => dimension.unit(),
         false => String::new(),
     };
     let row = |name: String, key: String, value: &Ball, unit: String| Row {

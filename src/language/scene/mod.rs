@@ -373,21 +373,21 @@ impl<'a> Lowering<'a> {
         is_zero: bool,
     ) -> Outcome<Rational> {
         let one = Rational::from_integer(1.into());
-        let symbol = units::unit_of(needed);
+        let symbol = needed.unit();
         match (unit, self.unit) {
             (Some(unit), _) => {
                 let units::Worth { value, dimension } = units::worth(&self.scope, unit)?;
                 if dimension == needed {
                     return Ok(value);
                 }
-                let found = units::described(dimension);
+                let found = dimension.described();
                 let (message, remedy) = match needed {
                     Dimension::NONE => (
                         format!("{what} is needed, a plain number; this is {found}"),
                         "leave out the unit".to_owned(),
                     ),
                     _ => (
-                        format!("{what} is needed, {}; this is {found}", units::units_of(needed)),
+                        format!("{what} is needed, {}; this is {found}", needed.units()),
                         format!("give it in {symbol}"),
                     ),
                 };

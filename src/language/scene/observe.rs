@@ -121,7 +121,7 @@ impl Lowering<'_> {
         let value = self.quantity(tree, None, Dimension::NONE, SHARE)?;
         let is_distance = bar.is_endless() && (self.unit.is_none() || value.is_zero());
         if bar.is_endless() && !is_distance {
-            let symbol = super::units::unit_of(needed);
+            let symbol = needed.unit();
             let shown = self.shown(tree);
             return Err(self
                 .scope

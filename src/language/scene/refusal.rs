@@ -180,7 +180,7 @@ impl Lowering<'_> {
         let described = fault.parts.iter().filter_map(|part| match part {
             Part::Term { observable, term } => {
                 let seen = &scene.observables[*observable].terms[*term];
-                Some(super::units::described(seen.measure.dimension()))
+                Some(seen.measure.dimension().described())
             }
             _ => None,
         });

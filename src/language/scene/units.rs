@@ -135,72 +135,9 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
     }
 }
 
-/// A dimension as a person would call it, with its unit: `a stiffness, N/m`.
-pub(in crate::language) fn described(dimension: Dimension) -> String {
-    match DESCRIBED.iter().find(|(known, _)| *known == dimension) {
-        Some((_, text)) => (*text).to_owned(),
-        None => format!("a quantity in {}", formula(dimension)),
-    }
-}
-
 /// Whether a name is that of a unit.
 pub(super) fn is_unit(name: &str) -> bool {
     named(name).is_some()
-}
-
-/// The unit of a dimension with what it is equal to: `Pa = N/m^2`.
-pub(super) fn units_of(dimension: Dimension) -> String {
-    match DESCRIBED.iter().find(|(known, _)| *known == dimension) {
-        Some((_, text)) => text.split_once(", ").map_or("", |(_, unit)| unit).to_owned(),
-        None => formula(dimension),
-    }
-}
-
-/// The SI unit of a dimension: `N/m`; empty for plain numbers.
-///
-/// ```
-/// use wavestep::language::unit_of;
-/// use wavestep::scene::Dimension;
-///
-/// assert_eq!(unit_of(Dimension::STIFFNESS), "N/m");
-/// assert_eq!(unit_of(Dimension::NONE), "");
-/// ```
-pub fn unit_of(dimension: Dimension) -> String {
-    let units = units_of(dimension);
-    units.split(" = ").next().unwrap_or(&units).to_owned()
-}
-
-const DESCRIBED: [(Dimension, &str); 17] = [
-    (Dimension::NONE, "a plain number"),
-    (Dimension::LENGTH, "a length, m"),
-    (Dimension::MASS, "a mass, kg"),
-    (Dimension::TIME, "a time, s"),
-    (Dimension::AREA, "an area, m^2"),
-    (Dimension::new(3, 0, 0), "a volume, m^3"),
-    (Dimension::VELOCITY, "a velocity, m/s"),
-    (Dimension::new(1, 0, -2), "an acceleration, m/s^2"),
-    (Dimension::DENSITY, "a density, kg/m^3"),
-    (Dimension::FORCE, "a force, N"),
-    (Dimension::PRESSURE, "a pressure, Pa = N/m^2"),
-    (Dimension::STIFFNESS, "a stiffness, N/m"),
-    (Dimension::IMPEDANCE, "an impedance or a damping, N*s/m = kg/s"),
-    (Dimension::ENERGY, "an energy, J = N*m"),
-    (Dimension::MOMENTUM, "a momentum, N*s"),
-    (Dimension::new(0, 0, -1), "a frequency, Hz = 1/s"),
-    (Dimension::new(2, 1, -3), "a power, W = J/s"),
-];
-
-fn formula(dimension: Dimension) -> String {
-    let Dimension { length, mass, time } = dimension;
-    let parts: Vec<String> = [("kg", mass), ("m", length), ("s", time)]
-        .into_iter()
-        .filter(|(_, power)| *power != 0)
-        .map(|(unit, power)| match power {
-            1 => unit.to_owned(),
-            _ => format!("{unit}^{power}"),
-        })
-        .collect();
-    parts.join("*")
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Observables against time.
 
 use super::{PictureError, Prefixed, Sampled};
-use wavestep::language::unit_of;
 use wavestep::scene::{Dimension, Measure};
 use wavestep_draw::{Caption, Figure, Panel, Series};
 
@@ -51,7 +50,7 @@ pub fn against_time(
         let (dimension, measure) = kind;
         let points = shown.iter().flat_map(|course| &course.values.points);
         let largest = points.map(|point| point.1.abs()).fold(0.0, f64::max);
-        let unit = Prefixed::of(&unit_of(*dimension), largest);
+        let unit = Prefixed::of(&dimension.unit(), largest);
         let name = match &shown[..] {
             [only] => only.name.as_str(),
             _ => match measure {

@@ -4,7 +4,6 @@ use super::lagrange::Places;
 use super::{PictureError, Prefixed};
 use wavestep::ball::Ball;
 use wavestep::field::{FieldEvaluator, Profile, Quantity};
-use wavestep::language::unit_of;
 use wavestep::scene::End;
 use wavestep_draw::{Caption, Figure, Panel, Series};
 use wavestep_polynomial::Rational;
@@ -50,7 +49,7 @@ pub fn along_the_line(
         let of = |fields: &[f64; 4]| fields[*quantity as usize];
         let all = found.iter().flatten().flat_map(|profile| profile.stretches.iter().flatten());
         let largest = all.map(|(_, fields)| of(fields).abs()).fold(0.0, f64::max);
-        let unit = prefixed(&unit_of(quantity.dimension()), largest);
+        let unit = prefixed(&quantity.dimension().unit(), largest);
         let mut series = Vec::with_capacity(times.len());
         for (profiles, time) in found.iter().zip(&seconds) {
             let mut points: Vec<(f64, f64)> = Vec::new();

@@ -2,7 +2,6 @@
 
 use super::{PictureError, Prefixed};
 use wavestep::field::{BarWaves, FieldEvaluator, Front, Quantity, Strip};
-use wavestep::language::unit_of;
 use wavestep::network::Network;
 use wavestep::scene::{End, Kind};
 use wavestep_draw::{Caption, Cell, Diagram, Line, Part, Shape, Window};
@@ -54,7 +53,7 @@ pub fn lagrange(
         lines.extend(lines_of(bar, *left, window));
     }
     let largest = cells.iter().map(|cell: &Cell| cell.value().abs()).fold(0.0, f64::max);
-    let own = Prefixed::of(&unit_of(quantity.dimension()), largest);
+    let own = Prefixed::of(&quantity.dimension().unit(), largest);
     let own = if scene.dimensional { own } else { unit("", 1.0) };
     let on = |(x, t): (f64, f64)| (x * metre.factor, t * second.factor);
     let (low, high) = (on((window[0].0, times.0)), on((window[0].1, times.1)));
