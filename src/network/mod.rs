@@ -26,6 +26,7 @@ mod measures;
 mod model;
 mod node;
 mod observe;
+mod reading;
 mod scaled;
 mod system;
 mod unfold;
@@ -37,13 +38,12 @@ pub use error::NetworkError;
 pub(crate) use fields::{Extent, FieldBar, Way};
 pub(crate) use laws::{Law, Rule};
 pub(crate) use layout::{Contact, Contacts, Layout};
-pub(crate) use measures::{
-    Elements, Energy, Face, Field, Lump, Measured, MeasuredValue, Reading, Section, Term, unit,
-};
+pub(crate) use measures::{Measured, MeasuredValue, unit};
 pub use model::{Model, ModelBar, ModelLump, Scale};
 pub(crate) use node::{Acting, ElementLaw, Link, Lumped, Node, Side};
 pub(crate) use observe::EnergyTerm;
 pub use observe::{Observed, ObservedValue, Window};
+pub(crate) use reading::{Elements, Energy, Face, Field, Lump, Reading, Section, Term};
 pub use scaled::ScaledScene;
 pub(crate) use system::{System, Unresisted, dot};
 pub(crate) use unfold::Unfolded;

@@ -7,10 +7,9 @@
 use crate::expression::{Expression, Fraction, Root};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
-use crate::network::measures::{
-    Elements, Energy, Face, Field, Lump, MeasuredValue, Reading, Section, section,
-};
+use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
+use crate::network::reading::{Elements, Energy, Face, Field, Lump, Reading, Section, section};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
 use crate::scene::{Dimension, ElementIndex};
 use wavestep_polynomial::Rational;

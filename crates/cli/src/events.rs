@@ -12,7 +12,6 @@ use wavestep::ball::in_decimals;
 use wavestep::evaluate::Value;
 use wavestep::export::expression_text;
 use wavestep::history::{Body, Ending, Event, EventKind, History};
-use wavestep::language;
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
 
