@@ -23,7 +23,7 @@ const BITS: u32 = 32;
 ///
 /// # Panics
 /// Every operation panics when the exponent of its result leaves `i64`, that is beyond
-/// `2^(2^63)`: no sum of exponentials whose arguments [`exp_of_rational`](super::exp_of_rational)
+/// `2^(2^63)`: no sum of exponentials whose arguments `exp_of_rational`
 /// admits comes near.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Magnitude {

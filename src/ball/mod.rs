@@ -2,7 +2,7 @@
 //! their own error.
 //!
 //! A [`Ball`] is a midpoint and a radius; every operation returns a ball that contains each result
-//! its operands allow. A [`ComplexBall`] is a pair of balls, a `Number` an exact rational or a ball.
+//! its operands allow. A `ComplexBall` is a pair of balls, a `Number` an exact rational or a ball.
 //! A [`Decimal`] has a definite count of digits, a [`DecimalEnclosure`] is a ball as a person reads it,
 //! and a [`Value`] is a number with proven digits. [`Precisions`] is the one loop that raises precision.
 

@@ -69,7 +69,7 @@ fn between(low: &Rational, high: &Rational, bits: u64) -> Ball {
 /// between the given bounds is not proven.
 ///
 /// # Errors
-/// [`ZeroError`]: no change of sign, a zero that may be double, or a symbol without a value.
+/// `ZeroError`: no change of sign, a zero that may be double, or a symbol without a value.
 pub fn enclose_zero(
     expression: &Expression,
     symbol: &Symbol,

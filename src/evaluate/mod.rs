@@ -1,9 +1,9 @@
 //! Signals: functions of time, and what is made of them: digits, doubles, roots and extrema.
 //!
-//! [`signal`] says what all of them are asked, [`closed`] answers for waves in closed form. A wave at a time
+//! `signal` says what all of them are asked, `closed` answers for waves in closed form. A wave at a time
 //! is a finite sum `Σ_i r_i e^{λ_i}` with rational numbers, or with square roots of such. Whether it is
 //! itself a rational number is decided exactly, first; else balls of rising precision enclose it until the
-//! digits asked for are certain ([`digits`]).
+//! digits asked for are certain (`digits`).
 
 mod arrivals;
 mod cells;

@@ -80,7 +80,7 @@ pub fn binomial(n: u32, k: u32) -> BigInt {
     value
 }
 
-/// The factorial `n!`. A copy for `n` up to [`MAX_EXPONENT`]; beyond, O(n) products,
+/// The factorial `n!`. A copy for `n` up to `MAX_EXPONENT`; beyond, O(n) products,
 /// all but the last few short.
 pub fn factorial(n: u32) -> BigInt {
     match kept_factorial(n) {

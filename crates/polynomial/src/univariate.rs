@@ -151,7 +151,7 @@ impl Univariate {
         Univariate::from_row(row, denominator)
     }
 
-    /// `factor · p`. Cost as for [`Univariate::combination`].
+    /// `factor · p`. Cost as for `combination`.
     pub fn scale(&self, factor: &BigRational) -> Univariate {
         Univariate::combination(factor, self, &BigRational::zero(), &Univariate::zero())
     }

@@ -59,7 +59,7 @@ impl EchoSum {
     /// Tables for the echoes `0 … last`; cost and storage grow like `last`.
     ///
     /// # Errors
-    /// When `last` is beyond [`LARGEST_ECHO`].
+    /// When `last` is beyond `LARGEST_ECHO`.
     pub fn new(echoes: Echoes, last: usize) -> Result<EchoSum, EchoError> {
         if last > LARGEST_ECHO {
             return Err(EchoError::TooManyEchoes { last });
