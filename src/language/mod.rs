@@ -295,17 +295,6 @@ pub enum Stated {
 ///
 /// # Errors
 /// As [`read_recurrence`] and [`read_scene`].
-///
-/// ```
-/// use wavestep::language::{Source, Stated, read};
-///
-/// let source = Source::new("pushed", "recurrence \"A\" period 2, local s, time t wave f equation f[n] = 1")?;
-/// assert!(matches!(read(&source, &Default::default()), Ok(Stated::Recurrence(_))));
-/// let source = Source::new("text", "# Two bars\nscen \"Two bars\"")?;
-/// let errors = read(&source, &Default::default()).unwrap_err();
-/// assert_eq!(errors[0].remedy(), Some("did you mean `scene`?"));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 pub fn read(
     source: &Source,
     values: &BTreeMap<String, BigRational>,
