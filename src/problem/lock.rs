@@ -1,11 +1,11 @@
-//! What is locked of a problem: pieces and values, or events where contacts open.
+//! Locks of a problem: pieces and values, or events where contacts open.
 
 use super::bounds::refuse_pieces;
 use super::{Kind, Problem, ProblemError};
-use crate::lock::{Difference, HistoryLock, HistoryRequest, Lock, Locked, Request};
+use crate::lock::{Difference, Extent, Lock, Request};
 use wavestep_polynomial::{Rational, Symbol};
 
-/// What is to be locked.
+/// The results to lock.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ToLock {
     /// The last period of which pieces are locked.
@@ -50,57 +50,59 @@ impl Problem {
     /// # Errors
     /// [`ProblemError::Lock`] where there is no such thing to lock; [`ProblemError`] where it cannot be
     /// derived.
-    pub fn lock(&self, asked: &ToLock) -> Result<Locked, ProblemError> {
+    pub fn lock(&self, asked: &ToLock) -> Result<Lock, ProblemError> {
         let ToLock { through, until, times, digits } = asked.clone();
-        let set = self.values.clone();
+        let request = Request { times, digits, set: self.values.clone() };
         if self.contacts_open() {
             if through.is_some() {
                 return Err(LockRefusal::PeriodsWhereContactsOpen.into());
             }
-            let request = HistoryRequest { until, times, digits, set };
-            return Ok(Locked::History(self.events_to_lock(&request)?));
+            return self.events_to_lock(until, &request);
         }
         if until.is_some() {
             return Err(LockRefusal::NoEvents.into());
         }
-        if self.has_units() && !times.is_empty() {
+        if self.has_units() && !request.times.is_empty() {
             return Err(LockRefusal::ValuesWithUnits.into());
         }
         let through = through.ok_or(LockRefusal::NoLastPeriod)?;
         let constant = self.recurrence()?.constants().first();
-        if let Some(constant) = constant.filter(|_| !times.is_empty()) {
+        if let Some(constant) = constant.filter(|_| !request.times.is_empty()) {
             return Err(LockRefusal::ValuesWithConstants(constant.symbol.clone()).into());
         }
-        Ok(Locked::Pieces(self.pieces_to_lock(&Request { through, times, digits, set })?))
+        self.pieces_to_lock(through, &request)
     }
 
-    /// In what the same that is locked, derived now, differs.
+    /// How the problem, derived now, differs from a lock.
     ///
     /// # Errors
     /// As [`Problem::lock`].
-    pub fn differences(&self, locked: &Locked) -> Result<Vec<Difference>, ProblemError> {
-        match (locked, self.contacts_open()) {
-            (Locked::Pieces(locked), false) => {
-                Ok(locked.differences(&self.pieces_to_lock(locked.request())?))
+    pub fn differences(&self, locked: &Lock) -> Result<Vec<Difference>, ProblemError> {
+        let now = match (locked.extent(), self.contacts_open()) {
+            (Extent::Pieces { through }, false) => {
+                self.pieces_to_lock(through, locked.request())?
             }
-            (Locked::History(locked), true) => {
-                Ok(locked.differences(&self.events_to_lock(locked.request())?))
-            }
-            (Locked::Pieces(_), true) => Err(LockRefusal::PiecesLocked.into()),
-            (Locked::History(_), false) => Err(LockRefusal::EventsLocked.into()),
-        }
+            (Extent::Events { until }, true) => self.events_to_lock(until, locked.request())?,
+            (Extent::Pieces { .. }, true) => return Err(LockRefusal::PiecesLocked.into()),
+            (Extent::Events { .. }, false) => return Err(LockRefusal::EventsLocked.into()),
+        };
+        Ok(locked.differences(&now))
     }
 
-    fn pieces_to_lock(&self, request: &Request) -> Result<Lock, ProblemError> {
+    fn pieces_to_lock(&self, through: usize, request: &Request) -> Result<Lock, ProblemError> {
         let solution = self.solution()?;
-        refuse_pieces(solution.recurrence(), request.through)?;
-        Ok(Lock::derive(solution, request)?)
+        refuse_pieces(solution.recurrence(), through)?;
+        Ok(Lock::of_pieces(solution, through, request)?)
     }
 
-    fn events_to_lock(&self, request: &HistoryRequest) -> Result<HistoryLock, ProblemError> {
+    fn events_to_lock(
+        &self,
+        until: Option<Rational>,
+        request: &Request,
+    ) -> Result<Lock, ProblemError> {
         let Kind::Line { network, .. } = &self.kind else {
             return Err(LockRefusal::EventsLocked.into());
         };
-        Ok(HistoryLock::derive(network, request)?)
+        Ok(Lock::of_events(network, until, request)?)
     }
 }

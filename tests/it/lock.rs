@@ -7,17 +7,21 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::limits::MAX_LOCK_BYTES;
-use wavestep::lock::{Lock, Request};
+use wavestep::lock::{Extent, Lock, Request};
 use wavestep::scenes::{self, SCENES};
 use wavestep::solution::Solution;
 
-fn solution(text: &str, request: &Request) -> Solution {
+/// Through which period pieces are locked, and which values.
+type Asked = (usize, Request);
+
+fn solution(text: &str, (_, request): &Asked) -> Solution {
     let source = Source::new("scene", text).expect("a text");
     Solution::new(read_recurrence(&source, &request.set).unwrap_or_else(|error| panic!("{error}")))
 }
 
-fn derived(text: &str, request: &Request) -> Lock {
-    Lock::derive(&solution(text, request), request).unwrap_or_else(|error| panic!("{error}"))
+fn derived(text: &str, asked: &Asked) -> Lock {
+    Lock::of_pieces(&solution(text, asked), asked.0, &asked.1)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn read(name: &str, text: &str) -> Result<Lock, String> {
@@ -29,10 +33,9 @@ fn scene(name: &str) -> &'static str {
     scenes::find(name).expect("a scene of the library").text
 }
 
-fn request(through: usize, set: &str, times: &[&str]) -> Request {
+fn request(through: usize, set: &str, times: &[&str]) -> Asked {
     let number = |text: &str| parse_number(text).expect("a number");
-    Request {
-        through,
+    let request = Request {
         set: set
             .split_terminator(',')
             .map(|setting| setting.split_once('=').expect("a setting"))
@@ -40,7 +43,14 @@ fn request(through: usize, set: &str, times: &[&str]) -> Request {
             .collect(),
         times: times.iter().map(|time| number(time)).collect(),
         ..Request::default()
-    }
+    };
+    (through, request)
+}
+
+/// What a lock was asked for.
+fn asked(lock: &Lock) -> Asked {
+    let Extent::Pieces { through } = lock.extent() else { panic!("pieces") };
+    (through, lock.request().clone())
 }
 
 fn fixture(name: &str) -> PathBuf {
@@ -86,7 +96,7 @@ fn old_files_are_read() {
         let text = fs::read_to_string(fixture(name)).expect("a file");
         let lock = read(name, &text).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(lock.counts().1, values);
-        let differences = lock.differences(&derived(scene(scene_name), lock.request()));
+        let differences = lock.differences(&derived(scene(scene_name), &asked(&lock)));
         assert!(differences.is_empty(), "{}", differences[0]);
     }
 }
@@ -178,7 +188,7 @@ proptest! {
     fn no_changed_digit_is_passed_over(place in any::<prop::sample::Index>(), digit in 0_u8..10) {
         let text = fs::read_to_string(fixture("version-1.lock")).expect("a file");
         let lock = read("old.lock", &text).expect("a lock");
-        let now = derived(scene("rigid-mass"), lock.request());
+        let now = derived(scene("rigid-mass"), &asked(&lock));
         let start = text.find("f[0]").expect("pieces");
         let digits: Vec<usize> =
             (start..text.len()).filter(|i| text.as_bytes()[*i].is_ascii_digit()).collect();

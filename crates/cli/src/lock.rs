@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 use wavestep::language::Source;
 use wavestep::limits::MAX_LOCK_BYTES;
-use wavestep::lock::Locked;
+use wavestep::lock::{Extent, Lock};
 use wavestep::problem::{LockRefusal, ProblemError, ToLock};
 
 /// Locks a scene.
@@ -39,7 +39,7 @@ fn refused(error: ProblemError) -> Failure {
 }
 
 /// Writes what is locked, where it can be read back and no scene is replaced by it.
-fn write(options: &Options, lock: &Locked) -> Result<String, Failure> {
+fn write(options: &Options, lock: &Lock) -> Result<String, Failure> {
     let text = lock.to_text();
     if text.len() > MAX_LOCK_BYTES {
         let message = format!("this would be a file of {} bytes", text.len());
@@ -48,7 +48,7 @@ fn write(options: &Options, lock: &Locked) -> Result<String, Failure> {
     }
     // What cannot be read back, such as numbers of a thousand digits, is not written.
     let source = Source::with_limit("lock", &text, MAX_LOCK_BYTES);
-    if !source.is_ok_and(|text| Locked::read(&text).is_ok_and(|read| read == *lock)) {
+    if !source.is_ok_and(|text| Lock::read(&text).is_ok_and(|read| read == *lock)) {
         let message = "the numbers or powers in these pieces are too long to be read back";
         return Err(Failure::usage(message, "ask for a smaller --through, or shorter values"));
     }
@@ -74,8 +74,8 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
         let remedy = format!("write it with `wavestep lock {scene} --through N -o {file}`");
         Failure::usage(format!("the file `{file}` cannot be read: {error}"), remedy)
     })?;
-    let locked = Locked::read(&Source::with_limit(file, bytes, MAX_LOCK_BYTES)?)?;
-    let problem = input::problem_with(scene, locked.set())?;
+    let locked = Lock::read(&Source::with_limit(file, bytes, MAX_LOCK_BYTES)?)?;
+    let problem = input::problem_with(scene, &locked.request().set)?;
     let progress = progress::spinner("deriving");
     let differences = problem.differences(&locked).map_err(|error| match error {
         ProblemError::NoLock(LockRefusal::PiecesLocked) => {
@@ -104,11 +104,11 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
 }
 
 /// How much is locked.
-fn counted(lock: &Locked) -> String {
+fn counted(lock: &Lock) -> String {
     let (count, values) = lock.counts();
-    let what = match lock {
-        Locked::Pieces(_) => "piece",
-        Locked::History(_) => "event",
+    let what = match lock.extent() {
+        Extent::Pieces { .. } => "piece",
+        Extent::Events { .. } => "event",
     };
     match values {
         0 => plural(count, what),

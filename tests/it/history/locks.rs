@@ -5,28 +5,28 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use wavestep::ball::Decimal;
 use wavestep::language::{Source, parse_number};
-use wavestep::lock::{HistoryLock, HistoryRequest, Lock, LockError, Locked};
+use wavestep::lock::{Extent, Lock, LockError, Request};
 use wavestep::network::Network;
 
-fn request(digits: usize, times: &[(i64, i64)], set: &[(&str, &str)]) -> HistoryRequest {
+fn request(digits: usize, times: &[(i64, i64)], set: &[(&str, &str)]) -> Request {
     let set = set.iter().map(|(name, value)| ((*name).to_owned(), parse_number(value).unwrap()));
     let times = times.iter().map(|(above, below)| rational(*above, *below)).collect();
-    HistoryRequest { digits, times, set: set.collect(), ..HistoryRequest::default() }
+    Request { digits, times, set: set.collect() }
 }
 
-fn locked(network: &Network, request: &HistoryRequest) -> HistoryLock {
-    HistoryLock::derive(network, request).unwrap_or_else(|error| panic!("{error}"))
+fn locked(network: &Network, request: &Request) -> Lock {
+    Lock::of_events(network, None, request).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn read(text: &str) -> Result<HistoryLock, String> {
-    HistoryLock::read(&Source::new("own.lock", text).unwrap()).map_err(|error| error.to_string())
+fn read(text: &str) -> Result<Lock, String> {
+    Lock::read(&Source::new("own.lock", text).unwrap()).map_err(|error| error.to_string())
 }
 
-fn report(old: &HistoryLock, now: &HistoryLock) -> String {
+fn report(old: &Lock, now: &Lock) -> String {
     old.differences(now).iter().map(ToString::to_string).collect()
 }
 
-fn saint_venant() -> HistoryLock {
+fn saint_venant() -> Lock {
     let request = request(20, &[(1, 2), (5, 1)], &[("mu", "1")]);
     locked(&shipped("saint-venant", &[("mu", "1")]), &request)
 }
@@ -38,12 +38,12 @@ fn fixture() -> PathBuf {
 #[test]
 fn histories_are_read_as_they_were_written() {
     let bars = shipped("bars-of-equal-length", &[]);
-    let followed =
-        HistoryRequest { until: Some(rational(3, 2)), ..request(12, &[(1, 3), (5, 2)], &[]) };
+    let request_of_few = request(12, &[(1, 3), (5, 2)], &[]);
+    let followed = Lock::of_events(&bars, Some(rational(3, 2)), &request_of_few).unwrap();
     for lock in [
         saint_venant(),
         locked(&bars, &request(20, &[(0, 1), (5, 2)], &[])),
-        locked(&bars, &followed),
+        followed.clone(),
         locked(&shipped("hopkinson-with-release", &[]), &request(9, &[(1, 10_000)], &[])),
     ] {
         let text = lock.to_text();
@@ -52,7 +52,7 @@ fn histories_are_read_as_they_were_written() {
         assert_eq!(read.to_text(), text);
         assert!(read.differences(&lock).is_empty());
     }
-    let text = locked(&bars, &followed).to_text();
+    let text = followed.to_text();
     assert!(
         text.contains("until 3/2\n") && text.contains("ending = followed until 3/2\n"),
         "{text}"
@@ -67,11 +67,10 @@ fn histories_are_read_as_they_were_written() {
 fn old_files_of_histories_are_read() {
     let text = fs::read_to_string(fixture()).unwrap();
     let source = Source::new("version-2.lock", &text[..]).unwrap();
-    let Locked::History(old) = Locked::read(&source).unwrap() else { panic!("a history") };
+    let old = Lock::read(&source).unwrap();
+    assert_eq!(old.extent(), Extent::Events { until: None });
     assert_eq!(old.counts(), (4, 10));
     assert_eq!(report(&old, &saint_venant()), "");
-    let error = Lock::read(&source).unwrap_err().to_string();
-    assert!(error.contains("this file holds a history of contacts, and no pieces"), "{error}");
 }
 
 /// e^(−1/2) and 3 + e^(−2)/2 stand there as correctly rounded decimals; numbers with fewer
@@ -208,7 +207,7 @@ fn damaged_files_are_refused() {
     ] {
         assert_eq!(text.matches(old).count(), 1, "{old}");
         let source = Source::new("own.lock", text.replace(old, new)).unwrap();
-        let error = Locked::read(&source).unwrap_err().to_string();
+        let error = Lock::read(&source).unwrap_err().to_string();
         assert!(error.contains(expected), "{old} -> {new}: {error}");
     }
     let error = read(&text[..text.find("holds").unwrap()]).unwrap_err();
@@ -235,7 +234,7 @@ fn numbers_without_digits_are_refused_or_bounded() {
     let told = lock.to_text();
     assert!(told.ends_with("value zero(1/2) = 0 ± 1e-15\n"), "{told}");
     for digits in [0, 1_000_000] {
-        let refused = HistoryLock::derive(&network_of(&text, &[]), &request(digits, &[], &[]));
+        let refused = Lock::of_events(&network_of(&text, &[]), None, &request(digits, &[], &[]));
         assert_eq!(refused, Err(LockError::Digits(digits)));
     }
 }

@@ -1,0 +1,401 @@
+//! Locks as text.
+//!
+//! ```text
+//! # wavestep lock 1                                  # wavestep lock 2
+//! through 1                                          until 100
+//! digits 20                                          digits 20
+//! set mu = 1/4                                       set mu = 1
+//! stated observable velocity = (1)*f(t) + (1)*g(t)   stated line = free - hammer | rod - fixed
+//! …                                                  …
+//! holds 3 statements, 4 pieces, 1 values             holds 3 statements, 4 events, 1 contacts, 1 values
+//!
+//! f[0](s) = exp(-s)                                  event 1 kind = impact
+//! …                                                  event 1 between = hammer | rod
+//!                                                    event 1 time = 0
+//!                                                    …
+//!                                                    contact 1 duration 1 = 3.0676676416183063459
+//!                                                    …
+//!                                                    ending = parted
+//!
+//! value f(33/10) = 0.30538526440879106409            value velocity(1/2) = 0.60653065971263342360
+//! ```
+//!
+//! A heading with the version, settings, statements, contents, values. Version 1 holds pieces, as a listing
+//! of the language, version 2 events, a fact in each line. Comments begin with `#`. Versions to come read
+//! both.
+
+use crate::export::{self, Formula, Head, TEXT_WIDTH};
+use crate::history::EventKind;
+use crate::language::{Diagnostic, Source, Span, normalise_name, parse_number, read_listing};
+use crate::limits::{MAX_DIGITS, MAX_LOCK_BYTES};
+use crate::lock::events::{Events, Facts, word};
+use crate::lock::pieces::{Piece, Pieces};
+use crate::lock::{Contents, Lock, Request, Values};
+use num_traits::Signed as _;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use wavestep_polynomial::Rational;
+
+/// The versions of files of pieces and of events.
+const PIECES: u32 = 1;
+const EVENTS: u32 = 2;
+
+const HEADING: &str = "# wavestep lock ";
+
+const KINDS: [EventKind; 4] =
+    [EventKind::Impact, EventKind::Opening, EventKind::Release, EventKind::Closing];
+
+/// One line of a file with its place.
+#[derive(Clone, Copy)]
+struct Line<'a> {
+    text: &'a str,
+    span: Span,
+}
+
+impl Lock {
+    /// The lock as text; formulas in lines of at most 100 characters where they can be broken.
+    pub fn to_text(&self) -> String {
+        let mut text = String::from(HEADING);
+        let _ = match &self.contents {
+            Contents::Pieces(Pieces { through, .. }) => {
+                writeln!(text, "{PIECES}\nthrough {through}")
+            }
+            Contents::Events(Events { until: Some(until), .. }) => {
+                writeln!(text, "{EVENTS}\nuntil {until}")
+            }
+            Contents::Events(_) => writeln!(text, "{EVENTS}"),
+        };
+        let _ = writeln!(text, "digits {}", self.request.digits);
+        for (name, value) in &self.request.set {
+            let _ = writeln!(text, "set {name} = {value}");
+        }
+        for (what, value) in &self.stated {
+            let _ = writeln!(text, "stated {what} = {value}");
+        }
+        let _ = writeln!(text, "holds {}", self.held());
+        match &self.contents {
+            Contents::Pieces(pieces) => pieces.write(&mut text),
+            Contents::Events(events) => events.write(&mut text),
+        }
+        if !self.values.is_empty() {
+            text.push('\n');
+        }
+        for ((quantity, time), value) in &self.values {
+            let _ = writeln!(text, "value {quantity}({time}) = {value}");
+        }
+        text
+    }
+
+    /// How much the lock holds.
+    fn held(&self) -> String {
+        let contents = match &self.contents {
+            Contents::Pieces(pieces) => format!("{} pieces", pieces.all.len()),
+            Contents::Events(Events { events, contacts, .. }) => {
+                format!("{} events, {} contacts", events.len(), contacts.len())
+            }
+        };
+        format!("{} statements, {contents}, {} values", self.stated.len(), self.values.len())
+    }
+
+    /// Reads a lock.
+    ///
+    /// # Errors
+    /// The first line that is none of a lock, with its place.
+    pub fn read(source: &Source) -> Result<Lock, Diagnostic> {
+        let lines = lines(source);
+        let contents = match version(source, lines[0])? {
+            PIECES => Contents::Pieces(Pieces::default()),
+            _ => Contents::Events(Events::default()),
+        };
+        let (stated, values) = (BTreeMap::new(), Values::new());
+        let mut lock = Lock { stated, request: Request::default(), contents, values };
+        let mut said = None;
+        // The listing of pieces is read with everything else blanked out, so that places stay the same.
+        let mut listing = source.text().to_owned().into_bytes();
+        for line in &lines {
+            let is_setting = match line.text.split_once(' ') {
+                _ if line.text.is_empty() || line.text.starts_with('#') => true,
+                Some(("holds", rest)) => {
+                    said = Some((rest.trim(), *line));
+                    true
+                }
+                Some((word, rest)) => lock.read_line(source, *line, word, rest)?,
+                None => false,
+            };
+            match (is_setting, &lock.contents) {
+                (true, _) => listing[line.span.start..line.span.end].fill(b' '),
+                (false, Contents::Pieces(_)) => {}
+                (false, Contents::Events(_)) => {
+                    return Err(refused(source, *line, "remove it, or lock again"));
+                }
+            }
+        }
+        if let Contents::Pieces(pieces) = &mut lock.contents {
+            pieces.read(source, listing, lines[0])?;
+        }
+        holds_as_said(source, lines[0], &lock.held(), said)?;
+        Ok(lock)
+    }
+
+    /// Takes one line that begins with `word`; whether it is a setting, a fact or a value.
+    fn read_line(
+        &mut self,
+        source: &Source,
+        line: Line<'_>,
+        word: &str,
+        rest: &str,
+    ) -> Result<bool, Diagnostic> {
+        let is_new = match (word, &mut self.contents) {
+            ("digits", contents) => {
+                let digits = count(source, line, rest)?;
+                if !(1..=MAX_DIGITS).contains(&digits) {
+                    let numbers = match contents {
+                        Contents::Pieces(_) => "values",
+                        Contents::Events(_) => "numbers",
+                    };
+                    let remedy = format!("{numbers} have 1 to {MAX_DIGITS} digits: lock again");
+                    return Err(refused(source, line, &remedy));
+                }
+                self.request.digits = digits;
+                true
+            }
+            ("set", _) => {
+                let (name, value) = equation(source, line, rest)?;
+                let value = number(source, line, value)?;
+                self.request.set.insert(normalise_name(name), value).is_none()
+            }
+            ("stated", _) => {
+                let (what, value) = equation(source, line, rest)?;
+                self.stated.insert(what.to_owned(), value.to_owned()).is_none()
+            }
+            ("value", _) => {
+                let (quantity, time, value) = value_line(source, line, rest)?;
+                if !self.request.times.contains(&time) {
+                    self.request.times.push(time.clone());
+                }
+                self.values.insert((quantity, time), value).is_none()
+            }
+            ("through", Contents::Pieces(pieces)) => {
+                pieces.through = count(source, line, rest)?;
+                true
+            }
+            (_, Contents::Events(events)) => match events.read_line(source, line, word, rest)? {
+                Some(is_new) => is_new,
+                None => return Ok(false),
+            },
+            _ => return Ok(false),
+        };
+        match is_new {
+            true => Ok(true),
+            false => Err(refused(source, line, "it stands there twice: remove one of the two")),
+        }
+    }
+}
+
+impl Pieces {
+    fn write(&self, text: &mut String) {
+        let formula = |((wave, n), piece): (&(String, usize), &Piece)| {
+            let head = Head::Piece { wave: wave.clone(), n: *n, local: piece.variable.clone() };
+            Formula::new(head, &piece.expression, &piece.variable)
+        };
+        let formulas: Vec<Formula> = self.all.iter().map(formula).collect();
+        text.push('\n');
+        text.push_str(&export::text(&formulas, TEXT_WIDTH));
+    }
+
+    /// Reads a listing; `first` is the line that an error points to.
+    fn read(
+        &mut self,
+        source: &Source,
+        listing: Vec<u8>,
+        first: Line<'_>,
+    ) -> Result<(), Diagnostic> {
+        let listing = String::from_utf8(listing).expect("whole lines were blanked out");
+        if listing.trim().is_empty() {
+            return Ok(());
+        }
+        let blanked = Source::with_limit(source.name(), listing, MAX_LOCK_BYTES)?;
+        for formula in read_listing(&blanked)? {
+            let piece = Piece { variable: formula.variable, expression: formula.expression };
+            let key = (formula.wave, formula.n);
+            let message = format!("{}[{}] stands there twice", key.0, key.1);
+            if self.all.insert(key, piece).is_some() {
+                return Err(Diagnostic::new(source, message, first.span, "in this file")
+                    .with_remedy("restore the file, or lock again"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Events {
+    fn write(&self, text: &mut String) {
+        for (what, all) in [("event", &self.events), ("contact", &self.contacts)] {
+            for (number, Facts(facts)) in all {
+                text.push('\n');
+                for (name, value) in facts {
+                    let _ = writeln!(text, "{what} {number} {name} = {value}");
+                }
+            }
+        }
+        let _ = writeln!(text, "\nending = {}", self.ending);
+    }
+
+    /// Takes one line that begins with `word`; whether it says something new, or `None` if it is no line
+    /// of events.
+    fn read_line(
+        &mut self,
+        source: &Source,
+        line: Line<'_>,
+        word: &str,
+        rest: &str,
+    ) -> Result<Option<bool>, Diagnostic> {
+        let refuse = |remedy: &str| Err(refused(source, line, remedy));
+        Ok(Some(match word {
+            "until" => {
+                let until = number(source, line, rest)?;
+                self.until.replace(until).is_none()
+            }
+            "event" | "contact" => {
+                let (left, value) = equation(source, line, rest)?;
+                let Some((place, name)) = left.split_once(' ') else {
+                    return refuse("write it as `event 1 time = 0`");
+                };
+                if !is_fact(name, value) {
+                    return refuse("restore the file, or lock again");
+                }
+                let all = if word == "event" { &mut self.events } else { &mut self.contacts };
+                let Facts(facts) = all.entry(count(source, line, place)?).or_default();
+                let is_new = facts.iter().all(|(known, _)| known != name);
+                facts.push((name.to_owned(), value.to_owned()));
+                is_new
+            }
+            "ending" => {
+                let Some(ending) = rest.trim().strip_prefix('=').map(str::trim) else {
+                    return refuse("write it as `ending = parted`");
+                };
+                let is_new = self.ending.is_empty();
+                self.ending = ending.to_owned();
+                is_new && !ending.is_empty()
+            }
+            _ => return Ok(None),
+        }))
+    }
+}
+
+/// Whether a fact of this name can be so: a kind of events, names, a state of a contact, or a number.
+fn is_fact(name: &str, value: &str) -> bool {
+    match name {
+        "kind" => KINDS.into_iter().any(|kind| word(kind) == value),
+        "between" => value.contains(" | "),
+        _ if name.starts_with("duration") && value == "still closed" => true,
+        _ => is_value(value),
+    }
+}
+
+fn lines(source: &Source) -> Vec<Line<'_>> {
+    let mut start = 0;
+    let mut lines = Vec::new();
+    for line in source.text().split('\n') {
+        let text = line.trim_end_matches('\r');
+        lines.push(Line { text, span: Span::new(start, start + text.len()) });
+        start += line.len() + 1;
+    }
+    lines
+}
+
+/// The version that the first line says.
+fn version(source: &Source, first: Line<'_>) -> Result<u32, Diagnostic> {
+    let Some(version) = first.text.strip_prefix(HEADING) else {
+        return Err(Diagnostic::new(
+            source,
+            "this is no file of locked results",
+            first.span,
+            format!("expected `{HEADING}{PIECES}`"),
+        )
+        .with_remedy("write one with `wavestep lock SCENE --through N -o FILE`"));
+    };
+    match version.trim().parse::<u32>() {
+        Ok(version) if (PIECES..=EVENTS).contains(&version) => Ok(version),
+        _ => Err(Diagnostic::new(
+            source,
+            format!("this file is of version {}", version.trim()),
+            first.span,
+            format!("versions up to {EVENTS} are read"),
+        )
+        .with_remedy("use a newer wavestep, or lock again with this one")),
+    }
+}
+
+/// Refuses a file that does not hold what it says.
+fn holds_as_said(
+    source: &Source,
+    first: Line<'_>,
+    found: &str,
+    said: Option<(&str, Line<'_>)>,
+) -> Result<(), Diagnostic> {
+    let refuse = |message: String, span: Span, label: &str| {
+        Err(Diagnostic::new(source, message, span, label)
+            .with_remedy("restore the file, or lock again"))
+    };
+    match said {
+        Some((said, _)) if said == found => Ok(()),
+        Some((said, line)) => {
+            let message = format!("this file holds {found}, and says {said}");
+            refuse(message, line.span, "something is missing, or was added")
+        }
+        None => {
+            let message = "this file does not say what it holds".to_owned();
+            refuse(message, first.span, "no line `holds …` follows: the file is cut off")
+        }
+    }
+}
+
+/// Whether this is a number as locks write it: a decimal or a fraction, or `0 ± 1e-20`.
+fn is_value(text: &str) -> bool {
+    parse_number(text.strip_prefix("0 ± ").unwrap_or(text)).is_ok()
+}
+
+/// Quantity, time and value of `f(33/10) = 0.3`.
+fn value_line(
+    source: &Source,
+    line: Line<'_>,
+    rest: &str,
+) -> Result<(String, Rational, String), Diagnostic> {
+    let (left, value) = equation(source, line, rest)?;
+    let call = left.strip_suffix(')').and_then(|left| left.split_once('('));
+    let Some((quantity, time)) = call else {
+        return Err(refused(source, line, "write it as `value f(33/10) = 0.3`"));
+    };
+    let time = number(source, line, time)?;
+    if time.is_negative() || !is_value(value) {
+        return Err(refused(source, line, "write a time from 0 on, and a number"));
+    }
+    Ok((quantity.to_owned(), time, value.to_owned()))
+}
+
+fn refused(source: &Source, line: Line<'_>, remedy: &str) -> Diagnostic {
+    Diagnostic::new(source, "this line cannot be read", line.span, "in a file of locked results")
+        .with_remedy(remedy)
+}
+
+fn count(source: &Source, line: Line<'_>, text: &str) -> Result<usize, Diagnostic> {
+    let number = text.trim().parse::<u32>().ok();
+    number
+        .map(|number| number as usize)
+        .ok_or_else(|| refused(source, line, "write a whole number, or lock again"))
+}
+
+fn equation<'a>(
+    source: &Source,
+    line: Line<'_>,
+    text: &'a str,
+) -> Result<(&'a str, &'a str), Diagnostic> {
+    let sides = text.split_once('=').map(|(left, right)| (left.trim(), right.trim()));
+    sides.ok_or_else(|| refused(source, line, "write it as `name = value`, or lock again"))
+}
+
+fn number(source: &Source, line: Line<'_>, text: &str) -> Result<Rational, Diagnostic> {
+    parse_number(text)
+        .map_err(|_| refused(source, line, "write a number such as 33/10, or lock again"))
+}
