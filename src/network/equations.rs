@@ -13,8 +13,9 @@ use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observe::Observed;
 use crate::network::scaled::ScaledScene;
-use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, WaveIndex};
+use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, Recurrence, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
+use std::sync::OnceLock;
 use wavestep_polynomial::Rational;
 
 /// The meaning of a wave of a network.
@@ -64,7 +65,20 @@ pub struct Network {
     pub(crate) observables: Vec<Observed>,
     /// When loads begin and end, by the clock of their node, counted on the lattice.
     pub(crate) loads: Vec<(ElementIndex, Vec<i64>, Option<Vec<i64>>)>,
+    pub(super) derived: Derived,
 }
+
+/// The recurrence of a network, once it was asked for; networks are the same with and without it.
+#[derive(Clone, Default, Debug)]
+pub(super) struct Derived(pub OnceLock<Result<Recurrence, NetworkError>>);
+
+impl PartialEq for Derived {
+    fn eq(&self, _: &Derived) -> bool {
+        true
+    }
+}
+
+impl Eq for Derived {}
 
 impl Network {
     /// The network of a scene.
@@ -93,6 +107,7 @@ impl Network {
             clocks: vec![None; layout.nodes.len()],
             leads: Vec::new(),
             loads: Vec::new(),
+            derived: Derived::default(),
             layout,
         };
         network.set_clocks();

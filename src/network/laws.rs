@@ -74,15 +74,16 @@ fn scaled(form: &LinearForm, factor: &Fraction) -> LinearForm {
 }
 
 impl Network {
-    /// The recurrence of the scene, where all delays lie on one grid.
+    /// The recurrence of the scene, where all delays lie on one grid. It is derived once.
     ///
     /// # Errors
     /// [`NetworkError::Incommensurate`] where they do not, or what the recurrence refuses.
     pub fn recurrence(&self) -> Result<Recurrence, NetworkError> {
-        match self.lattice.periods().len() {
+        let derive = || match self.lattice.periods().len() {
             1 => Recurrence::new(self.statement(&[1])).map_err(|invalid| self.refused(invalid)),
             _ => Err(NetworkError::Incommensurate),
-        }
+        };
+        self.derived.0.get_or_init(derive).clone()
     }
 
     /// The recurrence of the scene as a statement; `strides` turn counts on the lattice into lags.

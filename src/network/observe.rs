@@ -5,7 +5,7 @@
 //! the start.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::equations::{Network, Role};
+use crate::network::equations::{Derived, Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
@@ -166,6 +166,7 @@ impl Network {
         self.waves.len()
             + place.unwrap_or_else(|| {
                 self.integrals.push(wave);
+                self.derived = Derived::default();
                 self.integrals.len() - 1
             })
     }
