@@ -1,6 +1,6 @@
 //! Values in doubles: by a method that is named, or by the cheapest that is proven to be good enough.
 
-use crate::answer::problem::Problem;
+use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
 use crate::answer::way::{Kind, Way, WayError};
 use crate::answer::weigh::{Weighed, consider};
@@ -69,21 +69,21 @@ pub struct Tested {
     pub tolerance: f64,
 }
 
-/// The values of a problem at times of its window.
+/// The values of a question at times of its window.
 ///
 /// # Errors
 /// [`WayError`]: no method is good enough, or the one that is named has no values here.
 pub fn doubles(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     times: &[Rational],
     limit: Limit,
     accuracy: Accuracy,
 ) -> Result<Doubles, WayError> {
-    let mut choice = Choice { problem, scale: OnceCell::new(), remarks: Vec::new() };
+    let mut choice = Choice { question, scale: OnceCell::new(), remarks: Vec::new() };
     let way = match accuracy {
         Accuracy::Method(kind, tolerance) => choice.named(kind, tolerance)?,
         Accuracy::Within(tolerance) => choice.cheapest(times.len(), tolerance)?,
-        Accuracy::Digits => Way::new(Kind::Certified, problem, None)?,
+        Accuracy::Digits => Way::new(Kind::Certified, question, None)?,
     };
     let values = way.exact_values(times, limit)?;
     if let Some(i) = values.iter().position(|value| !value.is_finite()) {
@@ -98,7 +98,7 @@ pub fn doubles(
 
 /// The choice of a method, and what is to be known of it.
 struct Choice<'p, 'a> {
-    problem: &'p Problem<'a>,
+    question: &'p Question<'a>,
     /// The size of the largest value, once it was asked for.
     scale: OnceCell<f64>,
     remarks: Vec<Remark>,
@@ -109,7 +109,7 @@ impl<'a> Choice<'_, 'a> {
         if let Some(scale) = self.scale.get() {
             return Ok(*scale);
         }
-        let scale = self.problem.scale()?;
+        let scale = self.question.scale()?;
         Ok(*self.scale.get_or_init(|| scale))
     }
 
@@ -128,7 +128,7 @@ impl<'a> Choice<'_, 'a> {
     /// The method that is named.
     fn named(&mut self, kind: Kind, tolerance: Option<Tolerance>) -> Result<Way<'a>, WayError> {
         let absolute = tolerance.map(|tolerance| self.absolute(tolerance)).transpose()?;
-        let way = Way::new(kind, self.problem, absolute)?;
+        let way = Way::new(kind, self.question, absolute)?;
         self.remarks.push(Remark::AsAskedFor);
         if let (Some(bound), Some(absolute)) = (way.bound(), absolute)
             && bound > absolute
@@ -141,19 +141,19 @@ impl<'a> Choice<'_, 'a> {
     /// The cheapest method that is proven to be good enough.
     fn cheapest(&mut self, points: usize, tolerance: Tolerance) -> Result<Way<'a>, WayError> {
         let absolute = self.absolute(tolerance)?;
-        let weighed = consider(self.problem, points, absolute, self.scale()?)?;
+        let weighed = consider(self.question, points, absolute, self.scale()?)?;
         if !weighed.met {
             return Err(WayError::NotMet { weighed: Box::new(weighed), tolerance, absolute });
         }
         let kind = weighed.candidates[0].kind;
         self.remarks.push(Remark::Weighed(weighed, absolute));
-        let way = Way::new(kind, self.problem, Some(absolute))?;
+        let way = Way::new(kind, self.question, Some(absolute))?;
         // A promise is kept but where functions are unusually steep.
         match way.bound() {
             Some(bound) if bound <= absolute => Ok(way),
             _ => {
                 self.remarks.push(Remark::PromiseNotKept(kind));
-                Way::new(Kind::Certified, self.problem, None)
+                Way::new(Kind::Certified, self.question, None)
             }
         }
     }
@@ -164,7 +164,7 @@ impl<'a> Choice<'_, 'a> {
         tolerance: Tolerance,
         (times, limit, values): (&[Rational], Limit, &[f64]),
     ) -> Result<(), WayError> {
-        let certified = Way::new(Kind::Certified, self.problem, None)?;
+        let certified = Way::new(Kind::Certified, self.question, None)?;
         let stride = times.len().div_ceil(COMPARED);
         let (mut worst, mut error) = (0, 0.0);
         let mut scale = 0.0_f64;

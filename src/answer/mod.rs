@@ -1,20 +1,20 @@
 //! Answers in doubles: which way to values is the cheapest that is good enough.
 //!
-//! A [`Problem`] is an observable on a window. There are many ways to its values: the methods that
+//! A [`Question`] is an observable on a window. There are many ways to its values: the methods that
 //! evaluate the exact solution ([`evaluate`](crate::evaluate)), and cheaper models of the same scene
 //! ([`model`](crate::model)). A [`Tolerance`] says how far values may be off; [`consider`] weighs the
 //! ways by their proven bounds and by a measured table of costs, and says why it picks one.
 
 mod cost;
 mod doubles;
-mod problem;
+mod question;
 mod tolerance;
 mod way;
 mod weigh;
 
 pub use cost::{Cost, Size};
 pub use doubles::{Accuracy, Doubles, Remark, Tested, doubles};
-pub use problem::Problem;
+pub use question::Question;
 pub use tolerance::{InvalidTolerance, Tolerance};
 pub use way::{InvalidWay, Kind, Way, WayError};
 pub use weigh::{Candidate, Promise, Weighed, consider};

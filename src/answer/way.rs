@@ -1,6 +1,6 @@
 //! Ways to values, by name and settings.
 
-use crate::answer::problem::Problem;
+use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
 use crate::answer::weigh::Weighed;
 use crate::ball::in_decimals;
@@ -232,7 +232,7 @@ enum Ways<'a> {
     Model(Box<dyn Model>, usize),
 }
 
-/// A way to the values of a problem.
+/// A way to the values of a question.
 pub struct Way<'a> {
     kind: Kind,
     inner: Ways<'a>,
@@ -243,16 +243,16 @@ impl<'a> Way<'a> {
     /// the unit of the values.
     ///
     /// # Errors
-    /// [`WayError`], where the problem is none for this way.
+    /// [`WayError`], where the question is none for this way.
     pub fn new(
         kind: Kind,
-        problem: &Problem<'a>,
+        question: &Question<'a>,
         tolerance: Option<f64>,
     ) -> Result<Way<'a>, WayError> {
-        let Problem { signal, from, to, .. } = problem;
+        let Question { signal, from, to, .. } = question;
         let inner = match kind {
             Kind::Certified => {
-                Ways::Method(Box::new(Certified::new(signal, from, to, problem.recognise)?))
+                Ways::Method(Box::new(Certified::new(signal, from, to, question.recognise)?))
             }
             Kind::Compiled => Ways::Method(Box::new(Compiled::new(signal, from, to, tolerance)?)),
             Kind::Marched { proven } => {
@@ -268,7 +268,7 @@ impl<'a> Way<'a> {
             | Kind::Modes { .. }
             | Kind::Leapfrog { .. }
             | Kind::Steps { .. } => {
-                let scene = problem.scene.ok_or(WayError::NeedsScene(kind.name()));
+                let scene = question.scene.ok_or(WayError::NeedsScene(kind.name()));
                 let (network, place) = scene?;
                 return Way::of_model(kind, network, place);
             }

@@ -1,7 +1,7 @@
 //! Which way is the cheapest whose proven bound meets a tolerance.
 
 use crate::answer::cost::{Cost, Size};
-use crate::answer::problem::Problem;
+use crate::answer::question::Question;
 use crate::answer::way::Kind;
 use crate::ball::unit_in_the_last_place;
 use crate::evaluate::{EvaluateError, NoTaps, StablePrecision, Taps};
@@ -67,20 +67,20 @@ pub struct Weighed {
 /// # Errors
 /// [`EvaluateError`], where there is no exact solution to evaluate.
 pub fn consider(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     points: usize,
     tolerance: f64,
     scale: f64,
 ) -> Result<Weighed, EvaluateError> {
-    let order = problem.order()?;
-    let taps = Taps::of(problem.signal);
-    let marches = taps.as_ref().is_ok_and(Taps::is_rational) && problem.signal.is_rational();
+    let order = question.order()?;
+    let taps = Taps::of(question.signal);
+    let marches = taps.as_ref().is_ok_and(Taps::is_rational) && question.signal.is_rational();
     let size = Size { order, points, marches };
     let ulp = unit_in_the_last_place(scale);
     let candidate = |kind: Kind| {
         let cost = match (&kind, &taps) {
             (Kind::Marched { .. }, Err(_)) => {
-                Some(Cost::of_waves(size, problem.signal.recurrence().wave_count()))
+                Some(Cost::of_waves(size, question.signal.recurrence().wave_count()))
             }
             _ => Cost::of(kind, size),
         };

@@ -47,10 +47,10 @@ impl OnWindow<'_> {
     ///
     /// # Errors
     /// [`EvaluateError`] where there is no closed form.
-    pub fn question(&self) -> Result<answer::Problem<'_>, EvaluateError> {
+    pub fn question(&self) -> Result<answer::Question<'_>, EvaluateError> {
         let [from, to] = self.signal.window().map(Clone::clone);
         let (signal, recognise) = (self.signal.form()?, &*self.recognise);
-        Ok(answer::Problem { signal, scene: self.scene, recognise, from, to })
+        Ok(answer::Question { signal, scene: self.scene, recognise, from, to })
     }
 }
 

@@ -5,7 +5,7 @@ use crate::methods::tally::{Tally, ends};
 use crate::methods::{Values, exact, random, times, unit_in_the_last_place};
 use proptest::prelude::RngExt as _;
 use wavestep::answer::{
-    Cost, Kind, Problem, Promise, Size, Tolerance, Way, WayError, Weighed, consider,
+    Cost, Kind, Promise, Question, Size, Tolerance, Way, WayError, Weighed, consider,
 };
 use wavestep::evaluate::{Limit, StablePrecision};
 
@@ -19,7 +19,7 @@ const PROBLEMS: [(&str, Values<'static>, &str, &str); 5] = [
 ];
 
 /// Whether the table of costs and the promises single out the way that is picked.
-fn is_cheapest(problem: &Problem<'_>, weighed: &Weighed, points: usize, tolerance: f64) {
+fn is_cheapest(problem: &Question<'_>, weighed: &Weighed, points: usize, tolerance: f64) {
     let proven = |promise: &Option<Promise>| matches!(promise, Some(Promise::Proven(bound)) if *bound <= tolerance);
     let good: Vec<_> = weighed.candidates.iter().filter(|c| proven(&c.promise)).collect();
     assert_eq!(weighed.met, !good.is_empty());

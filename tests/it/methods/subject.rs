@@ -3,7 +3,7 @@
 use crate::methods::{BITS, Values};
 use num_rational::BigRational;
 use std::collections::BTreeMap;
-use wavestep::answer::Problem;
+use wavestep::answer::Question;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{
     ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Recogniser, Stretch, Value,
@@ -47,9 +47,9 @@ impl<'a> Subject<'a> {
         (self.by_form)(at, side, digits)
     }
 
-    pub fn problem(&self) -> Problem<'a> {
+    pub fn problem(&self) -> Question<'a> {
         let (from, to) = (self.from.clone(), self.to.clone());
-        Problem { signal: self.signal, scene: self.scene, recognise: self.recognise, from, to }
+        Question { signal: self.signal, scene: self.scene, recognise: self.recognise, from, to }
     }
 
     /// About the largest absolute value.

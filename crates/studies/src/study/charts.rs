@@ -116,7 +116,7 @@ pub fn usual_end(problem: &Problem) -> Result<Rational, PictureError> {
 /// [`PictureError`] where nothing can be measured.
 pub fn charts(
     problem: &Problem,
-    question: &answer::Problem<'_>,
+    question: &answer::Question<'_>,
     asked: &ToChart<'_>,
     tick: &dyn Fn(&str),
 ) -> Result<Charts, PictureError> {
@@ -170,7 +170,7 @@ fn caption(asked: &ToChart<'_>, sampling: String) -> Caption {
 
 /// The charts that are drawn so far.
 struct Study<'s> {
-    question: &'s answer::Problem<'s>,
+    question: &'s answer::Question<'s>,
     asked: &'s ToChart<'s>,
     caption: Caption,
     tick: &'s dyn Fn(&str),

@@ -3,7 +3,7 @@
 use crate::study::harness::{errors, worst};
 use crate::study::reference::{Reference, Sampling};
 use std::collections::BTreeMap;
-use wavestep::answer::{Kind, Problem};
+use wavestep::answer::{Kind, Question};
 use wavestep::evaluate::ClosedForm;
 use wavestep::language::{Source, read_recurrence};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
@@ -53,9 +53,9 @@ fn at_distance(distance: Rational, kinds: &[Kind]) -> Option<Vec<f64>> {
     let recurrence = read_recurrence(&Source::new("two poles", TEXT).ok()?, &values).ok()?;
     let signal = ClosedForm::of_recurrence(&recurrence, &recurrence.observation("f")?).ok()?;
     let (from, to) = (Rational::default(), Rational::from_integer(LAST.into()));
-    let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+    let question = Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
     let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST as f64);
-    let reference = Reference::new(&problem, &times).ok()?;
-    let error = |kind: &Kind| errors(&problem, *kind, &reference).ok().map(|e| worst(&e));
+    let reference = Reference::new(&question, &times).ok()?;
+    let error = |kind: &Kind| errors(&question, *kind, &reference).ok().map(|e| worst(&e));
     kinds.iter().map(error).collect()
 }

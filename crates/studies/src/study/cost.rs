@@ -4,7 +4,7 @@ use crate::study::curves::DOUBLES;
 use crate::study::harness::{Measured, Settings, measure};
 use crate::study::reference::{Reference, Sampling};
 use std::time::{Duration, Instant};
-use wavestep::answer::{Kind, Problem, WayError};
+use wavestep::answer::{Kind, Question, WayError};
 use wavestep::recurrence::{Observation, Recurrence};
 use wavestep::solution::{ObserveError, Solution};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
@@ -60,7 +60,7 @@ pub fn derivation_cost(
 /// # Errors
 /// [`PlotError`], where nothing was measured.
 pub fn cost_over_order(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     symbolic: Option<(&Recurrence, &Observation)>,
     period: f64,
     orders: &[usize],
@@ -69,7 +69,7 @@ pub fn cost_over_order(
 ) -> Result<[Curves; 2], PlotError> {
     let (mut of_values, mut of_preparation) = (caption.clone(), caption);
     let (mut values, mut preparations) = (Vec::new(), Vec::new());
-    let signal = problem.signal;
+    let signal = question.signal;
     let numeric = Some((signal.recurrence(), signal.observation()));
     for (what, derived) in [("symbols kept", symbolic), ("numbers set", numeric)] {
         let Some((recurrence, observation)) = derived else { continue };
@@ -82,7 +82,7 @@ pub fn cost_over_order(
     for kind in DOUBLES.into_iter().chain([Kind::Certified]) {
         let mut measured = Vec::new();
         for &order in orders {
-            match on_period(problem, kind, (order, period), settings) {
+            match on_period(question, kind, (order, period), settings) {
                 Ok(costs) => measured.push((order as f64, costs.seconds, costs.preparation)),
                 Err(reason) => {
                     let remark = format!("{kind} is left out from n = {order} on: {reason}.");
@@ -111,14 +111,14 @@ pub fn cost_over_order(
 
 /// One way on the period that begins after so many.
 fn on_period(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     kind: Kind,
     (order, period): (usize, f64),
     settings: Settings,
 ) -> Result<Measured, WayError> {
     let ends = [order as f64 * period, (order as f64 + 1.0) * period];
     let [from, to] = ends.map(|end| Rational::from_float(end).unwrap_or_default());
-    let part = Problem { from, to, ..*problem };
+    let part = Question { from, to, ..*question };
     let times = Sampling { points: 64, seed: 1 }.times(ends[0], ends[1]);
     let reference = Reference::new(&part, &times)?;
     measure(&part, (kind, None), &reference, settings)

@@ -2,7 +2,7 @@
 
 use crate::study::harness::errors;
 use crate::study::reference::Reference;
-use wavestep::answer::{Kind, Problem, WayError};
+use wavestep::answer::{Kind, Question, WayError};
 use wavestep::evaluate::StablePrecision;
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
@@ -58,7 +58,7 @@ fn levelled(
 /// [`PlotError`], where no method has values.
 pub fn over_time(
     reference: &Reference,
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     axis: Axis,
     parts: usize,
     mut caption: Caption,
@@ -67,7 +67,7 @@ pub fn over_time(
     let size = times.len().div_ceil(parts).max(1);
     let mut curves = Vec::new();
     for kind in DOUBLES {
-        let points = errors(problem, kind, reference);
+        let points = errors(question, kind, reference);
         let points = points.map(|errors| {
             let parts = times.chunks(size).zip(errors.chunks(size));
             parts.map(|(t, e)| (t[t.len() / 2], super::worst(e))).collect()
@@ -82,23 +82,23 @@ pub fn over_time(
 /// # Errors
 /// [`PlotError`], where no method has values.
 pub fn at_arrivals(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     most: usize,
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     let empty = |title: &str| PlotError::Empty { title: title.to_owned() };
     let title = "Error just after arrivals";
     let mut arrivals =
-        problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty(title))?;
+        question.signal.arrivals(&question.from, &question.to).map_err(|_| empty(title))?;
     // One at the very end has no time after it.
-    arrivals.retain(|at| Rational::from_float(at.next_up()).is_some_and(|at| at <= problem.to));
+    arrivals.retain(|at| Rational::from_float(at.next_up()).is_some_and(|at| at <= question.to));
     let stride = arrivals.len().div_ceil(most).max(1);
     let chosen: Vec<(usize, f64)> = arrivals.iter().copied().enumerate().step_by(stride).collect();
     let times: Vec<f64> = chosen.iter().flat_map(|(_, at)| [*at, at.next_up()]).collect();
-    let reference = Reference::new(problem, &times).map_err(|_| empty(title))?;
+    let reference = Reference::new(question, &times).map_err(|_| empty(title))?;
     let mut curves = Vec::new();
     for kind in DOUBLES {
-        let points = errors(problem, kind, &reference);
+        let points = errors(question, kind, &reference);
         let points = points.map(|errors| {
             let pairs = chosen.iter().zip(errors.chunks(2));
             pairs.map(|((n, _), pair)| (*n as f64 + 1.0, super::worst(pair))).collect()
@@ -113,13 +113,13 @@ pub fn at_arrivals(
 /// # Errors
 /// [`PlotError`], where no method has values.
 pub fn over_order(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     period: f64,
     orders: &[usize],
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     let kinds = &DOUBLES[..5];
-    let rows = super::errors_by_order(problem, period, orders, kinds);
+    let rows = super::errors_by_order(question, period, orders, kinds);
     let mut curves = Vec::new();
     for (kind, row) in kinds.iter().zip(rows) {
         caption.remarks.extend(row.refusal.map(|refusal| format!("{kind}: {refusal}.")));
@@ -136,25 +136,25 @@ pub fn over_order(
 /// # Errors
 /// [`PlotError`], where modes have no values.
 pub fn near_jump(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     unit: &str,
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     const PLACES: usize = 60;
     let title = "Modes near a jump";
     let empty = || PlotError::Empty { title: title.to_owned() };
-    let arrivals = problem.signal.arrivals(&problem.from, &problem.to).map_err(|_| empty())?;
+    let arrivals = question.signal.arrivals(&question.from, &question.to).map_err(|_| empty())?;
     let middle = arrivals.len() / 2;
     let (Some(at), Some(next)) = (arrivals.get(middle), arrivals.get(middle + 1)) else {
         return Err(empty());
     };
     let distance = |i: usize| 10f64.powf(-4.0 + 3.8 * i as f64 / PLACES as f64) * (next - at);
     let times: Vec<f64> = (0..PLACES).map(|i| at + distance(i)).collect();
-    let reference = Reference::new(problem, &times).map_err(|_| empty())?;
+    let reference = Reference::new(question, &times).map_err(|_| empty())?;
     let mut curves = Vec::new();
     for count in [30, 300, 3000] {
         let kind = Kind::Modes { count };
-        let points = errors(problem, kind, &reference);
+        let points = errors(question, kind, &reference);
         let points =
             points.map(|errors| times.iter().zip(errors).map(|(t, e)| (t - at, e)).collect());
         curves.extend(curve(kind, points, &mut caption));
@@ -169,7 +169,7 @@ pub fn near_jump(
 /// # Errors
 /// [`PlotError`], where finite differences have no values.
 pub fn over_courant(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     (reference, most_cells): (&Reference, usize),
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
@@ -178,7 +178,7 @@ pub fn over_courant(
     for cells in [50, 200, 800].into_iter().filter(|cells| *cells <= most_cells) {
         let (mut mean, mut largest) = (Vec::new(), Vec::new());
         for courant in numbers {
-            match errors(problem, Kind::Leapfrog { cells, courant }, reference) {
+            match errors(question, Kind::Leapfrog { cells, courant }, reference) {
                 Ok(errors) => {
                     let sum: f64 = errors.iter().sum();
                     mean.push((courant, sum / errors.len().max(1) as f64));

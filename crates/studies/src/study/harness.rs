@@ -1,8 +1,8 @@
-//! One way on one problem: its error and its time.
+//! One way on one question: its error and its time.
 
 use crate::study::reference::Reference;
 use std::time::{Duration, Instant};
-use wavestep::answer::{Kind, Problem, Way, WayError};
+use wavestep::answer::{Kind, Question, Way, WayError};
 
 /// How long is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -46,27 +46,27 @@ pub fn worst(errors: &[f64]) -> f64 {
 /// The errors of a way at the times of a reference.
 ///
 /// # Errors
-/// [`WayError`], where the problem is none for this way.
+/// [`WayError`], where the question is none for this way.
 pub fn errors(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     kind: Kind,
     reference: &Reference,
 ) -> Result<Vec<f64>, WayError> {
-    let way = Way::new(kind, problem, None)?;
+    let way = Way::new(kind, question, None)?;
     Ok(reference.errors(&way.values(reference.times())?))
 }
 
 /// The time of a preparation and the first values, when nothing is known of the signal.
 fn from_scratch(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     (kind, tolerance): (Kind, Option<f64>),
     reference: &Reference,
 ) -> Result<Duration, WayError> {
-    let signal = problem.signal.clone();
-    let (from, to) = (problem.from.clone(), problem.to.clone());
-    let problem = Problem { signal: &signal, from, to, ..*problem };
+    let signal = question.signal.clone();
+    let (from, to) = (question.from.clone(), question.to.clone());
+    let question = Question { signal: &signal, from, to, ..*question };
     let begin = Instant::now();
-    let way = Way::new(kind, &problem, tolerance)?;
+    let way = Way::new(kind, &question, tolerance)?;
     std::hint::black_box(way.values(std::hint::black_box(reference.times()))?);
     Ok(begin.elapsed())
 }
@@ -76,9 +76,9 @@ fn from_scratch(
 /// Each preparation begins with a signal of which nothing is computed; the least of some counts.
 ///
 /// # Errors
-/// [`WayError`], where the problem is none for this way.
+/// [`WayError`], where the question is none for this way.
 pub fn measure(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     (kind, tolerance): (Kind, Option<f64>),
     reference: &Reference,
     settings: Settings,
@@ -86,12 +86,12 @@ pub fn measure(
     let mut first = Duration::MAX;
     let begin = Instant::now();
     for _ in 0..settings.runs.max(1) {
-        first = first.min(from_scratch(problem, (kind, tolerance), reference)?);
+        first = first.min(from_scratch(question, (kind, tolerance), reference)?);
         if begin.elapsed() > 10 * settings.time {
             break;
         }
     }
-    let way = Way::new(kind, problem, tolerance)?;
+    let way = Way::new(kind, question, tolerance)?;
     let values = way.values(reference.times())?;
     let mut least = Duration::MAX;
     let begin = Instant::now();

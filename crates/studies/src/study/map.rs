@@ -3,7 +3,7 @@
 use crate::study::curves::{HALF, USELESS};
 use crate::study::harness::worst;
 use crate::study::reference::{Reference, Sampling};
-use wavestep::answer::{Kind, Problem, Way, WayError};
+use wavestep::answer::{Kind, Question, Way, WayError};
 use wavestep_draw::{Axis, Caption, Level, Map, PlotError};
 use wavestep_polynomial::Rational;
 
@@ -47,14 +47,14 @@ fn times_on(order: usize, period: f64) -> Vec<f64> {
 /// The largest error on each of some periods, ascending, for each of some ways. Where a way refuses, it
 /// is asked again without the last period, until it does not.
 pub fn errors_by_order(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     period: f64,
     orders: &[usize],
     kinds: &[Kind],
 ) -> Vec<OrderRow> {
     let part = |orders: &[usize]| {
         let end = Rational::from_float((orders.last().copied().unwrap_or(0) as f64 + 1.0) * period);
-        Problem { to: end.unwrap_or_default(), from: Rational::default(), ..*problem }
+        Question { to: end.unwrap_or_default(), from: Rational::default(), ..*question }
     };
     let times: Vec<f64> = orders.iter().flat_map(|order| times_on(*order, period)).collect();
     let refused =

@@ -1,7 +1,7 @@
 //! Times drawn by a seed, and values there that are far finer than doubles.
 
 use num_traits::ToPrimitive as _;
-use wavestep::answer::Problem;
+use wavestep::answer::Question;
 use wavestep::ball::{Attempt, Precisions};
 use wavestep::evaluate::{EvaluateError, Limit};
 use wavestep_polynomial::Rational;
@@ -64,14 +64,14 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// The values of a problem, just after arrivals.
+    /// The values of a question, just after arrivals.
     ///
     /// # Errors
-    /// [`EvaluateError`], where the problem cannot be enclosed, and for times that are no numbers.
-    pub fn new(problem: &Problem<'_>, times: &[f64]) -> Result<Reference, EvaluateError> {
-        let signal = problem.signal;
-        let stretches = signal.stretches(&problem.from, &problem.to)?;
-        let scale = problem.scale()?;
+    /// [`EvaluateError`], where the question cannot be enclosed, and for times that are no numbers.
+    pub fn new(question: &Question<'_>, times: &[f64]) -> Result<Reference, EvaluateError> {
+        let signal = question.signal;
+        let stretches = signal.stretches(&question.from, &question.to)?;
+        let scale = question.scale()?;
         let mut values = Vec::with_capacity(times.len());
         let mut radius = 0.0_f64;
         // Bits that did once do again, and more are needed for later times.

@@ -1,8 +1,8 @@
-//! Work against precision: all ways with their settings on one problem.
+//! Work against precision: all ways with their settings on one question.
 
 use crate::study::harness::{Measured, Settings, measure};
 use crate::study::reference::Reference;
-use wavestep::answer::{Kind, Problem, WayError};
+use wavestep::answer::{Kind, Question, WayError};
 use wavestep::evaluate::StablePrecision;
 use wavestep_draw::{Caption, Method, PlotError, Point, Row, Table, WorkPrecision};
 
@@ -91,7 +91,7 @@ fn is_heavy(kind: Kind) -> bool {
 
 /// Measures all steps, or those that do not take long; `tick` is called before each.
 pub fn ladder(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     reference: &Reference,
     (settings, quick): (Settings, bool),
     tick: impl Fn(&Kind),
@@ -100,7 +100,7 @@ pub fn ladder(
         let (kind, tolerance) = step;
         tick(&kind);
         let absolute = tolerance.map(|tolerance| tolerance * reference.scale());
-        let result = measure(problem, (kind, absolute), reference, settings);
+        let result = measure(question, (kind, absolute), reference, settings);
         Outcome { step, result }
     };
     LADDER.into_iter().filter(|(kind, _)| !(quick && is_heavy(*kind))).map(outcome).collect()

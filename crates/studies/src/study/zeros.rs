@@ -3,7 +3,7 @@
 use crate::study::curves::{DOUBLES, curve};
 use crate::study::harness::errors;
 use crate::study::reference::Reference;
-use wavestep::answer::Problem;
+use wavestep::answer::Question;
 use wavestep::evaluate::{ClosedSignal, Root, Search};
 use wavestep_draw::{Axis, Caption, Curves, PlotError};
 use wavestep_polynomial::Rational;
@@ -17,11 +17,11 @@ const DIGITS: usize = 20;
 /// The bits of balls that may be spent on a root.
 const LIMIT_BITS: u64 = 1 << 13;
 
-/// Certified simple roots in the window of a problem, rounded to doubles: at most so many, from all over
+/// Certified simple roots in the window of a question, rounded to doubles: at most so many, from all over
 /// the window. None where there are none, or they cannot be told.
-pub fn simple_roots(problem: &Problem<'_>, most: usize) -> Vec<f64> {
-    let window = [&problem.from, &problem.to];
-    let roots = ClosedSignal::of_form(problem.signal.clone(), window)
+pub fn simple_roots(question: &Question<'_>, most: usize) -> Vec<f64> {
+    let window = [&question.from, &question.to];
+    let roots = ClosedSignal::of_form(question.signal.clone(), window)
         .and_then(|signal| Search::new(&signal)?.roots(&Rational::default(), DIGITS, LIMIT_BITS));
     let Ok(roots) = roots else { return Vec::new() };
     let simple = roots.all.iter().filter_map(|root| match root {
@@ -40,15 +40,15 @@ pub fn simple_roots(problem: &Problem<'_>, most: usize) -> Vec<f64> {
 /// # Errors
 /// [`PlotError`], where there is no root or no method has values.
 pub fn near_zeros(
-    problem: &Problem<'_>,
+    question: &Question<'_>,
     most: usize,
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     let title = "Error relative to the value, near zeros";
     let empty = || PlotError::Empty { title: title.to_owned() };
-    let [from, to] = [&problem.from, &problem.to].map(crate::study::reference::nearest);
-    let roots = simple_roots(problem, most);
-    let unit = problem.signal.period().unwrap_or(to - from);
+    let [from, to] = [&question.from, &question.to].map(crate::study::reference::nearest);
+    let roots = simple_roots(question, most);
+    let unit = question.signal.period().unwrap_or(to - from);
     // Each time with the decade it belongs to.
     let mut times = Vec::new();
     for decade in DECADES {
@@ -59,11 +59,11 @@ pub fn near_zeros(
     }
     times.sort_by(|a, b| a.1.total_cmp(&b.1));
     let at: Vec<f64> = times.iter().map(|(_, time)| *time).collect();
-    let reference = Reference::new(problem, &at).map_err(|_| empty())?;
+    let reference = Reference::new(question, &at).map_err(|_| empty())?;
     let sizes = reference.sizes();
     let mut curves = Vec::new();
     for kind in DOUBLES {
-        let points = errors(problem, kind, &reference);
+        let points = errors(question, kind, &reference);
         let points = points.map(|errors| {
             let relative = |i: usize| if sizes[i] == 0.0 { 0.0 } else { errors[i] / sizes[i] };
             let worst = |decade: i32| {
@@ -75,7 +75,7 @@ pub fn near_zeros(
         });
         curves.extend(curve(kind, points, &mut caption));
     }
-    let of = if problem.signal.period().is_some() { "periods" } else { "parts of the window" };
+    let of = if question.signal.period().is_some() { "periods" } else { "parts of the window" };
     let axis = Axis::logarithmic(&format!("distance from the nearest certified root, in {of}"));
     caption.remarks.push(format!("{} roots.", roots.len()));
     Curves::new(title, axis, Axis::logarithmic("relative error"), curves, caption)

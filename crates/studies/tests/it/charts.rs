@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::time::Duration;
-use wavestep::answer::{Kind, Problem};
+use wavestep::answer::{Kind, Question};
 use wavestep::evaluate::ClosedForm;
 use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
 use wavestep::network::Network;
@@ -20,28 +20,28 @@ fn text(name: &str) -> Source {
 }
 
 /// The wave f of the rigid mass, μ = 1, until a time.
-fn with_wave(to: &str, work: impl FnOnce(&Problem<'_>)) {
+fn with_wave(to: &str, work: impl FnOnce(&Question<'_>)) {
     let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
     let recurrence = read_recurrence(&text("rigid-mass"), &values).unwrap();
     let f = recurrence.observation("f").unwrap();
     let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
-    work(&Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to });
+    work(&Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to });
 }
 
 /// The same as a scene, which models take: the strain under the mass.
-fn with_scene(to: &str, work: impl FnOnce(&Problem<'_>)) {
+fn with_scene(to: &str, work: impl FnOnce(&Question<'_>)) {
     let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
     let scene = read_scene(&text("mass-on-fixed-bar"), &values).unwrap();
     let network = Network::new(&scene).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
     let signal = ClosedForm::of_scene(&network, &network.observables()[1], &to).unwrap();
     let scene = Some((&network, 1));
-    work(&Problem { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to });
+    work(&Question { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to });
 }
 
-fn reference(problem: &Problem<'_>, to: f64) -> Reference {
-    Reference::new(problem, &Sampling { points: 40, seed: 1 }.times(0.0, to)).unwrap()
+fn reference(question: &Question<'_>, to: f64) -> Reference {
+    Reference::new(question, &Sampling { points: 40, seed: 1 }.times(0.0, to)).unwrap()
 }
 
 /// The last error of the curve called `name`.
@@ -52,16 +52,16 @@ fn last(chart: &Curves, name: &str) -> f64 {
 /// The formula as printed loses what sums in pairs keep.
 #[test]
 fn expanded_formulas_lose_digits_with_time_and_order() {
-    with_wave("60", |problem| {
-        let (reference, axis) = (reference(problem, 60.0), Axis::linear("time t"));
-        let chart = over_time(&reference, problem, axis, 10, Caption::default()).unwrap();
+    with_wave("60", |question| {
+        let (reference, axis) = (reference(question, 60.0), Axis::linear("time t"));
+        let chart = over_time(&reference, question, axis, 10, Caption::default()).unwrap();
         assert!(last(&chart, "expanded") > 1e-8 && last(&chart, "stable") < 1e-13);
     });
-    with_wave("8", |problem| {
-        let chart = over_order(problem, 2.0, &[5, 40], Caption::default()).unwrap();
+    with_wave("8", |question| {
+        let chart = over_order(question, 2.0, &[5, 40], Caption::default()).unwrap();
         assert!(last(&chart, "expanded") > 1e-3 && last(&chart, "double-double") < 1e-15);
         let kinds = [Kind::Expanded, Kind::Compiled, Kind::Rigid];
-        let rows = errors_by_order(problem, 2.0, &[1, 30], &kinds);
+        let rows = errors_by_order(question, 2.0, &[1, 30], &kinds);
         let [expanded, compiled, rigid] = &rows[..] else { panic!("a row for each") };
         assert!(expanded.errors[0].unwrap() < 1e-14 && expanded.errors[1].unwrap() > 1e-8);
         assert!(compiled.errors.iter().all(|error| error.unwrap() < 1e-15));
@@ -78,8 +78,8 @@ fn expanded_formulas_lose_digits_with_time_and_order() {
 
 #[test]
 fn arrivals_are_all_there() {
-    with_wave("9", |problem| {
-        let chart = at_arrivals(problem, 100, Caption::default()).unwrap();
+    with_wave("9", |question| {
+        let chart = at_arrivals(question, 100, Caption::default()).unwrap();
         let compiled = chart.curves().iter().find(|curve| curve.name == "compiled").unwrap();
         assert!(compiled.points.iter().map(|(n, _)| *n).eq([1.0, 2.0, 3.0, 4.0]));
         assert!(compiled.points.iter().all(|(_, error)| *error < 1e-15));
@@ -88,15 +88,15 @@ fn arrivals_are_all_there() {
 
 #[test]
 fn models_miss_jumps_and_keep_to_the_courant_number() {
-    with_scene("9", |problem| {
+    with_scene("9", |question| {
         // Thirty modes miss part of the jump that three thousand follow at a distance.
-        let chart = near_jump(problem, "", Caption::default()).unwrap();
+        let chart = near_jump(question, "", Caption::default()).unwrap();
         let [few, _, many] = chart.curves() else { panic!("three sums") };
         assert!(few.points.first().unwrap().1 > many.points.last().unwrap().1);
     });
-    with_scene("8", |problem| {
-        let reference = reference(problem, 8.0);
-        let chart = over_courant(problem, (&reference, 50), Caption::default()).unwrap();
+    with_scene("8", |question| {
+        let reference = reference(question, 8.0);
+        let chart = over_courant(question, (&reference, 50), Caption::default()).unwrap();
         let mean = &chart.curves()[0];
         assert_eq!(mean.name, "50 cells, mean");
         // Best where a step of time takes a wave through one cell: at Courant's number 1.
@@ -111,10 +111,10 @@ fn the_ladder_keeps_its_bounds() {
     let compiled = LADDER.iter().filter(|(kind, _)| *kind == Kind::Compiled);
     let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| *tolerance).collect();
     assert!(tolerances.is_sorted_by(|a, b| a > b) && tolerances.len() > 5);
-    with_wave("8", |problem| {
-        let reference = reference(problem, 8.0);
+    with_wave("8", |question| {
+        let reference = reference(question, 8.0);
         let ticks = Cell::new(0);
-        let outcomes = ladder(problem, &reference, (ONCE, true), |_| ticks.set(ticks.get() + 1));
+        let outcomes = ladder(question, &reference, (ONCE, true), |_| ticks.set(ticks.get() + 1));
         assert_eq!(ticks.get(), outcomes.len());
         // Models refuse a recurrence; every bound of the others is kept.
         assert!(outcomes[0].result.is_err());
@@ -142,9 +142,9 @@ fn costs_are_told_for_every_order() {
     let cost = derivation_cost(&recurrence, &f, &[2, 20], ONCE).unwrap();
     let [(2.0, few), (20.0, many)] = cost[..] else { panic!("two orders") };
     assert!(few > 0.0 && many > 0.0);
-    with_wave("8", |problem| {
+    with_wave("8", |question| {
         let [_, preparation] =
-            cost_over_order(problem, None, 2.0, &[1, 4], ONCE, Caption::default()).unwrap();
+            cost_over_order(question, None, 2.0, &[1, 4], ONCE, Caption::default()).unwrap();
         let curve = |name: &str| preparation.curves().iter().find(|curve| curve.name == name);
         assert!(curve("compiled, period n").is_some());
         assert_eq!(curve("derivation of 0 to n, numbers set").unwrap().points.len(), 2);

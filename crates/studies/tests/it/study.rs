@@ -1,6 +1,6 @@
 //! The harness of the charts, measured itself: a known error in is a known error out.
 
-use wavestep::answer::{Kind, Problem};
+use wavestep::answer::{Kind, Question};
 use wavestep::evaluate::{ClosedForm, ClosedSignal, StablePrecision};
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::solution::Solution;
@@ -10,7 +10,7 @@ use wavestep_studies::study::{
     near_zeros, simple_roots, worst,
 };
 
-fn with_problem(work: impl FnOnce(&Problem<'_>)) {
+fn with_question(work: impl FnOnce(&Question<'_>)) {
     let text = wavestep::scenes::find("rigid-mass").unwrap().text;
     let values = [("mu".to_owned(), parse_number("1/3").unwrap())].into();
     let source = Source::new("rigid-mass", text).unwrap();
@@ -20,18 +20,18 @@ fn with_problem(work: impl FnOnce(&Problem<'_>)) {
     let (from, to) = (parse_number("0").unwrap(), parse_number("12").unwrap());
     let exact = ClosedSignal::of_recurrence(&solution, &f, [&from, &to]).unwrap();
     let recognise = |at: &_, side| exact.rational(at, side);
-    work(&Problem { signal: &signal, scene: None, recognise: &recognise, from, to });
+    work(&Question { signal: &signal, scene: None, recognise: &recognise, from, to });
 }
 
 /// The reference's own values are off by half a unit in the last place at most, and an error that is
 /// put in comes out, on each value alone.
 #[test]
 fn known_errors_are_measured() {
-    with_problem(|problem| {
+    with_question(|question| {
         let times = Sampling { points: 100, seed: 3 }.times(0.0, 12.0);
-        let reference = Reference::new(problem, &times).unwrap();
+        let reference = Reference::new(question, &times).unwrap();
         assert!(reference.radius() < 1e-29, "{:e}", reference.radius());
-        let certified = wavestep::answer::Way::new(Kind::Certified, problem, None).unwrap();
+        let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();
         let values = certified.values(&times).unwrap();
         assert!(worst(&reference.errors(&values)) <= f64::EPSILON / 2.0);
         for (i, known) in [(0, 1e-3), (17, 1e-9), (99, 1e-13)] {
@@ -54,10 +54,10 @@ fn known_errors_are_measured() {
 /// The reference agrees with certified digits, which come another way.
 #[test]
 fn references_agree_with_certified_digits() {
-    with_problem(|problem| {
+    with_question(|question| {
         let times = [0.0, 0.5, 2.0 / 3.0, 5.25, 11.999];
-        let reference = Reference::new(problem, &times).unwrap();
-        let certified = wavestep::answer::Way::new(Kind::Certified, problem, None).unwrap();
+        let reference = Reference::new(question, &times).unwrap();
+        let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();
         for (time, error) in times.iter().zip(reference.errors(&certified.values(&times).unwrap()))
         {
             assert!(error <= f64::EPSILON / 2.0, "{time}: {error:e}");
@@ -68,9 +68,9 @@ fn references_agree_with_certified_digits() {
 /// Every proven bound holds where it is measured, and the harness sees the formula as printed fail.
 #[test]
 fn proven_bounds_hold_where_they_are_measured() {
-    with_problem(|problem| {
+    with_question(|question| {
         let times = Sampling { points: 300, seed: 4 }.times(0.0, 12.0);
-        let reference = Reference::new(problem, &times).unwrap();
+        let reference = Reference::new(question, &times).unwrap();
         let settings = Settings { runs: 1, time: std::time::Duration::ZERO };
         let scale = reference.scale();
         let kinds = [
@@ -80,12 +80,12 @@ fn proven_bounds_hold_where_they_are_measured() {
             (Kind::Marched { proven: true }, None),
         ];
         for step in kinds {
-            let measured = measure(problem, step, &reference, settings).unwrap();
+            let measured = measure(question, step, &reference, settings).unwrap();
             let bound = measured.bound.unwrap();
             assert!(measured.error <= bound, "{step:?}: {:e} > {bound:e}", measured.error);
             assert!(measured.seconds > 0.0 && measured.preparation >= 0.0);
         }
-        assert!(worst(&errors(problem, Kind::Expanded, &reference).unwrap()) > 1e-13);
+        assert!(worst(&errors(question, Kind::Expanded, &reference).unwrap()) > 1e-13);
     });
 }
 
@@ -99,13 +99,13 @@ fn orders_of_loss_are_the_first_ones() {
     let f = recurrence.observation("f").unwrap();
     let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number("8").unwrap());
-    let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+    let question = Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
     let all: Vec<usize> = (1..=60).collect();
     let few = [1, 5, 10, 15, 20, 30, 40, 60];
     let kind = Kind::Expanded;
-    let row = |orders: &[usize]| errors_by_order(&problem, 2.0, orders, &[kind]).swap_remove(0);
+    let row = |orders: &[usize]| errors_by_order(&question, 2.0, orders, &[kind]).swap_remove(0);
     let every = row(&all).errors;
-    let loss = first_losses(&problem, kind, (1.0, 2.0), (&few, &row(&few).errors));
+    let loss = first_losses(&question, kind, (1.0, 2.0), (&few, &row(&few).errors));
     let first = |level: f64| every.iter().position(|error| error.unwrap() >= level).map(|i| all[i]);
     assert_eq!(loss, Loss { parameter: 1.0, half: first(1e-8), all: first(1.0) });
     // Naive Horner in s, μ and E, measured by other means, loses them at 24 and 46.
@@ -124,10 +124,10 @@ fn refused_periods_leave_the_others() {
     let f = recurrence.observation("f").unwrap();
     let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
     let (from, to) = (parse_number("0").unwrap(), parse_number("8").unwrap());
-    let problem = Problem { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+    let question = Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
     // With two poles `expanded` sums 300 echoes at most, and `stable` none.
     let kinds = [Kind::Stable(StablePrecision::Double), Kind::Expanded];
-    let [stable, expanded] = &errors_by_order(&problem, 2.0, &[1, 5, 310], &kinds)[..] else {
+    let [stable, expanded] = &errors_by_order(&question, 2.0, &[1, 5, 310], &kinds)[..] else {
         panic!("two rows")
     };
     assert_eq!(stable.errors, [None; 3]);
@@ -141,16 +141,16 @@ fn refused_periods_leave_the_others() {
 /// error grows by a power of ten with each power of ten of the distance.
 #[test]
 fn relative_errors_grow_towards_zeros() {
-    with_problem(|problem| {
-        let roots = simple_roots(problem, 100);
+    with_question(|question| {
+        let roots = simple_roots(question, 100);
         assert!(roots.len() > 3 && roots.is_sorted(), "{roots:?}");
-        let certified = wavestep::answer::Way::new(Kind::Certified, problem, None).unwrap();
+        let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();
         // Certified values change sign across each root.
         for root in &roots {
             let signs = certified.values(&[root - 1e-12, root + 1e-12]).unwrap();
             assert!(signs[0] * signs[1] < 0.0, "{root}: {signs:?}");
         }
-        let chart = near_zeros(problem, 100, Caption::default()).unwrap();
+        let chart = near_zeros(question, 100, Caption::default()).unwrap();
         let errors = |name: &str| -> Vec<f64> {
             let curve = chart.curves().iter().find(|curve| curve.name == name).unwrap();
             assert_eq!(curve.points.len(), 12);

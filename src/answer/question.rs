@@ -5,7 +5,7 @@ use crate::network::Network;
 use wavestep_polynomial::Rational;
 
 /// An observable on a window, with what there is to compute it from.
-pub struct Problem<'a> {
+pub struct Question<'a> {
     /// The observable.
     pub signal: &'a ClosedForm,
     /// The scene, and the place of the observable in it; models need it.
@@ -18,7 +18,7 @@ pub struct Problem<'a> {
     pub to: Rational,
 }
 
-impl Problem<'_> {
+impl Question<'_> {
     /// About the largest absolute value on the window, from the beginnings, middles and ends of some
     /// stretches between arrivals; the largest one is not smaller, but for rounding.
     ///
