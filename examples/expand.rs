@@ -2,19 +2,15 @@
 //!
 //! `cargo run --release --example expand -- 80`
 
-use std::collections::BTreeMap;
 use std::time::Instant;
-use wavestep::language::{Source, read_recurrence};
-use wavestep::solution::Solution;
+use wavestep::Problem;
 use wavestep_polynomial::{Integer, Rational, factorial};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let last: usize = std::env::args().nth(1).ok_or("give an order, such as 80")?.parse()?;
-    let text = wavestep::scenes::find("rigid-mass").ok_or("a built-in scene")?.text;
     let start = Instant::now();
-    let recurrence = read_recurrence(&Source::new("rigid-mass", text)?, &BTreeMap::new())?;
-    let solution = Solution::new(recurrence);
-    let table = solution.table(0, last)?.ok_or("rational constants")?;
+    let problem = Problem::builtin("rigid-mass")?;
+    let table = problem.solution()?.table(0, last)?.ok_or("rational constants")?;
     let mut bits = 0;
     for n in 0..=last {
         table.for_each_term(n, |term| bits += term.numerator.bits());

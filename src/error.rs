@@ -10,6 +10,7 @@ use crate::expression::{NotAUnit, NotInvertible};
 use crate::field::FieldError;
 use crate::history::HistoryError;
 use crate::language::{Diagnostic, closest};
+use crate::limits::MAX_DIGITS;
 use crate::lock::LockError;
 use crate::model::ModelError;
 use crate::network::NetworkError;
@@ -24,9 +25,7 @@ use std::fmt;
 /// `Display` says what went wrong; [`source`](std::error::Error::source) goes on to the causes.
 ///
 /// ```
-/// use wavestep::problem::Problem;
-///
-/// let error = wavestep::Error::from(Problem::builtin("rigid-mas").err().unwrap());
+/// let error = wavestep::Problem::builtin("rigid-mas").err().unwrap();
 /// assert!(error.is_bad_input() && !error.is_not_supported());
 /// assert_eq!(error.to_string(), "there is no built-in scene `rigid-mas`");
 /// assert!(error.remedy().unwrap().contains("rigid-mass"));
@@ -253,6 +252,9 @@ fn remedy(error: &ProblemError) -> Remedy {
         ProblemError::NotAnObservable { .. } => "this scene has no observables: derive its waves",
         ProblemError::ObservableIsNoWave(_) => "it is an observable: derive it as such",
         ProblemError::NoNumber(_) | ProblemError::NotFinite(_) => "give a number",
+        ProblemError::Digits(_) => return said(format!("ask for 1 to {MAX_DIGITS} digits")),
+        ProblemError::Tolerance(_) => "give a number such as 1e-9, abs:1e-9 or ulp:4",
+        ProblemError::Method(_) => "see `Method::NAMES`",
         ProblemError::BeforeStart(_) => "give times from 0 on",
         ProblemError::EmptyWindow(_) => "let the window end after it begins",
         ProblemError::NoEnd => "give the window an end",

@@ -1,19 +1,28 @@
 //! Exact solutions of wave propagation in bars with lumped ends: derived, evaluated, explained.
 //!
-//! Data flows one way: text ([`language`]) → [`recurrence`] → [`solution`] → numbers ([`evaluate`])
-//! and formulas ([`export`]), all in exact [`expression`]s; [`ball`] encloses what is not rational.
-//! [`field`] gives velocities and strains along the bars of a scene.
+//! A [`Problem`] is a text that was read: bars with what joins them, or the equations of a textbook between
+//! the wave functions of successive periods. It gives exact [`Formula`]s of any order, [`Signal`]s, which
+//! are functions of time with proven digits, roots and extrema, the [`History`] of contacts that open and
+//! close, and [`Fields`] along the bars. Numbers are taken as text, integers, rationals or doubles
+//! ([`Given`]), and given back as a [`Value`], exact or with proven digits, or as [`Doubles`] with a bound.
 //!
 //! ```
-//! use wavestep::{language, solution::Solution};
+//! use wavestep::Problem;
 //!
-//! let source = language::Source::new("rigid-mass", wavestep::scenes::find("rigid-mass").unwrap().text)?;
-//! let recurrence = language::read_recurrence(&source, &Default::default())?;
-//! let pieces = Solution::new(recurrence).pieces(0, 1, 1).unwrap();
-//! let f_1 = language::Source::new("6.80", "exp(-s)*(-2*s + 1 + exp(-2*mu))")?;
-//! assert_eq!(pieces[0], language::read_expression(&f_1)?);
-//! # Ok::<(), language::Diagnostic>(())
+//! fn main() -> Result<(), wavestep::Error> {
+//!     let p = Problem::builtin("rigid-mass")?;
+//!     for f in p.derive("f", 0..=3)? {
+//!         println!("{}", f.latex());
+//!     }
+//!     let p = p.with("mu", "1/4")?;
+//!     let f = p.signal("f")?;
+//!     println!("{}", f.at("33/10", 30)?); // 0.305385264408791064086396952466
+//!     Ok(())
+//! }
 //! ```
+//!
+//! The language of texts is described in `docs/scene-language.md` and `docs/language.md`, what is exact, proven
+//! or tested in `docs/guarantees.md`. [`scenes`] are built in; [`limits`] say how much is done at most.
 
 /// The examples of the README are run as documentation tests.
 #[cfg(doctest)]
@@ -21,7 +30,9 @@
 struct Readme;
 
 mod error;
+mod facade;
 pub mod limits;
+pub mod scenes;
 
 // These modules are for the member crates of this repository, and no part of the public surface.
 #[doc(hidden)]
@@ -55,9 +66,16 @@ pub mod recurrence;
 #[doc(hidden)]
 pub mod scene;
 #[doc(hidden)]
-pub mod scenes;
 pub mod signal;
 #[doc(hidden)]
 pub mod solution;
 
+pub use answer::{Doubles, Kind as Method, Tolerance};
 pub use error::Error;
+pub use evaluate::{Extremum, Goal, Place, Root, Roots, StablePrecision, Value};
+pub use facade::{Formula, Signal};
+pub use field::{BarFields, Bounded, Fields, Quantity};
+pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
+pub use language::{Diagnostic, Label, Span};
+pub use problem::{Given, Problem};
+pub use wavestep_polynomial::Rational;

@@ -44,8 +44,23 @@ pub const MAX_CONTACT_EXPONENT: u8 = 100;
 
 // ---- Values --------------------------------------------------------------------------------------
 
+/// Terms that are derived at once.
+pub const MAX_DERIVED_TERMS: u128 = 2_000_000;
+
+/// Echoes on a lattice of delays that are derived at once.
+pub const MAX_DERIVED_ECHOES: usize = 5_000;
+
 /// Significant digits that are certified.
 pub const MAX_DIGITS: usize = 10_000;
+
+/// Significant digits of a symbol for which extrema are equal: each costs more than three pairs of extrema.
+pub const MAX_DIGITS_OF_SYMBOL: usize = 60;
+
+/// Bits of working precision for a value, unless more are allowed.
+pub const VALUE_BITS: u64 = 1 << 18;
+
+/// Bits of working precision for roots and extrema, unless more are allowed.
+pub const SEARCH_BITS: u64 = 1 << 12;
 
 /// Periods before a time where echoes have a closed form: the cost grows with their square.
 pub const MAX_ORDER: usize = 2_000;

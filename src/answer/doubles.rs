@@ -23,10 +23,20 @@ pub enum Accuracy {
 }
 
 /// Values in doubles.
+///
+/// ```
+/// use wavestep::{Problem, Tolerance};
+///
+/// let mass = Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let found = mass.signal("strain_fixed")?.values(&[1, 3, 5], Tolerance::Relative(1e-9))?;
+/// assert!(found.bound.is_some_and(|bound| bound < 3e-9));
+/// assert!((found.values[1] + 2.0 + 2.0 * (-2_f64).exp()).abs() < 3e-9);
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Doubles {
     /// The method they were computed by.
-    pub kind: Kind,
+    pub method: Kind,
     /// How far they can be off, in words.
     pub law: String,
     /// A proven bound on the absolute error, beyond half a unit in the last place.
@@ -34,6 +44,7 @@ pub struct Doubles {
     /// One for each time.
     pub values: Vec<f64>,
     /// What is to be known of them, in this order.
+    #[doc(hidden)]
     pub remarks: Vec<Remark>,
 }
 
@@ -93,7 +104,7 @@ pub fn doubles(
         choice.compare(tolerance, (times, limit, &values))?;
     }
     let remarks = choice.remarks;
-    Ok(Doubles { kind: way.kind(), law: way.law(), bound: way.bound(), values, remarks })
+    Ok(Doubles { method: way.kind(), law: way.law(), bound: way.bound(), values, remarks })
 }
 
 /// The choice of a method, and what is to be known of it.

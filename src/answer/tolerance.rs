@@ -9,6 +9,15 @@ use std::str::FromStr;
 /// Written as a number, it is relative to the largest absolute value; `abs:1e-9` is in the unit of the
 /// values; `ulp:4` is in units in the last place of the largest value, which are `2^(e−52)` for values
 /// from `2^e` to `2^(e+1)`.
+///
+/// ```
+/// use wavestep::Tolerance;
+///
+/// let (relative, ulps): (Tolerance, Tolerance) = ("1e-9".parse()?, "ulp:4".parse()?);
+/// assert_eq!(relative, Tolerance::Relative(1e-9));
+/// assert_eq!(ulps.absolute(1.0), 4.0 * f64::EPSILON);
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Tolerance {
     /// In the unit of the values.

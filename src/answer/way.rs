@@ -18,6 +18,15 @@ use std::str::FromStr;
 use wavestep_polynomial::Rational;
 
 /// A way to values with its settings, as it is written: `NAME` or `NAME:SETTING[,SETTING]`.
+///
+/// ```
+/// use wavestep::Method;
+///
+/// assert_eq!("steps:1e-12".parse::<Method>()?, Method::Steps { tolerance: 1e-12 });
+/// assert!("modes:10".parse::<Method>()?.is_model());
+/// assert_eq!(Method::Marched { proven: true }.to_string(), "marched");
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Kind {
     /// Correctly rounded.

@@ -5,6 +5,7 @@ use super::decimal::{Decimal, Exactness};
 use super::magnitude::Magnitude;
 use super::number::Number;
 use super::precision::{Attempt, Precisions};
+use std::convert::Infallible;
 use std::fmt;
 use wavestep_polynomial::Rational;
 
@@ -20,12 +21,22 @@ const SPARE_BITS: u64 = 32;
 /// The precision of doubles, and a few bits more.
 const DOUBLE_BITS: u64 = 64;
 
-/// A value, or a time.
+/// A value, or a time: a rational number exactly, any other with proven digits.
+///
+/// ```
+/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let strain = mass.signal("strain_fixed")?;
+/// let (exact, rounded) = (strain.at(1, 9)?, strain.at("3/2", 9)?); // -2 and -2 exp(-1/2)
+/// assert_eq!((exact.exact().cloned(), rounded.exact()), (Some((-2).into()), None));
+/// assert_eq!((rounded.to_string(), rounded.to_f64()), ("-1.21306132".into(), -1.2130613194252668));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Value {
     /// A rational number, exactly.
     Exact(Rational),
     /// A number that is not known to be rational, with proven digits.
+    #[doc(hidden)]
     Certified {
         /// The correctly rounded value.
         decimal: Decimal,
@@ -33,6 +44,7 @@ pub enum Value {
         ball: Ball,
     },
     /// Enclosed, but not so that one decimal is left: it may be half-way between two.
+    #[doc(hidden)]
     Enclosed(Ball),
 }
 
@@ -50,6 +62,7 @@ impl Value {
     ///
     /// # Panics
     /// Panics if `digits` is zero.
+    #[doc(hidden)]
     pub fn certify<E>(
         digits: usize,
         limit_bits: u64,
@@ -105,6 +118,7 @@ impl Value {
 
     /// The value rounded to `digits` significant digits, and whether they are all of it. A certified
     /// value has the digits it was computed to, the midpoint of an enclosure those that it proves.
+    #[doc(hidden)]
     pub fn decimal(&self, digits: usize) -> (Decimal, Exactness) {
         match self {
             Value::Exact(value) => Decimal::from_rational(value, digits),
@@ -115,12 +129,45 @@ impl Value {
         }
     }
 
-    /// A double near it.
-    pub fn to_double(&self) -> f64 {
-        self.ball(DOUBLE_BITS).to_double().0
+    /// The number, where it is known to be rational.
+    pub fn exact(&self) -> Option<&Rational> {
+        match self {
+            Value::Exact(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Two rational numbers with the value between them, equal where it is one.
+    pub fn bounds(&self) -> [Rational; 2] {
+        match self {
+            Value::Exact(value) => [value.clone(), value.clone()],
+            Value::Certified { ball, .. } | Value::Enclosed(ball) => {
+                let (lower, upper) = ball.endpoints();
+                [(&lower).into(), (&upper).into()]
+            }
+        }
+    }
+
+    /// The nearest double, ties to even; where the enclosure lies around the middle of two, that of its
+    /// midpoint. Values of signals at times are enclosed so narrowly that only one is left.
+    pub fn to_f64(&self) -> f64 {
+        let most = match self {
+            Value::Exact(value) => value.numer().bits() + value.denom().bits() + 2 * DOUBLE_BITS,
+            Value::Certified { .. } | Value::Enclosed(_) => DOUBLE_BITS,
+        };
+        let rounded = |bits| {
+            let ball = self.ball(bits);
+            Ok::<_, Infallible>(match ball.rounded() {
+                Some(double) => Attempt::Done(double),
+                None => Attempt::NotYet(ball.midpoint().to_double()),
+            })
+        };
+        let Ok(attempt) = Precisions::doubling(DOUBLE_BITS, most).raise(rounded);
+        attempt.best()
     }
 
     /// The best enclosure there is; that of a rational number has so many bits.
+    #[doc(hidden)]
     pub fn ball(&self, bits: u64) -> Ball {
         match self {
             Value::Exact(value) => Ball::from_rational(value, bits),
@@ -159,8 +206,6 @@ impl fmt::Display for Value {
 
 #[cfg(test)]
 mod tests {
-    use std::convert::Infallible;
-
     use super::super::binary::Binary;
     use super::super::{BallError, exp_of_rational};
     use super::*;
@@ -239,7 +284,7 @@ mod tests {
     #[test]
     fn values_are_written_as_far_as_they_are_known() {
         assert_eq!(Value::Exact(ratio(1, 2)).to_text(9), "0.5 = 1/2");
-        assert_eq!(Value::Exact(ratio(1, 3)).to_double(), 1.0 / 3.0);
+        assert_eq!(Value::Exact(ratio(1, 3)).to_f64(), 1.0 / 3.0);
         let third = Number::Enclosed(Ball::from_rational(&ratio(1, 3), 20));
         assert_eq!(Value::of(&third, 9).to_text(9), "0.333333492 ± 4.8e-7");
         assert_eq!(Value::of(&third, 4).to_text(4), "0.3333");

@@ -6,6 +6,17 @@ use crate::scene::Dimension;
 use wavestep_polynomial::Rational;
 
 /// A field.
+///
+/// ```
+/// use wavestep::{Problem, Quantity};
+///
+/// // A wave that compresses has come half the way back from the wall.
+/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let rod = &Problem::read("rod.wave", text)?.field("1/2", 4)?.bars[0];
+/// let force = rod.of(Quantity::Force);
+/// assert_eq!((force[0].value, force[4].value), (0.0, 2.0));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Quantity {
     /// Positive to the right.
@@ -34,6 +45,7 @@ impl Quantity {
     }
 
     /// Its dimension in scenes with units.
+    #[doc(hidden)]
     pub const fn dimension(self) -> Dimension {
         match self {
             Quantity::Velocity => Dimension::VELOCITY,
@@ -45,6 +57,14 @@ impl Quantity {
 }
 
 /// A double with a proven bound: `|value − exact| ≤ bound`.
+///
+/// ```
+/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let rod = &wavestep::Problem::read("rod.wave", text)?.field("1/2", 4)?.bars[0];
+/// let stopped = rod.of(wavestep::Quantity::Velocity)[4];
+/// assert_eq!((stopped.value, stopped.bound), (0.0, 0.0));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Bounded {
     /// The double.
@@ -57,6 +77,13 @@ pub struct Bounded {
 ///
 /// # Invariants
 /// - each field has as many values as `x` has places, for averages one less.
+///
+/// ```
+/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 1, velocity = 1 }\nline free - rod | fixed";
+/// let rod = &wavestep::Problem::read("rod.wave", text)?.field("1/2", 4)?.bars[0];
+/// assert_eq!((rod.name.as_str(), &rod.x[..]), ("rod", &[0.0, 0.25, 0.5, 0.75, 1.0][..]));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct BarFields {
     /// The name of the bar.
@@ -76,6 +103,13 @@ impl BarFields {
 }
 
 /// The fields of a scene at a time.
+///
+/// ```
+/// let fields = wavestep::Problem::builtin("hopkinson")?.field("100 us", 8)?;
+/// assert_eq!(fields.time, wavestep::Rational::new(1.into(), 10_000.into()));
+/// assert_eq!(fields.bars[0].x.len(), 9);
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Fields {
     /// The time.
@@ -83,8 +117,10 @@ pub struct Fields {
     /// Whether values have SI units.
     pub dimensional: bool,
     /// Whether these are values or averages.
+    #[doc(hidden)]
     pub sampling: Sampling,
     /// The side from which limits are taken.
+    #[doc(hidden)]
     pub side: Limit,
     /// The bars asked for, from left to right.
     pub bars: Vec<BarFields>,

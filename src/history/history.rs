@@ -22,17 +22,14 @@ pub(crate) const PATIENCE: u32 = 100;
 /// What happens at a contact.
 ///
 /// ```
-/// use wavestep::history::{EventKind, History};
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
+/// use wavestep::EventKind;
 ///
 /// // A bar strikes a wall and leaves it after two travel times.
 /// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// let history = wavestep::Problem::read("rod.wave", text)?.events(12)?;
 /// let kinds: Vec<EventKind> = history.events.iter().map(|event| event.kind).collect();
 /// assert_eq!(kinds, [EventKind::Impact, EventKind::Opening]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EventKind {
@@ -49,21 +46,14 @@ pub enum EventKind {
 /// A part of the line that moves by itself, with what it holds at an instant.
 ///
 /// ```
-/// use wavestep::history::History;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
 /// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// let history = wavestep::Problem::read("rod.wave", text)?.events(12)?;
 /// // It comes back as it came: Z V² τ/2, and nothing of it is vibration.
 /// let [rod] = &history.events[1].bodies[..] else { panic!("one body") };
-/// assert_eq!(rod.elements, ["rod"]);
 /// assert_eq!(rod.energy.as_ref().unwrap().to_text(3), "0.5 = 1/2");
-/// assert_eq!(rod.momentum.as_ref().unwrap().to_text(3), "-1");
 /// assert_eq!(rod.velocity.as_ref().unwrap().to_text(3), "-1");
 /// assert_eq!(rod.vibration.as_ref().unwrap().to_text(3), "0");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Body {
@@ -83,22 +73,14 @@ pub struct Body {
 /// Something that happens at a contact, in the user's units.
 ///
 /// ```
-/// use wavestep::history::History;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
 /// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// let history = wavestep::Problem::read("rod.wave", text)?.events(12)?;
 /// let opening = &history.events[1];
-/// assert_eq!(opening.between, ["rod", "wall"]);
-/// assert_eq!(opening.time.to_text(3), "2");
+/// assert_eq!((opening.between.join(", "), opening.time.to_f64()), ("rod, wall".into(), 2.0));
 /// // The force of the impact is Z V until then.
-/// let forces = opening.forces.each_ref().map(|force| force.to_text(3));
-/// assert_eq!(forces, ["1", "0"]);
-/// let [_, after] = opening.velocities.each_ref().map(|pair| pair[0].to_text(3));
-/// assert_eq!(after, "-1");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// assert_eq!(opening.forces.each_ref().map(|force| force.to_f64()), [1.0, 0.0]);
+/// assert_eq!(opening.velocities[1][0].to_f64(), -1.0);
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Event {
@@ -112,6 +94,7 @@ pub struct Event {
     pub time: Value,
     /// When, in closed form: of the first opening, where the force of the closed contact is a linear
     /// function times an exponential there.
+    #[doc(hidden)]
     pub exact: Option<Expression>,
     /// The force just before and just after, positive where it presses.
     pub forces: [Value; 2],
@@ -124,18 +107,13 @@ pub struct Event {
 /// What became of a contact, in the user's units.
 ///
 /// ```
-/// use wavestep::history::History;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
 /// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
+/// let history = wavestep::Problem::read("rod.wave", text)?.events(12)?;
 /// let contact = &history.contacts[0];
-/// assert_eq!(contact.durations[0].as_ref().unwrap().to_text(3), "2");
-/// assert_eq!(contact.impulses[0].to_text(3), "2");
-/// assert_eq!(contact.restitution.as_ref().unwrap().to_text(3), "1");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// assert_eq!(contact.durations[0].as_ref().unwrap().to_f64(), 2.0);
+/// assert_eq!(contact.impulses[0].to_f64(), 2.0);
+/// assert_eq!(contact.restitution.as_ref().unwrap().to_f64(), 1.0);
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ContactSummary {
@@ -153,15 +131,10 @@ pub struct ContactSummary {
 /// How the history ends.
 ///
 /// ```
-/// use wavestep::history::{Ending, History};
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
 /// let text = "scene \"A\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\nline free - rod | fixed";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let history = History::of(&Network::new(&scene).unwrap(), None, 12).unwrap();
-/// assert_eq!(history.ending, Ending::Parted);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// let history = wavestep::Problem::read("rod.wave", text)?.events(12)?;
+/// assert_eq!(history.ending, wavestep::Ending::Parted);
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Ending {
@@ -175,25 +148,12 @@ pub enum Ending {
 /// The history of a scene.
 ///
 /// ```
-/// use wavestep::history::History;
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::network::Network;
-///
-/// // A rigid mass strikes a bar of the same mass whose far end is fixed.
-/// let text = r#"
-///     scene "Saint-Venant"
-///     mass hammer { mass = 1, velocity = 1 }
-///     bar rod { impedance = 1, travel = 1 }
-///     line free - hammer | rod - fixed
-/// "#;
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let history = History::of(&Network::new(&scene).unwrap(), None, 20).unwrap();
-/// // It leaves the bar at 3 + exp(-2)/2.
-/// assert_eq!(history.events[1].time.to_text(20), "3.0676676416183063459");
-/// let exact = history.events[1].exact.as_ref().unwrap();
-/// assert_eq!(wavestep::export::expression_text(exact), "3 + 1/2*exp(-2)");
-/// assert_eq!(history.contacts.len(), 1);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// // A rigid mass strikes a bar of the same mass whose far end is fixed, and leaves it at 3 + exp(-2)/2.
+/// let hammer = wavestep::Problem::builtin("saint-venant")?.with("mu", 1)?;
+/// let history = hammer.events(20)?;
+/// assert_eq!(history.events[1].time.to_string(), "3.0676676416183063459");
+/// assert_eq!(history.contacts[0].impulses.len(), 2);
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 pub struct History {
     /// What happened, in the order of time.
@@ -203,8 +163,10 @@ pub struct History {
     /// How it ends.
     pub ending: Ending,
     /// The precision that did, in bits.
+    #[doc(hidden)]
     pub bits: u64,
     /// How many cells of nodes were worked out at that precision.
+    #[doc(hidden)]
     pub cells: usize,
 }
 
@@ -239,6 +201,7 @@ pub(crate) fn undecided<T>(error: HistoryError) -> Outcome<Attempt<Outcome<T>>> 
     }
 }
 
+#[doc(hidden)]
 impl History {
     /// Follows a scene until a time in the user's units or until nothing can meet again; without a time for
     /// a hundred of the longest travel times at most. Instants have the digits asked for, unless they are exact.

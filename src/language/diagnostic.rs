@@ -14,6 +14,15 @@ use super::syntax::Span;
 ///
 /// # Invariants
 /// All spans lie in the text and start and end between characters.
+///
+/// ```
+/// let text = "scene \"A\"\nbar rod { impedance = 1, travl = 1 }\nline free - rod | fixed";
+/// let error = wavestep::Problem::read("rod.wave", text).err().unwrap();
+/// let wrong = &error.diagnostics()[0];
+/// assert_eq!(wrong.remedy(), Some("did you mean `travel`?"));
+/// assert_eq!(&text[wrong.span().start..wrong.span().end], "travl");
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic(Box<Content>);
 
@@ -28,6 +37,13 @@ struct Content {
 }
 
 /// A remark about a place.
+///
+/// ```
+/// let text = "scene \"A\"\nbar a { impedance = 1, travel = 1 }\nbar a { impedance = 1, travel = 1 }\nline free - a - free";
+/// let error = wavestep::Problem::read("a.wave", text).err().unwrap();
+/// assert_eq!(error.diagnostics()[0].secondary().len(), 1);
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The place.

@@ -13,14 +13,13 @@ pub use super::scene::tree::{
     SceneStatementKind, Section, Unit, UnitFactor,
 };
 
-/// A half-open range of bytes in a [`Source`].
+/// A half-open range of bytes in a text.
 ///
 /// ```
-/// use wavestep::language::{Source, Span, parse_expression};
-///
-/// let tree = parse_expression(&Source::new("text", " a + b ")?)?;
-/// assert_eq!(tree.span, Span::new(1, 6));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
+/// let text = "scene \"A\"\nline fre - free";
+/// let error = wavestep::Problem::read("a.wave", text).err().unwrap();
+/// assert_eq!(error.diagnostics()[0].span(), wavestep::Span { start: 15, end: 18 });
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {

@@ -1,11 +1,9 @@
 //! Work that would explode is refused before it starts.
 
 use super::ProblemError;
+use crate::limits::MAX_DERIVED_TERMS;
 use crate::recurrence::Recurrence;
 use wavestep_polynomial::Symbol;
-
-/// The most terms that are derived at once.
-pub(super) const MAX_TERMS: u128 = 2_000_000;
 
 /// The most constants that are counted.
 const MAX_FURTHER: usize = 10;
@@ -47,7 +45,7 @@ pub(super) fn terms_through(last: u128, n: usize, parts: usize) -> u128 {
 
 /// Refuses more terms than are derived at once.
 pub(super) fn refuse_terms(terms: u128) -> Result<(), ProblemError> {
-    match terms <= MAX_TERMS {
+    match terms <= MAX_DERIVED_TERMS {
         true => Ok(()),
         false => Err(ProblemError::TooManyTerms(terms as f64)),
     }

@@ -79,6 +79,7 @@ pub enum General {
     Unknown,
 }
 
+#[doc(hidden)]
 impl Problem {
     /// Checks the problem: its laws are solved and the first periods derived in two ways.
     ///

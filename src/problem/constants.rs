@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 /// Significant digits of constants in remarks.
 const DIGITS: usize = 6;
 
+#[doc(hidden)]
 impl Problem {
     /// In which units the formulas of a scene are, and what the constants in them are, a line each; all
     /// constants where no text is given to look for them.

@@ -7,12 +7,10 @@ use crate::evaluate::{Arrival, arrivals};
 use crate::export::{self, Derivation, Formula, Head, SourceForm};
 use crate::expression::{Expression, Fraction};
 use crate::language;
+use crate::limits::MAX_DERIVED_ECHOES;
 use crate::network::{Network, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
 use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
-
-/// The most echoes of a lattice.
-const MAX_ECHOES: usize = 5_000;
 
 /// The periods that an explanation ends with.
 const FIRST_PIECES: usize = 2;
@@ -99,12 +97,13 @@ pub enum Symbols {
     Source,
 }
 
+#[doc(hidden)]
 impl Problem {
     /// Exact functions of waves, or of an observable.
     ///
     /// # Errors
     /// [`ProblemError`]: what is unknown, would be too long, or has no formula.
-    pub fn derive(
+    pub fn functions(
         &self,
         what: ToDerive<'_>,
         orders: Orders,
@@ -149,7 +148,7 @@ impl Problem {
     /// Pieces of waves in the symbols of the text's source.
     ///
     /// # Errors
-    /// As [`Problem::derive`]; [`ProblemError::NoSourceForm`].
+    /// As [`Problem::functions`]; [`ProblemError::NoSourceForm`].
     pub fn source_form(
         &self,
         what: ToDerive<'_>,
@@ -168,8 +167,8 @@ impl Problem {
     /// The forms of waves for every period.
     ///
     /// # Errors
-    /// As [`Problem::derive`]; [`ProblemError::NoGeneralForm`], [`ProblemError::NoSourceForm`].
-    pub fn general(
+    /// As [`Problem::functions`]; [`ProblemError::NoGeneralForm`], [`ProblemError::NoSourceForm`].
+    pub fn general_formulas(
         &self,
         what: ToDerive<'_>,
         symbols: Symbols,
@@ -478,8 +477,8 @@ fn by_arrival(
     let echoes = (0..periods)
         .fold(1_usize, |product, _| product.saturating_mul(through.saturating_add(1)))
         .saturating_mul(waves.len());
-    if echoes > MAX_ECHOES {
-        return Err(ProblemError::TooManyEchoes { echoes, limit: MAX_ECHOES });
+    if echoes > MAX_DERIVED_ECHOES {
+        return Err(ProblemError::TooManyEchoes { echoes, limit: MAX_DERIVED_ECHOES });
     }
     let found = arrivals(network, &waves, through)?;
     match found.is_empty() {

@@ -9,13 +9,11 @@ use super::{Problem, ProblemError};
 use crate::evaluate::{Goal, Search};
 use crate::expression::Fraction;
 use crate::language::{self, Source};
+use crate::limits::MAX_DIGITS_OF_SYMBOL;
 use crate::signal::Purpose;
 use num_traits::Signed as _;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};
-
-/// The most digits: each costs more than three pairs of extrema.
-const MAX_DIGITS: usize = 60;
 
 /// What is asked for: a value of the symbol for which the extrema of a quantity are equal for
 /// `T₁ ≤ t < T₂` and for `T₂ ≤ t < T₃`.
@@ -92,6 +90,7 @@ fn larger(sign: Ordering) -> &'static str {
     if sign == Ordering::Greater { "first" } else { "second" }
 }
 
+#[doc(hidden)]
 impl Problem {
     /// Finds a value of a symbol by halving its range.
     ///
@@ -99,8 +98,8 @@ impl Problem {
     /// [`ProblemError::Equal`]; [`ProblemError`] where a value of the symbol is impossible, or extrema
     /// are not known.
     pub fn equal_extrema(&self, asked: &EqualExtrema<'_>) -> Result<Crossing, ProblemError> {
-        if asked.digits > MAX_DIGITS {
-            let (digits, limit) = (asked.digits, MAX_DIGITS);
+        if asked.digits > MAX_DIGITS_OF_SYMBOL {
+            let (digits, limit) = (asked.digits, MAX_DIGITS_OF_SYMBOL);
             return Err(EqualError::TooManyDigits { digits, limit }.into());
         }
         let [mut low, mut high] = asked.range.clone();
@@ -149,7 +148,7 @@ fn is_narrow(low: &Rational, high: &Rational, digits: usize) -> bool {
 impl EqualExtrema<'_> {
     /// The sign of the extremum in the first window less that in the second.
     fn sign(&self, problem: &Problem, value: &Rational) -> Result<Option<Ordering>, ProblemError> {
-        let problem = problem.with(self.symbol, value)?;
+        let problem = problem.substituted(self.symbol, value)?;
         let wanted = problem.wanted(self.name)?;
         problem.has_numbers()?;
         let mut times = Vec::new();
@@ -163,7 +162,7 @@ impl EqualExtrema<'_> {
         }
         let windows = [[one, two], [two, three]];
         let [first, second] =
-            windows.map(|window| problem.signal(&wanted, window, Purpose::Stretches));
+            windows.map(|window| problem.signal_on(&wanted, window, Purpose::Stretches));
         let (first, second) = (first?, second?);
         let (first, second) =
             (Search::new(&*first)?.half_open(), Search::new(&*second)?.half_open());

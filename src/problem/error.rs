@@ -1,12 +1,12 @@
 //! Why a problem has no answer.
 
-use super::bounds::MAX_TERMS;
 use super::{EqualError, LockRefusal};
-use crate::answer::{Tolerance, WayError};
+use crate::answer::{InvalidTolerance, InvalidWay, Tolerance, WayError};
 use crate::evaluate::{EvaluateError, MethodError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
 use crate::language::Diagnostic;
+use crate::limits::MAX_DERIVED_TERMS;
 use crate::lock::LockError;
 use crate::model::{ModelError, equivalent_stiffness};
 use crate::network::{NetworkError, ScaledScene};
@@ -31,6 +31,15 @@ pub enum ProblemError {
     /// A double that is no number, or infinite.
     #[error("{0} is no number")]
     NotFinite(f64),
+    /// So many significant digits are not proven.
+    #[error("{0} significant digits cannot be certified")]
+    Digits(usize),
+    /// A text is no tolerance.
+    #[error(transparent)]
+    Tolerance(#[from] InvalidTolerance),
+    /// A text names no method.
+    #[error(transparent)]
+    Method(#[from] InvalidWay),
     /// A time before the start.
     #[error("the time {0} lies before the start")]
     BeforeStart(Rational),
@@ -102,7 +111,7 @@ pub enum ProblemError {
     #[error("this scene has no contact that could open")]
     NoContact,
     /// About so many terms are too many.
-    #[error("this would have about {} terms; at most {MAX_TERMS} are derived at once", in_powers(*.0))]
+    #[error("this would have about {} terms; at most {MAX_DERIVED_TERMS} are derived at once", in_powers(*.0))]
     TooManyTerms(f64),
     /// So many echoes of a lattice are too many.
     #[error("this would be about {echoes} echoes; at most {limit} are derived at once")]

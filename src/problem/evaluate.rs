@@ -54,6 +54,7 @@ impl OnWindow<'_> {
     }
 }
 
+#[doc(hidden)]
 impl Problem {
     /// Values with proven digits; `tick` is called after each.
     ///
@@ -94,7 +95,7 @@ impl Problem {
             let signal = self.closed_signal(wanted, [from, to])?.echo_by_echo();
             return Ok(Proven { values: all(&signal)?, echoes: signal.work() });
         }
-        let signal = self.signal(wanted, [from, to], Purpose::Values)?;
+        let signal = self.signal_on(wanted, [from, to], Purpose::Values)?;
         Ok(Proven { values: all(&*signal)?, echoes: None })
     }
 
@@ -147,7 +148,7 @@ impl Problem {
     ///
     /// # Errors
     /// [`ProblemError`] where it is known by models alone, or symbols have no values.
-    pub fn signal(
+    pub fn signal_on(
         &self,
         wanted: &Wanted,
         window: [&Rational; 2],
@@ -242,7 +243,7 @@ impl Problem {
         };
         let spring = equivalent_spring(scaled).map(Remark::NearSpring);
         let remarks = tested.into_iter().chain([Remark::Law]).chain(spring).collect();
-        Ok(Doubles { kind, law: way.law(), bound: way.bound(), values, remarks })
+        Ok(Doubles { method: kind, law: way.law(), bound: way.bound(), values, remarks })
     }
 
     /// The name of the local contact.

@@ -7,6 +7,7 @@ use crate::history::{History, field_evaluator};
 use crate::scene::{Joint, Measure};
 use wavestep_polynomial::Rational;
 
+#[doc(hidden)]
 impl Problem {
     /// That every symbol of stated equations has a value.
     ///
@@ -25,7 +26,11 @@ impl Problem {
     ///
     /// # Errors
     /// [`ProblemError::EquationsHaveNoContacts`], [`ProblemError::NoContact`], [`ProblemError::History`].
-    pub fn events(&self, until: Option<&Rational>, digits: usize) -> Result<History, ProblemError> {
+    pub fn history(
+        &self,
+        until: Option<&Rational>,
+        digits: usize,
+    ) -> Result<History, ProblemError> {
         if let Kind::Equations(_) = &self.kind {
             return Err(ProblemError::EquationsHaveNoContacts);
         }
@@ -40,7 +45,7 @@ impl Problem {
     ///
     /// # Errors
     /// [`ProblemError::Equations`], [`ProblemError::LocalContact`], [`ProblemError::Field`].
-    pub fn fields(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
+    pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
         let network = self.network()?;
         Ok(match self.contacts_open() {
             true => field_evaluator(network, last)?,
@@ -60,6 +65,7 @@ pub enum Course {
     ByModel,
 }
 
+#[doc(hidden)]
 impl Problem {
     /// How a quantity is known between two times.
     pub fn course(&self, wanted: &Wanted) -> Course {

@@ -4,7 +4,18 @@ use super::ProblemError;
 use crate::language::{self, Source};
 use wavestep_polynomial::Rational;
 
-/// A number as text, or as it is; a double stands for its exact value.
+/// A number as it is given, a value, a time or a level: text, an integer, a rational number, or a double.
+///
+/// Text is exact: `33/10`, `12.34`, `1e-3`; in scenes with units times and levels may have one, as in
+/// `2 ms`, and are in SI units without. A double stands for its exact value, so `0.1` is not a tenth.
+///
+/// ```
+/// let pile = wavestep::Problem::builtin("pile")?;
+/// let force = pile.signal("head")?;
+/// assert_eq!(force.at("2 ms", 9)?, force.at("1/500", 9)?);
+/// assert_ne!(force.at(0.002, 30)?, force.at("1/500", 30)?);
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub enum Given {
     /// Text such as `33/10` or `12.34`; times of scenes with units may have one.
@@ -15,6 +26,7 @@ pub enum Given {
     NotFinite(f64),
 }
 
+#[doc(hidden)]
 impl Given {
     /// The number, which errors call by this name.
     ///
@@ -46,6 +58,12 @@ impl From<&str> for Given {
     }
 }
 
+impl From<String> for Given {
+    fn from(text: String) -> Given {
+        Given::Text(text)
+    }
+}
+
 impl From<Rational> for Given {
     fn from(number: Rational) -> Given {
         Given::Exact(number)
@@ -58,11 +76,17 @@ impl From<&Rational> for Given {
     }
 }
 
-impl From<i64> for Given {
-    fn from(number: i64) -> Given {
-        Given::Exact(Rational::from_integer(number.into()))
-    }
+macro_rules! from_integers {
+    ($($integer:ty),*) => {$(
+        impl From<$integer> for Given {
+            fn from(number: $integer) -> Given {
+                Given::Exact(Rational::from_integer(number.into()))
+            }
+        }
+    )*};
 }
+
+from_integers!(i32, i64, u32, u64, usize);
 
 impl From<f64> for Given {
     fn from(number: f64) -> Given {

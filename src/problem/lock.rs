@@ -44,6 +44,7 @@ pub enum LockRefusal {
     EventsLocked,
 }
 
+#[doc(hidden)]
 impl Problem {
     /// What is locked: derived now.
     ///

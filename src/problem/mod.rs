@@ -22,11 +22,11 @@ mod wanted;
 use crate::language::{self, Source, Stated};
 use crate::network::{Network, NetworkError, ScaledScene};
 use crate::recurrence::Recurrence;
-use crate::scenes;
+use crate::scene::{PI, Scene};
 use crate::solution::Solution;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
-use wavestep_polynomial::Rational;
+use wavestep_polynomial::{Rational, Symbol};
 
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
@@ -43,15 +43,16 @@ pub use wanted::Wanted;
 /// Values in place of symbols, by name.
 pub type Values = BTreeMap<String, Rational>;
 
-/// A text that was read, with values in place of symbols.
+/// A text that was read, equations or a scene, with values in place of symbols.
 ///
 /// ```
-/// use wavestep::problem::Problem;
-///
-/// let problem = Problem::builtin("rigid-mass")?.with("μ", "1/4")?;
+/// let problem = wavestep::Problem::builtin("rigid-mass")?;
 /// assert_eq!(problem.title(), "Rigid mass on a fixed bar");
-/// assert_eq!(problem.wanted("velocity")?.name(), "velocity");
-/// # Ok::<(), wavestep::problem::ProblemError>(())
+/// assert_eq!((problem.waves(), problem.symbols()), (vec!["f"], vec!["mu"]));
+/// assert_eq!(problem.observables()[0], "velocity");
+/// let value = problem.with("mu", "1/4")?.signal("f")?.at("33/10", 12)?;
+/// assert_eq!(value.to_string(), "0.305385264409");
+/// # Ok::<(), wavestep::Error>(())
 /// ```
 pub struct Problem {
     source: Source,
@@ -70,11 +71,37 @@ enum Kind {
 }
 
 impl Problem {
+    /// The title.
+    pub fn title(&self) -> &str {
+        match &self.kind {
+            Kind::Equations(solution) => &solution.recurrence().statement().title,
+            Kind::Line { network, .. } => &network.scene().title,
+            Kind::LocalContact(scaled) => &scaled.scene().title,
+        }
+    }
+
+    /// The symbols that have no value yet, in the order of their names.
+    pub fn symbols(&self) -> Vec<&str> {
+        let names: Vec<&Symbol> = match &self.kind {
+            Kind::Equations(solution) => solution.recurrence().symbols().collect(),
+            Kind::Line { network, .. } => symbols_of(network.scene()),
+            Kind::LocalContact(scaled) => symbols_of(scaled.scene()),
+        };
+        names.into_iter().map(Symbol::name).collect()
+    }
+}
+
+fn symbols_of(scene: &Scene) -> Vec<&Symbol> {
+    scene.assumptions.symbols().map(|(symbol, _)| symbol).filter(|s| s.name() != PI).collect()
+}
+
+#[doc(hidden)]
+impl Problem {
     /// Reads a text that errors call by this name.
     ///
     /// # Errors
     /// [`ProblemError::Text`] with all mistakes found, or why the scene cannot be laid out.
-    pub fn read(
+    pub fn of_text(
         name: &str,
         text: impl AsRef<[u8]>,
         values: &Values,
@@ -82,32 +109,30 @@ impl Problem {
         Problem::of(Source::new(name, text)?, values.clone())
     }
 
-    /// Reads the built-in scene of this name.
-    ///
-    /// # Errors
-    /// [`ProblemError::NotBuiltIn`] where there is none.
-    pub fn builtin(name: &str) -> Result<Problem, ProblemError> {
-        match scenes::find(name) {
-            Some(scene) => Problem::read(scene.name, scene.text, &Values::new()),
-            None => Err(ProblemError::NotBuiltIn(name.to_owned())),
-        }
+    /// A value for a symbol, both as scenes know them.
+    pub(crate) fn value_of(name: &str, value: Given) -> Result<(String, Rational), ProblemError> {
+        let value = value.number(name)?;
+        Ok((language::normalise_name(name), value))
     }
 
     /// The same text with one more value in place of a symbol, before anything is derived.
     ///
     /// # Errors
-    /// As [`Problem::read`]; also a value that is no number.
-    pub fn with(&self, name: &str, value: impl Into<Given>) -> Result<Problem, ProblemError> {
+    /// As [`Problem::of_text`]; also a value that is no number.
+    pub fn substituted(
+        &self,
+        name: &str,
+        value: impl Into<Given>,
+    ) -> Result<Problem, ProblemError> {
         let mut values = self.values.clone();
-        let value = value.into().number(name)?;
-        values.insert(language::normalise_name(name), value);
+        values.extend([Problem::value_of(name, value.into())?]);
         Problem::of(self.source.clone(), values)
     }
 
     /// The same text with its symbols, and no values.
     ///
     /// # Errors
-    /// As [`Problem::read`].
+    /// As [`Problem::of_text`].
     pub fn without_values(&self) -> Result<Problem, ProblemError> {
         Problem::of(self.source.clone(), Values::new())
     }
@@ -132,15 +157,6 @@ impl Problem {
     /// The values put in place of symbols.
     pub fn values(&self) -> &Values {
         &self.values
-    }
-
-    /// The title.
-    pub fn title(&self) -> &str {
-        match &self.kind {
-            Kind::Equations(solution) => &solution.recurrence().statement().title,
-            Kind::Line { network, .. } => &network.scene().title,
-            Kind::LocalContact(scaled) => &scaled.scene().title,
-        }
     }
 
     /// The scene in its own scales.

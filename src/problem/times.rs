@@ -10,6 +10,7 @@ use num_integer::Integer as _;
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_polynomial::{Rational, fraction};
 
+#[doc(hidden)]
 impl Problem {
     /// Whether times and values have units.
     pub fn has_units(&self) -> bool {
@@ -100,6 +101,7 @@ pub fn evenly_spaced(from: &Rational, to: &Rational, points: usize) -> Vec<Ratio
 const PERIODS: i64 = 4;
 const PASSAGES: i64 = 2;
 
+#[doc(hidden)]
 impl Problem {
     /// The usual length of a window: some periods, exactly where a period is rational, else a round number
     /// near them.

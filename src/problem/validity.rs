@@ -35,6 +35,7 @@ pub struct Pressed {
     pub between: [String; 2],
 }
 
+#[doc(hidden)]
 impl Problem {
     /// How long forms with closed contacts are true; `None` where there are no contacts.
     pub fn holds(&self, digits: usize) -> Option<Holds> {

@@ -65,6 +65,39 @@ impl Wanted {
 }
 
 impl Problem {
+    /// What is observed, in the order of the text.
+    pub fn observables(&self) -> Vec<&str> {
+        match &self.kind {
+            Kind::Equations(solution) => {
+                let observables = &solution.recurrence().statement().observables;
+                observables.iter().map(|observable| observable.name.as_str()).collect()
+            }
+            Kind::Line { network, .. } => {
+                network.observables().iter().map(|observed| observed.name.as_str()).collect()
+            }
+            Kind::LocalContact(scaled) => {
+                let observables = &scaled.scene().observables;
+                observables.iter().map(|observable| observable.name.as_str()).collect()
+            }
+        }
+    }
+
+    /// The waves that are stated or derived; none where there is a local contact.
+    pub fn waves(&self) -> Vec<&str> {
+        match &self.kind {
+            Kind::Equations(solution) => {
+                solution.recurrence().statement().waves.iter().map(String::as_str).collect()
+            }
+            Kind::Line { network, .. } => {
+                network.waves().iter().map(|wave| wave.name.as_str()).collect()
+            }
+            Kind::LocalContact(_) => Vec::new(),
+        }
+    }
+}
+
+#[doc(hidden)]
+impl Problem {
     /// The wave or observable of this name.
     ///
     /// # Errors
@@ -87,43 +120,18 @@ impl Problem {
             }
             Kind::LocalContact(scaled) => of_model(scaled.scene(), &known),
         };
-        let names = || self.names().map(str::to_owned).collect();
-        found.ok_or_else(|| ProblemError::Unknown { name: name.to_owned(), names: names() })
+        found.ok_or_else(|| self.unknown(name))
     }
 
-    /// What is observed, in the order of the text.
-    pub fn observables(&self) -> Vec<&str> {
-        match &self.kind {
-            Kind::Equations(solution) => {
-                let observables = &solution.recurrence().statement().observables;
-                observables.iter().map(|observable| observable.name.as_str()).collect()
-            }
-            Kind::Line { network, .. } => {
-                network.observables().iter().map(|observed| observed.name.as_str()).collect()
-            }
-            Kind::LocalContact(scaled) => {
-                let observables = &scaled.scene().observables;
-                observables.iter().map(|observable| observable.name.as_str()).collect()
-            }
-        }
+    /// Why nothing is known of this name.
+    pub(crate) fn unknown(&self, name: &str) -> ProblemError {
+        let names = self.names().map(str::to_owned).collect();
+        ProblemError::Unknown { name: name.to_owned(), names }
     }
 
     /// What is looked at where nothing is named: the first observable, or the first wave.
     pub fn usual_quantity(&self) -> Option<&str> {
         self.observables().first().or(self.waves().first()).copied()
-    }
-
-    /// The waves that are stated or derived; none where there is a local contact.
-    pub fn waves(&self) -> Vec<&str> {
-        match &self.kind {
-            Kind::Equations(solution) => {
-                solution.recurrence().statement().waves.iter().map(String::as_str).collect()
-            }
-            Kind::Line { network, .. } => {
-                network.waves().iter().map(|wave| wave.name.as_str()).collect()
-            }
-            Kind::LocalContact(_) => Vec::new(),
-        }
     }
 
     /// All that can be asked for, in the order of the statements it comes from.

@@ -70,6 +70,15 @@ fn exported_names_have_examples() {
     assert!(offenders.is_empty(), "{offenders:?} have no example");
 }
 
+/// A surface that a person can keep in mind.
+#[test]
+fn exported_names_are_few() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs");
+    let root = fs::read_to_string(root).expect("text");
+    let names = exported(&root);
+    assert!((25..=45).contains(&names.len()), "{}: {names:?}", names.len());
+}
+
 /// The check can fail.
 #[test]
 fn missing_examples_are_found() {

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const FOR_ALL: &str = "limits";
 
 /// Every layer with the layers it may use, besides [`FOR_ALL`].
-const LAYERS: [(&str, &[&str]); 20] = [
+const LAYERS: [(&str, &[&str]); 21] = [
     (FOR_ALL, &[]),
     ("ball", &[]),
     ("expression", &[]),
@@ -87,6 +87,23 @@ const LAYERS: [(&str, &[&str]); 20] = [
             "problem",
             "scenes",
             "solution",
+        ],
+    ),
+    (
+        "facade",
+        &[
+            "answer",
+            "ball",
+            "error",
+            "evaluate",
+            "export",
+            "expression",
+            "field",
+            "history",
+            "language",
+            "problem",
+            "scenes",
+            "signal",
         ],
     ),
 ];

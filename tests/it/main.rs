@@ -4,6 +4,7 @@ mod derivations;
 mod evaluate;
 mod examples;
 mod expression;
+mod facade;
 mod field;
 mod find;
 mod formulas;

@@ -19,7 +19,7 @@ fn networks() -> impl Iterator<Item = (&'static str, Network)> {
         let values = ["mu", "r", "m"].map(|name| (name.to_owned(), third.clone()));
         let named = |name: &str| scene.text.contains(&format!("symbol {name} "));
         let values: BTreeMap<_, _> = values.into_iter().filter(|(name, _)| named(name)).collect();
-        let problem = Problem::read(scene.name, scene.text, &values).unwrap();
+        let problem = Problem::of_text(scene.name, scene.text, &values).unwrap();
         Some((scene.name, problem.network().ok()?.clone()))
     })
 }

@@ -67,7 +67,10 @@ fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String
     };
     let symbols = if options.source_form { Symbols::Source } else { Symbols::Own };
     if options.general {
-        return Ok((written_general(problem, &problem.general(what, symbols)?, options)?, None));
+        return Ok((
+            written_general(problem, &problem.general_formulas(what, symbols)?, options)?,
+            None,
+        ));
     }
     let orders = options.orders();
     if let Orders::Through(first, last) = orders
@@ -85,7 +88,7 @@ fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String
         };
     }
     let form = options.form.into();
-    let derived = problem.derive(what, orders, form)?;
+    let derived = problem.functions(what, orders, form)?;
     let names = match &derived {
         Derived::Arrivals(_) => Some(plain(problem, &derived, form, options)?),
         _ => None,

@@ -32,7 +32,7 @@ pub fn tolerance(text: &str) -> Result<Tolerance, Failure> {
 
 /// Says on standard error what is to be known of values; with `explain` also how they were computed.
 pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explain: bool) {
-    let kind = found.kind;
+    let kind = found.method;
     let tolerance = tolerance.map_or_else(String::new, |tolerance| tolerance.to_string());
     for remark in &found.remarks {
         match remark {
@@ -153,7 +153,7 @@ pub fn written(
                 "quantity": name,
                 "set": options.scene.set,
                 "side": if options.side == Limit::Left { "left" } else { "right" },
-                "method": found.kind.to_string(),
+                "method": found.method.to_string(),
                 "law": found.law,
                 "bound": found.bound.map(|bound| bound + half_a_unit(&found.values)),
                 "tolerance": options.tol,

@@ -23,7 +23,7 @@ pub fn run(options: &Events) -> Result<String, Failure> {
     let until = until.map(|until| problem.time("--until", until)).transpose()?;
     let history = {
         let _progress = progress::spinner("following contacts");
-        problem.events(until.as_ref(), options.digits)?
+        problem.history(until.as_ref(), options.digits)?
     };
     let told = Told { options, problem: &problem, history: &history };
     Ok(match options.format {

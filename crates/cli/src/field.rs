@@ -28,7 +28,7 @@ pub fn run(options: &Field) -> Result<String, Failure> {
         let reach = problem.quantity("--to", reach.as_str(), Dimension::LENGTH)?;
         mesh = mesh.reaching(&reach)?;
     }
-    let fields = problem.fields(&time)?.at(&time, &mesh)?;
+    let fields = problem.field_evaluator(&time)?.at(&time, &mesh)?;
     let text = match options.format {
         FieldFormat::Csv => csv(&fields),
         FieldFormat::Json => json_document(&fields, &problem, options),

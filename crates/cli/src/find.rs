@@ -25,7 +25,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     // What is given wrongly is told before any work is done.
     let level = problem.quantity("--level", level, wanted.dimension())?;
     let told = Told { options, problem: &problem, wanted: &wanted, window: &window };
-    let signal = problem.signal(&wanted, window.each_ref(), Purpose::Stretches)?;
+    let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
     let search = Search::new(&*signal)?;
     let progress = progress::spinner("searching");
     let (digits, limit_bits) = (options.digits, options.max_bits);

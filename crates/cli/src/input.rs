@@ -16,7 +16,7 @@ pub fn problem(arguments: &Scene) -> Result<Problem, Failure> {
 /// Reads a built-in scene or a file, with these values put in.
 pub fn problem_with(scene: &str, values: &Values) -> Result<Problem, Failure> {
     if let Some(scene) = scenes::find(scene) {
-        return Ok(Problem::read(scene.name, scene.text, values)?);
+        return Ok(Problem::of_text(scene.name, scene.text, values)?);
     }
     let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| {
         let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
@@ -26,7 +26,7 @@ pub fn problem_with(scene: &str, values: &Values) -> Result<Problem, Failure> {
         };
         Failure::usage(format!("the scene `{scene}` cannot be read: {error}"), remedy)
     })?;
-    Ok(Problem::read(scene, bytes, values)?)
+    Ok(Problem::of_text(scene, bytes, values)?)
 }
 
 /// The built-in scene called `name`.

@@ -35,7 +35,7 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
             DiagramOption::Strain => Quantity::Strain,
             DiagramOption::Force => Quantity::Force,
         };
-        let evaluator = problem.fields(&to).map_err(no_fields)?;
+        let evaluator = problem.field_evaluator(&to).map_err(no_fields)?;
         let diagram = lagrange(&evaluator, quantity, [&from, &to], caption)?;
         return Ok(Box::new(match &options.title {
             Some(title) => diagram.titled(title),
@@ -57,7 +57,7 @@ fn fields_at(problem: &Problem, options: &Plot) -> Result<Box<dyn Chart>, Failur
     let times = options.at_time.iter().map(|time| problem.time("--at-time", time.as_str()));
     let times = times.collect::<Result<Vec<BigRational>, ProblemError>>()?;
     let Some(last) = times.iter().max() else { unreachable!("there are times") };
-    let evaluator = problem.fields(last).map_err(no_fields)?;
+    let evaluator = problem.field_evaluator(last).map_err(no_fields)?;
     let figure = along_the_line(&evaluator, &fields(options)?, &times, Caption::default())?;
     Ok(Box::new(match &options.title {
         Some(title) => figure.titled(title),

@@ -1,29 +1,18 @@
 //! A scene of one's own with its wave functions, for the tests to lock.
 
-use wavestep::export::{Formula, Head, TEXT_WIDTH, text};
-use wavestep::language::{Diagnostic, Source, read_recurrence};
-use wavestep::recurrence::Recurrence;
-use wavestep::solution::{Solution, SolveError};
+use wavestep::{Error, Problem};
 
 /// The text of the scene.
 pub const SCENE: &str = include_str!("../braked-mass.wave");
 
-/// The recurrence that the scene states.
-pub fn recurrence() -> Result<Recurrence, Diagnostic> {
-    read_recurrence(&Source::new("braked-mass.wave", SCENE)?, &Default::default())
-}
-
-/// The pieces of all waves on the periods `0 … through`, one formula a line.
-pub fn formulas(recurrence: Recurrence, through: usize) -> Result<String, SolveError> {
-    let solution = Solution::new(recurrence);
-    let statement = solution.recurrence().statement();
-    let mut formulas = Vec::new();
-    for (index, wave) in statement.waves.iter().enumerate() {
-        for (n, piece) in solution.pieces(index, 0, through)?.iter().enumerate() {
-            let local = statement.local.clone();
-            let head = Head::Piece { wave: wave.clone(), n, local };
-            formulas.push(Formula::new(head, piece, &statement.local));
+/// All waves of the scene on the periods `0 … through`, one formula after the other.
+pub fn formulas(through: usize) -> Result<String, Error> {
+    let problem = Problem::read("braked-mass.wave", SCENE)?;
+    let mut text = String::new();
+    for wave in problem.waves() {
+        for formula in problem.derive(wave, 0..=through)? {
+            text += &format!("{formula}\n");
         }
     }
-    Ok(text(&formulas, TEXT_WIDTH))
+    Ok(text)
 }

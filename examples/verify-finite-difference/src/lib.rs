@@ -8,11 +8,9 @@
 mod leapfrog;
 
 pub use leapfrog::{Leapfrog, LeftEnd};
-use std::collections::BTreeMap;
-use wavestep::field::{FieldEvaluator, Mesh, Quantity};
-use wavestep::language::{Source, parse_number, read_scene};
-use wavestep::network::Network;
-use wavestep_draw::{Axis, Caption, Figure, Look, Panel, PlotError, Series};
+use std::error::Error;
+use wavestep::{Problem, Quantity};
+use wavestep_draw::{Axis, Caption, Figure, Look, Panel, Series};
 
 /// The cases, with how their fields are.
 pub const CASES: [(LeftEnd, &str); 3] =
@@ -57,28 +55,26 @@ pub fn scene(end: LeftEnd) -> &'static str {
 
 /// Runs the code to the time 3/2 at Courant's number 4/5, and compares.
 ///
+/// # Errors
+/// Where there are no cells, or too many.
+///
 /// # Panics
-/// Where the scene cannot be read, or the number of cells is no multiple of 8.
-pub fn errors(end: LeftEnd, cells: usize) -> Errors {
+/// Where the number of cells is no multiple of 8.
+pub fn errors(end: LeftEnd, cells: usize) -> Result<Errors, wavestep::Error> {
     assert!(cells.is_multiple_of(8), "so that a step ends at 3/2");
     let mut code = Leapfrog::new(cells, 0.8, end);
     for _ in 0..cells * 15 / 8 {
         code.advance();
     }
     assert!((code.time() - 1.5).abs() < 1e-9);
-    let source = Source::new("case.wave", scene(end)).expect("a text");
-    let scene = read_scene(&source, &BTreeMap::new()).expect("a scene");
-    let network = Network::new(&scene).expect("a network");
-    let time = parse_number("3/2").expect("a number");
-    let mesh = Mesh::new(cells).expect("few cells").averages();
-    let evaluator = FieldEvaluator::new(&network, &time).expect("no symbols");
-    let exact = evaluator.at(&time, &mesh).expect("the time asked for");
+    let problem = Problem::read("case.wave", scene(end))?;
+    let exact = problem.field_averages("3/2", cells)?;
     let exact = exact.bars[0].of(Quantity::Strain);
     let off: Vec<f64> =
         code.strain.iter().zip(exact).map(|(own, exact)| (own - exact.value).abs()).collect();
     let mean = |power: i32| off.iter().map(|e| e.powi(power)).sum::<f64>() / cells as f64;
     let largest = off.iter().copied().fold(0.0, f64::max);
-    Errors { cells, mean: mean(1), square: mean(2).sqrt(), largest }
+    Ok(Errors { cells, mean: mean(1), square: mean(2).sqrt(), largest })
 }
 
 /// The order that two errors show: `p` in `e ~ h^p`.
@@ -90,11 +86,12 @@ pub fn order(coarse: (usize, f64), fine: (usize, f64)) -> f64 {
 /// finest mesh stand beside the names.
 ///
 /// # Errors
-/// [`PlotError`] where an error is zero.
-pub fn figure(cells: &[usize]) -> Result<Figure, PlotError> {
+/// As [`errors`]; a figure where an error is zero.
+pub fn figure(cells: &[usize]) -> Result<Figure, Box<dyn Error>> {
     let mut panels = Vec::new();
     for (end, name) in CASES {
-        let found: Vec<Errors> = cells.iter().map(|cells| errors(end, *cells)).collect();
+        let found: Vec<Errors> =
+            cells.iter().map(|cells| errors(end, *cells)).collect::<Result<_, _>>()?;
         let series = |name: &str, of: fn(&Errors) -> f64| {
             let points: Vec<(f64, f64)> =
                 found.iter().map(|errors| (errors.cells as f64, of(errors))).collect();
@@ -113,5 +110,5 @@ pub fn figure(cells: &[usize]) -> Result<Figure, PlotError> {
         panels.push(Panel::new(Axis::logarithmic(&format!("error of the strain, {name}")), series));
     }
     let title = "Leapfrog against the exact field";
-    Figure::new(title, Axis::logarithmic("cells"), panels, Caption::default())
+    Ok(Figure::new(title, Axis::logarithmic("cells"), panels, Caption::default())?)
 }

@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{end:?}: cells, errors (mean, root of the mean square, largest), orders");
         let mut before: Option<Errors> = None;
         for cells in CELLS {
-            let found = errors(end, cells);
+            let found = errors(end, cells)?;
             let Errors { mean, square, largest, .. } = found;
             print!("{cells:>6} {mean:>10.2e} {square:>10.2e} {largest:>10.2e}");
             if let Some(before) = before {

@@ -33,6 +33,14 @@ const SPARE_BITS: u64 = 64;
 const SLOPE_BITS: u64 = 1 << 10;
 
 /// Which extremum.
+///
+/// ```
+/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let strain = mass.signal("strain_fixed")?;
+/// let least = strain.extremum(wavestep::Goal::Smallest, 0..=5, 9)?;
+/// assert_eq!(least.value.to_string(), "-2.27067057"); // -2 - 2 exp(-2)
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Goal {
     /// The supremum.
@@ -42,6 +50,15 @@ pub enum Goal {
 }
 
 /// Where an extremum is taken, or approached. Times are the user's.
+///
+/// ```
+/// use wavestep::{Goal, Place, Problem};
+///
+/// let mass = Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let least = mass.signal("strain_fixed")?.extremum(Goal::Smallest, 0..=5, 9)?;
+/// assert!(matches!(&least.places[..], [Place::Arrival { time, after: true, .. }] if time.to_f64() == 3.0));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Place {
     /// At a simple root of the derivative.
@@ -83,6 +100,13 @@ impl Place {
 }
 
 /// The largest or smallest value with all places that cannot be told apart.
+///
+/// ```
+/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let greatest = mass.signal("velocity")?.extremum(wavestep::Goal::Largest, 0..=5, 9)?;
+/// assert_eq!((greatest.value.to_string(), greatest.places.len()), ("1".into(), 1));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Extremum {
     /// The value.

@@ -24,6 +24,16 @@ use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// A root of `f − v`, or where there may be one. Times are the user's.
+///
+/// ```
+/// use wavestep::{Problem, Root};
+///
+/// let mass = Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let found = mass.signal("strain_impact")?.roots(2..=4, 9)?.all;
+/// assert!(matches!(&found[0], Root::Simple { time, rises: true } if time.to_string() == "3.06766764"));
+/// assert!(matches!(&found[1], Root::Jump { time, .. } if time.to_string() == "4"));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Root {
     /// A change of sign with a derivative that is not zero.
@@ -70,6 +80,7 @@ pub enum Root {
         /// Its last time, rounded up.
         to: Rational,
         /// All values of `f − v` there.
+        #[doc(hidden)]
         range: Ball,
         /// Whether the signs at its ends differ, so that there is at least one root.
         crosses: bool,
@@ -80,6 +91,13 @@ pub enum Root {
 ///
 /// # Invariants
 /// - `f − v` has no other roots in the window; no root is in two of these.
+///
+/// ```
+/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let found = mass.signal("strain_impact")?.roots(2..=4, 9)?;
+/// assert_eq!((found.all.len(), found.undecided()), (2, 0));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Roots {
     /// What was found.

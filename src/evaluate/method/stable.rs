@@ -14,6 +14,14 @@ use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
 /// In which numbers echoes are summed.
+///
+/// ```
+/// use wavestep::{Method, StablePrecision};
+///
+/// let named: Method = "double-double".parse()?;
+/// assert_eq!(named, Method::Stable(StablePrecision::DoubleDouble));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum StablePrecision {
     /// Doubles.

@@ -3,6 +3,7 @@
 use super::{Scene, limits};
 use clap::{Args, ValueEnum};
 use wavestep::evaluate::Limit;
+use wavestep::limits::VALUE_BITS;
 
 /// Options of `eval`.
 #[derive(Args)]
@@ -50,7 +51,7 @@ pub struct Eval {
     #[arg(long)]
     pub stats: bool,
     /// The most bits of working precision
-    #[arg(long, value_name = "BITS", default_value_t = 1 << 18)]
+    #[arg(long, value_name = "BITS", default_value_t = VALUE_BITS)]
     pub max_bits: u64,
     /// In doubles, by the cheapest method that is proven to be off by at most so much: 1e-9 of the
     /// largest value, abs:1e-9 in the unit of the quantity, ulp:4 units in the last place of the

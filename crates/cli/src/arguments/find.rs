@@ -2,6 +2,7 @@
 
 use super::{EvalFormat, Scene};
 use clap::{ArgGroup, Args};
+use wavestep::limits::SEARCH_BITS;
 
 /// Options of `find`.
 #[derive(Args)]
@@ -47,7 +48,7 @@ pub struct Find {
     #[arg(long, value_name = "D", default_value_t = 15)]
     pub digits: usize,
     /// The most bits of working precision
-    #[arg(long, value_name = "BITS", default_value_t = 1 << 12)]
+    #[arg(long, value_name = "BITS", default_value_t = SEARCH_BITS)]
     pub max_bits: u64,
     /// Written how
     #[arg(long, value_enum, default_value_t = EvalFormat::Text)]

@@ -147,7 +147,7 @@ fn wave_blocks_are_read() {
 }
 
 #[test]
-fn the_rust_of_the_readme_is_the_example() {
+fn the_rust_of_the_readme_is_the_example_of_the_library() {
     let readme = read("README.md");
     let rust: Vec<String> = blocks(&readme)
         .into_iter()
@@ -158,4 +158,12 @@ fn the_rust_of_the_readme_is_the_example() {
     let example = read("examples/derive.rs");
     let (_, code) = example.split_once("\n\n").expect("a comment, then the code");
     assert_eq!(rust, [code]);
+    assert!(code.lines().count() <= 12);
+    let library = read("src/lib.rs");
+    let lines = library.lines().map_while(|line| line.strip_prefix("//!"));
+    let docs: Vec<&str> = lines.map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
+    assert!(
+        docs.join("\n").contains(&format!("```\n{code}```")),
+        "the example of src/lib.rs differs"
+    );
 }

@@ -67,9 +67,11 @@ pub fn courses(
     for name in names {
         let wanted = problem.wanted(name)?;
         let values = match problem.course(&wanted) {
-            Known::Everywhere => sampled(&*problem.signal(&wanted, window, Purpose::Stretches)?)?,
+            Known::Everywhere => {
+                sampled(&*problem.signal_on(&wanted, window, Purpose::Stretches)?)?
+            }
             Known::AtTimes => {
-                sampled_in_steps(&*problem.signal(&wanted, window, Purpose::Values)?, STEPS)?
+                sampled_in_steps(&*problem.signal_on(&wanted, window, Purpose::Values)?, STEPS)?
             }
             Known::ByModel => {
                 let (values, remark) = by_model(problem, &wanted, window)?;

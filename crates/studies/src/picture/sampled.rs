@@ -85,7 +85,7 @@ pub fn sampled_in_steps(signal: &dyn Signal, steps: usize) -> Result<Sampled, Ev
     for step in 0..=steps {
         let at = from + (to - from) * Rational::new(step.into(), steps.max(1).into());
         let value = digits(signal, &at, Limit::Right, DIGITS, MAX_BITS)?;
-        found.points.push((double(&at), value.to_double()));
+        found.points.push((double(&at), value.to_f64()));
     }
     Ok(found)
 }

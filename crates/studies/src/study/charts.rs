@@ -375,7 +375,7 @@ impl Study<'_> {
         symbol: &str,
         parameter: &str,
     ) -> Option<(f64, Loss, Vec<super::OrderRow>)> {
-        let problem = problem.with(symbol, parameter).ok()?;
+        let problem = problem.substituted(symbol, parameter).ok()?;
         let end = problem.some_periods(PERIODS_OF_MAPS).ok()?;
         let value = number("a parameter", parameter).ok()?.to_f64()?;
         let on_window = problem.on_window(self.asked.quantity, [Rational::default(), end]).ok()?;

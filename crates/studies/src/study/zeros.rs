@@ -25,7 +25,7 @@ pub fn simple_roots(question: &Question<'_>, most: usize) -> Vec<f64> {
         .and_then(|signal| Search::new(&signal)?.roots(&Rational::default(), DIGITS, LIMIT_BITS));
     let Ok(roots) = roots else { return Vec::new() };
     let simple = roots.all.iter().filter_map(|root| match root {
-        Root::Simple { time, .. } => Some(time.to_double()),
+        Root::Simple { time, .. } => Some(time.to_f64()),
         _ => None,
     });
     let simple: Vec<f64> = simple.collect();

@@ -23,7 +23,7 @@ fn rational(numerator: i64, denominator: i64) -> Rational {
 }
 
 fn double(value: &Value) -> f64 {
-    value.to_double()
+    value.to_f64()
 }
 
 /// A line that is drawn goes through values, and jumps where they do.

@@ -1,0 +1,206 @@
+//! Signals by name: what can be asked of a wave or an observable.
+
+use super::proven;
+use crate::answer::{Accuracy, Doubles, Kind as Method, Tolerance};
+use crate::ball::Value;
+use crate::error::Error;
+use crate::evaluate::{Extremum, Goal, Limit, Roots, Search, Signal as Analytic};
+use crate::limits::{SEARCH_BITS, VALUE_BITS};
+use crate::problem::{Digits, Given, Problem, Wanted, window};
+use crate::signal::Purpose;
+use std::ops::RangeInclusive;
+use wavestep_polynomial::Rational;
+
+/// Digits that tell to which double a value rounds, unless it was made to lie between two.
+const DIGITS_OF_DOUBLE: usize = 40;
+
+/// A wave or an observable as a function of time `t`, zero for `t < 0`, analytic between breaks.
+///
+/// Times and values are plain numbers, or in SI units where the scene has units. Every answer is proven:
+/// digits are correctly rounded, no root is missed.
+///
+/// ```
+/// use wavestep::{Goal, Problem};
+///
+/// let mass = Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let strain = mass.signal("strain_impact")?;
+/// assert_eq!(strain.at("1/2", 10)?.to_string(), "-0.6065306597"); // -exp(-1/2)
+/// assert_eq!(strain.roots(2..=4, 15)?.all.len(), 2);
+/// assert_eq!(strain.extremum(Goal::Smallest, 0..=4, 15)?.value.to_f64(), -1.747645072415508);
+/// # Ok::<(), wavestep::Error>(())
+/// ```
+pub struct Signal<'p> {
+    pub(super) problem: &'p Problem,
+    pub(super) wanted: Wanted,
+}
+
+impl Signal<'_> {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.wanted.name()
+    }
+
+    /// The unit of its values, empty for plain numbers.
+    #[must_use]
+    pub fn unit(&self) -> String {
+        self.wanted.unit()
+    }
+
+    /// The value at a time: exactly where it is rational, else correctly rounded to so many significant
+    /// digits; the limit from later times where it jumps.
+    ///
+    /// # Errors
+    /// A time before the start; zero digits, or more than [`MAX_DIGITS`](crate::limits::MAX_DIGITS); a symbol
+    /// without a value; a local contact, whose values are [tested](Signal::values_by), not proven.
+    ///
+    /// # Cost
+    /// The waves are solved until that time: after `n` periods about `n²` operations on numbers with so
+    /// many digits, or `n³` where contacts open.
+    pub fn at(&self, time: impl Into<Given>, digits: usize) -> Result<Value, Error> {
+        self.limit(time.into(), Limit::Right, digits)
+    }
+
+    /// The limit from earlier times; zero at the start.
+    ///
+    /// # Errors
+    /// As [`at`](Signal::at).
+    pub fn before(&self, time: impl Into<Given>, digits: usize) -> Result<Value, Error> {
+        self.limit(time.into(), Limit::Left, digits)
+    }
+
+    fn limit(&self, time: Given, limit: Limit, digits: usize) -> Result<Value, Error> {
+        let times = [self.problem.time("time", time)?];
+        let value = |count| {
+            let digits = Digits { count, max_bits: VALUE_BITS, limit, count_echoes: false };
+            let found = self.problem.proven(&self.wanted, &times, digits, &|| ());
+            found.map(|mut found| found.values.remove(0))
+        };
+        let told = value(proven(digits)?)?;
+        if let Value::Certified { decimal, ball } = &told
+            && ball.rounded().is_none()
+            && let Ok(Value::Certified { ball, .. }) = value(digits.max(DIGITS_OF_DOUBLE))
+        {
+            return Ok(Value::Certified { decimal: decimal.clone(), ball });
+        }
+        Ok(told)
+    }
+
+    /// Values in doubles at many times, by the cheapest method that is proven to keep a tolerance.
+    ///
+    /// # Errors
+    /// As [`at`](Signal::at); also where no double is near enough.
+    ///
+    /// # Cost
+    /// A window is compiled once, in about a second after a thousand periods; then a few nanoseconds a value.
+    pub fn values<T: Clone + Into<Given>>(
+        &self,
+        times: &[T],
+        tolerance: Tolerance,
+    ) -> Result<Doubles, Error> {
+        self.doubles(times, Accuracy::Within(tolerance))
+    }
+
+    /// Values in doubles by a method or a model of one's choice.
+    ///
+    /// # Errors
+    /// As [`at`](Signal::at); also where the method does not suit the problem.
+    pub fn values_by<T: Clone + Into<Given>>(
+        &self,
+        times: &[T],
+        method: Method,
+    ) -> Result<Doubles, Error> {
+        self.doubles(times, Accuracy::Method(method, None))
+    }
+
+    fn doubles<T: Clone + Into<Given>>(
+        &self,
+        times: &[T],
+        accuracy: Accuracy,
+    ) -> Result<Doubles, Error> {
+        let time = |time: &T| self.problem.time("time", time.clone());
+        let times = times.iter().map(time).collect::<Result<Vec<Rational>, _>>()?;
+        Ok(self.problem.doubles(self.name(), &times, Limit::Right, accuracy)?)
+    }
+
+    /// All times of a window at which the signal is zero, or jumps over zero, with proof that there are no
+    /// others; those with so many digits.
+    ///
+    /// # Errors
+    /// As [`at`](Signal::at); an empty window; more than [`MAX_ROOTS`](crate::limits::MAX_ROOTS).
+    ///
+    /// # Cost
+    /// A few tens of polynomials with 20 terms for each stretch between breaks and for each root.
+    pub fn roots<T: Into<Given>>(
+        &self,
+        window: RangeInclusive<T>,
+        digits: usize,
+    ) -> Result<Roots, Error> {
+        self.crossings(Rational::default(), window, digits)
+    }
+
+    /// The same for a level instead of zero.
+    ///
+    /// # Errors
+    /// As [`roots`](Signal::roots).
+    pub fn crossings<T: Into<Given>>(
+        &self,
+        level: impl Into<Given>,
+        window: RangeInclusive<T>,
+        digits: usize,
+    ) -> Result<Roots, Error> {
+        let digits = proven(digits)?;
+        let level = self.problem.quantity("level", level, self.wanted.dimension())?;
+        self.on(window, |signal| Ok(Search::new(signal)?.roots(&level, digits, SEARCH_BITS)?))
+    }
+
+    /// The largest or smallest value on a window, both ends included, with all places where it is taken.
+    ///
+    /// # Errors
+    /// As [`roots`](Signal::roots).
+    ///
+    /// # Cost
+    /// As [`roots`](Signal::roots).
+    pub fn extremum<T: Into<Given>>(
+        &self,
+        goal: Goal,
+        window: RangeInclusive<T>,
+        digits: usize,
+    ) -> Result<Extremum, Error> {
+        let digits = proven(digits)?;
+        self.on(window, |signal| Ok(Search::new(signal)?.extremum(goal, digits, SEARCH_BITS)?))
+    }
+
+    /// The times within a window at which the signal may jump or bend, in order: it is analytic between.
+    ///
+    /// # Errors
+    /// As [`roots`](Signal::roots).
+    pub fn breaks<T: Into<Given>>(
+        &self,
+        window: RangeInclusive<T>,
+        digits: usize,
+    ) -> Result<Vec<Value>, Error> {
+        let digits = proven(digits)?;
+        self.on(window, |signal| {
+            let start = |stretch| match signal.exact_time(stretch, Limit::Right) {
+                Some(time) => Ok(Value::Exact(time)),
+                None => Value::certify(digits, VALUE_BITS, |bits| {
+                    signal.time(stretch, Limit::Right, bits)
+                }),
+            };
+            Ok((1..signal.count()?).map(start).collect::<Result<_, _>>()?)
+        })
+    }
+
+    /// Asks the signal on a window, cut into stretches.
+    fn on<T: Into<Given>, R>(
+        &self,
+        times: RangeInclusive<T>,
+        ask: impl FnOnce(&dyn Analytic) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        let (from, to) = times.into_inner();
+        let window = window(self.problem.time("from", from)?, self.problem.time("to", to)?)?;
+        let signal = self.problem.signal_on(&self.wanted, window.each_ref(), Purpose::Stretches)?;
+        ask(&*signal)
+    }
+}

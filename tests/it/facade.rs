@@ -1,0 +1,154 @@
+//! What people use: the same answers as the layers beneath, in fewer words, and errors where there are none.
+
+use wavestep::{Error, Goal, Method, Place, Problem, Rational, Root, Tolerance, Value, scenes};
+
+fn mass() -> Problem {
+    Problem::builtin("rigid-mass").and_then(|mass| mass.with("mu", 1)).unwrap()
+}
+
+fn ratio(above: i64, below: i64) -> Rational {
+    Rational::new(above.into(), below.into())
+}
+
+#[test]
+fn the_example_of_the_readme_has_thirty_digits() -> Result<(), Error> {
+    let problem = Problem::builtin("rigid-mass")?.with("mu", "1/4")?;
+    let value = problem.signal("f")?.at("33/10", 30)?;
+    assert_eq!(value.to_string(), "0.305385264408791064086396952466");
+    assert_eq!(value.to_f64(), 0.305385264408791064086396952466);
+    Ok(())
+}
+
+/// A value given in any way is the same number; a double is its exact value.
+#[test]
+fn numbers_are_taken_as_they_come() -> Result<(), Error> {
+    let problem = mass();
+    let signal = problem.signal("strain_fixed")?;
+    let exact = signal.at("5/2", 20)?;
+    for value in [signal.at(2.5, 20)?, signal.at(ratio(5, 2), 20)?, signal.at(&ratio(5, 2), 20)?] {
+        assert_eq!(value, exact);
+    }
+    assert_eq!(signal.at(3, 20)?, signal.at("3".to_owned(), 20)?);
+    assert_ne!(signal.at(2.6, 30)?, signal.at("2.6", 30)?);
+    assert!(signal.at(f64::NAN, 30).is_err_and(|error| error.is_bad_input()));
+    Ok(())
+}
+
+#[test]
+fn what_cannot_be_answered_is_an_error() {
+    let problem = mass();
+    let signal = problem.signal("velocity").unwrap();
+    let errors = [
+        signal.at(1, 0).err(),
+        signal.at(1, 10_001).err(),
+        signal.at(-1, 10).err(),
+        signal.at("one and a half", 10).err(),
+        signal.roots(0..=2, 0).err(),
+        signal.extremum(Goal::Largest, 2..=2, 5).err(),
+        signal.breaks(3..=1, 5).err(),
+        problem.events_until(1, 0).err(),
+        problem.signal("speed").err(),
+        problem.derive("speed", 0..=1).err(),
+        problem.field("1", 0).err(),
+        problem.with("mu", -1).err(),
+        Problem::builtin("rigid").err(),
+        "nearly".parse::<Tolerance>().err().map(Error::from),
+        "magic".parse::<Method>().err().map(Error::from),
+    ];
+    for (place, error) in errors.into_iter().enumerate() {
+        let error = error.unwrap_or_else(|| panic!("answered: {place}"));
+        assert!(error.is_bad_input(), "{place}: {error}");
+        assert!(error.remedy().is_some() || !error.diagnostics().is_empty(), "{place}: {error}");
+    }
+    let unset = Problem::builtin("rigid-mass").unwrap();
+    assert!(unset.signal("velocity").unwrap().at(1, 10).is_err());
+}
+
+/// Limits from both sides of every break agree with what lies beside it, and differ where it jumps.
+#[test]
+fn breaks_and_limits_from_the_left() -> Result<(), Error> {
+    let problem = mass();
+    let strain = problem.signal("strain_fixed")?;
+    let breaks = strain.breaks("0"..="6", 9)?;
+    let times: Vec<f64> = breaks.iter().map(Value::to_f64).collect();
+    assert_eq!(times, [1.0, 3.0, 5.0]);
+    assert_eq!(strain.before(1, 9)?.exact(), Some(&ratio(0, 1)));
+    assert_eq!(strain.at(1, 9)?.exact(), Some(&ratio(-2, 1)));
+    let near = strain.at("2999999/1000000", 9)?.to_f64();
+    assert!((strain.before(3, 9)?.to_f64() - near).abs() < 1e-5);
+    Ok(())
+}
+
+#[test]
+fn roots_extrema_and_doubles_agree_with_digits() -> Result<(), Error> {
+    let problem = mass();
+    let strain = problem.signal("strain_impact")?;
+    let found = strain.roots(2..=4, 30)?;
+    let Root::Simple { time, .. } = &found.all[0] else { panic!("{found:?}") };
+    let [from, to] = time.bounds();
+    let signs = [from, to].map(|time| strain.at(time, 40).map(|value| value.to_f64() > 0.0));
+    assert!(matches!(signs, [Ok(false), Ok(true)]), "{time}");
+    let level = strain.crossings("-1/2", 0..=2, 12)?;
+    assert!(level.all.iter().any(|root| matches!(root, Root::Simple { rises: true, .. })));
+    let most = strain.extremum(Goal::Smallest, 0..=4, 15)?;
+    let Place::Arrival { time, .. } = &most.places[0] else { panic!("{most:?}") };
+    assert_eq!(strain.at(time.exact().unwrap(), 15)?, most.value);
+
+    let times: Vec<f64> = (0..50).map(|i| f64::from(i) / 10.0).collect();
+    let found = strain.values(&times, Tolerance::Absolute(1e-12))?;
+    let certified = strain.values_by(&times, Method::Certified)?;
+    assert_eq!((certified.method, found.values.len()), (Method::Certified, 50));
+    for (i, time) in times.iter().enumerate() {
+        let exact = strain.at(*time, 25)?.to_f64();
+        assert_eq!(certified.values[i], exact, "correctly rounded at {time}");
+        assert!((found.values[i] - exact).abs() <= 1e-12, "at {time}");
+    }
+    Ok(())
+}
+
+/// Formulas are equal where they are the same function, whatever they are called.
+#[test]
+fn formulas_compare_by_mathematics() -> Result<(), Error> {
+    let problem = Problem::builtin("rigid-mass")?;
+    let [zero, one] = &problem.derive("f", 0..=1)?[..] else { panic!("two formulas") };
+    assert_eq!((zero.order(), one.order()), (Some(0), Some(1)));
+    assert_eq!(one, &problem.derive("f", 1..=1)?[0]);
+    assert_ne!(zero, one);
+    assert!(one.equals("(1 - 2*s + exp(-2*μ))/exp(s)")? && !one.equals("exp(-s)")?);
+    assert!(one.equals("exp(-s").is_err());
+    assert!(problem.derive("f", 2..=1)?.is_empty());
+    assert_eq!(problem.derive("velocity", 0..=2)?.len(), 3);
+    let lattice = Problem::builtin("incommensurate")?;
+    assert!(lattice.derive(lattice.waves()[0], 0..=2)?.iter().all(|echo| echo.order().is_none()));
+    Ok(())
+}
+
+/// Rational values round correctly, ties to even, whatever their size.
+#[test]
+fn rational_values_round_correctly() {
+    for (above, below, double) in [
+        (1, 3, 1.0 / 3.0),
+        ((1 << 53) + 1, 1, 9007199254740992.0),
+        ((1 << 53) + 3, 1, 9007199254740996.0),
+        (-1, 10, -0.1),
+        (0, 1, 0.0),
+    ] {
+        assert_eq!(Value::Exact(ratio(above, below)).to_f64(), double);
+    }
+}
+
+/// All that is built in can be read, has names, and tells which symbols it waits for.
+#[test]
+fn every_scene_has_a_surface() -> Result<(), Error> {
+    for scene in scenes::SCENES {
+        let problem = Problem::builtin(scene.name)?;
+        assert_eq!(problem.title(), scene.title());
+        for symbol in problem.symbols() {
+            assert!(scene.text.contains(symbol) || symbol == "mu", "{symbol} in {}", scene.name);
+        }
+        for name in problem.observables() {
+            assert_eq!(problem.signal(name)?.name(), name);
+        }
+    }
+    Ok(())
+}
