@@ -27,7 +27,7 @@ const DOUBLE_BITS: u64 = 64;
 /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
 /// let strain = mass.signal("strain_fixed")?;
 /// let (exact, rounded) = (strain.at(1, 9)?, strain.at("3/2", 9)?); // -2 and -2 exp(-1/2)
-/// assert_eq!((exact.exact().cloned(), rounded.exact()), (Some((-2).into()), None));
+/// assert!(exact.exact().is_some() && rounded.exact().is_none());
 /// assert_eq!((rounded.to_string(), rounded.to_f64()), ("-1.21306132".into(), -1.2130613194252668));
 /// # Ok::<(), wavestep::Error>(())
 /// ```

@@ -39,7 +39,7 @@ impl Problem {
     /// Reads a text with values in place of symbols from the start, for texts that make no sense without.
     ///
     /// ```
-    /// let text = "scene \"A\"\nsymbol z > 0\nbar rod { impedance = z, travel = 1 }\nline free - rod | fixed";
+    /// let text = "scene \"A\"\nsymbol z > 0\nbar rod { impedance = z, travel = 1, velocity = 1 }\nline free - rod | fixed";
     /// let rod = wavestep::Problem::read_with("rod.wave", text, [("z", "1/2")])?;
     /// assert_eq!(rod.symbols(), [""; 0]);
     /// # Ok::<(), wavestep::Error>(())
@@ -185,7 +185,7 @@ impl Problem {
     /// ```
     /// use wavestep::{Problem, Quantity};
     ///
-    /// let bar = Problem::builtin("pile")?.field("3 ms", 10)?.bars.remove(0);
+    /// let bar = Problem::builtin("hopkinson")?.field("100 us", 10)?.bars.remove(0);
     /// assert_eq!((bar.x.len(), bar.of(Quantity::Force).len()), (11, 11));
     /// # Ok::<(), wavestep::Error>(())
     /// ```
@@ -207,7 +207,7 @@ impl Problem {
     /// ```
     /// use wavestep::{Problem, Quantity};
     ///
-    /// let bar = Problem::builtin("pile")?.field_averages("3 ms", 10)?.bars.remove(0);
+    /// let bar = Problem::builtin("hopkinson")?.field_averages("100 us", 10)?.bars.remove(0);
     /// assert_eq!((bar.x.len(), bar.of(Quantity::Force).len()), (11, 10));
     /// # Ok::<(), wavestep::Error>(())
     /// ```
@@ -226,7 +226,7 @@ impl Problem {
     /// In which units the formulas of a scene are, and what the named constants in them are, a line each.
     ///
     /// ```
-    /// let scales = wavestep::Problem::builtin("pile")?.scales()?;
+    /// let scales = wavestep::Problem::builtin("hopkinson")?.scales()?;
     /// assert!(scales[0].starts_with("times in "));
     /// # Ok::<(), wavestep::Error>(())
     /// ```

@@ -26,7 +26,7 @@ const DIGITS_OF_DOUBLE: usize = 40;
 /// let strain = mass.signal("strain_impact")?;
 /// assert_eq!(strain.at("1/2", 10)?.to_string(), "-0.6065306597"); // -exp(-1/2)
 /// assert_eq!(strain.roots(2..=4, 15)?.all.len(), 2);
-/// assert_eq!(strain.extremum(Goal::Smallest, 0..=4, 15)?.value.to_f64(), -1.747645072415508);
+/// assert_eq!(strain.extremum(Goal::Smallest, 0..=4, 15)?.value.to_f64(), -2.135335283236613);
 /// # Ok::<(), wavestep::Error>(())
 /// ```
 pub struct Signal<'p> {

@@ -10,10 +10,10 @@ use wavestep_polynomial::Rational;
 /// `2 ms`, and are in SI units without. A double stands for its exact value, so `0.1` is not a tenth.
 ///
 /// ```
-/// let pile = wavestep::Problem::builtin("pile")?;
-/// let force = pile.signal("head")?;
-/// assert_eq!(force.at("2 ms", 9)?, force.at("1/500", 9)?);
-/// assert_ne!(force.at(0.002, 30)?, force.at("1/500", 30)?);
+/// let bars = wavestep::Problem::builtin("hopkinson")?;
+/// let force = bars.signal("force")?;
+/// assert_eq!(force.at("400 us", 9)?, force.at("1/2500", 9)?);
+/// assert_ne!(force.at(4e-4, 30)?, force.at("4e-4", 30)?);
 /// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, PartialEq, Debug)]

@@ -48,7 +48,7 @@ pub type Values = BTreeMap<String, Rational>;
 /// ```
 /// let problem = wavestep::Problem::builtin("rigid-mass")?;
 /// assert_eq!(problem.title(), "Rigid mass on a fixed bar");
-/// assert_eq!((problem.waves(), problem.symbols()), (vec!["f"], vec!["mu"]));
+/// assert_eq!((problem.waves(), problem.symbols()), (vec!["f", "g"], vec!["mu"]));
 /// assert_eq!(problem.observables()[0], "velocity");
 /// let value = problem.with("mu", "1/4")?.signal("f")?.at("33/10", 12)?;
 /// assert_eq!(value.to_string(), "0.305385264409");
