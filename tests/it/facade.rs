@@ -15,7 +15,7 @@ fn the_example_of_the_readme_has_thirty_digits() -> Result<(), Error> {
     let problem = Problem::builtin("rigid-mass")?.with("mu", "1/4")?;
     let value = problem.signal("f")?.at("33/10", 30)?;
     assert_eq!(value.to_string(), "0.305385264408791064086396952466");
-    assert_eq!(value.to_f64(), 0.305385264408791064086396952466);
+    assert_eq!(Ok(value.to_f64()), value.to_string().parse());
     Ok(())
 }
 
@@ -25,7 +25,8 @@ fn numbers_are_taken_as_they_come() -> Result<(), Error> {
     let problem = mass();
     let signal = problem.signal("strain_fixed")?;
     let exact = signal.at("5/2", 20)?;
-    for value in [signal.at(2.5, 20)?, signal.at(ratio(5, 2), 20)?, signal.at(&ratio(5, 2), 20)?] {
+    let half = ratio(5, 2);
+    for value in [signal.at(2.5, 20)?, signal.at(&half, 20)?, signal.at(half.clone(), 20)?] {
         assert_eq!(value, exact);
     }
     assert_eq!(signal.at(3, 20)?, signal.at("3".to_owned(), 20)?);
@@ -45,7 +46,7 @@ fn what_cannot_be_answered_is_an_error() {
         signal.at("one and a half", 10).err(),
         signal.roots(0..=2, 0).err(),
         signal.extremum(Goal::Largest, 2..=2, 5).err(),
-        signal.breaks(3..=1, 5).err(),
+        signal.breaks("3"..="1", 5).err(),
         problem.events_until(1, 0).err(),
         problem.signal("speed").err(),
         problem.derive("speed", 0..=1).err(),
@@ -117,7 +118,8 @@ fn formulas_compare_by_mathematics() -> Result<(), Error> {
     assert_ne!(zero, one);
     assert!(one.equals("(1 - 2*s + exp(-2*μ))/exp(s)")? && !one.equals("exp(-s)")?);
     assert!(one.equals("exp(-s").is_err());
-    assert!(problem.derive("f", 2..=1)?.is_empty());
+    let [first, last] = [2, 1];
+    assert!(problem.derive("f", first..=last)?.is_empty());
     assert_eq!(problem.derive("velocity", 0..=2)?.len(), 3);
     let lattice = Problem::builtin("incommensurate")?;
     assert!(lattice.derive(lattice.waves()[0], 0..=2)?.iter().all(|echo| echo.order().is_none()));
