@@ -122,9 +122,6 @@ impl Assumptions {
     }
 
     /// Declares positive numbers between which the value of a symbol lies.
-    ///
-    /// # Panics
-    /// Where the lower bound is not positive, or above the upper one.
     pub fn declare_bounds(&mut self, symbol: Symbol, lower: Rational, upper: Rational) {
         assert!(lower.is_positive() && lower <= upper, "bounds in order, and positive");
         self.bounds.insert(symbol, (lower, upper));
@@ -194,9 +191,6 @@ impl Assumptions {
     ///
     /// An algebraic number that is not zero can always be inverted. Where `c` holds square roots and
     /// symbols, it is its norm that must be such a product, or a power of one.
-    ///
-    /// # Errors
-    /// [`NotInvertible`] with the factor that prevents it.
     pub fn invert(&self, value: &Expression) -> Result<Expression, NotInvertible> {
         let mut terms = value.terms();
         let (exponent, coefficient) = terms.next().ok_or(NotInvertible::Zero)?;

@@ -22,12 +22,6 @@ impl Expression {
     /// ∫ p e^{κx} dx = p antiderived                         for κ = 0
     ///               = e^{κx} Σ_j (−1)^j p^{(j)} / κ^{j+1}   else
     /// ```
-    ///
-    /// # Errors
-    /// [`NotInvertible`] where a rate `κ` is neither zero nor known to be non-zero.
-    ///
-    /// # Panics
-    /// Where an exponent is not linear in `x`, or `x` stands in a denominator.
     pub fn antiderivative(
         &self,
         x: &Symbol,
@@ -64,13 +58,6 @@ impl Expression {
     /// ```
     ///
     /// Resonance (an exponent `−a` in `q`) is no special case: there the integrand is a polynomial.
-    ///
-    /// # Errors
-    /// [`NotInvertible`] where `λ + a`, for an exponent `λ` of `q`, is neither zero nor known to be
-    /// non-zero.
-    ///
-    /// # Panics
-    /// As for [`Expression::antiderivative`].
     pub fn solve_first_order(
         self,
         x: &Symbol,
@@ -85,18 +72,12 @@ impl Expression {
     }
 
     /// The value at `x = 0`.
-    ///
-    /// # Panics
-    /// Where `x` stands in a denominator.
     pub fn at_zero(&self, x: &Symbol) -> Expression {
         self.substitute(x, &Fraction::zero()).expect("no denominator holds the variable")
     }
 }
 
 /// The coefficient of `x` in an exponent.
-///
-/// # Panics
-/// Where the exponent is not linear in `x`.
 pub(crate) fn rate_of(exponent: &Fraction, x: &Symbol) -> Fraction {
     let rate = exponent.derivative(x);
     assert!(!rate.contains(x), "an exponent that is not linear in {x}");

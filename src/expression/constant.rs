@@ -41,9 +41,6 @@ impl Root {
     }
 
     /// The quotient.
-    ///
-    /// # Errors
-    /// [`NotAUnit`] where the other value is no product that can be divided by.
     pub fn over(&self, other: &Root) -> Result<Root, NotAUnit> {
         let factor = &self.factor * &inverse(&other.factor)?;
         let radicand = &self.radicand * &inverse(&other.radicand)?;

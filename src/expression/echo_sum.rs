@@ -30,13 +30,8 @@ impl EchoSum {
         &self.echoes
     }
 
-    /// The piece on the n-th period, in the local variable: `Σ_{k ≤ n} φ_k(s + (n−k)D)`.
-    ///
-    /// # Errors
-    /// [`NotAUnit`] where the period has a denominator that cannot be carried.
-    ///
-    /// # Panics
-    /// Where an echo up to the n-th is not known.
+    /// The piece on the n-th period, in the local variable: `Σ_{k ≤ n} φ_k(s + (n−k)D)`; the
+    /// echoes up to the n-th are known.
     pub fn piece(&self, n: usize) -> Result<Expression, NotAUnit> {
         let mut sum = Expression::zero();
         for (k, echo) in self.echoes[..=n].iter().enumerate() {

@@ -73,9 +73,6 @@ impl Fraction {
     /// Where `p` holds square roots, the denominator is rationalised, `1/p = m/(p m)` with
     /// [`Polynomial::norm`], and it is `p m` that must be such a product, or a power of one whose
     /// exponent is a power of 2. Every algebraic number but 0 has a reciprocal.
-    ///
-    /// # Errors
-    /// [`NotAUnit`] for zero and for every other polynomial.
     pub fn reciprocal(p: &Polynomial) -> Result<Fraction, NotAUnit> {
         if p.is_zero() {
             return Err(NotAUnit(p.clone()));
@@ -212,10 +209,6 @@ impl Fraction {
     }
 
     /// The value with `value` in place of `x`.
-    ///
-    /// # Errors
-    /// [`NotAUnit`] where a factor of the denominator becomes zero, or no product of factors
-    /// that can be divided by.
     pub fn substitute(&self, x: &Symbol, value: &Fraction) -> Result<Fraction, NotAUnit> {
         let mut result = substitute_in(&self.numerator, x, value);
         for (factor, power) in &self.factors {
@@ -241,12 +234,6 @@ impl Fraction {
     }
 
     /// The value where every symbol has one.
-    ///
-    /// # Errors
-    /// The first symbol for which `values` answers `None`, or a square root.
-    ///
-    /// # Panics
-    /// Where a factor of the denominator is zero there.
     pub fn evaluate(
         &self,
         values: &impl Fn(&Symbol) -> Option<Rational>,

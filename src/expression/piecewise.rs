@@ -37,20 +37,11 @@ impl Piecewise {
     }
 
     /// The limit from the left at the end of piece `n`, `lim_{s→D} pieces[n](s)`.
-    ///
-    /// # Errors
-    /// [`NotAUnit`] where the period has a denominator that cannot be carried.
-    ///
-    /// # Panics
-    /// Where piece `n` is not known.
     pub fn end(&self, n: usize) -> Result<Expression, NotAUnit> {
         self.pieces[n].substitute(&self.local, &self.period)
     }
 
     /// The value at the start of piece `n`.
-    ///
-    /// # Panics
-    /// Where piece `n` is not known.
     pub fn start(&self, n: usize) -> Expression {
         self.pieces[n].at_zero(&self.local)
     }

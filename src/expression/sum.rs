@@ -206,9 +206,6 @@ impl Expression {
     }
 
     /// The value with `value` in place of `x`, in coefficients and exponents.
-    ///
-    /// # Errors
-    /// [`NotAUnit`] where a denominator becomes zero or cannot be divided by any more.
     pub fn substitute(&self, x: &Symbol, value: &Fraction) -> Result<Expression, NotAUnit> {
         let mut result = Expression::zero();
         for (exponent, p) in &self.terms {
@@ -218,9 +215,6 @@ impl Expression {
     }
 
     /// The value with `x + step` in place of `x`.
-    ///
-    /// # Errors
-    /// As for [`Expression::substitute`].
     pub fn shift(&self, x: &Symbol, step: &Fraction) -> Result<Expression, NotAUnit> {
         if step.is_zero() {
             return Ok(self.clone());
@@ -234,12 +228,6 @@ impl Expression {
     }
 
     /// The exact number `Σ r_j e^{λ_j}` where every symbol has a rational value.
-    ///
-    /// # Errors
-    /// The first symbol for which `values` answers `None`, or a square root.
-    ///
-    /// # Panics
-    /// Where a denominator is zero there.
     pub fn evaluate(
         &self,
         values: &impl Fn(&Symbol) -> Option<Rational>,

@@ -35,14 +35,8 @@ pub trait Field {
     /// Whether a coefficient is certainly 0.
     fn is_zero(&self, value: &Self::Value) -> bool;
     /// The coefficient that an exact value is.
-    ///
-    /// # Errors
-    /// Where a symbol has no value, or the value cannot be enclosed.
     fn embed(&self, value: &Expression) -> Result<Self::Value, Self::Error>;
     /// The inverse of an exact value that is not 0.
-    ///
-    /// # Errors
-    /// Where the value is not known to be non-zero.
     fn inverse(&self, value: &Fraction) -> Result<Self::Value, Self::Error>;
     /// Adds `other`.
     fn add(&self, sum: &mut Self::Value, other: &Self::Value);
@@ -261,9 +255,6 @@ impl<V: Clone> Transform<V> {
 
 impl Transform {
     /// The transform of a function of `x`, from its terms `x^j e^{λx} ↔ j!/(p − λ)^{j+1}`.
-    ///
-    /// # Panics
-    /// Where an exponent is not linear in `x`, or `x` stands in a denominator.
     pub fn of(function: &Expression, x: &Symbol) -> Transform {
         let mut poles = BTreeMap::<Fraction, Vec<Expression>>::new();
         for (exponent, coefficient) in function.terms() {
@@ -316,9 +307,6 @@ impl Transform {
     }
 
     /// `F(p) / (p − pole)`.
-    ///
-    /// # Errors
-    /// [`NotInvertible`] where the distance of two poles is neither zero nor known to be non-zero.
     pub fn divide_by_pole(
         &self,
         pole: &Fraction,

@@ -14,10 +14,6 @@ use super::syntax::{Expression, Node, Operator, Sign, Span};
 ///
 /// Takes time linear in the size of the expression: sums and products are kept as unreduced
 /// fractions of at most [`MAX_CONSTANT_BITS`] bits, and reduced once at the end.
-///
-/// # Errors
-/// Refuses names, waves, functions, division by zero, powers that are no whole numbers, and values
-/// longer than [`MAX_CONSTANT_BITS`].
 pub fn constant(expression: &Expression, source: &Source) -> Result<BigRational, Diagnostic> {
     let Fraction(numerator, denominator) = evaluate(expression, source)?;
     Ok(BigRational::new(numerator, denominator))

@@ -21,9 +21,6 @@ type Outcome<T> = Result<T, Diagnostic>;
 
 /// Lowers a recurrence, with `values` in place of symbols from the start: two poles that become
 /// equal give the confluent answer.
-///
-/// # Errors
-/// The first statement that has no meaning, or that the recurrence refuses.
 pub(super) fn recurrence(
     tree: &syntax::Recurrence,
     values: &BTreeMap<String, Rational>,
@@ -366,20 +363,6 @@ impl<'a> Lowering<'a> {
 }
 
 /// One formula of a listing: the wave, the period, the variable, and the exact expression.
-///
-/// ```
-/// use wavestep::language::{ExactFormula, Source, read_expression, read_listing};
-/// use wavestep_polynomial::Symbol;
-///
-/// let formula = ExactFormula {
-///     wave: "g".to_owned(),
-///     n: 2,
-///     variable: Symbol::new("s").unwrap(),
-///     expression: read_expression(&Source::new("value", "2*s*exp(-s)")?)?,
-/// };
-/// assert_eq!(read_listing(&Source::new("listing", "g[2](s) = exp(-s)*2*s")?)?, [formula]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ExactFormula {
     /// The wave.
@@ -393,9 +376,6 @@ pub struct ExactFormula {
 }
 
 /// Lowers a listing; every name but those of functions is a symbol.
-///
-/// # Errors
-/// The first formula that holds a wave, or divides by what cannot be divided by.
 pub(super) fn listing(tree: &syntax::Listing) -> Outcome<Vec<ExactFormula>> {
     let scope = Scope::new(&tree.source);
     let lower = |formula: &Spanned<syntax::Formula>| {
@@ -411,9 +391,6 @@ pub(super) fn listing(tree: &syntax::Listing) -> Outcome<Vec<ExactFormula>> {
 }
 
 /// Lowers an expression in which every name is a symbol.
-///
-/// # Errors
-/// As for a listing.
 pub(super) fn expression(tree: &syntax::Expression, source: &Source) -> Outcome<Expression> {
     let scope = Scope::new(source);
     Ok(scope.lower(tree, Place::Formula)?.rest)

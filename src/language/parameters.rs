@@ -15,9 +15,6 @@ type Outcome<T> = Result<T, Diagnostic>;
 
 /// Declares a symbol in the scope, with the value given for it. It is known afterwards even if it
 /// is refused, so that its uses are not refused too.
-///
-/// # Errors
-/// A bound that is no number, and a value outside the range of the symbol.
 pub(super) fn declare(
     scope: &mut Scope,
     symbol: &syntax::Symbol,
@@ -56,9 +53,6 @@ fn outside(scope: &Scope, name: &Name, value: &Rational, condition: &Condition) 
 }
 
 /// Checks that all values are given for symbols of the scope; `whole` is what the text states.
-///
-/// # Errors
-/// The first value for what is no symbol.
 pub(super) fn all_known(
     scope: &Scope,
     values: &BTreeMap<String, Rational>,
@@ -83,9 +77,6 @@ pub(super) fn all_known(
 
 /// The reciprocal of a factor that is stated to be non-zero. Where values given make it a number,
 /// it says nothing: the answer is derived with the values in.
-///
-/// # Errors
-/// A factor that is zero, or not linear in any symbol.
 pub(super) fn nonzero(
     scope: &Scope,
     tree: &Expression,

@@ -14,16 +14,6 @@ use super::syntax::Span;
 /// - Of the control characters it holds only tab, line feed, and carriage return before a line feed.
 /// - It holds no character that reverses or isolates the direction of writing, because such a text
 ///   does not read the way it is parsed.
-///
-/// ```
-/// use wavestep::language::{Source, Span};
-///
-/// let source = Source::new("mass.wave", b"\xEF\xBB\xBFwave f, g")?; // the mark is dropped
-/// assert_eq!((source.name(), source.text()), ("mass.wave", "wave f, g"));
-/// assert_eq!(source.slice(Span::new(5, 6)), "f");
-/// assert!(Source::new("binary", [0xFF, 0xFE]).is_err());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     name: Arc<str>,
@@ -33,17 +23,11 @@ pub struct Source {
 impl Source {
     /// Checks `bytes` and keeps them under `name`, which is what messages call the text: a file
     /// name, or a word such as `argument`. A leading byte order mark is dropped.
-    ///
-    /// # Errors
-    /// Refuses a text longer than [`MAX_SOURCE_BYTES`], not UTF-8, or with invisible characters.
     pub fn new(name: &str, bytes: impl AsRef<[u8]>) -> Result<Self, Diagnostic> {
         Self::with_limit(name, bytes, MAX_SOURCE_BYTES)
     }
 
     /// [`Source::new`] with a limit of the caller's choice, for texts written by a program.
-    ///
-    /// # Errors
-    /// As [`Source::new`].
     pub fn with_limit(
         name: &str,
         bytes: impl AsRef<[u8]>,
@@ -90,9 +74,6 @@ impl Source {
     }
 
     /// The part of the text under `span`.
-    ///
-    /// # Panics
-    /// If `span` comes from another text and does not fit this one.
     #[must_use]
     pub fn slice(&self, span: Span) -> &str {
         &self.text[span.start..span.end]

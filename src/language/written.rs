@@ -18,9 +18,6 @@ const MAX_POWER: i32 = 100;
 
 /// Lowers all `written` statements. Names that mean nothing in the recurrence are symbols of the
 /// source.
-///
-/// # Errors
-/// The first item that names no wave, time or symbol, says something twice, or is no product.
 pub(super) fn notation(tree: &Recurrence, scope: &Scope) -> Outcome<SourceNotation> {
     let mut notation = SourceNotation::default();
     let items = || {

@@ -45,13 +45,6 @@ pub(super) struct Facts(pub Vec<(String, String)>);
 impl Lock {
     /// Follows the contacts of a scene until a scene time, or until nothing can meet again, and takes
     /// down their events and the values of all observables.
-    ///
-    /// # Errors
-    /// [`LockError`] where the history cannot be followed, a number has no proven digits, or the digits
-    /// are not between 1 and [`MAX_DIGITS`](crate::limits::MAX_DIGITS).
-    ///
-    /// # Cost
-    /// That of [`History::of`], and of the values of each observable.
     pub fn of_events(
         network: &Network,
         until: Option<Rational>,

@@ -80,9 +80,6 @@ impl Default for Request {
 
 impl Request {
     /// The request with its times in order, each once.
-    ///
-    /// # Errors
-    /// [`LockError::Digits`] where the digits are not between 1 and [`MAX_DIGITS`].
     fn in_order(&self) -> Result<Request, LockError> {
         if !(1..=MAX_DIGITS).contains(&self.digits) {
             return Err(LockError::Digits(self.digits));

@@ -28,13 +28,6 @@ pub(super) struct Piece {
 impl Lock {
     /// Derives the pieces of all waves on the periods from 0 through `through`, and values of all waves
     /// and observables.
-    ///
-    /// # Errors
-    /// [`LockError`] where a piece or a value cannot be given, or the digits are not between 1 and
-    /// [`MAX_DIGITS`](crate::limits::MAX_DIGITS).
-    ///
-    /// # Cost
-    /// That of the pieces and of the values.
     pub fn of_pieces(
         solution: &Solution,
         through: usize,

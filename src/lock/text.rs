@@ -98,9 +98,6 @@ impl Lock {
     }
 
     /// Reads a lock.
-    ///
-    /// # Errors
-    /// The first line that is none of a lock, with its place.
     pub fn read(source: &Source) -> Result<Lock, Diagnostic> {
         let lines = lines(source);
         let contents = match version(source, lines[0])? {

@@ -202,9 +202,6 @@ impl LinearForm {
     }
 
     /// The derivative of a form without slopes and sums, piece by piece.
-    ///
-    /// # Panics
-    /// Where the form has slopes or sums.
     pub fn derivative(&self, time: &Symbol) -> LinearForm {
         let derive = |(wave, operator): (&WaveIndex, &Operator)| {
             assert!(operator.slope.is_empty() && operator.sum.is_empty(), "a second derivative");

@@ -63,9 +63,6 @@ impl SourceProduct {
     }
 
     /// Multiplies by a number.
-    ///
-    /// # Panics
-    /// Where it is zero.
     pub fn scale(&mut self, number: &Rational) {
         assert!(!number.is_zero(), "a product of a source is not zero");
         self.coefficient *= number;

@@ -26,12 +26,6 @@ pub struct Recurrence {
 
 impl Recurrence {
     /// Checks a statement and puts its equations in solving order.
-    ///
-    /// # Errors
-    /// [`InvalidRecurrence`] with the clause at fault.
-    ///
-    /// # Cost
-    /// At most one row operation for each pair of equations.
     pub fn new(mut statement: Statement) -> Result<Recurrence, InvalidRecurrence> {
         if !statement.assumptions.is_positive(&statement.period) {
             let fault = Fault::PeriodNotPositive;
@@ -78,9 +72,6 @@ impl Recurrence {
     }
 
     /// The name of a wave.
-    ///
-    /// # Panics
-    /// Where there are not so many waves.
     pub fn wave_name(&self, wave: WaveIndex) -> String {
         assert!(wave < self.wave_count(), "a wave of this recurrence");
         let added = |wave| format!("mode_{}", wave - self.statement.waves.len());

@@ -13,15 +13,6 @@ use crate::scene::{
 
 impl Scene {
     /// The assumptions of the scene, and that `pi` is greater than 3.
-    ///
-    /// ```
-    /// use wavestep::language::{Source, read_scene};
-    ///
-    /// let text = "scene \"A\"\nbar rod { impedance = pi, travel = 1, velocity = 1 }\nline free - rod - free";
-    /// let scene = read_scene(&Source::new("rod.wave", text)?, &Default::default()).unwrap();
-    /// assert_eq!((scene.assumptions.symbols().count(), scene.known().symbols().count()), (0, 1));
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn known(&self) -> Assumptions {
         let mut known = self.assumptions.clone();
         let pi = Symbol::new(PI).expect("a plain name");
@@ -32,17 +23,6 @@ impl Scene {
 
     /// Everything that makes the scene impossible: first the elements, then the line, then the
     /// observables. A scene with faults in elements or line is not asked about its observables.
-    ///
-    /// ```
-    /// use wavestep::language::{Source, read_scene};
-    /// use wavestep::scene::{End, Mistake};
-    ///
-    /// let text = "scene \"A\"\nmass ram { mass = 1, velocity = 1 }\nline free - ram - free";
-    /// let mut scene = read_scene(&Source::new("ram.wave", text)?, &Default::default()).unwrap();
-    /// scene.line.right = End::Fixed;
-    /// assert_eq!(scene.faults()[0].mistake, Mistake::Held);
-    /// # Ok::<(), wavestep::language::Diagnostic>(())
-    /// ```
     pub fn faults(&self) -> Vec<Fault> {
         let mut check = Check { scene: self, known: self.known(), faults: Vec::new() };
         if !check.is_well_formed() {

@@ -1,18 +1,6 @@
 //! Dimensions of quantities.
 
 /// The dimension `length^a · mass^b · time^c`, in metres, kilograms and seconds.
-///
-/// ```
-/// use wavestep::scene::Dimension;
-///
-/// assert_eq!(Dimension::VELOCITY.times(Dimension::TIME), Dimension::LENGTH);
-/// assert_eq!(Dimension::PRESSURE.times(Dimension::AREA), Dimension::FORCE);
-/// assert_eq!(Dimension::DENSITY, Dimension::new(-3, 1, 0));
-/// assert_eq!(Dimension::MASS.times(Dimension::VELOCITY), Dimension::MOMENTUM);
-/// assert_eq!(Dimension::STIFFNESS.times(Dimension::TIME), Dimension::IMPEDANCE);
-/// assert_eq!(Dimension::FORCE.times(Dimension::LENGTH), Dimension::ENERGY);
-/// assert_eq!(Dimension::NONE, Dimension::default());
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 pub struct Dimension {
     /// The power of length.

@@ -4,27 +4,9 @@ use crate::expression::{Expression, Fraction};
 use wavestep_polynomial::Rational;
 
 /// The place of an element in [`Scene::elements`](crate::scene::Scene::elements).
-///
-/// ```
-/// use wavestep::scene::{ElementIndex, Place};
-///
-/// let first: ElementIndex = 0;
-/// assert_eq!(Place::Element(first).element(), Some(first));
-/// ```
 pub type ElementIndex = usize;
 
 /// A named part of a scene.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Element;
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nline free - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Element { name, .. } = &scene.elements[0];
-/// assert_eq!(name, "ram");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Element {
     /// What it is called.
@@ -34,16 +16,6 @@ pub struct Element {
 }
 
 /// What an element is. All values are in metres, kilograms and seconds, or plain numbers.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Kind;
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nline free - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// assert!(matches!(scene.elements[0].kind, Kind::Mass(_)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a scene holds few elements, most of them bars")]
 pub enum Kind {
@@ -62,17 +34,6 @@ pub enum Kind {
 }
 
 /// A uniform bar, finite or endless, moving and strained uniformly at the start.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Bar, Kind};
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Kind::Bar(Bar { velocity, strain, .. }) = &scene.elements[0].kind else { panic!("a bar") };
-/// assert!(velocity.is_one() && strain.is_zero());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Bar {
     /// What it is made of.
@@ -85,16 +46,6 @@ pub struct Bar {
 
 impl Bar {
     /// Whether it goes on for ever.
-    ///
-    /// ```
-    /// use wavestep::expression::Fraction;
-    /// use wavestep::scene::{Bar, Body};
-    ///
-    /// let body = Body::Impedance { impedance: Fraction::one(), travel: Some(Fraction::one()) };
-    /// let bar = Bar { body, velocity: Fraction::zero(), strain: Fraction::zero() };
-    /// assert!(!bar.is_endless());
-    /// assert_eq!(bar.extent(), Some(&Fraction::one()));
-    /// ```
     pub fn is_endless(&self) -> bool {
         self.extent().is_none()
     }
@@ -109,17 +60,6 @@ impl Bar {
 }
 
 /// What a bar is made of.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Body, Kind};
-///
-/// let text = "scene \"A\"\nbar rod { modulus = 4, density = 1, area = 3, velocity = 1 }\nline free - rod - endless";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Kind::Bar(bar) = &scene.elements[0].kind else { panic!("a bar") };
-/// assert!(matches!(&bar.body, Body::Solid { density, length: None, .. } if density.is_one()));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Body {
     /// By impedance `Z = EA/c` and travel time `τ = L/c`. Strain is then `−X/(Zc)`, with the wave
@@ -144,17 +84,6 @@ pub enum Body {
 }
 
 /// A rigid mass: `X_left − X_right = M v'`.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Kind, Mass};
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nline free - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Kind::Mass(Mass { mass, velocity }) = &scene.elements[0].kind else { panic!("a mass") };
-/// assert!(velocity.is_one() && (mass - velocity).is_one());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mass {
     /// `M`.
@@ -164,17 +93,6 @@ pub struct Mass {
 }
 
 /// A spring of stiffness `k` with a parallel damper `d`: `X = k α + d α'`, `α' = v_left − v_right`.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Kind, Spring};
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nspring s { stiffness = 1 }\nline fixed - s - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Kind::Spring(Spring { stiffness, damping }) = &scene.elements[1].kind else { panic!() };
-/// assert!(stiffness.is_one() && damping.is_zero());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Spring {
     /// `k`; zero for a damper alone.
@@ -190,19 +108,6 @@ pub struct Spring {
 /// whole powers. Two bodies of radii `R_1`, `R_2` have `m = 3/2` and `X = (4/3) E* √R α^{3/2}` with
 /// `1/R = 1/R_1 + 1/R_2` and `1/E* = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2` (Hertz); `α_0 = R` then makes
 /// `F_0 = (4/3) E* R²`, both rational.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Hertz, Kind};
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nhertz tip { radius = 2, modulus = 3, poisson = 0 }\nline fixed - tip - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Kind::Hertz(Hertz { force, compression, exponent }) = &scene.elements[1].kind else { panic!() };
-/// // On a flat body of the same material R = 2 and E* = 3/2: F_0 = (4/3) (3/2) 2².
-/// assert_eq!((force.to_string().as_str(), compression.to_string().as_str()), ("8", "2"));
-/// assert_eq!(exponent.to_string(), "3/2");
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Hertz {
     /// `F_0`, the force at the compression `α_0`; positive.
@@ -216,27 +121,10 @@ pub struct Hertz {
 
 /// The inverse of the smallest exponent of a local contact. With smaller ones the contact is as good as
 /// a constant force, and its start as good as a jump.
-///
-/// ```
-/// // At a thousandth of the compression half of the force is there.
-/// let least = 1.0 / f64::from(wavestep::scene::LEAST_EXPONENT_INVERSE);
-/// assert!((1e-3_f64.powf(least) - 0.5).abs() < 2e-3);
-/// ```
 pub const LEAST_EXPONENT_INVERSE: u8 = 10;
 
 /// A spring of stiffness `k` with a parallel damper `d` to the ground: `X_left − X_right = d v + k u`,
 /// `u' = v`.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Kind, Support};
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2, velocity = 1 }\nsupport s { damping = 1 }\nline free - s - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Kind::Support(Support { stiffness, damping }) = &scene.elements[1].kind else { panic!() };
-/// assert!(stiffness.is_zero() && damping.is_one());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Support {
     /// `k`.
@@ -246,17 +134,6 @@ pub struct Support {
 }
 
 /// A load that acts from `from` until `until`.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Kind, Load};
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2 }\nload push { force = exp(-t), until = 1 }\nline free - push - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Kind::Load(Load { course, from, until, .. }) = &scene.elements[1].kind else { panic!() };
-/// assert!(course.contains(&scene.time) && from.is_zero() && until.is_some());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Load {
     /// What is given.
@@ -270,16 +147,6 @@ pub struct Load {
 }
 
 /// What a load gives.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Drive, Kind};
-///
-/// let text = "scene \"A\"\nmass ram { mass = 2 }\nload push { force = exp(-t), until = 1 }\nline free - push - ram - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// assert!(matches!(&scene.elements[1].kind, Kind::Load(load) if load.drive == Drive::Force));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Drive {
     /// A force: `X_right − X_left = F(t)`.

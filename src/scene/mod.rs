@@ -23,27 +23,12 @@ pub use observable::{Measure, Observable, Place, Position, Seen};
 pub use quantity::Quantity;
 
 /// The name of the number π in the expressions of a scene.
-///
-/// ```
-/// assert_eq!(wavestep::scene::PI, "pi");
-/// ```
 pub const PI: &str = "pi";
 
 /// A line of bars and lumped elements with what is known and observed of it.
 ///
 /// Displacement and velocity are positive to the right, forces in bars and springs where they
 /// compress, strain and stress where they pull. Loads act to the right where they are positive.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Scene;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Scene { title, dimensional, elements, .. } = &scene;
-/// assert_eq!((title.as_str(), *dimensional, elements.len()), ("A", false, 1));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Scene {
     /// What is modelled, in words.
@@ -67,17 +52,6 @@ pub struct Scene {
 }
 
 /// Elements from left to right, between two ends.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Line;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Line { elements, joints, .. } = &scene.line;
-/// assert_eq!((&elements[..], joints.len()), (&[0][..], 2));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Line {
     /// What is at the left.
@@ -92,16 +66,6 @@ pub struct Line {
 }
 
 /// An end of a line.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::End;
-///
-/// let text = "scene \"A\"\nbar rod { modulus = 4, density = 1, area = 3, velocity = 1 }\nline free - rod - endless";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// assert_eq!((scene.line.left, scene.line.right), (End::Free, End::Endless));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum End {
     /// No force: `X = 0`.
@@ -124,16 +88,6 @@ impl End {
 }
 
 /// How two neighbours in a line are joined.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Joint;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline fixed | rod - free";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// assert_eq!(scene.line.joints, [Joint::Contact, Joint::Bonded]);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Joint {
     /// For good.

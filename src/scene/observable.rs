@@ -5,17 +5,6 @@ use crate::scene::dimension::Dimension;
 use crate::scene::element::ElementIndex;
 
 /// A named quantity to observe: a sum of measures.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Observable;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free\nobserve E = energy(line)/2";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Observable { name, terms } = &scene.observables[0];
-/// assert_eq!((name.as_str(), terms.len()), ("E", 1));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Observable {
     /// What it is called.
@@ -25,18 +14,6 @@ pub struct Observable {
 }
 
 /// One term of an observable: a coefficient times what is measured at a place.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Measure, Place, Seen};
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free\nobserve E = energy(line)/2";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Seen { coefficient, measure, place } = &scene.observables[0].terms[0];
-/// assert!((coefficient + coefficient).is_one());
-/// assert_eq!((*measure, place), (Measure::Energy, &Place::Line));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Seen {
     /// The coefficient, a plain number.
@@ -48,16 +25,6 @@ pub struct Seen {
 }
 
 /// What is measured.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Measure;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free\nobserve v = velocity(rod.at(1))";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// assert_eq!(scene.observables[0].terms[0].measure, Measure::Velocity);
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Measure {
     /// Of a section or a mass.
@@ -95,13 +62,6 @@ impl Measure {
     }
 
     /// The dimension of what is measured.
-    ///
-    /// ```
-    /// use wavestep::scene::{Dimension, Measure};
-    ///
-    /// assert_eq!(Measure::Stress.dimension(), Dimension::PRESSURE);
-    /// assert_eq!(Measure::Compression.dimension(), Measure::Displacement.dimension());
-    /// ```
     pub const fn dimension(self) -> Dimension {
         match self {
             Measure::Velocity => Dimension::VELOCITY,
@@ -116,16 +76,6 @@ impl Measure {
 }
 
 /// Where it is measured.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::Place;
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free\nobserve v = velocity(rod.at(1))";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// assert!(matches!(scene.observables[0].terms[0].place, Place::At(0, _)));
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Place {
     /// The left end of a bar.
@@ -142,12 +92,6 @@ pub enum Place {
 
 impl Place {
     /// The element that it belongs to; `None` for the whole line.
-    ///
-    /// ```
-    /// use wavestep::scene::Place;
-    ///
-    /// assert_eq!((Place::Left(3).element(), Place::Line.element()), (Some(3), None));
-    /// ```
     pub const fn element(&self) -> Option<ElementIndex> {
         match self {
             Place::Left(element)
@@ -160,17 +104,6 @@ impl Place {
 }
 
 /// A section of a bar.
-///
-/// ```
-/// use wavestep::language::{Source, read_scene};
-/// use wavestep::scene::{Place, Position};
-///
-/// let text = "scene \"A\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod - free\nobserve v = velocity(rod.at(1))";
-/// let scene = read_scene(&Source::new("text", text)?, &Default::default()).unwrap();
-/// let Place::At(_, Position::Share(share)) = &scene.observables[0].terms[0].place else { panic!() };
-/// assert!(share.is_one());
-/// # Ok::<(), wavestep::language::Diagnostic>(())
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Position {
     /// At a share of its length, from the left: 0 … 1.

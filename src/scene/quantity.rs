@@ -4,14 +4,6 @@ use crate::expression::Fraction;
 use crate::scene::Dimension;
 
 /// An exact value in metres, kilograms and seconds. It may hold the scene's symbols, and `pi`.
-///
-/// ```
-/// use wavestep::expression::Fraction;
-/// use wavestep::scene::{Dimension, Quantity};
-///
-/// let metre = Quantity { value: Fraction::one(), dimension: Dimension::LENGTH };
-/// assert_ne!(metre.dimension, Dimension::NONE);
-/// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Quantity {
     /// The value in SI units.

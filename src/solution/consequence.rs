@@ -22,9 +22,6 @@ impl Solution {
     /// `(1 − q) R`, whose first coefficient is 1 as well.
     ///
     /// `false` says that this found no proof, not that the form is not zero.
-    ///
-    /// # Cost
-    /// A product for each pair of coefficients; the recurrence is not solved.
     #[must_use]
     pub fn is_always_zero(&self, form: &LinearForm) -> bool {
         let time = &self.recurrence().statement().time;

@@ -16,9 +16,6 @@ impl Demand {
     }
 
     /// Adds the echo `k` of a wave, and all echoes that it needs.
-    ///
-    /// # Cost
-    /// A visit to each echo that is new, times the terms of its equation.
     pub fn add(&mut self, recurrence: &Recurrence, wave: WaveIndex, k: usize) {
         self.add_where(recurrence, wave, k, |_| true);
     }

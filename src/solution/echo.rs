@@ -53,10 +53,6 @@ impl<'a> EchoByEcho<'a> {
 
     /// Solves for the next echo. Cost: a few passes over the coefficients of the echoes that the
     /// equations name.
-    ///
-    /// # Errors
-    /// [`SolveError`] where a difference of poles would have to be divided by that is not known
-    /// to be non-zero.
     pub fn advance(&mut self) -> Result<(), SolveError> {
         let next = self.echoes.first().map_or(0, Vec::len);
         for step in self.recurrence.steps() {

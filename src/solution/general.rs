@@ -49,9 +49,6 @@ impl GeneralForm {
     }
 
     /// The general form of a wave.
-    ///
-    /// # Errors
-    /// [`Unknown`] with the equation for which none is found.
     pub(crate) fn of(recurrence: &Recurrence, wave: WaveIndex) -> Result<GeneralForm, Unknown> {
         let step = recurrence.steps().iter().find(|step| step.wave == wave);
         let own = || step.map(|step| step.equation.clone()).unwrap_or_default();

@@ -83,13 +83,6 @@ impl Solution {
 
     /// An observable whose waves arrive apart, between its arrivals on the periods `first … last` of
     /// the waves.
-    ///
-    /// # Errors
-    /// [`ObserveError`] where the order of arrivals is not known, because delays and period are not in
-    /// rational proportions, or a piece cannot be given exactly.
-    ///
-    /// # Cost
-    /// That of the pieces of the waves, and a shift of them for each term and arrival.
     pub fn observed_between_arrivals(
         &self,
         observation: &Observation,
@@ -154,12 +147,6 @@ impl Solution {
     }
 
     /// The pieces `first … last` of an observable.
-    ///
-    /// # Errors
-    /// [`ObserveError`] where its waves do not arrive together, or a piece cannot be given exactly.
-    ///
-    /// # Cost
-    /// That of the pieces of the waves, and a pass over them for each term.
     pub fn observed(
         &self,
         observation: &Observation,

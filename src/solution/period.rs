@@ -87,9 +87,6 @@ impl<'a> PeriodByPeriod<'a> {
 
     /// Solves the next period. Cost: a few passes over the pieces that the equations name, and
     /// one substitution `s = D` for each piece that a continuous form names.
-    ///
-    /// # Errors
-    /// [`SolveError`] where a rate would have to be divided by that is not known to be non-zero.
     pub fn advance(&mut self) -> Result<(), SolveError> {
         for step in self.recurrence.steps() {
             let n = self.ends[step.wave].len();

@@ -36,9 +36,6 @@ impl Solution {
     }
 
     /// The wave in general n.
-    ///
-    /// # Errors
-    /// [`Unknown`] where no closed form in n was found.
     pub fn general(&self, wave: WaveIndex) -> Result<&GeneralForm, &Unknown> {
         self.general[wave].get_or_init(|| GeneralForm::of(&self.recurrence, wave)).as_ref()
     }
@@ -52,12 +49,6 @@ impl Solution {
     }
 
     /// The echoes `φ_0 … φ_through` of a wave.
-    ///
-    /// # Errors
-    /// [`SolveError`] where an echo cannot be given exactly.
-    ///
-    /// # Cost
-    /// O(through²) operations on coefficients.
     pub fn echoes(&self, wave: WaveIndex, through: usize) -> Result<EchoSum, SolveError> {
         check_degree(&self.recurrence, wave, through)?;
         let statement = self.recurrence.statement();
@@ -80,12 +71,6 @@ impl Solution {
     }
 
     /// The pieces `first … last` of a wave, each in the local variable.
-    ///
-    /// # Errors
-    /// [`SolveError`] where a piece cannot be given exactly.
-    ///
-    /// # Cost
-    /// For one pole about one product for each term of the pieces, and O(last²) for the echoes.
     pub fn pieces(
         &self,
         wave: WaveIndex,
@@ -106,12 +91,6 @@ impl Solution {
 
     /// The pieces `0 … last` of all waves by the values of `kept` waves at the ends of earlier
     /// periods, for which symbols stand.
-    ///
-    /// # Errors
-    /// [`SolveError`] where a piece cannot be given exactly.
-    ///
-    /// # Cost
-    /// That of [`PeriodByPeriod::advance`] for each period.
     pub fn pieces_by_ends(
         &self,
         last: usize,
@@ -127,12 +106,6 @@ impl Solution {
 
     /// The echoes `φ_0 … φ_through` of a wave as a table of integers; `None` where a constant is no
     /// rational number.
-    ///
-    /// # Errors
-    /// [`SolveError`] where an echo cannot be given exactly.
-    ///
-    /// # Cost
-    /// A product and a sum for each coefficient where the echoes have a closed form.
     pub fn table(&self, wave: WaveIndex, through: usize) -> Result<Option<EchoTable>, SolveError> {
         let Some(template) = self.template(wave) else {
             let solver = self.expanded(wave, through)?;

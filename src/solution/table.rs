@@ -101,9 +101,6 @@ impl EchoTable {
     /// By Taylor's theorem a coefficient `c_{k,j}` of `x^j/j!` gives, with `m = n−k` and `j = i+l`,
     /// the integer `c_{k,i+l} m^l`: one product a term and no sums, since no two terms
     /// agree in `λ, m, i, l`. Zero coefficients are passed over.
-    ///
-    /// # Panics
-    /// Where an echo up to the n-th is missing.
     pub fn for_each_term(&self, n: usize, mut visit: impl FnMut(ExpandedTerm<'_>)) {
         let mut spare = IntegerRow::default();
         for (age, rate, polynomial) in self.parts(n) {
@@ -162,9 +159,6 @@ impl OrdinaryTable {
     /// With `m = n−k` and `j = i+l` it is `a_{k,j} C(j,l) (cm)^l`, where `a_{k,j}` belongs to `x^j`
     /// in the k-th echo: from `l` to `l+1` it changes by `cm (j−l)/(l+1)`, so that only gcds of
     /// words are taken.
-    ///
-    /// # Panics
-    /// Where an echo up to the n-th is missing, or `n · multiple ·` the degree does not fit 32 bits.
     pub fn for_each_ordinary_term(
         &self,
         n: usize,

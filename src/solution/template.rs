@@ -140,9 +140,6 @@ impl EchoTemplate {
 }
 
 /// `k − lag`.
-///
-/// # Panics
-/// Where that is negative: the sum holds from the largest lag on.
 fn index(k: usize, lag: isize) -> usize {
     k.checked_add_signed(-lag).expect("the sum holds from the largest lag on")
 }

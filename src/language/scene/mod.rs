@@ -46,9 +46,6 @@ const TAKEN: [(&str, &str); 7] = [
 ];
 
 /// Lowers a scene, with `values` in place of symbols from the start.
-///
-/// # Errors
-/// All independent mistakes, in the order of the text.
 pub(super) fn scene(
     tree: &tree::Scene,
     values: &BTreeMap<String, Rational>,

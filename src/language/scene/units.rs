@@ -74,9 +74,6 @@ fn named(name: &str) -> Option<Worth> {
 }
 
 /// What a unit is worth; `symbols` are names that a person may have meant to multiply by.
-///
-/// # Errors
-/// The first part that is no unit, and powers beyond all bounds.
 pub(in crate::language) fn worth(scope: &Scope, unit: &Unit) -> Result<Worth, Diagnostic> {
     let mut value = Rational::one();
     let mut powers = [0_i32; 3];
