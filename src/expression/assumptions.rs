@@ -10,15 +10,10 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// How a symbol compares with a number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Relation {
-    /// `>`
     Greater,
-    /// `>=`
     AtLeast,
-    /// `<`
     Less,
-    /// `<=`
     AtMost,
-    /// `!=`
     Unequal,
 }
 
@@ -58,16 +53,21 @@ impl Condition {
     }
 }
 
-impl fmt::Display for Condition {
+impl fmt::Display for Relation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let relation = match self.relation {
+        f.write_str(match self {
             Relation::Greater => ">",
             Relation::AtLeast => ">=",
             Relation::Less => "<",
             Relation::AtMost => "<=",
             Relation::Unequal => "!=",
-        };
-        write!(f, "{relation} {}", self.bound)
+        })
+    }
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.relation, self.bound)
     }
 }
 

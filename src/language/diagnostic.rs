@@ -73,7 +73,7 @@ impl Diagnostic {
 
     /// Adds a place that helps to understand the error.
     #[must_use]
-    pub(super) fn with_secondary(mut self, span: Span, label: impl Into<String>) -> Self {
+    pub fn with_secondary(mut self, span: Span, label: impl Into<String>) -> Self {
         let span = on_characters(self.0.source.text(), span);
         self.0.secondary.push(Label { span, text: label.into() });
         self
@@ -212,52 +212,4 @@ fn distance(a: &[char], b: &str) -> usize {
         rows.push(row);
     }
     rows[a.len()][b.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn distances() {
-        for (a, b, edits) in
-            [("", "abc", 3), ("wave", "wvae", 1), ("ca", "abc", 3), ("mü", "mu", 1)]
-        {
-            assert_eq!(distance(&a.chars().collect::<Vec<_>>(), b), edits, "{a} {b}");
-        }
-    }
-
-    #[test]
-    fn errors_say_their_place_and_a_remedy() {
-        let source = Source::new("a.wave", "wave f\nμ g = 1").unwrap();
-        let error = Diagnostic::new(&source, "no", Span::new(10, 11), "here");
-        assert_eq!(error.to_string(), "a.wave:2:3: no: here");
-        assert_eq!(error.with_remedy("yes").to_string(), "a.wave:2:3: no: here\nhelp: yes");
-    }
-
-    #[test]
-    fn only_slips_are_close() {
-        assert_eq!(closest("waves", ["wave"]), Some("wave"));
-        assert_eq!(closest("equasion", ["observe", "equation"]), Some("equation"));
-        assert_eq!(closest("Mu", ["r", "mu"]), None);
-        assert_eq!(closest("alhpa", ["beta", "alpha"]), Some("alpha"));
-        assert_eq!(closest("x", ["y", "z"]), None);
-        assert_eq!(closest(&"x".repeat(1000), ["y"]), None);
-    }
-
-    #[test]
-    fn any_span_is_moved_onto_characters() {
-        for text in ["σ = ρcV\n", "", "a", "\u{4F60}\u{597D} f"] {
-            let source = Source::new("t", text).unwrap();
-            for (start, end) in [(0, 0), (1, 2), (3, 1), (5, 999), (usize::MAX, usize::MAX)] {
-                let error = Diagnostic::new(&source, "m", Span::new(start, end), "l")
-                    .with_secondary(Span::new(end, start), "s");
-                let marked = error.secondary().iter().map(|label| label.span).chain([error.span()]);
-                for Span { start, end } in marked {
-                    assert!(text.get(start..end).is_some());
-                }
-                assert!(error.to_string().ends_with("m: l"));
-            }
-        }
-    }
 }

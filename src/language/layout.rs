@@ -48,36 +48,3 @@ fn indentation(line: &str) -> Option<(usize, usize)> {
     }
     None
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn pieces(text: &str) -> Vec<&str> {
-        statements(text).into_iter().map(|span| text[span.start..span.end].trim_end()).collect()
-    }
-
-    #[test]
-    fn deeper_lines_continue() {
-        assert_eq!(pieces("a\n  b\n\n# c\n\td # e\nf\n"), ["a\n  b\n\n# c\n\td # e", "f"]);
-    }
-
-    #[test]
-    fn a_closing_brace_continues() {
-        assert_eq!(pieces("a {\n  b\n}\nc"), ["a {\n  b\n}", "c"]);
-        assert_eq!(pieces("}\na"), ["}", "a"]);
-    }
-
-    #[test]
-    fn a_text_indented_as_a_whole_works_too() {
-        assert_eq!(
-            pieces("# title\r\n    a\r\n    b\r\n      c\r\n  d"),
-            ["a", "b\r\n      c", "d"]
-        );
-    }
-
-    #[test]
-    fn nothing_but_comments_is_no_statement() {
-        assert_eq!(pieces("\n  \t\n   # a\n#b"), [""; 0]);
-    }
-}

@@ -7,7 +7,7 @@ use wavestep_polynomial::{Rational, Symbol};
 
 use super::diagnostic::Diagnostic;
 use super::parameters;
-use super::scope::{Linear, Place, Reference, Scope};
+use super::scope::{Linear, Place, Reference, Scope, symbol};
 use super::source::Source;
 use super::syntax::{self, Span, Spanned, StatementKind};
 use super::written;
@@ -67,11 +67,16 @@ struct Spans {
     waves: Vec<Span>,
 }
 
-fn symbol(name: &str) -> Symbol {
-    Symbol::new(name).expect("names of the language are names of symbols")
-}
-
 impl<'a> Lowering<'a> {
+    fn error(
+        &self,
+        message: impl Into<String>,
+        span: Span,
+        label: impl Into<String>,
+    ) -> Diagnostic {
+        self.scope.error(message, span, label)
+    }
+
     fn new(tree: &'a syntax::Recurrence, values: &'a BTreeMap<String, Rational>) -> Self {
         let scope = Scope::new(&tree.source);
         Lowering { tree, values, scope, wave_names: Vec::new(), declared: BTreeMap::new() }
@@ -84,17 +89,12 @@ impl<'a> Lowering<'a> {
     fn declare(&mut self, name: &Spanned<String>) -> Outcome<()> {
         if name.value == "n" {
             return Err(self
-                .scope
                 .error("`n` always counts periods", name.span, "cannot be declared")
                 .with_remedy("choose another name"));
         }
         match self.declared.insert(name.value.clone(), name.span) {
             None => Ok(()),
-            Some(first) => Err(self
-                .scope
-                .error(format!("`{}` is declared twice", name.value), name.span, "again here")
-                .with_secondary(first, "first declared here")
-                .with_remedy("choose another name, or remove one of the two")),
+            Some(first) => Err(self.scope.declared_twice(name, first)),
         }
     }
 
@@ -120,7 +120,6 @@ impl<'a> Lowering<'a> {
         }
         if self.wave_names.is_empty() {
             return Err(self
-                .scope
                 .error(
                     "no wave is declared",
                     self.tree.title.span,
@@ -149,22 +148,14 @@ impl<'a> Lowering<'a> {
             let StatementKind::Period { length, local, time } = statement else { continue };
             if let Some(first) = found {
                 return Err(self
-                    .scope
                     .error("the period is stated twice", span, "again here")
                     .with_secondary(first, "first stated here")
                     .with_remedy("remove one of the two"));
             }
             found = Some(span);
-            let period = self.scope.lower_constant(length, "a period")?;
-            let Some(period) = period.as_fraction() else {
-                return Err(self
-                    .scope
-                    .error("a period holds no exponential", length.span, "holds an exponential")
-                    .with_remedy("introduce a symbol for it"));
-            };
+            let period = self.scope.lower_fraction(length, "a period")?;
             if period.roots().next().is_some() {
                 return Err(self
-                    .scope
                     .error("a period holds no square root", length.span, "holds a square root")
                     .with_remedy("measure time in units in which it is rational"));
             }
@@ -174,7 +165,6 @@ impl<'a> Lowering<'a> {
         }
         let Some((period, local, time)) = result else {
             return Err(self
-                .scope
                 .error("no period is stated", self.tree.title.span, "of this recurrence")
                 .with_remedy("state it, as in `period 2*mu, local s, time t`"));
         };
@@ -224,7 +214,6 @@ impl<'a> Lowering<'a> {
             form.add_scaled(&right, &Expression::integer(-1), 0);
             if form.is_free_of_waves() && !form.is_zero() {
                 return Err(self
-                    .scope
                     .error("this equation holds no wave", span, "says nothing about the waves")
                     .with_remedy(
                         "relate waves by it, or remove it; conditions on symbols stand in \
@@ -233,7 +222,6 @@ impl<'a> Lowering<'a> {
             }
             if form.is_zero() {
                 return Err(self
-                    .scope
                     .error("this equation says nothing", span, "both sides are the same")
                     .with_remedy("state a relation that determines a wave"));
             }
@@ -250,7 +238,6 @@ impl<'a> Lowering<'a> {
             if form.is_free_of_waves() {
                 let wave = &self.wave_names[0].value;
                 return Err(self
-                    .scope
                     .error("this continuity rule holds no wave", quantity.span, "no wave in here")
                     .with_remedy(format!(
                         "name a wave, as in `continuous {wave}[n] starts at 0`"
@@ -277,7 +264,6 @@ impl<'a> Lowering<'a> {
                     Reference::Delayed { delay } => (false, delay),
                     Reference::Summed { .. } => {
                         return Err(self
-                            .scope
                             .error("a sum over periods cannot be observed", term.span, "a sum")
                             .with_remedy("give the sum a wave of its own, by an equation"));
                     }
@@ -358,7 +344,7 @@ impl<'a> Lowering<'a> {
                 ("holds a derivative or a sum", "state what is continuous by the waves".to_owned())
             }
         };
-        self.scope.error(invalid.to_string(), span, label).with_remedy(remedy)
+        self.error(invalid.to_string(), span, label).with_remedy(remedy)
     }
 }
 

@@ -57,31 +57,3 @@ pub(super) fn normalise(written: &str) -> String {
     }
     name
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn greek_letters_are_spelt_out() {
-        for (written, name) in [
-            ("μ", "mu"),
-            ("\u{B5}", "mu"),
-            ("α", "alpha"),
-            ("ω_0", "omega_0"),
-            ("Ω", "Omega"),
-            ("ς", "sigma"),
-            ("Σ", "Sigma"),
-            ("Ρ2", "Rho2"),
-            ("Δt", "Deltat"),
-        ] {
-            assert!(written.chars().all(continues), "{written}");
-            assert_eq!(normalise(written), name);
-        }
-    }
-
-    #[test]
-    fn other_letters_are_refused() {
-        assert!(!"é ж ά ª ² ₁ _ 1 \u{3A2}".chars().any(is_letter));
-    }
-}

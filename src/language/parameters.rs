@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::Rational;
 
 use super::constant::constant;
 use super::diagnostic::Diagnostic;
-use super::scope::{Scope, with_likely};
+use super::scope::{Scope, symbol, with_likely};
 use super::syntax::{self, Expression, Name, Span};
-use crate::expression::{Condition, Fraction, Relation};
+use crate::expression::{Condition, Fraction};
 
 type Outcome<T> = Result<T, Diagnostic>;
 
@@ -17,16 +17,16 @@ type Outcome<T> = Result<T, Diagnostic>;
 /// is refused, so that its uses are not refused too.
 pub(super) fn declare(
     scope: &mut Scope,
-    symbol: &syntax::Symbol,
+    declared: &syntax::Symbol,
     values: &BTreeMap<String, Rational>,
 ) -> Outcome<()> {
-    let syntax::Symbol { name, condition } = symbol;
+    let syntax::Symbol { name, condition } = declared;
     let value = values.get(&name.value).cloned();
     scope.symbols.insert(name.value.clone(), value.clone());
     let condition = match condition {
         None => None,
         Some(condition) => Some(Condition {
-            relation: relation(condition.relation.value),
+            relation: condition.relation.value,
             bound: constant(&condition.bound, &scope.source).map_err(|error| {
                 error.or_remedy(format!("write a bound such as `{} > 1/2`", name.value))
             })?,
@@ -38,8 +38,7 @@ pub(super) fn declare(
         }
         (Some(_), _) => Ok(()),
         (None, condition) => {
-            let symbol = Symbol::new(&name.value).expect("names of the language name symbols");
-            scope.assumptions.declare_symbol(symbol, condition);
+            scope.assumptions.declare_symbol(symbol(&name.value), condition);
             Ok(())
         }
     }
@@ -100,14 +99,4 @@ pub(super) fn nonzero(
         ),
     };
     Err(scope.error("this cannot be declared non-zero", tree.span, label).with_remedy(remedy))
-}
-
-fn relation(relation: syntax::Relation) -> Relation {
-    match relation {
-        syntax::Relation::Greater => Relation::Greater,
-        syntax::Relation::GreaterOrEqual => Relation::AtLeast,
-        syntax::Relation::Less => Relation::Less,
-        syntax::Relation::LessOrEqual => Relation::AtMost,
-        syntax::Relation::NotEqual => Relation::Unequal,
-    }
 }

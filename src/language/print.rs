@@ -4,8 +4,9 @@ use std::fmt::{self, Display, Formatter, Write};
 
 use super::number;
 use super::syntax::{
-    Condition, Expression, Factor, Formula, Function, Index, Listing, Name, Node, Operator,
-    Recurrence, Relation, Rewriting, Sign, Spanned, Statement, StatementKind, Symbol, Term, Wave,
+    Condition, Declaration, Declared, Expression, Factor, Formula, Function, Index, Line, Listing,
+    Node, ObservedPlace, ObservedTerm, Operator, Property, Recurrence, Rewriting, Scene,
+    SceneStatementKind, Section, Sign, Spanned, StatementKind, Symbol, Term, Text, Unit, Wave,
 };
 
 impl<T: Display> Display for Spanned<T> {
@@ -67,7 +68,7 @@ impl Display for Node {
             Self::Function { function, argument } => write!(f, "{function}({argument})"),
             Self::Summation { term, index, bound } => write!(f, "sum({term}, {index} < {bound})"),
             Self::Sum(terms) => sum(terms, f),
-            Self::Product(factors) => product(factors, f),
+            Self::Product(factors) => Factors(factors).fmt(f),
             Self::Negate(operand) => write!(f, "-{}", Within(operand, Tightness::Sign)),
             Self::Power { base, exponent } => {
                 let base = Within(base, Tightness::Atom);
@@ -89,28 +90,33 @@ impl Display for Function {
 
 fn sum(terms: &[Term], f: &mut Formatter<'_>) -> fmt::Result {
     for (position, Term { sign, value }) in terms.iter().enumerate() {
-        match (position, sign) {
-            (0, Sign::Plus) => {}
-            (0, Sign::Minus) => f.write_char('-')?,
-            (_, Sign::Plus) => f.write_str(" + ")?,
-            (_, Sign::Minus) => f.write_str(" - ")?,
-        }
+        f.write_str(match (position, sign) {
+            (0, Sign::Plus) => "",
+            (0, Sign::Minus) => "-",
+            (_, Sign::Plus) => " + ",
+            (_, Sign::Minus) => " - ",
+        })?;
         Within(value, Tightness::Product).fmt(f)?;
     }
     Ok(())
 }
 
-pub(super) fn product(factors: &[Factor], f: &mut Formatter<'_>) -> fmt::Result {
-    for (position, Factor { operator, value }) in factors.iter().enumerate() {
-        match (position, operator) {
-            (0, Operator::Multiply) => {}
-            (0, Operator::Divide) => f.write_str("1/")?,
-            (_, Operator::Multiply) => f.write_char('*')?,
-            (_, Operator::Divide) => f.write_char('/')?,
+/// A product; one that begins with a divisor is written `1/a`.
+struct Factors<'a>(&'a [Factor]);
+
+impl Display for Factors<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for (position, Factor { operator, value }) in self.0.iter().enumerate() {
+            f.write_str(match (position, operator) {
+                (0, Operator::Multiply) => "",
+                (0, Operator::Divide) => "1/",
+                (_, Operator::Multiply) => "*",
+                (_, Operator::Divide) => "/",
+            })?;
+            Within(value, Tightness::Sign).fmt(f)?;
         }
-        Within(value, Tightness::Sign).fmt(f)?;
+        Ok(())
     }
-    Ok(())
 }
 
 impl Display for Wave {
@@ -130,10 +136,22 @@ impl Display for Index {
     }
 }
 
+impl<K: Display> Text<K> {
+    fn write(&self, whole: &str, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{whole} \"{}\"", self.title)?;
+        self.statements.iter().try_for_each(|statement| writeln!(f, "{statement}"))
+    }
+}
+
 impl Display for Recurrence {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "recurrence \"{}\"", self.title)?;
-        self.statements.iter().try_for_each(|statement: &Statement| writeln!(f, "{statement}"))
+        self.write("recurrence", f)
+    }
+}
+
+impl Display for Scene {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.write("scene", f)
     }
 }
 
@@ -145,7 +163,7 @@ impl Display for StatementKind {
             Self::Period { length, local, time } => {
                 write!(f, "period {length}, local {local}, time {time}")
             }
-            Self::Waves(names) => write!(f, "wave {}", Listed::<Name>(names)),
+            Self::Waves(names) => write!(f, "wave {}", Listed(names)),
             Self::Equation { left, right } => write!(f, "equation {left} = {right}"),
             Self::Continuous { quantity, start } => {
                 write!(f, "continuous {quantity} starts at {start}")
@@ -168,7 +186,7 @@ impl Display for Rewriting {
 }
 
 /// Things with commas between them.
-pub(super) struct Listed<'a, T>(pub(super) &'a [T]);
+struct Listed<'a, T>(&'a [T]);
 
 impl<T: Display> Display for Listed<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -191,18 +209,6 @@ impl Display for Symbol {
     }
 }
 
-impl Display for Relation {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Greater => ">",
-            Self::GreaterOrEqual => ">=",
-            Self::Less => "<",
-            Self::LessOrEqual => "<=",
-            Self::NotEqual => "!=",
-        })
-    }
-}
-
 impl Display for Listing {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         self.formulas.iter().try_for_each(|formula| writeln!(f, "{formula}"))
@@ -213,5 +219,145 @@ impl Display for Formula {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { wave, index, argument, value } = self;
         write!(f, "{wave}[{index}]({argument}) = {value}")
+    }
+}
+
+impl Display for SceneStatementKind {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Symbols(symbols) => write!(f, "symbol {}", Listed(symbols)),
+            Self::Nonzero(expression) => write!(f, "nonzero {expression}"),
+            Self::Declaration(declaration) => declaration.fmt(f),
+            Self::Line(line) => line.fmt(f),
+            Self::ContactsOpen => f.write_str("contacts open"),
+            Self::Observe { name, terms } => {
+                write!(f, "observe {name} =")?;
+                for (position, term) in terms.iter().enumerate() {
+                    let text = term.to_string();
+                    f.write_str(match (position, term.value.sign) {
+                        // A minus here would be the sign of the term.
+                        (0, Sign::Plus) if text.starts_with('-') => " +",
+                        (0, Sign::Plus) => " ",
+                        (0, Sign::Minus) => " -",
+                        (_, Sign::Plus) => " + ",
+                        (_, Sign::Minus) => " - ",
+                    })?;
+                    f.write_str(&text)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl Display for Declaration {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { kind, name, properties } = self;
+        match properties.is_empty() {
+            true => write!(f, "{kind} {name} {{}}"),
+            false => write!(f, "{kind} {name} {{ {} }}", Listed(properties)),
+        }
+    }
+}
+
+impl Declared {
+    pub(super) const ALL: [Self; 7] = [
+        Self::Material,
+        Self::Bar,
+        Self::Mass,
+        Self::Spring,
+        Self::Hertz,
+        Self::Support,
+        Self::Load,
+    ];
+
+    /// The word that begins its statement.
+    pub(super) const fn word(self) -> &'static str {
+        match self {
+            Self::Material => "material",
+            Self::Bar => "bar",
+            Self::Mass => "mass",
+            Self::Spring => "spring",
+            Self::Hertz => "hertz",
+            Self::Support => "support",
+            Self::Load => "load",
+        }
+    }
+
+    /// What is declared, in a sentence.
+    pub(super) const fn noun(self) -> &'static str {
+        if matches!(self, Self::Hertz) { "local contact" } else { self.word() }
+    }
+}
+
+impl Display for Declared {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+impl Display for Property {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}{}", self.name, self.value, AfterValue(self.unit.as_ref()))
+    }
+}
+
+/// A unit behind a value.
+struct AfterValue<'a>(Option<&'a Unit>);
+
+impl Display for AfterValue<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for (position, factor) in self.0.iter().flat_map(|unit| &unit.value).enumerate() {
+            f.write_char(match (position, factor.operator) {
+                (0, _) => ' ',
+                (_, Operator::Multiply) => '*',
+                (_, Operator::Divide) => '/',
+            })?;
+            factor.name.fmt(f)?;
+            if factor.power != 1 {
+                write!(f, "^{}", factor.power)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Display for Line {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}", self.left.value.word())?;
+        let elements = self.elements.iter().map(|name| name.value.as_str());
+        let names = elements.chain([self.right.value.word()]);
+        self.joints
+            .iter()
+            .zip(names)
+            .try_for_each(|(joint, name)| write!(f, " {} {name}", joint.value.sign()))
+    }
+}
+
+/// Without the sign, which depends on the place in the sum.
+impl Display for ObservedTerm {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let reading = format!("{}({})", self.measure.value.word(), self.place);
+        let factors = Factors(&self.factors).to_string();
+        match self.factors.first().map(|factor| factor.operator) {
+            None => f.write_str(&reading),
+            Some(Operator::Multiply) => write!(f, "{factors}*{reading}"),
+            // A product that begins with a divisor, `1/a`, is written behind what it divides.
+            Some(Operator::Divide) => write!(f, "{reading}{}", &factors[1..]),
+        }
+    }
+}
+
+impl Display for ObservedPlace {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.element.fmt(f)?;
+        match &self.section {
+            None => Ok(()),
+            Some(Section::Left) => f.write_str(".left"),
+            Some(Section::Right) => f.write_str(".right"),
+            Some(Section::At { position, unit }) => {
+                write!(f, ".at({position}{})", AfterValue(unit.as_ref()))
+            }
+        }
     }
 }

@@ -133,6 +133,14 @@ impl Scope {
         }
     }
 
+    /// Lowers an expression that may hold neither waves nor time nor exponentials.
+    pub fn lower_fraction(&self, tree: &Tree, what: &'static str) -> Outcome<Fraction> {
+        self.lower_constant(tree, what)?.as_fraction().ok_or_else(|| {
+            self.error(format!("{what} holds no exponential"), tree.span, "holds an exponential")
+                .with_remedy("introduce a symbol for it")
+        })
+    }
+
     pub fn error(
         &self,
         message: impl Into<String>,
@@ -140,6 +148,13 @@ impl Scope {
         label: impl Into<String>,
     ) -> Diagnostic {
         Diagnostic::new(&self.source, message, span, label)
+    }
+
+    /// A name that was declared before, at `first`.
+    pub fn declared_twice(&self, name: &Spanned<String>, first: Span) -> Diagnostic {
+        self.error(format!("`{}` is declared twice", name.value), name.span, "again here")
+            .with_secondary(first, "first declared here")
+            .with_remedy("choose another name, or remove one of the two")
     }
 
     /// Every name that an expression could have meant.
@@ -163,7 +178,8 @@ pub(super) fn with_likely<'a>(
     }
 }
 
-fn symbol(name: &str) -> Symbol {
+/// The symbol of a name of the language.
+pub(super) fn symbol(name: &str) -> Symbol {
     Symbol::new(name).expect("names of the language are names of symbols")
 }
 

@@ -7,11 +7,8 @@
 use num_rational::BigRational;
 
 use super::source::Source;
-
-pub use super::scene::tree::{
-    Declaration, Declared, Line, ObservedPlace, ObservedTerm, Property, Scene, SceneStatement,
-    SceneStatementKind, Section, Unit, UnitFactor,
-};
+use crate::expression::Relation;
+use crate::scene::{End, Joint, Measure};
 
 /// A half-open range of bytes in a text.
 ///
@@ -23,21 +20,18 @@ pub use super::scene::tree::{
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The first byte.
     pub start: usize,
     /// The byte after the last; equal to `start` for a place between two characters.
     pub end: usize,
 }
 
 impl Span {
-    /// The bytes from `start` up to, not including, `end`.
     #[must_use]
     pub const fn new(start: usize, end: usize) -> Self {
         Self { start, end }
     }
 
     /// From the start of this span to the end of a later one.
-    #[must_use]
     pub(super) const fn to(self, later: Self) -> Self {
         Self::new(self.start, later.end)
     }
@@ -48,14 +42,11 @@ impl Span {
 /// Two are equal if their values are: the same thing written in two places is the same thing.
 #[derive(Clone, Copy, Debug)]
 pub struct Spanned<T> {
-    /// What was read.
     pub value: T,
-    /// Where.
     pub span: Span,
 }
 
 impl<T> Spanned<T> {
-    /// Joins a value and its place.
     #[must_use]
     pub const fn new(value: T, span: Span) -> Self {
         Self { value, span }
@@ -76,11 +67,10 @@ impl<T: Eq> Eq for Spanned<T> {}
 /// An ASCII letter followed by ASCII letters, digits and `_`; none of `cos`, `exp`, `sin`, `sqrt` and `sum`.
 pub type Name = Spanned<String>;
 
+// ---- Expressions ------------------------------------------------------------------------------
+
 /// An expression and its place, which includes any parentheses around it.
 pub type Expression = Spanned<Node>;
-
-/// A statement of a recurrence and its place.
-pub type Statement = Spanned<StatementKind>;
 
 /// What an [`Expression`] is made of.
 ///
@@ -94,47 +84,37 @@ pub type Statement = Spanned<StatementKind>;
 pub enum Node {
     /// A literal: `3`, `0.25`, `1e-3`.
     Number(BigRational),
-    /// A name by itself: `mu`.
     Name(String),
     /// A wave function of some period, possibly differentiated: `f[n-1]'`.
     Wave(Box<Wave>),
     /// A name applied to an argument: `f(t - mu)`, a wave at a scene time. Whether the name is a
     /// wave is not known here.
     Call {
-        /// What is applied.
         name: Name,
-        /// What it is applied to.
         argument: Box<Expression>,
     },
     /// `exp(argument)`.
     Exponential(Box<Expression>),
     /// `cos(argument)`, `sin(argument)`, `sqrt(argument)`.
     Function {
-        /// Which one.
         function: Function,
-        /// What it is applied to.
         argument: Box<Expression>,
     },
     /// `sum(term, index < bound)`: over all indices from 0 up to, not including, the bound.
     Summation {
         /// The summand, which may mention the index.
         term: Box<Expression>,
-        /// The name that counts.
         index: Name,
-        /// The name it stays below.
         bound: Name,
     },
     /// `a + b - c`.
     Sum(Vec<Term>),
     /// `a*b/c`, worked from left to right.
     Product(Vec<Factor>),
-    /// `-a`.
     Negate(Box<Expression>),
     /// `base^exponent`; the exponent is any expression here.
     Power {
-        /// What is raised.
         base: Box<Expression>,
-        /// To which power.
         exponent: Box<Expression>,
     },
 }
@@ -142,56 +122,43 @@ pub enum Node {
 /// A function of the language beside `exp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
-    /// `cos`
     Cosine,
-    /// `sin`
     Sine,
-    /// `sqrt`
     SquareRoot,
 }
 
 /// One term of a [`Node::Sum`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Term {
-    /// Added or subtracted.
     pub sign: Sign,
-    /// The term without the sign.
     pub value: Expression,
 }
 
 /// One factor of a [`Node::Product`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Factor {
-    /// Multiplied or divided by.
     pub operator: Operator,
-    /// The factor or divisor.
     pub value: Expression,
 }
 
 /// How a term joins a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Added.
     Plus,
-    /// Subtracted.
     Minus,
 }
 
 /// How a factor joins a product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operator {
-    /// Multiplied.
     Multiply,
-    /// Divided by.
     Divide,
 }
 
 /// A reference to a wave function: `f[n-1]''`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wave {
-    /// The name of the wave.
     pub name: Name,
-    /// Of which period.
     pub index: Spanned<Index>,
     /// How often it is differentiated with respect to local time.
     pub primes: u32,
@@ -201,125 +168,75 @@ pub struct Wave {
 /// base and the offset 3.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Index {
-    /// The name counted from, if there is one.
     pub base: Option<Name>,
-    /// What is added to it; at most a million in magnitude.
+    /// At most a million in magnitude.
     pub offset: i64,
 }
 
-/// A text of statements: the equations between the wave functions of successive periods.
+// ---- Texts of statements ----------------------------------------------------------------------
+
+/// A title, then statements in any order.
 #[derive(Clone, Debug)]
-pub struct Recurrence {
+pub struct Text<Statement> {
     /// The text all spans refer to.
     pub source: Source,
-    /// What the text calls itself.
     pub title: Spanned<String>,
-    /// Everything after the title, in the order of the text.
-    pub statements: Vec<Statement>,
+    pub statements: Vec<Spanned<Statement>>,
 }
 
-/// What a [`Statement`] says.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum StatementKind {
-    /// `symbol mu > 0, q`: parameters.
-    Symbols(Vec<Symbol>),
-    /// `nonzero a - b`: an assumption.
-    Nonzero(Expression),
-    /// `period 2*mu, local s, time t`.
-    Period {
-        /// How long a period lasts.
-        length: Expression,
-        /// The name of the time since the period began.
-        local: Name,
-        /// The name of the time since the scene began.
-        time: Name,
-    },
-    /// `wave f, g`: the unknowns.
-    Waves(Vec<Name>),
-    /// `equation left = right`.
-    Equation {
-        /// The left side.
-        left: Expression,
-        /// The right side.
-        right: Expression,
-    },
-    /// `continuous quantity starts at start`: what does not jump between periods.
-    Continuous {
-        /// What is continuous.
-        quantity: Expression,
-        /// Its value at time zero.
-        start: Expression,
-    },
-    /// `written f in V/c, s as mu*z/L`: how the source writes it.
-    Written(Vec<Rewriting>),
-    /// `observe name = value`: something to report.
-    Observe {
-        /// What it is called.
-        name: Name,
-        /// What it is.
-        value: Expression,
-    },
-}
+/// Equations between the wave functions of successive periods.
+pub type Recurrence = Text<StatementKind>;
 
-/// One item of how the source writes a recurrence.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Rewriting {
-    /// `f in V/c`: a wave is measured in a unit.
-    Unit {
-        /// The wave.
-        wave: Name,
-        /// The unit.
-        unit: Expression,
-    },
-    /// `s as mu*z/L`, `a as alpha_tilde`: a name is written otherwise.
-    Name {
-        /// The name here.
-        name: Name,
-        /// What the source writes.
-        written: Expression,
-    },
-    /// `constants of f as B`: constants of integration are stated apart.
-    Constants {
-        /// The wave.
-        wave: Name,
-        /// What they are called.
-        name: Name,
-    },
-    /// `ends of a`: values of a wave at the ends of periods are kept.
-    Ends(Name),
-}
+/// Bars and lumped elements, how they are joined, and what is observed.
+pub type Scene = Text<SceneStatementKind>;
 
 /// A parameter and what is assumed of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symbol {
-    /// What it is called.
     pub name: Name,
-    /// Nothing is assumed if absent.
     pub condition: Option<Condition>,
 }
 
 /// `> 0`, `!= 1/2`: an assumption about a symbol.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
-    /// How symbol and bound compare.
     pub relation: Spanned<Relation>,
-    /// The right side; whether it is a constant is not known here.
+    /// Whether it is a constant is not known here.
     pub bound: Expression,
 }
 
-/// A comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Relation {
-    /// `>`
-    Greater,
-    /// `>=`
-    GreaterOrEqual,
-    /// `<`
-    Less,
-    /// `<=`
-    LessOrEqual,
-    /// `!=`
-    NotEqual,
+/// A statement of a recurrence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StatementKind {
+    /// `symbol mu > 0, q`: parameters.
+    Symbols(Vec<Symbol>),
+    /// `nonzero a - b`: an assumption.
+    Nonzero(Expression),
+    /// `period 2*mu, local s, time t`: its length, the time since it began, the time since the start.
+    Period { length: Expression, local: Name, time: Name },
+    /// `wave f, g`: the unknowns.
+    Waves(Vec<Name>),
+    /// `equation left = right`.
+    Equation { left: Expression, right: Expression },
+    /// `continuous quantity starts at start`: what does not jump between periods.
+    Continuous { quantity: Expression, start: Expression },
+    /// `written f in V/c, s as mu*z/L`: how the source writes it.
+    Written(Vec<Rewriting>),
+    /// `observe name = value`: something to report.
+    Observe { name: Name, value: Expression },
+}
+
+/// One item of how the source writes a recurrence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Rewriting {
+    /// `f in V/c`: a wave is measured in a unit.
+    Unit { wave: Name, unit: Expression },
+    /// `s as mu*z/L`, `a as alpha_tilde`: a name is written otherwise.
+    Name { name: Name, written: Expression },
+    /// `constants of f as B`: constants of integration are stated apart.
+    Constants { wave: Name, name: Name },
+    /// `ends of a`: values of a wave at the ends of periods are kept.
+    Ends(Name),
 }
 
 /// A text of formulas, one for each wave function and period.
@@ -327,19 +244,117 @@ pub enum Relation {
 pub struct Listing {
     /// The text all spans refer to.
     pub source: Source,
-    /// The formulas in the order of the text.
     pub formulas: Vec<Spanned<Formula>>,
 }
 
 /// `f[3](s) = value`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
-    /// The name of the wave.
     pub wave: Name,
-    /// Of which period; at most a million.
+    /// The period; at most a million.
     pub index: Spanned<u32>,
-    /// The name of the argument.
     pub argument: Name,
-    /// The wave function as an expression in the argument.
     pub value: Expression,
+}
+
+// ---- Scenes -----------------------------------------------------------------------------------
+
+/// A statement of a scene, with the place from its first word to its last.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SceneStatementKind {
+    /// `symbol mu > 0, q`: parameters.
+    Symbols(Vec<Symbol>),
+    /// `nonzero a - b`: an assumption.
+    Nonzero(Expression),
+    /// `bar rod { impedance = 1 }`: a material or an element.
+    Declaration(Declaration),
+    /// `line free - rod - fixed`: how the elements are joined.
+    Line(Line),
+    /// `contacts open`: contacts open where they would pull, and close where they meet again.
+    ContactsOpen,
+    /// `observe v = velocity(ram)`: a quantity of interest, with at least one term.
+    Observe { name: Name, terms: Vec<Spanned<ObservedTerm>> },
+}
+
+/// A material or an element with its properties, in the order of the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Declaration {
+    pub kind: Declared,
+    pub name: Name,
+    pub properties: Vec<Property>,
+}
+
+/// What a [`Declaration`] declares. `Display` gives its word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Declared {
+    Material,
+    Bar,
+    Mass,
+    Spring,
+    Hertz,
+    Support,
+    Load,
+}
+
+/// A property: `length = 3/2 m`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Property {
+    pub name: Name,
+    /// Its value in the unit; for `material` a name.
+    pub value: Expression,
+    /// The unit of the whole value.
+    pub unit: Option<Unit>,
+}
+
+/// A unit: a product of powers of named units, at least one. It begins with a multiplication.
+pub type Unit = Spanned<Vec<UnitFactor>>;
+
+/// A factor of a unit: `/m^3`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitFactor {
+    pub operator: Operator,
+    /// The unit with its prefix, `µ` as `u`.
+    pub name: Name,
+    /// The power it is raised to before it is multiplied or divided by.
+    pub power: i8,
+}
+
+/// Elements from left to right between two ends, at least one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    pub left: Spanned<End>,
+    pub elements: Vec<Name>,
+    /// How they are joined, with the ends too: one more than there are elements.
+    pub joints: Vec<Spanned<Joint>>,
+    pub right: Spanned<End>,
+}
+
+/// A term of what is observed: `- 2*force(pile.right)`, `+ force(pile.left)/2`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObservedTerm {
+    pub sign: Sign,
+    /// What is multiplied and divided by, from left to right.
+    pub factors: Vec<Factor>,
+    pub measure: Spanned<Measure>,
+    pub place: Spanned<ObservedPlace>,
+}
+
+/// Where something is measured: `pile.at(1/2)`, `ram`, `line`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObservedPlace {
+    /// The name of an element, or `line`.
+    pub element: Name,
+    pub section: Option<Section>,
+}
+
+/// A section of a bar.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Section {
+    Left,
+    Right,
+    /// `at(1/2)`, `at(20 mm)`: how far from the left end.
+    At {
+        position: Expression,
+        unit: Option<Unit>,
+    },
 }

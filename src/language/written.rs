@@ -5,7 +5,7 @@ use wavestep_polynomial::Symbol;
 
 use super::constant::constant;
 use super::diagnostic::Diagnostic;
-use super::scope::{Scope, with_likely};
+use super::scope::{Scope, symbol, with_likely};
 use super::syntax::{
     Expression, Node, Operator, Recurrence, Rewriting, Span, Spanned, StatementKind,
 };
@@ -207,8 +207,4 @@ fn is_constant(other: &str, name: &str, item: &Rewriting) -> bool {
     let index = other.strip_prefix(name).and_then(|rest| rest.strip_prefix('_'));
     matches!(item, Rewriting::Constants { .. })
         && index.is_some_and(|index| index.chars().all(|c| c.is_ascii_digit()))
-}
-
-fn symbol(name: &str) -> Symbol {
-    Symbol::new(name).expect("names of the language are names of symbols")
 }

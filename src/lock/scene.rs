@@ -2,7 +2,7 @@
 
 use crate::export::expression_text;
 use crate::expression::Fraction;
-use crate::scene::{Joint, Observable, Place, Position, Scene, Seen};
+use crate::scene::{Observable, Place, Position, Scene, Seen};
 use std::collections::BTreeMap;
 
 /// Title, line and observables of a scene.
@@ -22,11 +22,7 @@ fn line(scene: &Scene) -> String {
     let mut text = scene.line.left.word().to_owned();
     let names = scene.line.elements.iter().map(|element| scene.elements[*element].name.as_str());
     for (joint, name) in scene.line.joints.iter().zip(names.chain([scene.line.right.word()])) {
-        text += match joint {
-            Joint::Bonded => " - ",
-            Joint::Contact => " | ",
-        };
-        text += name;
+        text += &format!(" {} {name}", joint.sign());
     }
     text
 }

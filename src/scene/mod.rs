@@ -77,6 +77,8 @@ pub enum End {
 }
 
 impl End {
+    pub(crate) const ALL: [End; 3] = [End::Free, End::Fixed, End::Endless];
+
     /// Its name in the language.
     pub(crate) const fn word(self) -> &'static str {
         match self {
@@ -95,4 +97,14 @@ pub enum Joint {
     /// By a contact, which pushes and never pulls. It stays closed, unless the scene says that contacts
     /// open.
     Contact,
+}
+
+impl Joint {
+    /// Its sign in the language.
+    pub(crate) const fn sign(self) -> char {
+        match self {
+            Joint::Bonded => '-',
+            Joint::Contact => '|',
+        }
+    }
 }

@@ -47,6 +47,17 @@ pub enum Measure {
 }
 
 impl Measure {
+    pub(crate) const ALL: [Measure; 8] = [
+        Measure::Velocity,
+        Measure::Force,
+        Measure::Strain,
+        Measure::Stress,
+        Measure::Displacement,
+        Measure::Compression,
+        Measure::Energy,
+        Measure::Momentum,
+    ];
+
     /// Its name in the language.
     pub const fn word(self) -> &'static str {
         match self {

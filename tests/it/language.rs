@@ -1,8 +1,8 @@
 //! The language: every text of the corpus, every limit, and random texts and trees.
 
 use crate::snapshot;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::support::corpus::corpus;
+use std::collections::BTreeMap;
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -13,27 +13,13 @@ use wavestep::language::syntax::{
     Term, Wave,
 };
 use wavestep::language::{
-    Diagnostic, Source, Span, parse_expression, parse_listing, parse_number, parse_recurrence,
-    read_recurrence,
+    self, Diagnostic, Source, Span, closest, normalise_name, parse_expression, parse_listing,
+    parse_number, parse_recurrence, read_quantity, read_recurrence,
 };
 use wavestep::limits::{MAX_CONSTANT_BITS, MAX_NESTING, MAX_NUMBER_DIGITS, MAX_SOURCE_BYTES};
+use wavestep::scene::Dimension;
 
 // ---- The corpus -------------------------------------------------------------------------------
-
-/// The texts of a folder of the grammar, in the order of their names.
-fn corpus(folder: &str) -> Vec<(String, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar").join(folder);
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    paths
-        .into_iter()
-        .map(|path| {
-            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-            (name, fs::read(path).unwrap())
-        })
-        .collect()
-}
 
 fn read(name: &str, bytes: &[u8]) -> Result<Recurrence, Diagnostic> {
     parse_recurrence(&Source::new(&format!("{name}.wave"), bytes)?)
@@ -53,7 +39,8 @@ fn accepted_texts_are_read_and_printed() {
     let corpus = corpus("accepted");
     assert!(corpus.len() >= 11);
     // Texts that follow the grammar and mean nothing are read and printed all the same.
-    for (name, bytes) in corpus.into_iter().chain(self::corpus("accepted-syntax")) {
+    for (name, bytes) in corpus.into_iter().chain(crate::support::corpus::corpus("accepted-syntax"))
+    {
         let recurrence = read(&name, &bytes).unwrap_or_else(|error| panic!("{error}"));
         assert_prints_and_reads_back(&recurrence);
         let file = format!("grammar/accepted/{name}.wave");
@@ -236,6 +223,163 @@ fn numbers_are_exact() {
         let value = BigRational::new(BigInt::from(numerator), BigInt::from(denominator));
         let found = parse_number(text).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(found, value, "{text}");
+    }
+}
+
+#[test]
+fn literals_are_exact() {
+    for (text, numerator, denominator) in [
+        ("3", 3, 1),
+        ("0.25", 1, 4),
+        (".5", 1, 2),
+        ("7.", 7, 1),
+        ("2.5e-3", 1, 400),
+        ("2.5E−3", 1, 400),
+        ("0.1", 1, 10),
+        ("1.50e+1", 15, 1),
+        ("0.000", 0, 1),
+        (".0", 0, 1),
+        (".000e-7", 0, 1),
+        ("0.", 0, 1),
+        ("125e-4", 1, 80),
+    ] {
+        let value = BigRational::new(BigInt::from(numerator), BigInt::from(denominator));
+        assert_eq!(expression(text).value, Node::Number(value), "{text}");
+    }
+    for accepted in ["1e1000", "1e-1000", "1.0e-1000", "1e+0001000"] {
+        expression(accepted);
+    }
+    for refused in ["1e1001", "1e-1001", "1.5e-1000", "1e99999999999999999999999"] {
+        assert_refused(refused, "exponent");
+    }
+}
+
+#[test]
+fn quantities_are_exact_in_si_units() {
+    let read = |text: &str, dimension| read_quantity(&source(text), dimension);
+    for (text, dimension, value) in [
+        ("120 us", Dimension::TIME, "120e-6"),
+        ("1/3", Dimension::TIME, "1/3"),
+        ("1 kg", Dimension::MASS, "1"),
+        ("1 mm", Dimension::LENGTH, "1e-3"),
+        ("1 min", Dimension::TIME, "60"),
+        ("1 GPa", Dimension::PRESSURE, "1e9"),
+        ("1 in", Dimension::LENGTH, "0.0254"),
+        ("1 lbf", Dimension::FORCE, "44482216152605/10000000000000"),
+    ] {
+        assert_eq!(read(text, dimension).unwrap(), parse_number(value).unwrap(), "{text}");
+    }
+    for name in ["cs", "kmin", "kk", "M", "pa", "dN"] {
+        let error = read(&format!("1 {name}"), Dimension::TIME).unwrap_err();
+        assert_eq!(error.message(), format!("unknown unit `{name}`"));
+    }
+    assert!(read("3 mm", Dimension::TIME).unwrap_err().message().contains("a length"));
+    assert_eq!(Dimension::STIFFNESS.unit(), "N/m");
+    assert_eq!(Dimension::NONE.unit(), "");
+    assert_eq!(Dimension::PRESSURE.units(), "Pa = N/m^2");
+    assert_eq!(Dimension::new(4, 1, 0).described(), "a quantity in kg*m^4");
+}
+
+#[test]
+fn greek_letters_are_spelt_out() {
+    for (written, name) in [
+        ("μ", "mu"),
+        ("\u{B5}", "mu"),
+        ("α", "alpha"),
+        ("ω_0", "omega_0"),
+        ("Ω", "Omega"),
+        ("ς", "sigma"),
+        ("Σ", "Sigma"),
+        ("Ρ2", "Rho2"),
+        ("Δt", "Deltat"),
+    ] {
+        assert_eq!(normalise_name(written), name);
+        assert_eq!(expression(written).value, Node::Name(name.to_owned()));
+    }
+    for other in "é ж ά ª ² ₁ _ \u{3A2}".split(' ') {
+        assert!(parse_expression(&source(other)).is_err(), "{other}");
+    }
+}
+
+/// A statement goes on in lines that are indented deeper than the first statement.
+#[test]
+fn deeper_lines_continue() {
+    for (text, expected) in [
+        (
+            "recurrence \"A\"\nwave a,\n  b,\n\n# c\n\td # e\nwave f\n",
+            ["wave a,\n  b,\n\n# c\n\td", "wave f"],
+        ),
+        (
+            "# title\r\n    recurrence \"A\"\r\n    wave b,\r\n      c\r\n  wave d",
+            ["wave b,\r\n      c", "wave d"],
+        ),
+    ] {
+        let recurrence = parse_recurrence(&source(text)).unwrap();
+        let slice = |statement: &Spanned<_>| recurrence.source.slice(statement.span).to_owned();
+        let slices: Vec<String> = recurrence.statements.iter().map(slice).collect();
+        assert_eq!(slices, expected);
+    }
+    let error = parse_recurrence(&source("\n  \t\n   # a\n#b")).unwrap_err();
+    assert_eq!(error.message(), "the text holds no statement");
+}
+
+/// The first word of a text says what it states.
+#[test]
+fn texts_are_told_apart() {
+    for (text, remedy) in [
+        ("", "`recurrence \"Title\"`"),
+        ("recurrence \"A\"", "`wave f, g`"),
+        ("  # scene\n  scene \"A\"", "`line free - rod - fixed`"),
+        ("Scene \"A\"", "did you mean `scene`?"),
+        ("scen", "did you mean `scene`?"),
+        ("bar rod {}", "`scene \"Title\"`"),
+        ("wave f", "`recurrence \"Title\"`"),
+        ("reccurence \"A\"", "did you mean `recurrence`?"),
+        ("f[n] = 1", "`equation f…`"),
+        ("§ \"A\"", "`recurrence`, "),
+    ] {
+        let errors = language::read(&source(text), &BTreeMap::new()).unwrap_err();
+        let told = errors[0].remedy().unwrap();
+        assert!(told.contains(remedy), "{text}: {told}");
+    }
+}
+
+// ---- Diagnostics ------------------------------------------------------------------------------
+
+#[test]
+fn errors_say_their_place_and_a_remedy() {
+    let source = Source::new("a.wave", "wave f\nμ g = 1").unwrap();
+    let error = Diagnostic::new(&source, "no", Span::new(10, 11), "here");
+    assert_eq!(error.to_string(), "a.wave:2:3: no: here");
+    assert_eq!(error.with_remedy("yes").to_string(), "a.wave:2:3: no: here\nhelp: yes");
+}
+
+#[test]
+fn only_slips_are_close() {
+    assert_eq!(closest("waves", ["wave"]), Some("wave"));
+    assert_eq!(closest("wvae", ["wave"]), Some("wave"));
+    assert_eq!(closest("equasion", ["observe", "equation"]), Some("equation"));
+    assert_eq!(closest("Mu", ["r", "mu"]), None);
+    assert_eq!(closest("alhpa", ["beta", "alpha"]), Some("alpha"));
+    assert_eq!(closest("x", ["y", "z"]), None);
+    assert_eq!(closest(&"x".repeat(1000), ["y"]), None);
+    // Three edits, since no piece is edited twice: a swap, and an insertion into what was swapped.
+    assert_eq!(closest("wxyzca", ["wxyzabc"]), None);
+}
+
+#[test]
+fn any_span_is_moved_onto_characters() {
+    for text in ["σ = ρcV\n", "", "a", "\u{4F60}\u{597D} f"] {
+        let source = Source::new("t", text).unwrap();
+        for (start, end) in [(0, 0), (1, 2), (3, 1), (5, 999), (usize::MAX, usize::MAX)] {
+            let error = Diagnostic::new(&source, "m", Span::new(start, end), "l")
+                .with_secondary(Span::new(end, start), "s");
+            let marked = error.secondary().iter().map(|label| label.span).chain([error.span()]);
+            for Span { start, end } in marked {
+                assert!(text.get(start..end).is_some());
+            }
+            assert!(error.to_string().ends_with("m: l"));
+        }
     }
 }
 
@@ -525,6 +669,13 @@ fn tree() -> impl Strategy<Value = Expression> {
     })
 }
 
+/// Digits on at least one side of the point, zeros alone among them.
+fn digits_around_a_point() -> impl Strategy<Value = (String, String)> {
+    let some = || prop_oneof!["[0-9]{1,30}", "0{1,3}"];
+    let any = || prop_oneof!["[0-9]{0,30}", "0{0,3}"];
+    prop_oneof![(some(), any()), (any(), some())]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -556,6 +707,23 @@ proptest! {
         let end = (start + removed).min(bytes.len());
         bytes.splice(start..end, piece.bytes());
         assert_total(&bytes)?;
+    }
+
+    /// Literals are read in lowest terms, and what is written reads back.
+    #[test]
+    fn random_literals_are_exact(
+        (whole, fraction) in digits_around_a_point(), exponent in -900_i64..900,
+    ) {
+        let tree = expression(&format!("{whole}.{fraction}e{exponent}"));
+        let Node::Number(value) = &tree.value else { panic!("a number") };
+        let reduced = BigRational::new(value.numer().clone(), value.denom().clone());
+        prop_assert_eq!(value.numer(), reduced.numer());
+        prop_assert_eq!(value.denom(), reduced.denom());
+        let digits = BigInt::parse_bytes(format!("{whole}{fraction}").as_bytes(), 10).unwrap();
+        let scale = exponent as i32 - fraction.len() as i32;
+        let ten = BigRational::from_integer(BigInt::from(10));
+        prop_assert_eq!(value, &(BigRational::from_integer(digits) * ten.pow(scale)));
+        prop_assert_eq!(expression(&tree.to_string()), tree);
     }
 
     #[test]

@@ -109,8 +109,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
 ];
 
 /// What may stand in one layer only, or in none.
-const CONFINED: [(&str, &str); 6] = [
-    ("nom::", "language"),
+const CONFINED: [(&str, &str); 5] = [
     ("wavestep_kernels", "evaluate"),
     ("bits *=", "ball"),
     ("println!", "no layer"),

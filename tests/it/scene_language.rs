@@ -1,9 +1,8 @@
 //! The language of scenes: every text of its corpus, what is read, and random texts and trees.
 
 use crate::snapshot;
+use crate::support::corpus::corpus;
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -16,19 +15,6 @@ use wavestep::language::{
 use wavestep::scene::{Body, Drive, End, Joint, Kind, Measure, Place, Position, Scene};
 
 // ---- The corpus -------------------------------------------------------------------------------
-
-/// The texts of a folder of the grammar, in the order of their names.
-fn corpus(folder: &str) -> Vec<(String, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar").join(folder);
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    let read = |path: PathBuf| {
-        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        (name, fs::read(path).unwrap())
-    };
-    paths.into_iter().map(read).collect()
-}
 
 fn source(name: &str, bytes: impl AsRef<[u8]>) -> Source {
     Source::new(&format!("{name}.wave"), bytes).unwrap()
@@ -149,6 +135,16 @@ fn values_are_put_in_place_of_symbols() {
         let errors = meaning(BAR, &[value]).unwrap_err();
         assert_eq!(errors.len(), 1, "{}", rendered(&errors));
     }
+}
+
+#[test]
+fn examples_have_units_where_the_scene_has_them() {
+    let remedy = |text: &str| meaning(text, &[]).unwrap_err()[0].remedy().unwrap().to_owned();
+    let plain = "scene \"A\"\nspring a {}\nline free - a - free";
+    assert!(remedy(plain).contains("`stiffness = 40` or `damping = 0.3`"));
+    assert!(remedy(&plain.replace("spring", "bar")).contains("`material = steel, diameter = 20`"));
+    let units = format!("{plain}\nmass ram {{ mass = 1 kg }}");
+    assert!(remedy(&units).contains("`stiffness = 40 kN/mm` or `damping = 0.3 kN*s/m`"));
 }
 
 #[test]

@@ -1,30 +1,92 @@
-//! What the parser says about texts it refuses. Every function here ends the parse.
+//! What the parser says about texts it refuses.
 
 use super::super::diagnostic::{Diagnostic, closest};
 use super::super::number::LiteralError;
 use super::super::source::Source;
 use super::super::syntax::{Expression, Name, Node, Span};
-use super::expression::FOLLOWING;
-use super::lexical::{digits, next_word, skip_blank, token};
-use super::statement::SYMBOL_FORM;
-use super::{Context, Extent, Input, Problem, between, here};
+use super::forms::{FOLLOWING, SYMBOL};
+use super::input::{Context, Extent, Input};
 use crate::limits::{MAX_DECIMAL_EXPONENT, MAX_INDEX, MAX_NESTING, MAX_NUMBER_DIGITS};
+use crate::scene::{End, Measure};
 
-use nom::Parser;
+/// The message, the remark at the place, and the remedy, where nothing in them depends on the text.
+type Plain = [&'static str; 3];
 
-type Refusal = nom::Err<Problem>;
+/// `**`
+pub(super) const DOUBLE_STAR: Plain =
+    ["`**` is no operator", "a power?", "write powers with `^`: `x^2`"];
 
-pub(super) fn refuse(diagnostic: Diagnostic) -> Refusal {
-    nom::Err::Failure(Problem::Refused(diagnostic))
+/// `1.2.3`
+pub(super) const TWO_POINTS: Plain =
+    ["a number with two decimal points", "second point", "write one point: `0.25`"];
+
+/// `1_000`
+pub(super) const GROUPED_DIGITS: Plain =
+    ["`_` inside a number", "not a digit", "write digits without separators: `1000`, `1e3`"];
+
+/// `2 m + 3 mm`
+pub(super) const SUM_OF_UNITS: Plain = [
+    "a value has one unit, at its end",
+    "not expected here",
+    "work the value out in one unit: `2 + 3/1000 m`",
+];
+
+/// `line free - fixed`
+pub(super) const EMPTY_LINE: Plain = [
+    "the line holds no element",
+    "the right end",
+    "name elements between the ends: `line free - rod - fixed`",
+];
+
+/// `force(a)*velocity(a)`
+pub(super) const TWO_MEASURES: Plain = [
+    "a product of measures cannot be observed",
+    "times this",
+    "observe both, each by a statement of its own, or add them",
+];
+
+/// `1/force(a)`
+pub(super) const DIVIDED_BY_MEASURE: Plain = [
+    "a measure cannot be divided by",
+    "divided by here",
+    "observe a sum of measures, each with a factor: `2*force(rod.left)`",
+];
+
+/// `force(a)^2`
+const POWER_OF_MEASURE: Plain =
+    ["a power of a measure cannot be observed", "a power", DIVIDED_BY_MEASURE[2]];
+
+/// `observe x = 3`
+pub(super) const NOTHING_MEASURED: Plain = [
+    "this measures nothing",
+    "no measure in here",
+    "each term holds a measure at a place, such as `velocity(ram)` or `2*force(rod.left)`",
+];
+
+/// `(force(a) - force(b))/2`
+pub(super) const GROUPED_MEASURES: Plain = [
+    "measures cannot stand in parentheses",
+    "opens around a measure",
+    "multiply out: `force(a.left)/2 - force(b.left)/2`",
+];
+
+/// A mistake whose texts are always the same.
+pub(super) fn plain(input: Input<'_>, span: Span, [message, label, remedy]: Plain) -> Diagnostic {
+    at(input, message, span, label).with_remedy(remedy)
 }
 
-pub(super) fn at(
+fn at(
     input: Input<'_>,
     message: impl Into<String>,
     span: Span,
     label: impl Into<String>,
 ) -> Diagnostic {
     Diagnostic::new(input.context.source, message, span, label)
+}
+
+/// A list of words in quotation marks.
+fn choice<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    words.into_iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// What stands next, as a reader would call it, and its place. The end is just behind the last token.
@@ -45,42 +107,29 @@ enum FoundKind {
 }
 
 fn found(input: Input<'_>) -> Found {
-    let start = skip_blank(input);
+    let mut start = input.after_blanks();
+    let Context { unit, forms, .. } = input.context;
     let Some(next) = start.text.chars().next() else {
-        return Found {
-            description: format!("the end of the {}", input.context.unit),
-            span: here(input),
-            kind: FoundKind::End,
-        };
+        let description = format!("the end of the {unit}");
+        return Found { description, span: input.here(), kind: FoundKind::End };
     };
-    if let Some(word) = next_word(start) {
-        let skipped = &input.text[..between(input, start).end - input.offset];
-        let opens_line = skipped.contains('\n');
-        let is_keyword = input.context.forms.iter().any(|(keyword, _)| *keyword == word.value);
-        return Found {
-            description: quoted(word.value),
-            span: word.span,
-            kind: if opens_line && is_keyword { FoundKind::Keyword } else { FoundKind::Word },
-        };
-    }
-    if let Ok((_, number)) = token(digits).parse(start) {
-        return Found {
-            description: quoted(number.value),
-            span: number.span,
-            kind: FoundKind::Number,
-        };
+    if let Some(word) = start.next_word() {
+        let opens_line = input.text[..start.offset - input.offset].contains('\n');
+        let is_keyword = forms.iter().any(|(keyword, _)| *keyword == word.value);
+        let kind = if opens_line && is_keyword { FoundKind::Keyword } else { FoundKind::Word };
+        return Found { description: quoted(word.value), span: word.span, kind };
     }
     let offset = start.offset;
-    let pair = PAIRS.iter().find(|pair| start.text.starts_with(**pair));
-    let (description, length) = match pair {
+    if let Some(number) = start.digits() {
+        let description = quoted(number.value);
+        return Found { description, span: number.span, kind: FoundKind::Number };
+    }
+    let (description, length) = match PAIRS.iter().find(|pair| start.text.starts_with(**pair)) {
         Some(pair) => (format!("`{pair}`"), pair.len()),
         None => (character(next), next.len_utf8()),
     };
-    Found {
-        description,
-        span: Span::new(offset, offset + length),
-        kind: FoundKind::Character(next),
-    }
+    let kind = FoundKind::Character(next);
+    Found { description, span: Span::new(offset, offset + length), kind }
 }
 
 /// Signs of two characters, which messages name as a whole.
@@ -96,20 +145,15 @@ fn quoted(word: &str) -> String {
 }
 
 fn character(character: char) -> String {
-    if character.is_ascii() {
-        format!("`{character}`")
-    } else {
-        let code = u32::from(character);
-        if character.is_whitespace() || !is_visible(character) {
+    let code = u32::from(character);
+    match character {
+        _ if character.is_ascii() => format!("`{character}`"),
+        '\u{AD}' | '\u{200B}'..='\u{200F}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}' => {
             format!("U+{code:04X}, which is invisible")
-        } else {
-            format!("`{character}` (U+{code:04X})")
         }
+        _ if character.is_whitespace() => format!("U+{code:04X}, which is invisible"),
+        _ => format!("`{character}` (U+{code:04X})"),
     }
-}
-
-fn is_visible(character: char) -> bool {
-    !matches!(character, '\u{AD}' | '\u{200B}'..='\u{200F}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
 }
 
 /// What to write instead of a character that has no meaning here.
@@ -141,50 +185,47 @@ fn form_remedy(input: Input<'_>) -> Option<String> {
 }
 
 /// Something else is needed than what stands here.
-pub(super) fn expected(input: Input<'_>, what: &str) -> Refusal {
-    refuse(stray(input).unwrap_or_else(|| expected_diagnostic(input, what, form_remedy(input))))
+pub(super) fn expected(input: Input<'_>, what: &str) -> Diagnostic {
+    stray(input).unwrap_or_else(|| expected_with(input, what, form_remedy(input)))
 }
 
 /// A name is needed.
-pub(super) fn expected_name(input: Input<'_>, what: &str) -> Refusal {
-    let remedy = match (found(input).kind, form_remedy(input)) {
-        (FoundKind::Number, Some(form)) => Some(format!("a name begins with a letter; {form}")),
-        (_, remedy) => remedy,
-    };
-    refuse(expected_diagnostic(input, what, remedy))
+pub(super) fn expected_name(input: Input<'_>, what: &str) -> Diagnostic {
+    let mut remedy = form_remedy(input);
+    if let (FoundKind::Number, Some(form)) = (found(input).kind, &remedy) {
+        remedy = Some(format!("a name begins with a letter; {form}"));
+    }
+    expected_with(input, what, remedy)
 }
 
 /// Something follows what is already complete.
-pub(super) fn expected_end(input: Input<'_>) -> Refusal {
+pub(super) fn expected_end(input: Input<'_>) -> Diagnostic {
     if let Some(diagnostic) = stray(input) {
-        return refuse(diagnostic);
+        return diagnostic;
     }
-    let next = skip_blank(input);
-    let unit = input.context.unit;
-    let one_equals =
-        !input.context.is_scene() && input.context.form.is_none_or(|form| form.contains('='));
-    if next.text.starts_with('=') && one_equals {
-        let diagnostic = at(input, "one `=` too many", found(input).span, "not expected here");
-        return refuse(match input.context.form {
-            Some(_) => diagnostic.with_remedy("write `a = b = c` as two equations"),
-            None => diagnostic.with_remedy(format!("write only the {unit} itself, without `=`")),
-        });
+    let Context { unit, form, .. } = input.context;
+    let is_equals = input.next_is("=");
+    let one_equals = !input.context.is_scene() && form.is_none_or(|form| form.contains('='));
+    if is_equals && one_equals {
+        let remedy = match form {
+            Some(_) => "write `a = b = c` as two equations".to_owned(),
+            None => format!("write only the {unit} itself, without `=`"),
+        };
+        return at(input, "one `=` too many", found(input).span, "not expected here")
+            .with_remedy(remedy);
     }
-    let mut after = next.text.chars();
+    let mut after = input.after_blanks().text.chars();
     let decimal_comma = before(input).is_some_and(|last| last.is_ascii_digit())
         && after.next() == Some(',')
         && after.next().is_some_and(|digit| digit.is_ascii_digit());
-    let is_value = next.text.starts_with('=') && input.context.form == Some(SYMBOL_FORM);
-    let remedy = if is_value {
-        Some(
-            "a symbol stands for every value that meets its condition, such as `mu > 0`".to_owned(),
-        )
+    let remedy = if is_equals && form == Some(SYMBOL) {
+        Some("a symbol stands for every value that meets its condition, such as `mu > 0`".into())
     } else if decimal_comma {
-        Some("decimals are written with a point: `0.5`".to_owned())
+        Some("decimals are written with a point: `0.5`".into())
     } else {
         form_remedy(input)
     };
-    refuse(expected_diagnostic(input, &format!("the end of the {unit}"), remedy))
+    expected_with(input, &format!("the end of the {unit}"), remedy)
 }
 
 /// The character just before.
@@ -213,32 +254,30 @@ fn stray(input: Input<'_>) -> Option<Diagnostic> {
     }
 }
 
-/// The remedy is the one given, unless the text suggests a better one.
-fn expected_diagnostic(input: Input<'_>, what: &str, remedy: Option<String>) -> Diagnostic {
+/// Something is needed that does not stand here. The remedy is the one given, unless the text suggests a
+/// better one.
+fn expected_with(input: Input<'_>, what: &str, remedy: impl Into<Option<String>>) -> Diagnostic {
     let Found { description, span, kind } = found(input);
     let better = match kind {
         FoundKind::Keyword => Some(
             "this line is indented deeper than the first statement, so it continues the line \
              before; remove the indentation to start a statement",
         ),
-        FoundKind::Character(found) if is_sign_of_scenes(input, found) => None,
-        FoundKind::Character(found) => replacement(found),
-        FoundKind::End | FoundKind::Word | FoundKind::Number => None,
+        FoundKind::Character(found) if !is_sign_of_scenes(input, found) => {
+            replacement(found).or_else(|| is_foreign(input, found).then_some(ALPHABET))
+        }
+        _ => None,
     };
-    let diagnostic = match kind {
+    let message = match kind {
         FoundKind::Character(found) if is_foreign(input, found) => {
-            let message = format!("unexpected character {description}");
-            at(input, message, span, format!("expected {what}"))
-                .with_remedy(better.unwrap_or(ALPHABET))
+            format!("unexpected character {description}")
         }
-        _ => {
-            let message = format!("expected {what}, found {description}");
-            at(input, message, span, format!("expected {what}"))
-        }
+        _ => format!("expected {what}, found {description}"),
     };
-    match better.map(str::to_owned).or(remedy) {
-        Some(remedy) if diagnostic.remedy().is_none() => diagnostic.with_remedy(remedy),
-        _ => diagnostic,
+    let diagnostic = at(input, message, span, format!("expected {what}"));
+    match better.map(str::to_owned).or(remedy.into()) {
+        Some(remedy) => diagnostic.with_remedy(remedy),
+        None => diagnostic,
     }
 }
 
@@ -255,15 +294,13 @@ fn is_foreign(input: Input<'_>, character: char) -> bool {
 }
 
 /// An operand is missing.
-pub(super) fn expected_expression(input: Input<'_>) -> Refusal {
-    let start = skip_blank(input);
+pub(super) fn expected_expression(input: Input<'_>) -> Diagnostic {
+    let start = input.after_blanks();
     let previous = before(input).filter(|_| input.offset > 0);
     if start.text.starts_with('=') && previous == Some('=') {
         let span = Span::new(input.offset - 1, start.offset + 1);
-        return refuse(
-            at(input, "`==` is no sign of the language", span, "an equation?")
-                .with_remedy("write one `=`"),
-        );
+        return at(input, "`==` is no sign of the language", span, "an equation?")
+            .with_remedy("write one `=`");
     }
     let remedy = match previous {
         Some(operator @ ('+' | '-' | '*' | '/' | '^')) => {
@@ -273,7 +310,7 @@ pub(super) fn expected_expression(input: Input<'_>) -> Refusal {
         Some('(') => Some("write an expression between the parentheses".to_owned()),
         _ => form_remedy(input),
     };
-    refuse(expected_diagnostic(input, "a number, a name or `(`", remedy))
+    expected_with(input, "a number, a name or `(`", remedy)
 }
 
 /// A text without anything in it, where one expression was expected.
@@ -287,32 +324,29 @@ pub(super) fn nothing(source: &Source, unit: &str) -> Diagnostic {
 const NUMBERS: &str = "write a plain number such as `3`, `0.25`, `33/10` or `1e-3`";
 
 /// A parenthesis or bracket is not closed before something else comes.
-pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Refusal {
+pub(super) fn unclosed(input: Input<'_>, opener: Span, closing: &str) -> Diagnostic {
     let opening = input.context.source.slice(opener);
     let next = found(input);
-    let remedy = format!("add the missing `{closing}`");
+    let missing = format!("add the missing `{closing}`");
     if matches!(next.kind, FoundKind::End | FoundKind::Keyword) {
         let stop = next.description;
-        return refuse(
-            at(input, format!("`{opening}` is never closed"), opener, "opened here")
-                .with_secondary(here(input), format!("`{closing}` expected before {stop}"))
-                .with_remedy(remedy),
-        );
+        return at(input, format!("`{opening}` is never closed"), opener, "opened here")
+            .with_secondary(input.here(), format!("`{closing}` expected before {stop}"))
+            .with_remedy(missing);
     }
-    let what = format!("an operator or `{closing}`");
-    let remedy = if next.kind == FoundKind::Word && input.context.extent == Extent::Unit {
-        "a unit stands behind the whole value, and multiplication is always written".to_owned()
-    } else {
-        remedy
+    let remedy = match next.kind == FoundKind::Word && input.context.extent == Extent::Unit {
+        true => "a unit stands behind the whole value, and multiplication is always written".into(),
+        false => missing,
     };
-    refuse(expected_diagnostic(input, &what, Some(remedy)).with_secondary(opener, "opened here"))
+    expected_with(input, &format!("an operator or `{closing}`"), remedy)
+        .with_secondary(opener, "opened here")
 }
 
 /// Two factors stand side by side.
-pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Refusal {
+pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Diagnostic {
     const SHOWN: usize = 20;
     let next = found(input);
-    let Context { source, unit, form, .. } = input.context;
+    let Context { source, unit, form, extent, .. } = input.context;
     if next.kind == FoundKind::Keyword {
         return expected(input, "an operator or the end of the statement");
     }
@@ -320,77 +354,46 @@ pub(super) fn missing_operator(left: &Expression, input: Input<'_>) -> Refusal {
     let wanted = closest(after, FOLLOWING).filter(|&word| form.is_some_and(|f| f.contains(word)));
     if let Some(word) = wanted {
         let message = format!("expected `{word}`, found {}", next.description);
-        let label = format!("expected `{word}`");
-        let remedy = format!("did you mean `{word}`?");
-        return refuse(at(input, message, next.span, label).with_remedy(remedy));
+        return at(input, message, next.span, format!("expected `{word}`"))
+            .with_remedy(format!("did you mean `{word}`?"));
     }
-    let numbers = matches!(left.value, Node::Number(_)) && next.kind == FoundKind::Number;
+    let is_number = next.kind == FoundKind::Number;
     let applied = source.text()[next.span.end..].starts_with('(');
-    let unit_first = input.context.extent == Extent::Unit
-        && matches!(left.value, Node::Name(_))
-        && next.kind == FoundKind::Number;
-    let remedy = if unit_first {
-        format!(
-            "a unit stands behind the value, as in `{after} {before}`; a product is written `{before}*{after}`"
-        )
-    } else if numbers {
-        format!("join the digits, or write an operator between `{before}` and `{after}`")
-    } else if unit == "number" {
-        format!("{NUMBERS}, without a unit")
-    } else if before.len() > SHOWN || after.len() > SHOWN {
-        "write `*` between them".to_owned()
-    } else if after == "(" {
-        format!("write `{before}*(…)`")
-    } else if applied {
-        format!("write `{before}*{after}(…)`")
-    } else {
-        format!("write `{before}*{after}`")
+    let remedy = match &left.value {
+        Node::Name(_) if is_number && extent == Extent::Unit => format!(
+            "a unit stands behind the value, as in `{after} {before}`; a product is written \
+             `{before}*{after}`"
+        ),
+        Node::Number(_) if is_number => {
+            format!("join the digits, or write an operator between `{before}` and `{after}`")
+        }
+        _ if unit == "number" => format!("{NUMBERS}, without a unit"),
+        _ if before.len() > SHOWN || after.len() > SHOWN => "write `*` between them".to_owned(),
+        _ if after == "(" => format!("write `{before}*(…)`"),
+        _ if applied => format!("write `{before}*{after}(…)`"),
+        _ => format!("write `{before}*{after}`"),
     };
-    refuse(
-        at(
-            input,
-            format!("an operator is missing before {}", next.description),
-            next.span,
-            "multiplication is always written",
-        )
+    let message = format!("an operator is missing before {}", next.description);
+    at(input, message, next.span, "multiplication is always written")
         .with_secondary(left.span, "the factor before")
-        .with_remedy(remedy),
-    )
-}
-
-/// `**`
-pub(super) fn double_star(input: Input<'_>, span: Span) -> Refusal {
-    refuse(
-        at(input, "`**` is no operator", span, "a power?")
-            .with_remedy("write powers with `^`: `x^2`"),
-    )
+        .with_remedy(remedy)
 }
 
 /// `f'` or `f'[n]`
-pub(super) fn early_prime(input: Input<'_>, span: Span, name: &str) -> Refusal {
-    refuse(misplaced_prime(input, span, name))
-}
-
-fn misplaced_prime(input: Input<'_>, span: Span, name: &str) -> Diagnostic {
+pub(super) fn misplaced_prime(input: Input<'_>, span: Span, name: &str) -> Diagnostic {
     at(input, "a prime stands only after the index of a wave", span, "not after an index")
         .with_remedy(format!("write the derivative of a wave as `{name}[n]'`"))
 }
 
 /// `exp` or another function where a name is needed.
-pub(super) fn reserved(input: Input<'_>, name: &str, span: Span) -> Refusal {
-    refuse(
-        at(
-            input,
-            format!("`{name}` is a function of the language, so nothing else can have this name"),
-            span,
-            "reserved",
-        )
-        .with_remedy("choose another name"),
-    )
+pub(super) fn reserved(input: Input<'_>, name: &str, span: Span) -> Diagnostic {
+    let message =
+        format!("`{name}` is a function of the language, so nothing else can have this name");
+    at(input, message, span, "reserved").with_remedy("choose another name")
 }
 
 /// `exp` or another function without argument.
-pub(super) fn function_alone(input: Input<'_>, name: &str, span: Span) -> Refusal {
+pub(super) fn function_alone(input: Input<'_>, name: &str, span: Span) -> Diagnostic {
     let form = match name {
         "cos" => "cos(2*t)",
         "exp" => "exp(-2*t)",
@@ -398,157 +401,102 @@ pub(super) fn function_alone(input: Input<'_>, name: &str, span: Span) -> Refusa
         "sqrt" => "sqrt(3)",
         _ => "sum(f[i], i < n)",
     };
-    refuse(
-        at(
-            input,
-            format!("`{name}` needs an argument in parentheses"),
-            span,
-            "`(` expected after this",
-        )
-        .with_remedy(format!("write it like `{form}`")),
-    )
+    let message = format!("`{name}` needs an argument in parentheses");
+    at(input, message, span, "`(` expected after this")
+        .with_remedy(format!("write it like `{form}`"))
 }
 
 /// `sum(a[i])`
-pub(super) fn sum_without_range(input: Input<'_>, opener: Span) -> Refusal {
-    const RANGE: &str = "a sum says over what it runs: `sum(f[i], i < n)`";
-    refuse(
-        expected_diagnostic(input, "`,` and the range of the sum", Some(RANGE.to_owned()))
-            .with_secondary(opener, "the sum opens here"),
-    )
+pub(super) fn sum_without_range(input: Input<'_>, opener: Span) -> Diagnostic {
+    let remedy = "a sum says over what it runs: `sum(f[i], i < n)`".to_owned();
+    expected_with(input, "`,` and the range of the sum", remedy)
+        .with_secondary(opener, "the sum opens here")
 }
 
 /// `sum(a[i], i = 0..n)`
-pub(super) fn sum_range(input: Input<'_>, index: &Name) -> Refusal {
+pub(super) fn sum_range(input: Input<'_>, index: &Name) -> Diagnostic {
     let index = &index.value;
     let remedy =
         format!("the range of a sum is written `{index} < n`; it starts at 0 and ends at n-1");
-    refuse(expected_diagnostic(input, "`<`", Some(remedy)))
+    expected_with(input, "`<`", remedy)
 }
 
 const INDEX_REMEDY: &str = "an index is written `n`, `n-1`, `n+1`, or as a whole number";
 
 /// `f[2*n]`, `f[]`
-pub(super) fn index_form(input: Input<'_>) -> Refusal {
-    refuse(expected_diagnostic(input, "a wave index", Some(INDEX_REMEDY.to_owned())))
+pub(super) fn index_form(input: Input<'_>) -> Diagnostic {
+    expected_with(input, "a wave index", INDEX_REMEDY.to_owned())
 }
 
 /// `f[n-1-1]`, `f[n`
-pub(super) fn index_end(input: Input<'_>, opener: Span) -> Refusal {
-    if found(input).kind == FoundKind::End {
-        return unclosed(input, opener, "]");
-    }
-    refuse(
-        expected_diagnostic(input, "`]`", Some(INDEX_REMEDY.to_owned()))
+pub(super) fn index_end(input: Input<'_>, opener: Span) -> Diagnostic {
+    match found(input).kind {
+        FoundKind::End => unclosed(input, opener, "]"),
+        _ => expected_with(input, "`]`", INDEX_REMEDY.to_owned())
             .with_secondary(opener, "the index opens here"),
-    )
+    }
 }
 
 /// `f[n-99999999]`
-pub(super) fn index_too_large(input: Input<'_>, span: Span) -> Refusal {
-    refuse(
-        at(input, format!("the index is larger than {MAX_INDEX}"), span, "too large")
-            .with_remedy("use a smaller index"),
-    )
+pub(super) fn index_too_large(input: Input<'_>, span: Span) -> Diagnostic {
+    at(input, format!("the index is larger than {MAX_INDEX}"), span, "too large")
+        .with_remedy("use a smaller index")
 }
 
 /// `f[n](t)`
-pub(super) fn index_and_argument(input: Input<'_>, name: &str) -> Refusal {
-    let start = skip_blank(input);
-    let offset = start.offset;
-    refuse(
-        at(
-            input,
-            "a wave has an index or an argument, not both",
-            Span::new(offset, offset + 1),
-            "an argument after an index",
-        )
-        .with_remedy(format!(
-            "write `{name}[n]` for a period, `{name}(t)` for a time; for a product write `*`"
-        )),
-    )
-}
-
-/// `1.2.3`
-pub(super) fn two_points(input: Input<'_>, span: Span) -> Refusal {
-    let second = Span::new(span.end, span.end + 1);
-    refuse(
-        at(input, "a number with two decimal points", second, "second point")
-            .with_remedy("write one point: `0.25`"),
-    )
-}
-
-/// `1_000`
-pub(super) fn grouped_digits(input: Input<'_>, place: Span) -> Refusal {
-    let span = Span::new(place.start, place.start + 1);
-    refuse(
-        at(input, "`_` inside a number", span, "not a digit")
-            .with_remedy("write digits without separators: `1000`, `1e3`"),
-    )
+pub(super) fn index_and_argument(input: Input<'_>, name: &str) -> Diagnostic {
+    let message = "a wave has an index or an argument, not both";
+    at(input, message, found(input).span, "an argument after an index").with_remedy(format!(
+        "write `{name}[n]` for a period, `{name}(t)` for a time; for a product write `*`"
+    ))
 }
 
 /// A literal beyond the limits.
-pub(super) fn literal(input: Input<'_>, span: Span, error: LiteralError) -> Refusal {
-    refuse(match error {
-        LiteralError::TooManyDigits => at(
-            input,
+pub(super) fn literal(input: Input<'_>, span: Span, error: LiteralError) -> Diagnostic {
+    let (message, label, remedy) = match error {
+        LiteralError::TooManyDigits => (
             format!("a number with more than {MAX_NUMBER_DIGITS} digits"),
-            span,
             "too long",
-        )
-        .with_remedy("write fewer digits, or a fraction"),
-        LiteralError::ExponentTooLarge => at(
-            input,
+            "write fewer digits, or a fraction",
+        ),
+        LiteralError::ExponentTooLarge => (
             format!("the decimal exponent is beyond ±{MAX_DECIMAL_EXPONENT}"),
-            span,
             "out of range",
-        )
-        .with_remedy("choose units in which the numbers are of moderate size"),
-    })
+            "choose units in which the numbers are of moderate size",
+        ),
+    };
+    at(input, message, span, label).with_remedy(remedy)
 }
 
 /// Too many levels.
-pub(super) fn too_deep(input: Input<'_>, span: Span) -> Refusal {
-    refuse(
-        at(input, format!("nested deeper than {MAX_NESTING} levels"), span, "one level too many")
-            .with_remedy("remove needless parentheses and signs, or name a part with a symbol"),
-    )
+pub(super) fn too_deep(input: Input<'_>, span: Span) -> Diagnostic {
+    at(input, format!("nested deeper than {MAX_NESTING} levels"), span, "one level too many")
+        .with_remedy("remove needless parentheses and signs, or name a part with a symbol")
 }
 
 /// A quotation mark without partner.
-pub(super) fn unclosed_string(input: Input<'_>, opener: Span, end: Span) -> Refusal {
-    refuse(
-        at(input, "the quotation mark is never closed", opener, "opened here")
-            .with_secondary(end, "`\"` expected before the end of the line")
-            .with_remedy("a title stands on one line, and contains no quotation mark"),
-    )
-}
-
-/// `recurrence` without a string.
-pub(super) fn expected_title(input: Input<'_>) -> Refusal {
-    expected(input, "a title in quotation marks")
+pub(super) fn unclosed_string(input: Input<'_>, opener: Span, end: Span) -> Diagnostic {
+    at(input, "the quotation mark is never closed", opener, "opened here")
+        .with_secondary(end, "`\"` expected before the end of the line")
+        .with_remedy("a title stands on one line, and contains no quotation mark")
 }
 
 /// The first statement is another than `recurrence`.
-pub(super) fn title_missing(input: Input<'_>, span: Span) -> Refusal {
-    refuse(
-        at(input, "the text does not begin with its title", span, "the first statement")
-            .with_remedy(format!("put a first line before it: `{}`", input.context.forms[0].1)),
-    )
+pub(super) fn title_missing(input: Input<'_>, span: Span) -> Diagnostic {
+    at(input, "the text does not begin with its title", span, "the first statement")
+        .with_remedy(format!("put a first line before it: `{}`", input.context.forms[0].1))
 }
 
 /// A second `recurrence` or `scene`.
-pub(super) fn second_title(input: Input<'_>, span: Span, first: Span) -> Refusal {
+pub(super) fn second_title(input: Input<'_>, span: Span, first: Span) -> Diagnostic {
     let whole = input.context.forms[0].0;
-    refuse(
-        at(input, "a second title", span, format!("another {whole} begins here"))
-            .with_secondary(first, "the first title")
-            .with_remedy(format!("a text holds one {whole}; put the other into a file of its own")),
-    )
+    at(input, "a second title", span, format!("another {whole} begins here"))
+        .with_secondary(first, "the first title")
+        .with_remedy(format!("a text holds one {whole}; put the other into a file of its own"))
 }
 
 /// A statement that begins with no word at all.
-pub(super) fn no_keyword(input: Input<'_>) -> Refusal {
+pub(super) fn no_keyword(input: Input<'_>) -> Diagnostic {
     let Found { description, span, kind } = found(input);
     let remedy = match kind {
         FoundKind::Character(found) if !is_foreign(input, found) => {
@@ -558,33 +506,28 @@ pub(super) fn no_keyword(input: Input<'_>) -> Refusal {
         _ => keywords(input),
     };
     let message = format!("a statement cannot begin with {description}");
-    refuse(at(input, message, span, "expected a statement").with_remedy(remedy))
+    at(input, message, span, "expected a statement").with_remedy(remedy)
 }
 
 /// A statement that begins with an unknown word.
-pub(super) fn unknown_keyword(input: Input<'_>, word: &str, span: Span) -> Refusal {
-    let diagnostic =
-        at(input, format!("no statement begins with {}", quoted(word)), span, "unknown statement");
+pub(super) fn unknown_keyword(input: Input<'_>, word: &str, span: Span) -> Diagnostic {
+    let message = format!("no statement begins with {}", quoted(word));
     let after = input.text[span.end - input.offset..].trim_start();
-    let lower = word.to_ascii_lowercase();
-    let remedy = if let Some(keyword) =
-        closest(&lower, input.context.forms.iter().map(|(keyword, _)| *keyword))
-    {
-        format!("did you mean `{keyword}`?")
-    } else if !input.context.is_scene()
-        && after.starts_with(['[', '\'', '(', '=', '+', '-', '*', '/'])
-    {
-        format!("an equation begins with `equation`: write `equation {word}…`")
-    } else {
-        keywords(input)
+    let is_equation = after.starts_with(['[', '\'', '(', '=', '+', '-', '*', '/']);
+    let words = input.context.forms.iter().map(|(keyword, _)| *keyword);
+    let remedy = match closest(&word.to_ascii_lowercase(), words) {
+        Some(keyword) => format!("did you mean `{keyword}`?"),
+        None if is_equation && !input.context.is_scene() => {
+            format!("an equation begins with `equation`: write `equation {word}…`")
+        }
+        None => keywords(input),
     };
-    refuse(diagnostic.with_remedy(remedy))
+    at(input, message, span, "unknown statement").with_remedy(remedy)
 }
 
 fn keywords(input: Input<'_>) -> String {
-    let words: Vec<String> =
-        input.context.forms.iter().map(|(keyword, _)| format!("`{keyword}`")).collect();
-    format!("statements begin with one of {}", words.join(", "))
+    let words = input.context.forms.iter().map(|(keyword, _)| *keyword);
+    format!("statements begin with one of {}", choice(words))
 }
 
 /// A text of blanks and comments.
@@ -593,179 +536,96 @@ pub(super) fn no_statement(source: &Source, form: &str) -> Diagnostic {
         .with_remedy(format!("begin with a line like `{form}`"))
 }
 
-/// A failure that no parser explained.
-pub(super) fn incomprehensible(source: &Source, span: Span) -> Diagnostic {
-    Diagnostic::new(source, "the text cannot be read from here on", span, "not understood")
-}
-
 /// What follows a property is neither another nor the end of them.
-pub(super) fn open_brace(input: Input<'_>, opener: Span, what: &str) -> Refusal {
+pub(super) fn open_brace(input: Input<'_>, opener: Span, what: &str) -> Diagnostic {
     let next = found(input);
     if matches!(next.kind, FoundKind::End | FoundKind::Keyword) {
-        return refuse(
-            at(input, "`{` is never closed", opener, "opened here")
-                .with_secondary(here(input), format!("`}}` expected before {}", next.description))
-                .with_remedy("add the missing `}`; lines between braces are indented"),
-        );
+        return at(input, "`{` is never closed", opener, "opened here")
+            .with_secondary(input.here(), format!("`}}` expected before {}", next.description))
+            .with_remedy("add the missing `}`; lines between braces are indented");
     }
     let remedy = match next.kind {
         FoundKind::Word => Some(COMMAS.to_owned()),
         _ => form_remedy(input),
     };
-    let diagnostic = expected_diagnostic(input, what, remedy);
-    refuse(diagnostic.with_secondary(opener, "the properties open here"))
+    expected_with(input, what, remedy).with_secondary(opener, "the properties open here")
 }
 
 const COMMAS: &str = "separate properties by commas, also at the ends of lines";
 
 /// A property directly after another.
-pub(super) fn missing_comma(input: Input<'_>) -> Refusal {
-    refuse(expected_diagnostic(input, "`,` or a unit", Some(COMMAS.to_owned())))
-}
-
-/// `2 m + 3 mm`
-pub(super) fn sum_of_units(input: Input<'_>, sign: Span, unit: Span) -> Refusal {
-    refuse(
-        at(input, "a value has one unit, at its end", sign, "not expected here")
-            .with_secondary(unit, "the unit ends the value")
-            .with_remedy("work the value out in one unit: `2 + 3/1000 m`"),
-    )
+pub(super) fn missing_comma(input: Input<'_>) -> Diagnostic {
+    expected_with(input, "`,` or a unit", COMMAS.to_owned())
 }
 
 /// `N/2`
-pub(super) fn expected_unit(input: Input<'_>) -> Refusal {
-    const FORM: &str = "numbers stand before the unit: `3/2 m`, `7850 kg/m^3`";
-    refuse(expected_diagnostic(input, "the name of a unit", Some(FORM.to_owned())))
+pub(super) fn expected_unit(input: Input<'_>) -> Diagnostic {
+    let remedy = "numbers stand before the unit: `3/2 m`, `7850 kg/m^3`".to_owned();
+    expected_with(input, "the name of a unit", remedy)
 }
 
 /// A power of a unit that is no small whole number.
-pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Refusal {
-    let start = skip_blank(from);
-    let end = to.offset.max(start.offset);
-    refuse(
-        at(
-            from,
-            "the power of a unit is a small whole number",
-            Span::new(start.offset, end),
-            "not a whole number from -9 to 9",
-        )
-        .with_remedy("write it like `m^3`, `s^-1` or `m³`"),
-    )
+pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Diagnostic {
+    let start = from.after_blanks().offset;
+    let span = Span::new(start, to.offset.max(start));
+    let message = "the power of a unit is a small whole number";
+    at(from, message, span, "not a whole number from -9 to 9")
+        .with_remedy("write it like `m^3`, `s^-1` or `m³`")
 }
 
 /// A line that does not say what is at an end.
-pub(super) fn expected_end_of_line(input: Input<'_>, side: &str) -> Refusal {
-    let remedy = match next_word(input) {
-        Some(word) => closest(word.value, ["free", "fixed", "endless"])
-            .map(|end| format!("did you mean `{end}`?")),
-        None => None,
+pub(super) fn expected_end_of_line(input: Input<'_>, side: &str) -> Diagnostic {
+    let ends = End::ALL.map(End::word);
+    let likely = input.next_word().and_then(|word| closest(word.value, ends));
+    let remedy = match likely {
+        Some(end) => format!("did you mean `{end}`?"),
+        None => "a line goes from end to end: `line free - rod - fixed`".to_owned(),
     };
-    let form = "a line goes from end to end: `line free - rod - fixed`";
     let what = format!("what is at the {side} end: `free`, `fixed` or `endless`");
-    refuse(expected_diagnostic(input, &what, Some(remedy.unwrap_or_else(|| form.to_owned()))))
-}
-
-/// `line free - fixed`
-pub(super) fn empty_line(input: Input<'_>, left: Span, right: Span) -> Refusal {
-    refuse(
-        at(input, "the line holds no element", right, "the right end")
-            .with_secondary(left, "the left end")
-            .with_remedy("name elements between the ends: `line free - rod - fixed`"),
-    )
-}
-
-/// `force(a)*velocity(a)`
-pub(super) fn two_measures(input: Input<'_>, span: Span, first: Span) -> Refusal {
-    refuse(
-        at(input, "a product of measures cannot be observed", span, "times this")
-            .with_secondary(first, "a measure")
-            .with_remedy("observe both, each by a statement of its own, or add them"),
-    )
+    expected_with(input, &what, remedy)
 }
 
 /// `force(a)^2`
-pub(super) fn power_of_measure(input: Input<'_>, measure: Span) -> Refusal {
-    refuse(
-        at(input, "a power of a measure cannot be observed", found(input).span, "a power")
-            .with_secondary(measure, "of this measure")
-            .with_remedy("observe a sum of measures, each with a factor: `2*force(rod.left)`"),
-    )
-}
-
-/// `1/force(a)`
-pub(super) fn divided_by_measure(input: Input<'_>, span: Span) -> Refusal {
-    refuse(
-        at(input, "a measure cannot be divided by", span, "divided by here")
-            .with_remedy("observe a sum of measures, each with a factor: `2*force(rod.left)`"),
-    )
-}
-
-/// `observe x = 3`
-pub(super) fn nothing_measured(input: Input<'_>, span: Span) -> Refusal {
-    refuse(at(input, "this measures nothing", span, "no measure in here").with_remedy(
-        "each term holds a measure at a place, such as `velocity(ram)` or \
-             `2*force(rod.left)`",
-    ))
+pub(super) fn power_of_measure(input: Input<'_>, measure: Span) -> Diagnostic {
+    plain(input, found(input).span, POWER_OF_MEASURE).with_secondary(measure, "of this measure")
 }
 
 /// `observe v = velocity`
-pub(super) fn measure_alone(input: Input<'_>, word: &str, span: Span) -> Refusal {
-    refuse(
-        at(input, format!("`{word}` needs a place in parentheses"), span, "of what, and where?")
-            .with_remedy(format!("write it like `{word}(rod.left)` or `{word}(ram)`")),
-    )
+pub(super) fn measure_alone(input: Input<'_>, word: &str, span: Span) -> Diagnostic {
+    at(input, format!("`{word}` needs a place in parentheses"), span, "of what, and where?")
+        .with_remedy(format!("write it like `{word}(rod.left)` or `{word}(ram)`"))
 }
 
 /// `observe v = rod.left`
-pub(super) fn place_alone(input: Input<'_>, word: &str, span: Span) -> Refusal {
-    refuse(
-        at(input, "a place alone is no quantity", span, "what is measured here?")
-            .with_remedy(format!("name what is measured: `velocity({word}.left)`")),
-    )
+pub(super) fn place_alone(input: Input<'_>, word: &str, span: Span) -> Diagnostic {
+    at(input, "a place alone is no quantity", span, "what is measured here?")
+        .with_remedy(format!("name what is measured: `velocity({word}.left)`"))
 }
 
 /// `speed(ram)`
-pub(super) fn unknown_measure(
-    input: Input<'_>,
-    word: &str,
-    span: Span,
-    words: &[&'static str],
-) -> Refusal {
-    let known: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-    refuse(
-        at(input, format!("{} cannot be measured", quoted(word)), span, "no measure")
-            .with_closest(word, words.iter().copied())
-            .or_remedy(format!("what can be measured: {}", known.join(", "))),
-    )
-}
-
-/// `(force(a) - force(b))/2`
-pub(super) fn grouped_measures(input: Input<'_>, span: Span) -> Refusal {
-    refuse(
-        at(input, "measures cannot stand in parentheses", span, "opens around a measure")
-            .with_remedy("multiply out: `force(a.left)/2 - force(b.left)/2`"),
-    )
+pub(super) fn unknown_measure(input: Input<'_>, word: &str, span: Span) -> Diagnostic {
+    let words = Measure::ALL.map(Measure::word);
+    at(input, format!("{} cannot be measured", quoted(word)), span, "no measure")
+        .with_closest(word, words)
+        .or_remedy(format!("what can be measured: {}", choice(words)))
 }
 
 /// The parenthesis of a place is not closed.
-pub(super) fn unclosed_place(input: Input<'_>, opener: Span) -> Refusal {
+pub(super) fn unclosed_place(input: Input<'_>, opener: Span) -> Diagnostic {
     if found(input).kind == FoundKind::End {
         return unclosed(input, opener, ")");
     }
-    const FORM: &str = "a place is an element or a section of a bar: `ram`, `rod.left`, \
-                        `rod.at(1/2)`, `line`";
-    refuse(
-        expected_diagnostic(input, "`)`", Some(FORM.to_owned()))
-            .with_secondary(opener, "opened here"),
-    )
+    let form =
+        "a place is an element or a section of a bar: `ram`, `rod.left`, `rod.at(1/2)`, `line`";
+    expected_with(input, "`)`", form.to_owned()).with_secondary(opener, "opened here")
 }
 
 /// `rod.middle`
-pub(super) fn expected_section(input: Input<'_>, element: &str) -> Refusal {
-    let remedy = next_word(input).and_then(|word| closest(word.value, ["left", "right", "at"]));
-    let remedy = match remedy {
+pub(super) fn expected_section(input: Input<'_>, element: &str) -> Diagnostic {
+    let likely = input.next_word().and_then(|word| closest(word.value, ["left", "right", "at"]));
+    let remedy = match likely {
         Some(word) => format!("did you mean `{word}`?"),
         None => format!("write `{element}.left`, `{element}.right` or `{element}.at(1/2)`"),
     };
-    refuse(expected_diagnostic(input, "`left`, `right` or `at(…)`", Some(remedy)))
+    expected_with(input, "`left`, `right` or `at(…)`", remedy)
 }

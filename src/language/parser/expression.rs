@@ -6,66 +6,54 @@
 use crate::limits::{MAX_INDEX, MAX_NESTING};
 use std::mem;
 
-use nom::Parser;
-use nom::combinator::opt;
-
 use super::super::name;
 use super::super::syntax::{
     Expression, Factor, Function, Index, Name, Node, Operator, Sign, Span, Spanned, Term, Wave,
 };
-use super::lexical::{
-    additive, demand_name, digits, literal, multiplicative, next_word, prime, skip_blank, symbol,
-    token, word,
-};
-use super::{Extent, Input, Parsed, between, complaint};
-
-/// Words that follow an expression in a statement, and so end it.
-pub(super) const FOLLOWING: [&str; 3] = ["starts", "local", "time"];
-
-/// An expression and nothing after it.
-pub(super) fn alone(input: Input<'_>) -> Parsed<'_, Expression> {
-    let (rest, expression) = expression(input)?;
-    Ok((end(rest)?.0, expression))
-}
+use super::forms::FOLLOWING;
+use super::input::Extent;
+use super::{Input, Outcome, complaint};
 
 /// Nothing but blanks.
-pub(super) fn end(input: Input<'_>) -> Parsed<'_, ()> {
-    let rest = skip_blank(input);
-    if rest.text.is_empty() { Ok((rest, ())) } else { Err(complaint::expected_end(input)) }
+pub(super) fn end(input: Input<'_>) -> Outcome<()> {
+    match input.after_blanks().text.is_empty() {
+        true => Ok(()),
+        false => Err(complaint::expected_end(input)),
+    }
+}
+
+/// An expression that ends at another place than usual.
+pub(super) fn expression_to(input: &mut Input<'_>, extent: Extent) -> Outcome<Expression> {
+    let outside = mem::replace(&mut input.context.extent, extent);
+    let value = expression(input)?;
+    input.context.extent = outside;
+    Ok(value)
 }
 
 /// An expression up to where it cannot go on.
-pub(super) fn expression(input: Input<'_>) -> Parsed<'_, Expression> {
+pub(super) fn expression(input: &mut Input<'_>) -> Outcome<Expression> {
     let mut unfinished = Unfinished::default();
-    let mut rest = input;
     loop {
-        let (after, operand) = operand(rest)?;
-        rest = after;
-        let mut value = match operand {
+        let mut value = match operand(input)? {
             Operand::Sign(sign) => {
-                unfinished.deepen(rest, sign.span)?;
+                unfinished.deepen(*input, sign.span)?;
                 unfinished.level.prefixes.push(Prefix::Sign(sign));
                 continue;
             }
             Operand::Open(opening) => {
-                unfinished.deepen(rest, opening.parenthesis)?;
-                unfinished.open(opening);
+                unfinished.deepen(*input, opening.parenthesis)?;
+                unfinished.outer.push((mem::take(&mut unfinished.level), opening));
                 continue;
             }
             Operand::Complete(value) => value,
         };
         // An operator asks for the next operand; without one, the innermost parentheses must close,
         // and what they enclose may itself be followed by an operator.
-        loop {
-            let (after, joined) = join(rest, &mut unfinished, value)?;
-            rest = after;
-            match joined {
-                Joined::Operand => break,
-                Joined::Complete(complete) => match unfinished.close() {
-                    None => return Ok((rest, complete)),
-                    Some(opening) => (rest, value) = close(rest, opening, complete)?,
-                },
-            }
+        while let Some(complete) = join(input, &mut unfinished, value)? {
+            let Some((level, opening)) = unfinished.outer.pop() else { return Ok(complete) };
+            unfinished.level = level;
+            unfinished.depth -= 1;
+            value = close(input, opening, complete)?;
         }
     }
 }
@@ -77,14 +65,6 @@ enum Operand {
     /// A parenthesis; the operand is what it encloses.
     Open(Opening),
     /// A number, name or wave.
-    Complete(Expression),
-}
-
-/// What comes of a value and the operator after it.
-enum Joined {
-    /// The value is stored, and the operator asks for another.
-    Operand,
-    /// There is no operator: everything since the last parenthesis is one expression.
     Complete(Expression),
 }
 
@@ -186,147 +166,117 @@ struct Unfinished {
 
 impl Unfinished {
     /// Goes one level deeper, if there is one. `opener` is what opens it.
-    fn deepen<'a>(&mut self, input: Input<'a>, opener: Span) -> Parsed<'a, ()> {
+    fn deepen(&mut self, input: Input<'_>, opener: Span) -> Outcome<()> {
         if self.depth >= usize::from(MAX_NESTING) {
             return Err(complaint::too_deep(input, opener));
         }
         self.depth += 1;
-        Ok((input, ()))
-    }
-
-    fn open(&mut self, opening: Opening) {
-        self.outer.push((mem::take(&mut self.level), opening));
-    }
-
-    fn close(&mut self) -> Option<Opening> {
-        let (level, opening) = self.outer.pop()?;
-        self.level = level;
-        self.depth -= 1;
-        Some(opening)
+        Ok(())
     }
 }
 
-/// Stores a value under the operator that follows it.
-fn join<'a>(rest: Input<'a>, unfinished: &mut Unfinished, value: Expression) -> Parsed<'a, Joined> {
-    if let (rest, Some(caret)) = opt(symbol("^")).parse(rest)? {
-        unfinished.deepen(rest, caret)?;
+/// Stores a value under the operator that follows it. Where none follows, everything since the last
+/// parenthesis is one expression.
+fn join(
+    input: &mut Input<'_>,
+    unfinished: &mut Unfinished,
+    value: Expression,
+) -> Outcome<Option<Expression>> {
+    if let Some(caret) = input.symbol("^") {
+        unfinished.deepen(*input, caret)?;
         unfinished.level.prefixes.push(Prefix::Base(value));
-        return Ok((rest, Joined::Operand));
+        return Ok(None);
     }
     unfinished.depth -= unfinished.level.prefixes.len();
-    let one_factor = rest.context.extent == Extent::Factor && unfinished.outer.is_empty();
+    let one_factor = input.context.extent == Extent::Factor && unfinished.outer.is_empty();
     let level = &mut unfinished.level;
     let value = level.apply_prefixes(value);
     if one_factor {
-        refuse_neighbour(&value, rest)?;
-        return Ok((rest, Joined::Complete(value)));
+        refuse_neighbour(&value, *input)?;
+        return Ok(Some(value));
     }
-    if let (rest, Some(operator)) = opt(token(multiplicative)).parse(rest)? {
+    if let Some(operator) = input.multiplicative()? {
         level.push_factor(value, Some(operator.value));
-        return Ok((rest, Joined::Operand));
+        return Ok(None);
     }
-    refuse_neighbour(&value, rest)?;
+    refuse_neighbour(&value, *input)?;
     let value = level.product(value);
-    if let (rest, Some(sign)) = opt(token(additive)).parse(rest)? {
+    if let Some(sign) = input.additive() {
         level.push_term(value, Some(sign.value));
-        return Ok((rest, Joined::Operand));
+        return Ok(None);
     }
-    Ok((rest, Joined::Complete(level.sum(value))))
+    Ok(Some(level.sum(value)))
 }
 
 /// What follows the expression in parentheses, and what comes of it.
-fn close<'a>(rest: Input<'a>, opening: Opening, inner: Expression) -> Parsed<'a, Expression> {
+fn close(input: &mut Input<'_>, opening: Opening, inner: Expression) -> Outcome<Expression> {
     let Opening { start, parenthesis, role } = opening;
-    let (rest, node) = match role {
-        Role::Grouping => (rest, inner.value),
-        Role::Exponential => (rest, Node::Exponential(Box::new(inner))),
-        Role::Function(function) => {
-            let argument = Box::new(inner);
-            (rest, Node::Function { function, argument })
-        }
-        Role::Call(name) => {
-            let argument = Box::new(inner);
-            (rest, Node::Call { name, argument })
-        }
-        Role::Summation => range(rest, parenthesis, inner)?,
+    let node = match role {
+        Role::Grouping => inner.value,
+        Role::Exponential => Node::Exponential(Box::new(inner)),
+        Role::Function(function) => Node::Function { function, argument: Box::new(inner) },
+        Role::Call(name) => Node::Call { name, argument: Box::new(inner) },
+        Role::Summation => range(input, parenthesis, inner)?,
     };
-    match opt(symbol(")")).parse(rest)? {
-        (rest, Some(end)) => Ok((rest, Spanned::new(node, Span::new(start, end.end)))),
-        (_, None) => Err(complaint::unclosed(rest, parenthesis, ")")),
+    match input.symbol(")") {
+        Some(end) => Ok(Spanned::new(node, Span::new(start, end.end))),
+        None => Err(complaint::unclosed(*input, parenthesis, ")")),
     }
 }
 
 /// `, i < n`
-fn range(input: Input<'_>, parenthesis: Span, term: Expression) -> Parsed<'_, Node> {
-    let (rest, Some(_)) = opt(symbol(",")).parse(input)? else {
-        return Err(complaint::sum_without_range(input, parenthesis));
-    };
-    let (rest, index) = demand_name("the index of the sum", rest)?;
-    let (after, Some(_)) = opt(symbol("<")).parse(rest)? else {
-        return Err(complaint::sum_range(rest, &index));
-    };
-    if after.text.starts_with('=') {
-        return Err(complaint::sum_range(rest, &index));
+fn range(input: &mut Input<'_>, parenthesis: Span, term: Expression) -> Outcome<Node> {
+    if input.symbol(",").is_none() {
+        return Err(complaint::sum_without_range(*input, parenthesis));
     }
-    let (rest, bound) = demand_name("the name that the index stays below", after)?;
-    let term = Box::new(term);
-    Ok((rest, Node::Summation { term, index, bound }))
+    let index = input.name("the index of the sum")?;
+    let before = *input;
+    if input.symbol("<").is_none() || input.text.starts_with('=') {
+        return Err(complaint::sum_range(before, &index));
+    }
+    let bound = input.name("the name that the index stays below")?;
+    Ok(Node::Summation { term: Box::new(term), index, bound })
 }
 
 /// Refuses `2 mu`, `(a)(b)` and the like: what follows a factor is no other factor.
-fn refuse_neighbour<'a>(left: &Expression, rest: Input<'a>) -> Parsed<'a, ()> {
-    let start = skip_blank(rest);
+fn refuse_neighbour(left: &Expression, input: Input<'_>) -> Outcome<()> {
+    let start = input.after_blanks();
     let starts_factor = match start.text.chars().next() {
         Some('(') => true,
         Some('.') => start.text[1..].starts_with(|next: char| next.is_ascii_digit()),
-        Some(next) if name::is_letter(next) => !next_word(start).is_some_and(|word| {
-            let applied = || rest.context.source.text()[word.span.end..].starts_with('(');
-            FOLLOWING.contains(&word.value) || rest.context.extent == Extent::Unit && !applied()
+        Some(next) if name::is_letter(next) => !start.next_word().is_some_and(|word| {
+            let applied = || input.context.source.text()[word.span.end..].starts_with('(');
+            FOLLOWING.contains(&word.value) || input.context.extent == Extent::Unit && !applied()
         }),
         Some(next) => next.is_ascii_digit(),
         None => false,
     };
-    if starts_factor { Err(complaint::missing_operator(left, rest)) } else { Ok((rest, ())) }
+    if starts_factor { Err(complaint::missing_operator(left, input)) } else { Ok(()) }
 }
 
 /// A sign, an open parenthesis, or something complete.
-fn operand(input: Input<'_>) -> Parsed<'_, Operand> {
-    if let (rest, Some(sign)) = opt(token(additive)).parse(input)? {
-        return Ok((rest, Operand::Sign(sign)));
+fn operand(input: &mut Input<'_>) -> Outcome<Operand> {
+    if let Some(sign) = input.additive() {
+        return Ok(Operand::Sign(sign));
     }
-    let start = skip_blank(input);
-    match start.text.chars().next() {
-        Some('(') => {
-            let (rest, parenthesis) = symbol("(")(start)?;
-            Ok((rest, open(start, parenthesis, Role::Grouping)))
-        }
-        Some(next) if next.is_ascii_digit() || next == '.' => number(start, input),
-        Some(next) if name::is_letter(next) => named(start),
-        _ => Err(complaint::expected_expression(input)),
+    if let Some(parenthesis) = input.symbol("(") {
+        let (start, role) = (parenthesis.start, Role::Grouping);
+        return Ok(Operand::Open(Opening { start, parenthesis, role }));
     }
-}
-
-fn open(start: Input<'_>, parenthesis: Span, role: Role) -> Operand {
-    Operand::Open(Opening { start: start.offset, parenthesis, role })
-}
-
-fn number<'a>(start: Input<'a>, before: Input<'a>) -> Parsed<'a, Operand> {
-    match literal(start) {
-        Ok((rest, value)) => {
-            let value = Spanned::new(Node::Number(value), between(start, rest));
-            Ok((rest, Operand::Complete(value)))
-        }
-        // A point without digits.
-        Err(nom::Err::Error(_)) => Err(complaint::expected_expression(before)),
-        Err(error) => Err(error),
+    if let Some(written) = input.word() {
+        return named(input, written);
+    }
+    match input.literal()? {
+        Some(value) => Ok(Operand::Complete(Spanned::new(Node::Number(value.value), value.span))),
+        None => Err(complaint::expected_expression(*input)),
     }
 }
 
 /// `name`, `name[index]'`, or the beginning of `name(argument)`, of a function, `sum(…)`.
-fn named(start: Input<'_>) -> Parsed<'_, Operand> {
-    let (rest, written) = token(word).parse(start)?;
+fn named(input: &mut Input<'_>, written: Spanned<&str>) -> Outcome<Operand> {
+    let start = written.span.start;
     let spelt = Spanned::new(name::normalise(written.value), written.span);
-    if let (after, Some(parenthesis)) = opt(symbol("(")).parse(rest)? {
+    if let Some(parenthesis) = input.symbol("(") {
         let role = match written.value {
             "cos" => Role::Function(Function::Cosine),
             "exp" => Role::Exponential,
@@ -335,95 +285,68 @@ fn named(start: Input<'_>) -> Parsed<'_, Operand> {
             "sum" => Role::Summation,
             _ => Role::Call(spelt),
         };
-        return Ok((after, open(start, parenthesis, role)));
+        return Ok(Operand::Open(Opening { start, parenthesis, role }));
     }
     if name::RESERVED.contains(&written.value) {
-        return Err(complaint::function_alone(rest, written.value, written.span));
+        return Err(complaint::function_alone(*input, written.value, written.span));
     }
-    let (rest, node) = match opt(symbol("[")).parse(rest)? {
-        (after, Some(opener)) => wave(after, spelt, opener)?,
-        (_, None) => {
-            refuse_prime(rest, &spelt)?;
-            (rest, Node::Name(spelt.value))
-        }
+    let node = if let Some(opener) = input.symbol("[") {
+        wave(input, spelt, opener)?
+    } else if let Some(prime) = input.prime() {
+        return Err(complaint::misplaced_prime(*input, prime.span, &spelt.value));
+    } else {
+        Node::Name(spelt.value)
     };
-    let value = Spanned::new(node, between(start, rest));
-    Ok((rest, Operand::Complete(value)))
-}
-
-/// Refuses `f'` and `f'[n]`.
-fn refuse_prime<'a>(rest: Input<'a>, name: &Spanned<String>) -> Parsed<'a, ()> {
-    match opt(token(prime)).parse(rest)? {
-        (_, Some(prime)) => Err(complaint::early_prime(rest, prime.span, &name.value)),
-        (_, None) => Ok((rest, ())),
-    }
+    Ok(Operand::Complete(Spanned::new(node, Span::new(start, input.offset))))
 }
 
 /// What follows `name[`.
-fn wave(input: Input<'_>, name: Spanned<String>, opener: Span) -> Parsed<'_, Node> {
-    let (rest, index) = index(input)?;
-    let (mut rest, _) = match opt(symbol("]")).parse(rest)? {
-        (rest, Some(span)) => (rest, span),
-        (_, None) => return Err(complaint::index_end(rest, opener)),
-    };
+fn wave(input: &mut Input<'_>, name: Name, opener: Span) -> Outcome<Node> {
+    let index = index(input)?;
+    if input.symbol("]").is_none() {
+        return Err(complaint::index_end(*input, opener));
+    }
     let mut primes = 0_u32;
-    while let (after, Some(prime)) = opt(token(prime)).parse(rest)? {
+    while let Some(prime) = input.prime() {
         primes = primes.saturating_add(prime.value);
-        rest = after;
     }
-    if skip_blank(rest).text.starts_with('(') {
-        return Err(complaint::index_and_argument(rest, &name.value));
+    match input.next_is("(") {
+        true => Err(complaint::index_and_argument(*input, &name.value)),
+        false => Ok(Node::Wave(Box::new(Wave { name, index, primes }))),
     }
-    let wave = Wave { name, index, primes };
-    Ok((rest, Node::Wave(Box::new(wave))))
 }
 
 /// `name`, `name + 3`, `name - 3`, `3`, `-3`.
-fn index(input: Input<'_>) -> Parsed<'_, Spanned<Index>> {
-    let start = skip_blank(input);
-    let (rest, base) = match next_word(start) {
-        Some(_) => {
-            let (rest, base) = demand_name("an index", start)?;
-            (rest, Some(base))
-        }
-        None => (input, None),
-    };
-    let (after, sign) = opt(token(additive)).parse(rest)?;
-    let (rest, offset) = match (&base, sign) {
-        (Some(_), None) => (rest, 0),
+fn index(input: &mut Input<'_>) -> Outcome<Spanned<Index>> {
+    let start = input.after_blanks().offset;
+    let base = input.next_word().map(|_| input.name("an index")).transpose()?;
+    let sign = input.additive();
+    let offset = match (&base, sign) {
+        (Some(_), None) => 0,
         (_, sign) => {
-            let (rest, Some(value)) = opt(token(digits)).parse(after)? else {
-                return Err(complaint::index_form(after));
-            };
-            let Some(value) = index_value(value.value) else {
-                return Err(complaint::index_too_large(rest, value.span));
-            };
-            let negative = sign.is_some_and(|sign| sign.value == Sign::Minus);
-            let value = i64::from(value);
-            (rest, if negative { -value } else { value })
+            let Some(digits) = input.digits() else { return Err(complaint::index_form(*input)) };
+            let value = i64::from(index_value(digits, *input)?);
+            if sign.is_some_and(|sign| sign.value == Sign::Minus) { -value } else { value }
         }
     };
-    let span = between(start, rest);
-    Ok((rest, Spanned::new(Index { base, offset }, span)))
+    Ok(Spanned::new(Index { base, offset }, Span::new(start, input.offset)))
 }
 
 /// A whole number within the limit of an index.
-fn index_value(digits: &str) -> Option<u32> {
-    let digits = digits.trim_start_matches('0');
-    match digits.len() {
+fn index_value(digits: Spanned<&str>, input: Input<'_>) -> Outcome<u32> {
+    let significant = digits.value.trim_start_matches('0');
+    let value = match significant.len() {
         0 => Some(0),
-        1..=7 => digits.parse().ok().filter(|&value| value <= MAX_INDEX),
+        1..=7 => significant.parse().ok().filter(|&value| value <= MAX_INDEX),
         _ => None,
-    }
+    };
+    value.ok_or_else(|| complaint::index_too_large(input, digits.span))
 }
 
 /// The whole number that the grammar demands between the brackets of a formula's left side.
-pub(super) fn demand_index(input: Input<'_>) -> Parsed<'_, Spanned<u32>> {
-    let (rest, Some(written)) = opt(token(digits)).parse(input)? else {
-        return Err(complaint::expected(input, "the number of a period"));
-    };
-    match index_value(written.value) {
-        Some(value) => Ok((rest, Spanned::new(value, written.span))),
-        None => Err(complaint::index_too_large(rest, written.span)),
+pub(super) fn demand_index(input: &mut Input<'_>) -> Outcome<Spanned<u32>> {
+    match input.digits() {
+        Some(digits) => Ok(Spanned::new(index_value(digits, *input)?, digits.span)),
+        None => Err(complaint::expected(*input, "the number of a period")),
     }
 }

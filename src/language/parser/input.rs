@@ -1,74 +1,152 @@
-//! The rest of a text, aware of its place in the whole.
+//! The rest of a text, aware of its place in the whole, and the tokens at its front. Nothing here
+//! complains: what is not there is `None`, and nothing is taken.
 
-use nom::{Compare, CompareResult, Needed, Offset};
+use super::super::layout::is_space;
+use super::super::name;
+use super::super::source::Source;
+use super::super::syntax::{Sign, Span, Spanned};
+use super::forms::{Form, SCENE};
+use crate::expression::Relation;
 
-use super::Context;
-
-/// What is still to be read.
+/// What is still to be read. It starts right behind the last token that was read, before the blanks
+/// that follow.
 #[derive(Clone, Copy)]
 pub(super) struct Input<'a> {
-    pub(super) text: &'a str,
+    pub text: &'a str,
     /// How many bytes of the whole come before it.
-    pub(super) offset: usize,
-    pub(super) context: Context<'a>,
+    pub offset: usize,
+    pub context: Context<'a>,
+}
+
+/// What a parser knows about its surroundings.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub source: &'a Source,
+    /// What the text is called in "the end of the …".
+    pub unit: &'static str,
+    /// How the whole unit is written, for a remedy.
+    pub form: Option<&'static str>,
+    /// The words that begin statements, the title's first, and how each statement is written.
+    pub forms: &'static [Form],
+    /// How far an expression goes.
+    pub extent: Extent,
+}
+
+/// Where an expression ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// Where it cannot go on; a word after it is a mistake.
+    Whole,
+    /// Also before a word, which is the unit of the whole.
+    Unit,
+    /// After one factor.
+    Factor,
+}
+
+impl Context<'_> {
+    /// Whether the text is a scene, in which braces and bars are signs.
+    pub fn is_scene(&self) -> bool {
+        self.forms[0] == SCENE[0]
+    }
 }
 
 impl<'a> Input<'a> {
-    fn with_text(self, text: &'a str, offset: usize) -> Input<'a> {
-        Input { text, offset, ..self }
+    /// The place where the input starts, of no width.
+    pub fn here(&self) -> Span {
+        Span::new(self.offset, self.offset)
+    }
+
+    /// Takes so many bytes.
+    pub fn take(&mut self, bytes: usize) -> &'a str {
+        let (taken, rest) = self.text.split_at(bytes);
+        (self.text, self.offset) = (rest, self.offset + bytes);
+        taken
+    }
+
+    /// The input after spaces, line ends and comments.
+    pub fn after_blanks(mut self) -> Input<'a> {
+        let mut rest = self.text.trim_start_matches(is_space);
+        while rest.starts_with('#') {
+            rest = &rest[rest.find('\n').unwrap_or(rest.len())..];
+            rest = rest.trim_start_matches(is_space);
+        }
+        self.take(self.text.len() - rest.len());
+        self
+    }
+
+    /// Whether the next token starts with this.
+    pub fn next_is(self, sign: impl AsRef<str>) -> bool {
+        self.after_blanks().text.starts_with(sign.as_ref())
+    }
+
+    /// A token after blanks; `length` says how long it is.
+    fn token(&mut self, length: impl Fn(&str) -> usize) -> Option<Spanned<&'a str>> {
+        let mut input = self.after_blanks();
+        let start = input.offset;
+        let text = input.take(length(input.text));
+        if text.is_empty() {
+            return None;
+        }
+        *self = input;
+        Some(Spanned::new(text, Span::new(start, input.offset)))
+    }
+
+    /// A fixed sign.
+    pub fn symbol(&mut self, sign: &str) -> Option<Span> {
+        let length = |text: &str| if text.starts_with(sign) { sign.len() } else { 0 };
+        self.token(length).map(|found| found.span)
+    }
+
+    /// One of several signs, and what it stands for.
+    pub fn one_of<T: Copy>(&mut self, signs: &[(&str, T)]) -> Option<Spanned<T>> {
+        let found = |(sign, value): &(&str, T)| Some(Spanned::new(*value, self.symbol(sign)?));
+        signs.iter().find_map(found)
+    }
+
+    /// `+` or `-`.
+    pub fn additive(&mut self) -> Option<Spanned<Sign>> {
+        self.one_of(&[("+", Sign::Plus), ("-", Sign::Minus), ("−", Sign::Minus)])
+    }
+
+    /// A comparison.
+    pub fn relation(&mut self) -> Option<Spanned<Relation>> {
+        self.one_of(&[
+            (">=", Relation::AtLeast),
+            ("≥", Relation::AtLeast),
+            ("<=", Relation::AtMost),
+            ("≤", Relation::AtMost),
+            ("!=", Relation::Unequal),
+            ("≠", Relation::Unequal),
+            (">", Relation::Greater),
+            ("<", Relation::Less),
+        ])
+    }
+
+    /// A prime, straight or as a word processor writes it; how many times it differentiates.
+    pub fn prime(&mut self) -> Option<Spanned<u32>> {
+        self.one_of(&[("'", 1), ("′", 1), ("’", 1), ("″", 2)])
+    }
+
+    /// A word as it is written: a letter, then letters, digits and `_`.
+    pub fn word(&mut self) -> Option<Spanned<&'a str>> {
+        self.token(|text| match text.starts_with(name::is_letter) {
+            true => text.len() - text.trim_start_matches(name::continues).len(),
+            false => 0,
+        })
+    }
+
+    /// The word that follows, left where it is.
+    pub fn next_word(mut self) -> Option<Spanned<&'a str>> {
+        self.word()
+    }
+
+    /// Digits alone, as they are written.
+    pub fn digits(&mut self) -> Option<Spanned<&'a str>> {
+        self.token(count_digits)
     }
 }
 
-impl<'a> nom::Input for Input<'a> {
-    type Item = char;
-    type Iter = std::str::Chars<'a>;
-    type IterIndices = std::str::CharIndices<'a>;
-
-    fn input_len(&self) -> usize {
-        self.text.len()
-    }
-
-    fn take(&self, index: usize) -> Self {
-        self.with_text(&self.text[..index], self.offset)
-    }
-
-    fn take_from(&self, index: usize) -> Self {
-        self.with_text(&self.text[index..], self.offset + index)
-    }
-
-    fn take_split(&self, index: usize) -> (Self, Self) {
-        (self.take_from(index), self.take(index))
-    }
-
-    fn position<P: Fn(char) -> bool>(&self, predicate: P) -> Option<usize> {
-        self.text.find(predicate)
-    }
-
-    fn iter_elements(&self) -> Self::Iter {
-        self.text.chars()
-    }
-
-    fn iter_indices(&self) -> Self::IterIndices {
-        self.text.char_indices()
-    }
-
-    fn slice_index(&self, count: usize) -> Result<usize, Needed> {
-        nom::Input::slice_index(&self.text, count)
-    }
-}
-
-impl Offset for Input<'_> {
-    fn offset(&self, later: &Self) -> usize {
-        later.offset - self.offset
-    }
-}
-
-impl Compare<&str> for Input<'_> {
-    fn compare(&self, other: &str) -> CompareResult {
-        self.text.compare(other)
-    }
-
-    fn compare_no_case(&self, other: &str) -> CompareResult {
-        self.text.compare_no_case(other)
-    }
+/// How many digits a text begins with.
+pub(super) fn count_digits(text: &str) -> usize {
+    text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len()
 }

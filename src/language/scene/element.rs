@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::tree::{Declaration, Declared, Property, SceneStatementKind};
 use super::{Lowering, Meaning, Outcome};
 use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::scope::with_likely;
-use crate::language::syntax::{Node, Span};
+use crate::language::scope::{symbol, with_likely};
+use crate::language::syntax::{Declaration, Declared, Node, Property, SceneStatementKind, Span};
 use crate::scene::{Bar, Body, Dimension, Drive, Kind, Load, Mass, PI, Spring, Support};
 use wavestep_polynomial::Rational;
 
@@ -45,41 +44,22 @@ const MAX_TERMS_SQUARED: usize = 300;
 const MATERIAL: &str = "material";
 
 /// The properties that a declaration may give.
-fn known(kind: Declared) -> &'static [&'static str] {
-    match kind {
-        Declared::Material => &["modulus", "density", "wave_speed"],
-        Declared::Bar => &[
-            "material",
-            "diameter",
-            "length",
-            "velocity",
-            "strain",
-            "area",
-            "inner_diameter",
-            "modulus",
-            "density",
-            "wave_speed",
-            "impedance",
-            "travel",
-        ],
-        Declared::Mass => &["mass", "velocity"],
-        Declared::Spring | Declared::Support => &["stiffness", "damping"],
-        Declared::Hertz => &[
-            "force",
-            "compression",
-            "exponent",
-            "stiffness",
-            "radius",
-            "material",
-            "modulus",
-            "poisson",
-            "radius2",
-            "material2",
-            "modulus2",
-            "poisson2",
-        ],
-        Declared::Load => &["force", "velocity", "from", "until"],
-    }
+fn known(kind: Declared) -> Vec<&'static str> {
+    let names = match kind {
+        Declared::Material => "modulus density wave_speed",
+        Declared::Bar => {
+            "material diameter length velocity strain area inner_diameter modulus density \
+             wave_speed impedance travel"
+        }
+        Declared::Mass => "mass velocity",
+        Declared::Spring | Declared::Support => "stiffness damping",
+        Declared::Hertz => {
+            "force compression exponent stiffness radius material modulus poisson radius2 \
+             material2 modulus2 poisson2"
+        }
+        Declared::Load => "force velocity from until",
+    };
+    names.split(' ').collect()
 }
 
 /// The properties of one declaration, each known and given once.
@@ -130,21 +110,18 @@ impl<'a> Lowering<'a> {
 
     /// The properties of a declaration. Those that are unknown or given twice are refused.
     fn given(&mut self, declaration: &'a Declaration) -> Option<Given<'a>> {
-        let kind = declaration.kind;
+        let (kind, known) = (declaration.kind, known(declaration.kind));
         let mut found = BTreeMap::<&str, &Property>::new();
         let mut is_whole = true;
         for property in &declaration.properties {
             let name = property.name.value.as_str();
-            let error = if !known(kind).contains(&name) {
+            let error = if !known.contains(&name) {
                 let message = format!("a {} has no property `{name}`", kind.noun());
-                let error = self.scope.error(message, property.name.span, "unknown property");
-                let names = known(kind).iter().copied();
-                let listed = known(kind).join("`, `");
-                with_likely(error, name, names).or_remedy(format!("its properties are `{listed}`"))
+                let error = self.error(message, property.name.span, "unknown property");
+                let remedy = format!("its properties are `{}`", known.join("`, `"));
+                with_likely(error, name, known.iter().copied()).or_remedy(remedy)
             } else if let Some(first) = found.get(name) {
-                let message = format!("`{name}` is given twice");
-                let error = self.scope.error(message, property.name.span, "again here");
-                error
+                self.error(format!("`{name}` is given twice"), property.name.span, "again here")
                     .with_secondary(first.name.span, "first given here")
                     .with_remedy("remove one of the two")
             } else {
@@ -184,28 +161,25 @@ impl<'a> Lowering<'a> {
         form: Form,
         example: &str,
     ) -> Option<Fraction> {
-        match self.optional(given, form) {
-            Ok(Some(value)) => Some(value),
-            Ok(None) => {
-                let (name, kind) = (form.0, given.0.kind.noun());
-                self.lack(given, format!("this {kind} has no {name}"), example);
-                None
-            }
-            Err(()) => None,
-        }
+        let message = || format!("this {} has no {}", given.0.kind.noun(), form.0);
+        self.optional(given, form).ok()?.or_else(|| self.lack(given, message(), example))
     }
 
     /// Something is not given.
-    pub(super) fn lack(&mut self, given: &Given<'_>, message: String, example: &str) {
+    pub(super) fn lack<T>(
+        &mut self,
+        given: &Given<'_>,
+        message: impl Into<String>,
+        example: &str,
+    ) -> Option<T> {
         let example = match self.unit {
             Some(_) => example.to_owned(),
             None => without_unit(example),
         };
         let error = self
-            .scope
             .error(message, given.span(), "incomplete")
             .with_remedy(format!("give it, as in `{example}`"));
-        self.errors.push(error);
+        self.refuse(error)
     }
 
     /// Two properties say the same in different ways.
@@ -220,12 +194,10 @@ impl<'a> Lowering<'a> {
         let message =
             format!("`{}` and `{}` cannot both be given", first.name.value, second.name.value);
         let error = self
-            .scope
             .error(message, second.name.span, "says it again")
             .with_secondary(first.name.span, "given here")
             .with_remedy("remove one of the two");
-        self.errors.push(error);
-        None
+        self.refuse(error)
     }
 
     /// A value of this declaration that is only used to work out others.
@@ -241,8 +213,7 @@ impl<'a> Lowering<'a> {
         let span = property.map_or(self.tree.title.span, |property| property.value.span);
         let error =
             self.not_positive(format!("{what} is not certainly positive"), span, value, false);
-        self.errors.push(error);
-        None
+        self.refuse(error)
     }
 
     /// A value that must be positive, or zero if that is allowed, and may not be.
@@ -266,7 +237,7 @@ impl<'a> Lowering<'a> {
             (false, true) => "give zero or a positive value",
             (false, false) => "give a positive value",
         };
-        self.scope.error(message, span, label).with_remedy(remedy)
+        self.error(message, span, label).with_remedy(remedy)
     }
 
     /// The square of a property, unless it would be huge.
@@ -276,11 +247,9 @@ impl<'a> Lowering<'a> {
         }
         let span = given.get(name).map_or(given.span(), |property| property.value.span);
         let error = self
-            .scope
             .error("this value is too large when squared", span, "grows too large")
             .with_remedy("introduce a symbol for a part of it");
-        self.errors.push(error);
-        None
+        self.refuse(error)
     }
 
     /// Modulus and density, of a material or a bar.
@@ -324,12 +293,8 @@ impl<'a> Lowering<'a> {
 
     fn solid(&mut self, given: &Given<'_>) -> Option<Body> {
         if given.1.keys().all(|name| ["velocity", "strain", "length"].contains(name)) {
-            self.lack(
-                given,
-                "this bar has neither impedance nor material".to_owned(),
-                "material = steel, diameter = 20 mm",
-            );
-            return None;
+            let message = "this bar has neither impedance nor material";
+            return self.lack(given, message, "material = steel, diameter = 20 mm");
         }
         let material = match given.get(MATERIAL) {
             Some(property) => {
@@ -350,28 +315,23 @@ impl<'a> Lowering<'a> {
     /// A material by name; `None` if it is wrong itself.
     pub(super) fn material(&self, property: &Property) -> Outcome<Option<Material>> {
         let Node::Name(name) = &property.value.value else {
-            return Err(self
-                .scope
-                .error("a material is given by its name", property.value.span, "not a name")
-                .with_remedy(
-                    "declare it, as in `material steel { modulus = 210 GPa, density = 7850 kg/m^3 }`, \
-                     and write `material = steel`",
-                ));
+            let error =
+                self.error("a material is given by its name", property.value.span, "not a name");
+            return Err(error.with_remedy(
+                "declare it, as in `material steel { modulus = 210 GPa, density = 7850 kg/m^3 }`, and \
+                 write `material = steel`",
+            ));
         };
         if let Some(unit) = &property.unit {
             return Err(self
-                .scope
                 .error("a material has no unit", unit.span, "not expected here")
                 .with_remedy("separate properties by commas"));
         }
         if let Some(material) = self.materials.get(name) {
             return Ok(material.clone());
         }
-        let error = self.scope.error(
-            format!("unknown material `{name}`"),
-            property.value.span,
-            "not declared",
-        );
+        let error =
+            self.error(format!("unknown material `{name}`"), property.value.span, "not declared");
         let known = self.declared.iter().filter(|(_, (_, m))| matches!(m, Meaning::Material));
         let names: Vec<&str> = known.map(|(name, _)| name.as_str()).collect();
         Err(with_likely(error, name, names.into_iter()).or_remedy(format!(
@@ -388,8 +348,7 @@ impl<'a> Lowering<'a> {
                 None => ("no section", "diameter = 20 mm` or `area = 3 cm^2"),
                 Some(_) => ("an inner diameter and no outer one", "diameter = 20 mm"),
             };
-            self.lack(given, format!("this bar has {missing}"), example);
-            return None;
+            return self.lack(given, format!("this bar has {missing}"), example);
         }
         if let Some(area) = self.optional(given, AREA).ok()? {
             return Some(area);
@@ -406,7 +365,6 @@ impl<'a> Lowering<'a> {
             if !self.scope.assumptions.is_positive(&(&diameter - &inner)) {
                 let span = outer_property.map_or(given.span(), |outer| outer.value.span);
                 let error = self
-                    .scope
                     .error(
                         "the inner diameter is not certainly smaller than the diameter",
                         property.value.span,
@@ -414,13 +372,12 @@ impl<'a> Lowering<'a> {
                     )
                     .with_secondary(span, "the diameter")
                     .with_remedy("leave something between the two");
-                self.errors.push(error);
-                return None;
+                return self.refuse(error);
             }
             squares = &squares - &self.square(given, "inner_diameter", &inner)?;
         }
         let quarter = Rational::new(1.into(), 4.into());
-        Some((&squares * &Fraction::symbol(&super::symbol(PI))).scale(&quarter))
+        Some((&squares * &Fraction::symbol(&symbol(PI))).scale(&quarter))
     }
 
     fn mass(&mut self, given: &Given<'_>) -> Option<Mass> {
@@ -432,8 +389,7 @@ impl<'a> Lowering<'a> {
     fn link(&mut self, given: &Given<'_>) -> Option<(Fraction, Fraction)> {
         if given.1.is_empty() {
             let message = format!("this {} has neither stiffness nor damping", given.0.kind);
-            self.lack(given, message, "stiffness = 40 kN/mm` or `damping = 0.3 kN*s/m");
-            return None;
+            return self.lack(given, message, "stiffness = 40 kN/mm` or `damping = 0.3 kN*s/m");
         }
         let (stiffness, damping) = (self.or_zero(given, STIFFNESS), self.or_zero(given, DAMPING));
         Some((stiffness?, damping?))
@@ -444,9 +400,8 @@ impl<'a> Lowering<'a> {
         let drive = given.get("force").map(|force| (force, Drive::Force, FORCE));
         let velocity = given.get("velocity").map(|velocity| (velocity, Drive::Velocity, VELOCITY));
         let Some((property, drive, (_, what, needed))) = drive.or(velocity) else {
-            let message = "this load gives neither force nor velocity".to_owned();
-            self.lack(given, message, "force = 3 kN` or `velocity = 2 m/s");
-            return None;
+            let message = "this load gives neither force nor velocity";
+            return self.lack(given, message, "force = 3 kN` or `velocity = 2 m/s");
         };
         let course = self.course(&property.value, property.unit.as_ref(), needed, what);
         let course = self.keep(course);
@@ -469,14 +424,4 @@ fn without_unit(example: &str) -> String {
         plain.push_str(kept);
     }
     plain
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn examples_lose_their_units() {
-        let example = "stiffness = 40 kN/mm` or `damping = 3 kN*s/m";
-        assert_eq!(super::without_unit(example), "stiffness = 40` or `damping = 3");
-        assert_eq!(super::without_unit("a = 1 m, b = 2 m"), "a = 1, b = 2");
-    }
 }

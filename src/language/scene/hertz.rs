@@ -68,11 +68,10 @@ impl Lowering<'_> {
             self.refuse_both(given, "stiffness", point)?;
         }
         if LAW[..3].iter().all(|name| given.get(name).is_none()) {
-            let message = "this local contact has neither a law nor bodies".to_owned();
+            let message = "this local contact has neither a law nor bodies";
             let example = "force = 10 kN, compression = 1/10 mm` or \
                            `radius = 6 mm, modulus = 210 GPa, poisson = 3/10";
-            self.lack(given, message, example);
-            return None;
+            return self.lack(given, message, example);
         }
         let exponent = self.exponent(given);
         let (force, compression) = match given.get("stiffness") {
@@ -93,7 +92,6 @@ impl Lowering<'_> {
         let value = self.optional(given, EXPONENT).ok()??;
         if value.as_constant().is_none() {
             let error = self
-                .scope
                 .error("an exponent is a rational number", property.value.span, "has a symbol")
                 .with_remedy("write a number such as `3/2`, or give the symbol a value with --set");
             self.errors.push(error);
@@ -108,14 +106,12 @@ impl Lowering<'_> {
             let message = "the stiffness of a local contact, N/m^m with its exponent m, has no unit \
                            here";
             let error = self
-                .scope
                 .error(message, property.name.span, "in a scene with units")
                 .with_secondary(unit, "this scene has units")
                 .with_remedy(
                     "give the force at a compression, as in `force = 10 kN, compression = 1/10 mm`",
                 );
-            self.errors.push(error);
-            return None;
+            return self.refuse(error);
         }
         let stiffness = self.optional(given, PLAIN_STIFFNESS).ok()??;
         self.refuse_not_positive(Some(property), &stiffness, "the stiffness")?;
@@ -164,9 +160,8 @@ impl Lowering<'_> {
     fn poisson(&mut self, given: &Given<'_>, body: &Body) -> Option<Fraction> {
         let example = format!("{} = 3/10", body.poisson.0);
         if given.get(body.poisson.0).is_none() {
-            let message = "a body of this local contact has no Poisson's ratio".to_owned();
-            self.lack(given, message, &example);
-            return None;
+            let message = "a body of this local contact has no Poisson's ratio";
+            return self.lack(given, message, &example);
         }
         let poisson = self.demanded(given, body.poisson, &example)?;
         let above = &constant(1, 1) + &poisson;
@@ -183,11 +178,9 @@ impl Lowering<'_> {
             None => "may be outside of this",
         };
         let error = self
-            .scope
             .error("Poisson's ratio is above -1 and at most 1/2", span, label)
             .with_remedy("metals have about 3/10, rubber has nearly 1/2");
-        self.errors.push(error);
-        None
+        self.refuse(error)
     }
 
     /// `R` with `1/R = 1/R_1 + 1/R_2`. A body without a radius is flat, one with a negative radius
@@ -199,29 +192,25 @@ impl Lowering<'_> {
             let radius = self.optional(given, body.radius).ok()??;
             if radius.is_zero() {
                 let error = self
-                    .scope
                     .error("a radius is not zero", property.value.span, "this is zero")
                     .with_remedy("leave it out for a flat body, or give the radius of the tip");
-                self.errors.push(error);
-                return None;
+                return self.refuse(error);
             }
             curvature = &curvature + &self.reciprocal(property.value.span, &radius)?;
             widest = Some(property.value.span);
         }
         let Some(span) = widest else {
-            let message = "this local contact is of two flat bodies".to_owned();
-            self.lack(given, message, "radius = 6 mm");
-            return None;
+            let message = "this local contact is of two flat bodies";
+            return self.lack(given, message, "radius = 6 mm");
         };
         if !self.scope.assumptions.is_positive(&curvature) {
             let message = "the bodies do not certainly touch at one point: 1/R1 + 1/R2 is not \
                            certainly positive";
-            let error = self.scope.error(message, span, "too hollow").with_remedy(
+            let error = self.error(message, span, "too hollow").with_remedy(
                 "a hollow, of negative radius, has to be wider than the ball in it: give it a larger \
                  radius",
             );
-            self.errors.push(error);
-            return None;
+            return self.refuse(error);
         }
         self.reciprocal(span, &curvature)
     }
@@ -233,11 +222,9 @@ impl Lowering<'_> {
             Err(_) => {
                 let message = "this would have to be divided by, and is not known to be non-zero";
                 let error = self
-                    .scope
                     .error(message, span, "divides")
                     .with_remedy("give its symbols values with --set, or write numbers");
-                self.errors.push(error);
-                None
+                self.refuse(error)
             }
         }
     }

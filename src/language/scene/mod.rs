@@ -6,25 +6,26 @@
 mod element;
 mod hertz;
 mod observe;
-pub(super) mod print;
 mod refusal;
-pub(super) mod tree;
 pub(super) mod units;
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::Rational;
 
 use super::diagnostic::Diagnostic;
 use super::name;
 use super::parameters;
-use super::scope::{FUNCTIONS, Place, Scope, with_likely};
-use super::syntax::{self, Expression as Tree, Name, Node, Span};
+use super::scope::{FUNCTIONS, Place, Scope, symbol, with_likely};
+use super::syntax::{
+    self, Declaration, Declared, Expression as Tree, Name, Node, SceneStatementKind, Section, Span,
+    Unit,
+};
 use crate::expression::{Assumptions, Condition, Expression, Fraction, Relation};
 use crate::limits::MAX_MISTAKES;
 use crate::scene::{self, Dimension, ElementIndex, Kind, PI};
 use element::Material;
-use tree::{Declaration, Declared, SceneStatementKind, Section, Unit};
 
 type Outcome<T> = Result<T, Diagnostic>;
 
@@ -47,7 +48,7 @@ const TAKEN: [(&str, &str); 7] = [
 
 /// Lowers a scene, with `values` in place of symbols from the start.
 pub(super) fn scene(
-    tree: &tree::Scene,
+    tree: &syntax::Scene,
     values: &BTreeMap<String, Rational>,
 ) -> Result<scene::Scene, Vec<Diagnostic>> {
     let mut lowering = Lowering::new(tree, values);
@@ -87,10 +88,6 @@ pub(super) fn scene(
     Err(lowering.into_errors())
 }
 
-fn symbol(name: &str) -> Symbol {
-    Symbol::new(name).expect("names of the language are names of symbols")
-}
-
 /// An element of the text.
 struct Known<'a> {
     declaration: &'a Declaration,
@@ -108,7 +105,7 @@ enum Meaning {
 }
 
 struct Lowering<'a> {
-    tree: &'a tree::Scene,
+    tree: &'a syntax::Scene,
     values: &'a BTreeMap<String, Rational>,
     /// Symbols, `pi` and the time; its assumptions know of `pi`.
     scope: Scope,
@@ -125,7 +122,7 @@ struct Lowering<'a> {
 }
 
 impl<'a> Lowering<'a> {
-    fn new(tree: &'a tree::Scene, values: &'a BTreeMap<String, Rational>) -> Self {
+    fn new(tree: &'a syntax::Scene, values: &'a BTreeMap<String, Rational>) -> Self {
         let mut scope = Scope::new(&tree.source);
         scope.time = Some(symbol(TIME));
         Lowering {
@@ -145,9 +142,24 @@ impl<'a> Lowering<'a> {
         self.tree.statements.iter().map(|statement| &statement.value)
     }
 
+    fn error(
+        &self,
+        message: impl Into<String>,
+        span: Span,
+        label: impl Into<String>,
+    ) -> Diagnostic {
+        self.scope.error(message, span, label)
+    }
+
+    /// Notes what is wrong.
+    fn refuse<T>(&mut self, error: Diagnostic) -> Option<T> {
+        self.errors.push(error);
+        None
+    }
+
     /// Keeps what was found, or what is wrong.
     fn keep<T>(&mut self, outcome: Outcome<T>) -> Option<T> {
-        outcome.map_err(|error| self.errors.push(error)).ok()
+        outcome.map_or_else(|error| self.refuse(error), Some)
     }
 
     /// The errors in the order of the text, each mistake once.
@@ -182,22 +194,14 @@ impl<'a> Lowering<'a> {
         let taken = TAKEN.iter().find(|(taken, _)| *taken == name.value);
         if let Some((taken, why)) = taken {
             let error = self
-                .scope
                 .error(format!("`{taken}` {why}"), name.span, "cannot be declared")
                 .with_remedy("choose another name");
             self.errors.push(error);
         }
-        match self.declared.get(&name.value) {
-            None => {
-                self.declared.insert(name.value.clone(), (name.span, meaning));
-            }
-            Some((first, _)) => {
-                let error = self
-                    .scope
-                    .error(format!("`{}` is declared twice", name.value), name.span, "again here")
-                    .with_secondary(*first, "first declared here")
-                    .with_remedy("choose another name, or remove one of the two");
-                self.errors.push(error);
+        match self.declared.entry(name.value.clone()) {
+            Entry::Vacant(place) => drop(place.insert((name.span, meaning))),
+            Entry::Occupied(place) => {
+                self.errors.push(self.scope.declared_twice(name, place.get().0));
             }
         }
     }
@@ -259,7 +263,6 @@ impl<'a> Lowering<'a> {
                 None => found = Some((line, statement.span)),
                 Some((_, first)) => {
                     let error = self
-                        .scope
                         .error("a scene has one line", statement.span, "a second line")
                         .with_secondary(first, "the first line")
                         .with_remedy("remove one of the two, or put it into a file of its own");
@@ -269,11 +272,9 @@ impl<'a> Lowering<'a> {
         }
         let Some((line, _)) = found else {
             let error = self
-                .scope
                 .error("no line is stated", self.tree.title.span, "of this scene")
                 .with_remedy("say how the elements are joined, as in `line free - rod - fixed`");
-            self.errors.push(error);
-            return None;
+            return self.refuse(error);
         };
         let mut elements = Vec::new();
         for name in &line.elements {
@@ -302,7 +303,7 @@ impl<'a> Lowering<'a> {
             Some((_, Meaning::Symbol)) => "symbol",
             Some((_, Meaning::Observable)) => "observable",
             _ => {
-                let error = self.scope.error(
+                let error = self.error(
                     format!("unknown element `{}`", name.value),
                     name.span,
                     "not declared",
@@ -320,7 +321,6 @@ impl<'a> Lowering<'a> {
         };
         let article = if what == "observable" { "an" } else { "a" };
         Err(self
-            .scope
             .error(format!("`{}` is {article} {what}", name.value), name.span, "not an element")
             .with_secondary(found.map_or(name.span, |(span, _)| *span), "declared here")
             .with_remedy("name a bar, a mass, a spring, a local contact, a support or a load"))
@@ -335,13 +335,7 @@ impl<'a> Lowering<'a> {
         what: &'static str,
     ) -> Outcome<Fraction> {
         self.refuse_strangers(tree)?;
-        let value = self.scope.lower_constant(tree, what)?;
-        let Some(value) = value.as_fraction() else {
-            return Err(self
-                .scope
-                .error(format!("{what} holds no exponential"), tree.span, "holds an exponential")
-                .with_remedy("introduce a symbol for it"));
-        };
+        let value = self.scope.lower_fraction(tree, what)?;
         let factor = self.unit_factor(tree, unit, needed, what, value.is_zero())?;
         Ok(value.scale(&factor))
     }
@@ -388,10 +382,9 @@ impl<'a> Lowering<'a> {
                         format!("give it in {symbol}"),
                     ),
                 };
-                Err(self.scope.error(message, unit.span, format!("not {what}")).with_remedy(remedy))
+                Err(self.error(message, unit.span, format!("not {what}")).with_remedy(remedy))
             }
             (None, Some(first)) if needed != Dimension::NONE && !is_zero => Err(self
-                .scope
                 .error(format!("{what} {NEEDS_UNIT}"), tree.span, "a plain number")
                 .with_secondary(first, "this scene has units")
                 .with_remedy(format!(
@@ -412,7 +405,7 @@ impl<'a> Lowering<'a> {
 
     /// Refuses what belongs to recurrences only, and names that are no values.
     fn refuse_strangers(&self, tree: &Tree) -> Outcome<()> {
-        let error = |message: String, span, label| Err(self.scope.error(message, span, label));
+        let error = |message: String, span, label| Err(self.error(message, span, label));
         match &tree.value {
             Node::Name(name) if !self.scope.symbols.contains_key(name) && name != TIME => {
                 let stands_for = match self.declared.get(name) {
@@ -439,7 +432,6 @@ impl<'a> Lowering<'a> {
                     _ => "an observable".to_owned(),
                 };
                 Err(self
-                    .scope
                     .error(format!("`{name}` is {what}, not a value"), tree.span, "not a value")
                     .with_secondary(first, "declared here")
                     .with_remedy("use numbers and declared symbols"))
@@ -461,7 +453,6 @@ impl<'a> Lowering<'a> {
                     false => "use numbers, declared symbols, and `exp`".to_owned(),
                 };
                 Err(self
-                    .scope
                     .error(format!("`{word}` is no function"), name.span, format!("in `{shown}`"))
                     .with_remedy(remedy))
             }
@@ -479,7 +470,7 @@ impl<'a> Lowering<'a> {
 }
 
 /// The first unit of a text.
-fn first_unit(tree: &tree::Scene) -> Option<Span> {
+fn first_unit(tree: &syntax::Scene) -> Option<Span> {
     tree.statements.iter().find_map(|statement| match &statement.value {
         SceneStatementKind::Declaration(declaration) => {
             let mut units = declaration.properties.iter().filter_map(|p| p.unit.as_ref());

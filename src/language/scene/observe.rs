@@ -1,9 +1,11 @@
 //! Observables: measures, and the places where they are taken.
 
-use super::tree::{ObservedTerm, SceneStatementKind, Section, Unit};
 use super::{Lowering, Outcome};
 use crate::expression::Fraction;
-use crate::language::syntax::{Expression as Tree, Name, Node, Operator, Sign, Spanned};
+use crate::language::syntax::{
+    Declared, Expression as Tree, Factor, Name, Node, ObservedTerm, Operator, SceneStatementKind,
+    Section, Sign, Spanned, Unit,
+};
 use crate::scene::{Body, Dimension, ElementIndex, Kind, Observable, Place, Position, Seen};
 
 impl Lowering<'_> {
@@ -32,33 +34,14 @@ impl Lowering<'_> {
     }
 
     fn coefficient(&self, term: &ObservedTerm) -> Outcome<Fraction> {
-        const WHAT: &str = "the factor of a measure";
-        let mut factors = term.factors.clone();
-        if factors.first().is_some_and(|first| first.operator == Operator::Divide) {
-            let one = Tree::new(
-                Node::Number(wavestep_polynomial::Rational::from_integer(1.into())),
-                term.place.span,
-            );
-            let first =
-                crate::language::syntax::Factor { operator: Operator::Multiply, value: one };
-            factors.insert(0, first);
-        }
-        let value = match factors.len() {
-            0 => Fraction::one(),
-            _ => {
-                for factor in &factors {
-                    self.refuse_strangers(&factor.value)?;
-                }
-                let span = factors[0].value.span;
-                let product = Spanned::new(Node::Product(factors), span);
-                let value = self.scope.lower_constant(&product, WHAT)?;
-                value.as_fraction().ok_or_else(|| {
-                    self.scope
-                        .error(format!("{WHAT} holds no exponential"), span, "holds an exponential")
-                        .with_remedy("introduce a symbol for it")
-                })?
-            }
+        let span = match term.factors.first() {
+            None => term.place.span,
+            Some(Factor { operator: Operator::Divide, .. }) => term.place.span,
+            Some(first) => first.value.span,
         };
+        term.factors.iter().try_for_each(|factor| self.refuse_strangers(&factor.value))?;
+        let product = Spanned::new(Node::Product(term.factors.clone()), span);
+        let value = self.scope.lower_fraction(&product, "the factor of a measure")?;
         Ok(if term.sign == Sign::Minus { -&value } else { value })
     }
 
@@ -68,7 +51,6 @@ impl Lowering<'_> {
             return match &place.section {
                 None => Ok(Some(Place::Line)),
                 Some(_) => Err(self
-                    .scope
                     .error("the line as a whole has no sections", term.place.span, "not a bar")
                     .with_remedy("name a bar, as in `rod.left`")),
             };
@@ -77,10 +59,9 @@ impl Lowering<'_> {
         let Some(section) = &place.section else { return Ok(Some(Place::Element(element))) };
         let known = &self.elements[element];
         let kind = known.declaration.kind;
-        if kind != super::Declared::Bar {
+        if kind != Declared::Bar {
             let name = &place.element.value;
             return Err(self
-                .scope
                 .error(
                     "only bars have sections",
                     term.place.span,
@@ -124,7 +105,6 @@ impl Lowering<'_> {
             let symbol = needed.unit();
             let shown = self.shown(tree);
             return Err(self
-                .scope
                 .error("an endless bar has no length to take a share of", tree.span, "a share")
                 .with_secondary(
                     self.elements[element].declaration.name.span,

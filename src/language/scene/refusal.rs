@@ -1,12 +1,11 @@
 //! What is impossible about a scene, at its places in the text.
 
 use super::Lowering;
-use super::tree::{Declaration, Line, ObservedTerm, SceneStatementKind};
 use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::syntax::{Span, Spanned};
+use crate::language::syntax::{Declaration, Line, ObservedTerm, SceneStatementKind, Span, Spanned};
 use crate::scene::{
-    Body, ElementIndex, Fault, Kind, Measure, Mistake, Part, Place, Property, Scene,
+    Body, Element, ElementIndex, Fault, Kind, Measure, Mistake, Part, Place, Property, Scene,
 };
 
 impl Lowering<'_> {
@@ -23,7 +22,7 @@ impl Lowering<'_> {
         let (message, labels, remedy) = self.explained(scene, fault);
         let mut labels = labels.into_iter();
         let label = labels.next().unwrap_or_default();
-        let error = self.scope.error(message, spans[0], label).with_remedy(remedy);
+        let error = self.error(message, spans[0], label).with_remedy(remedy);
         let others = spans[1..].iter().zip(labels).filter(|(_, label)| !label.is_empty());
         others.fold(error, |error, (span, label)| error.with_secondary(*span, label))
     }
@@ -39,15 +38,15 @@ impl Lowering<'_> {
         self.elements[element].declaration
     }
 
-    fn name_at(&self, part: Part) -> String {
+    fn name_at(&self, part: Part) -> &str {
         match part {
             Part::Element(element) | Part::Property(element, _) => {
-                self.declaration(element).name.value.clone()
+                &self.declaration(element).name.value
             }
-            Part::Position(position) => self
-                .statement_of_line()
-                .map_or_else(String::new, |(line, _)| line.elements[position].value.clone()),
-            _ => String::new(),
+            Part::Position(position) => {
+                self.statement_of_line().map_or("", |(line, _)| &line.elements[position].value)
+            }
+            _ => "",
         }
     }
 
@@ -100,61 +99,69 @@ impl Lowering<'_> {
 
     /// Message, labels of the parts, remedy.
     fn explained(&self, scene: &Scene, fault: &Fault) -> (String, Vec<String>, String) {
-        let name = fault.parts.first().map_or_else(String::new, |part| self.name_at(*part));
-        let second = fault.parts.get(1).map_or_else(String::new, |part| self.name_at(*part));
+        let name_of = |part: usize| fault.parts.get(part).map_or("", |part| self.name_at(*part));
+        let (name, second) = (name_of(0), name_of(1));
         let noun = || match fault.parts.first() {
             Some(Part::Position(position)) => {
                 self.declaration(scene.line.elements[*position]).kind.noun()
             }
-            _ => "spring".to_owned(),
+            _ => "spring",
         };
-        let message = match fault.mistake {
-            Mistake::Repeated => format!("`{name}` stands in the line twice"),
-            Mistake::Unused => format!("`{name}` does not stand in the line"),
-            Mistake::Held => format!("the {} `{name}` can do nothing at a fixed end", noun()),
-            Mistake::Idle => format!("this {} has nothing to press against", noun()),
-            _ => fault.to_string(),
-        };
-        let remedy = match fault.mistake {
+        let (message, labels, remedy): (_, &[&str], _) = match fault.mistake {
             Mistake::NotMeasurable => return self.not_measurable(scene, fault),
             Mistake::NoLength => {
-                let (labels, remedy) = self.without_length(scene, fault, &name);
-                return (message, labels, remedy);
+                let (labels, remedy) = self.without_length(scene, fault, name);
+                return (fault.to_string(), labels, remedy);
             }
             Mistake::MixedDimensions => {
-                let mut labels = self.units_of_terms(scene, fault);
-                labels.truncate(2);
-                return (message, labels, "observe them by a statement each".to_owned());
+                let labels = self.units_of_terms(scene, fault);
+                return (fault.to_string(), labels, "observe them by a statement each".to_owned());
             }
-            Mistake::Unused => format!("put `{name}` into the line, or remove it"),
-            Mistake::Held => {
-                format!("remove `{name}`, or put a bar or a spring between it and the fixed end")
-            }
-            Mistake::Idle => {
-                format!("put a mass, a support or a load at the free end, or remove `{name}`")
-            }
-            Mistake::EndlessWithoutBar => {
-                format!("put a bar without length between `{second}` and `endless`")
-            }
+            Mistake::Unused => (
+                format!("`{name}` does not stand in the line"),
+                &["declared here", "not in this line"],
+                format!("put `{name}` into the line, or remove it"),
+            ),
+            Mistake::Held => (
+                format!("the {} `{name}` can do nothing at a fixed end", noun()),
+                &["cannot move", "fixed here"],
+                format!("remove `{name}`, or put a bar or a spring between it and the fixed end"),
+            ),
+            Mistake::Idle => (
+                format!("this {} has nothing to press against", noun()),
+                &["can do nothing", "nothing to press against"],
+                format!("put a mass, a support or a load at the free end, or remove `{name}`"),
+            ),
+            Mistake::EndlessWithoutBar => (
+                fault.to_string(),
+                &["`endless` here", "not a bar"],
+                format!("put a bar without length between `{second}` and `endless`"),
+            ),
             Mistake::EndlessWithLength => {
                 let property = match fault.parts.get(2) {
                     Some(Part::Property(_, Property::Travel)) => "travel",
                     _ => "length",
                 };
-                format!(
+                let remedy = format!(
                     "leave out the `{property}` of `{second}`, or end the line with `free` or `fixed`"
-                )
+                );
+                (fault.to_string(), &["`endless` here", "this bar", "has a length"], remedy)
             }
-            mistake => plain_remedy(mistake).to_owned(),
+            mistake => {
+                let (labels, remedy) = plain(mistake);
+                let message = match mistake {
+                    Mistake::Repeated => format!("`{name}` stands in the line twice"),
+                    _ => fault.to_string(),
+                };
+                (message, labels, remedy.to_owned())
+            }
         };
-        let labels = labels(fault.mistake).iter().map(|label| (*label).to_owned()).collect();
-        (message, labels, remedy)
+        (message, labels.iter().map(|label| (*label).to_owned()).collect(), remedy)
     }
 
     fn without_length(&self, scene: &Scene, fault: &Fault, name: &str) -> (Vec<String>, String) {
-        let property = match &scene.line.elements.iter().find_map(|element| {
-            (self.declaration(*element).name.value == name).then(|| &scene.elements[*element].kind)
-        }) {
+        let named = |element: &&Element| element.name == name;
+        let property = match scene.elements.iter().find(named).map(|element| &element.kind) {
             Some(Kind::Bar(bar)) if matches!(bar.body, Body::Impedance { .. }) => "travel",
             _ => "length",
         };
@@ -184,7 +191,7 @@ impl Lowering<'_> {
             }
             _ => None,
         });
-        described.collect()
+        described.take(2).collect()
     }
 
     /// A measure at a place that does not have it.
@@ -208,28 +215,21 @@ impl Lowering<'_> {
             true => "a section of a bar".to_owned(),
             false => format!("a {}", kind.noun()),
         };
-        let instead: Vec<String> = match (&scene.elements[element].kind, is_section) {
-            (Kind::Bar(_), true) if seen.measure == Measure::Compression => {
-                vec![format!("displacement({name}.left) - displacement({name}.right)")]
+        let instead = match (&scene.elements[element].kind, seen.measure) {
+            (Kind::Bar(_), Measure::Compression) => {
+                format!("`displacement({name}.left) - displacement({name}.right)`")
             }
-            (Kind::Bar(_), true) => vec![format!("{word}({name})")],
-            (Kind::Bar(_), false) if seen.measure == Measure::Compression => {
-                vec![format!("displacement({name}.left) - displacement({name}.right)")]
-            }
-            (Kind::Bar(_), false) => {
-                vec![format!("{word}({name}.left)"), format!("{word}({name}.at(1/2))")]
-            }
-            (Kind::Mass(_), _) => {
-                vec![format!("velocity({name})"), format!("displacement({name})")]
-            }
-            (Kind::Spring(_) | Kind::Hertz(_), _) if seen.measure == Measure::Displacement => {
-                vec![format!("compression({name})")]
+            (Kind::Bar(_), _) if is_section => format!("`{word}({name})`"),
+            (Kind::Bar(_), _) => format!("`{word}({name}.left)` or `{word}({name}.at(1/2))`"),
+            (Kind::Mass(_), _) => format!("`velocity({name})` or `displacement({name})`"),
+            (Kind::Spring(_) | Kind::Hertz(_), Measure::Displacement) => {
+                format!("`compression({name})`")
             }
             (Kind::Spring(_) | Kind::Hertz(_), _) => {
-                vec![format!("compression({name})"), format!("force({name})")]
+                format!("`compression({name})` or `force({name})`")
             }
-            (Kind::Support(_), _) => vec![format!("force({name})"), format!("energy({name})")],
-            (Kind::Load(_), _) => vec![format!("force({name})")],
+            (Kind::Support(_), _) => format!("`force({name})` or `energy({name})`"),
+            (Kind::Load(_), _) => format!("`force({name})`"),
         };
         let beside = match (&scene.elements[element].kind, seen.measure) {
             (Kind::Bar(_), _) => "",
@@ -239,74 +239,70 @@ impl Lowering<'_> {
             (Kind::Mass(_), Measure::Force) => ", or the force at the end of a bar beside it",
             _ => "",
         };
-        let instead: Vec<String> = instead.iter().map(|text| format!("`{text}`")).collect();
         (
             format!("{what} has no {word}"),
-            vec![format!("`{name}` is {}", self.kind_with_article(element))],
-            format!("observe {}{beside}", instead.join(" or ")),
+            vec![format!("`{name}` is a {}", kind.noun())],
+            format!("observe {instead}{beside}"),
         )
     }
-
-    fn kind_with_article(&self, element: ElementIndex) -> String {
-        format!("a {}", self.declaration(element).kind.noun())
-    }
 }
 
-/// What the parts of a mistake are, in their order.
-fn labels(mistake: Mistake) -> &'static [&'static str] {
+/// What the parts of a mistake are, in their order, and the remedy, where it needs no names.
+fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
     match mistake {
-        Mistake::IllFormed | Mistake::NotPositive | Mistake::Negative => &["not possible"],
-        Mistake::Repeated => &["again here", "first here"],
-        Mistake::Unused => &["declared here", "not in this line"],
-        Mistake::NoStiffness => &["both are zero"],
-        Mistake::EndsBeforeBegin => &["ends here", "begins here"],
-        Mistake::ExponentTooSmall => &["smaller"],
-        Mistake::ExponentTooLarge => &["larger"],
-        Mistake::NothingMoves => &["at rest, and without load"],
-        Mistake::EndlessWithoutBar => &["`endless` here", "not a bar"],
-        Mistake::EndlessWithLength => &["`endless` here", "this bar", "has a length"],
-        Mistake::EndlessBothSides => &["this bar", "endless here", "and here"],
-        Mistake::ContactAtEnd => &["a contact", "with this end"],
-        Mistake::Held => &["cannot move", "fixed here"],
-        Mistake::Idle => &["can do nothing", "nothing to press against"],
-        Mistake::TwoVelocities => &["imposes a velocity", "imposes one too"],
-        Mistake::NoArea => &["given by impedance, without an area"],
-        Mistake::NoWaveSpeed => &["given by impedance, without a wave speed", "this bar"],
-        Mistake::NoSuchEnd => &["no such end"],
-        Mistake::ShareOfEndless => &["a share"],
-        Mistake::OutsideBar => &["not certainly inside"],
-        Mistake::Infinite => &["of an endless bar", "in motion or strained from the start"],
-        Mistake::NoLength | Mistake::NotMeasurable | Mistake::MixedDimensions => &[],
-    }
-}
-
-/// The remedy of a mistake that needs no names.
-fn plain_remedy(mistake: Mistake) -> &'static str {
-    match mistake {
-        Mistake::Repeated => {
-            "declare another element with the same properties, or remove one of the two"
+        Mistake::Repeated => (
+            &["again here", "first here"],
+            "declare another element with the same properties, or remove one of the two",
+        ),
+        Mistake::NoStiffness => {
+            (&["both are zero"], "give a positive `stiffness` or a positive `damping`")
         }
-        Mistake::NoStiffness => "give a positive `stiffness` or a positive `damping`",
-        Mistake::EndsBeforeBegin => {
-            "let `until` be later than `from`, which is 0 if it is left out"
+        Mistake::EndsBeforeBegin => (
+            &["ends here", "begins here"],
+            "let `until` be later than `from`, which is 0 if it is left out",
+        ),
+        Mistake::ExponentTooSmall => {
+            (&["smaller"], "give a larger `exponent`; a ball on a flat body has 3/2")
         }
-        Mistake::ExponentTooSmall => "give a larger `exponent`; a ball on a flat body has 3/2",
-        Mistake::ExponentTooLarge => "give a smaller `exponent`; a ball on a flat body has 3/2",
-        Mistake::NothingMoves => {
-            "give something in the line a `velocity` or a `strain`, or add a load"
+        Mistake::ExponentTooLarge => {
+            (&["larger"], "give a smaller `exponent`; a ball on a flat body has 3/2")
         }
-        Mistake::EndlessBothSides => {
-            "end the line with `free` or `fixed` on one side, or join something to the bar"
+        Mistake::NothingMoves => (
+            &["at rest, and without load"],
+            "give something in the line a `velocity` or a `strain`, or add a load",
+        ),
+        Mistake::EndlessBothSides => (
+            &["this bar", "endless here", "and here"],
+            "end the line with `free` or `fixed` on one side, or join something to the bar",
+        ),
+        Mistake::ContactAtEnd => {
+            (&["a contact", "with this end"], "write `-` beside `free` and `endless`")
         }
-        Mistake::ContactAtEnd => "write `-` beside `free` and `endless`",
-        Mistake::TwoVelocities => "impose one velocity, the sum of both if that is meant",
-        Mistake::NoArea => "observe the force, or give the bar an area, a modulus and a density",
-        Mistake::NoWaveSpeed => "give the bar by an area, a modulus and a density",
-        Mistake::NoSuchEnd => "observe the other end, or `at` a distance from it",
-        Mistake::ShareOfEndless => "give a distance from the end of the bar",
-        Mistake::OutsideBar => "give a share from 0 to 1, or a distance from 0 to the length",
-        Mistake::Infinite => "observe a finite bar, or let the endless one start at rest",
-        _ => "check the values given",
+        Mistake::TwoVelocities => (
+            &["imposes a velocity", "imposes one too"],
+            "impose one velocity, the sum of both if that is meant",
+        ),
+        Mistake::NoArea => (
+            &["given by impedance, without an area"],
+            "observe the force, or give the bar an area, a modulus and a density",
+        ),
+        Mistake::NoWaveSpeed => (
+            &["given by impedance, without a wave speed", "this bar"],
+            "give the bar by an area, a modulus and a density",
+        ),
+        Mistake::NoSuchEnd => {
+            (&["no such end"], "observe the other end, or `at` a distance from it")
+        }
+        Mistake::ShareOfEndless => (&["a share"], "give a distance from the end of the bar"),
+        Mistake::OutsideBar => (
+            &["not certainly inside"],
+            "give a share from 0 to 1, or a distance from 0 to the length",
+        ),
+        Mistake::Infinite => (
+            &["of an endless bar", "in motion or strained from the start"],
+            "observe a finite bar, or let the endless one start at rest",
+        ),
+        _ => (&["not possible"], "check the values given"),
     }
 }
 

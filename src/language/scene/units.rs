@@ -136,28 +136,3 @@ fn unknown(scope: &Scope, name: &str, span: crate::language::Span) -> Diagnostic
 pub(super) fn is_unit(name: &str) -> bool {
     named(name).is_some()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_are_exact() {
-        for (name, numerator, denominator) in [
-            ("kg", 1, 1),
-            ("mm", 1, 1000),
-            ("min", 60, 1),
-            ("GPa", 1_000_000_000, 1),
-            ("us", 1, 1_000_000),
-            ("in", 254, 10_000),
-        ] {
-            let value = Rational::new(numerator.into(), denominator.into());
-            assert_eq!(named(name).map(|unit| unit.value), Some(value), "{name}");
-        }
-        let pound: Rational = "44482216152605/10000000000000".parse().unwrap();
-        assert_eq!(named("lbf").map(|unit| unit.value), Some(pound));
-        for name in ["cs", "kmin", "kk", "", "M", "pa", "dN"] {
-            assert_eq!(named(name), None, "{name}");
-        }
-    }
-}

@@ -1,5 +1,7 @@
 //! Derivations in both ways, and what was stated, computed once more straight from the statement.
 
+pub mod corpus;
+
 use wavestep::expression::{Expression, Fraction};
 use wavestep::recurrence::{LinearForm, Recurrence};
 use wavestep::solution::{EchoByEcho, PeriodByPeriod};
