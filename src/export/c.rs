@@ -10,13 +10,10 @@ use std::fmt::Write as _;
 /// The heading of a C file.
 #[derive(Clone, Debug)]
 pub struct CHeading {
-    /// The title of the scene.
     pub title: String,
-    /// The name of the observable, also that of the function.
     pub quantity: String,
     /// The unit of its values; empty if they have none.
     pub unit: String,
-    /// The unit of time.
     pub time_unit: String,
     /// The command that writes the file.
     pub command: String,

@@ -2,9 +2,10 @@
 
 use crate::export::arrangement::arrange;
 use crate::export::formula::{Formula, Head, Right, latex, text};
-use crate::export::names::{Name, Names};
-use crate::export::notation::{Latex, Text, write_flat};
+use crate::export::names::{self, Name, Names};
+use crate::export::notation::{Notation, both};
 use crate::export::tree::{Sign, Term};
+use crate::export::writer::write_flat;
 use crate::expression::{Constant, Definition, Expression, Fraction, Root};
 use crate::network::{Law, Network, Role, Rule};
 use crate::recurrence::{LinearForm, Recurrence, Statement};
@@ -62,8 +63,9 @@ impl Derivation {
     /// A sentence, with a value in place of `{}`.
     fn sentence_with(&mut self, sentence: &str, value: Option<&Fraction>) {
         let terms = value.map(|value| arrange(&value.clone().into(), None)).unwrap_or_default();
-        let text = sentence.replace("{}", &write_flat(&terms, &Text));
-        let latex = prose(sentence).replace("{}", &format!("${}$", write_flat(&terms, &Latex)));
+        let (text, latex) = both(|n| write_flat(&terms, n));
+        let text = sentence.replace("{}", &text);
+        let latex = prose(sentence).replace("{}", &format!("${latex}$"));
         self.parts.push(Block::Sentence(text, latex));
     }
 
@@ -93,10 +95,7 @@ impl Derivation {
         }
         if !constants.is_empty() {
             let constants = constants.iter().map(|constant| {
-                let head = Head::Written(
-                    constant.symbol.name().to_owned(),
-                    Latex::name(constant.symbol.name()),
-                );
+                let head = Head::both(|n| n.symbol(&constant.symbol));
                 let right = definition(&constant.value);
                 let number = decimal(&constant.value).map(|number| format!("= {number}"));
                 let remark = number.map(|number| (number.clone(), String::new()));
@@ -135,15 +134,11 @@ impl Derivation {
                 &format!("The bar `{name}` {way}. Its velocity v and compressive force X are"),
                 data.travel.as_ref(),
             );
-            let equation = |head: (&str, &str), terms: Vec<Term>| Formula {
-                head: Head::Written(head.0.to_owned(), head.1.to_owned()),
-                right: Right::Terms(terms),
-                remark: None,
+            let equation = |head: &str, terms: Vec<Term>| {
+                Formula::of(Head::both(|_| head.to_owned()), Right::Terms(terms))
             };
-            self.parts.push(Block::Equations(vec![
-                equation(("v", "v"), velocity),
-                equation(("X", "X"), force),
-            ]));
+            let equations = vec![equation("v", velocity), equation("X", force)];
+            self.parts.push(Block::Equations(equations));
         }
         for wave in network.waves() {
             let (name, what) = match wave.role {
@@ -189,7 +184,6 @@ impl Derivation {
         }
     }
 
-    /// Plain text.
     pub fn to_text(&self, width: usize) -> String {
         let mut out = String::new();
         for part in &self.parts {
@@ -244,7 +238,7 @@ pub fn form_text(recurrence: &Recurrence, form: &LinearForm) -> String {
 /// subscript, `a_tilde` with an accent; with an index beside the subscript where one is given.
 #[must_use]
 pub fn latex_name(name: &str, index: Option<&str>) -> String {
-    index.map_or_else(|| Latex::name(name), |index| Latex::indexed(name, index))
+    index.map_or_else(|| names::latex_name(name), |index| names::latex_indexed(name, index))
 }
 
 impl<'a> Writer<'a> {
@@ -267,24 +261,14 @@ impl<'a> Writer<'a> {
                     let name = recurrence.wave_name(wave);
                     let index = if lag == 0 { "n".to_owned() } else { format!("n-{lag}") };
                     let prime = if slope { "'" } else { "" };
-                    let written = Name {
-                        text: format!("{name}[{index}]{prime}"),
-                        latex: format!("{}{prime}", Latex::indexed(&name, &index)),
-                        compound: false,
-                        leads: false,
-                    };
-                    names.insert(stand_in(wave, lag, slope), written);
+                    let written = both(|n| format!("{}{prime}", n.indexed(&name, &index)));
+                    names.insert(stand_in(wave, lag, slope), Name::plain(written));
                 }
             }
         }
         for lag in 1..=most {
-            let written = Name {
-                text: format!("[n>={lag}]"),
-                latex: format!("[n \\ge {lag}]"),
-                compound: false,
-                leads: false,
-            };
-            names.insert(from_period(lag), written);
+            let written = both(|n| format!("[n{}{lag}]", n.choose(">=", " \\ge ")));
+            names.insert(from_period(lag), Name::plain(written));
         }
         Writer { recurrence, names: Arc::new(names) }
     }
@@ -361,7 +345,7 @@ impl<'a> Writer<'a> {
             if let Some(start) = &step.start {
                 let head = self.written(&start.continuous);
                 let right = Right::Terms(arrange(&start.initial, None));
-                starts.push(Formula { head, right, remark: None });
+                starts.push(Formula::of(head, right));
             }
         }
         (equations, starts)
@@ -369,21 +353,13 @@ impl<'a> Writer<'a> {
 
     fn equation(&self, left: &LinearForm, right: &LinearForm) -> Formula {
         let right = Right::Named(self.terms(right), self.names.clone());
-        Formula { head: self.written(left), right, remark: None }
+        Formula::of(self.written(left), right)
     }
 
     /// A form as the left side of an equation.
     fn written(&self, form: &LinearForm) -> Head {
-        let terms = self.terms(form);
-        let whole = Right::Named(terms, self.names.clone());
-        let formula = Formula {
-            head: Head::Written(String::new(), String::new()),
-            right: whole,
-            remark: None,
-        };
-        let text = formula.to_line();
-        let latex = formula.right_latex();
-        Head::Written(text.trim_start_matches(" = ").to_owned(), latex)
+        let whole = Right::Named(self.terms(form), self.names.clone());
+        Head::both(|n| whole.written(n).text().to_owned())
     }
 }
 
@@ -451,13 +427,16 @@ fn told(network: &Network, law: &Law) -> String {
     }
 }
 
-/// A polynomial in x, as text and in LaTeX.
-fn written_polynomial(coefficients: &[Fraction]) -> (String, String) {
-    let x = Symbol::new("x").expect("a name");
-    let value =
-        coefficients.iter().fold(Fraction::zero(), |sum, c| &(&sum * &Fraction::symbol(&x)) + c);
-    let terms = arrange(&value.into(), Some(&x));
-    (write_flat(&terms, &Text), write_flat(&terms, &Latex))
+/// A value, arranged by a variable.
+fn flat(value: &Fraction, variable: &str) -> Vec<Term> {
+    let variable = Symbol::new(variable).expect("a name");
+    arrange(&value.clone().into(), Some(&variable))
+}
+
+/// The terms of a polynomial in x.
+fn polynomial_in_x(coefficients: &[Fraction]) -> Vec<Term> {
+    let x = Fraction::symbol(&Symbol::new("x").expect("a name"));
+    flat(&coefficients.iter().fold(Fraction::zero(), |sum, c| &(&sum * &x) + c), "x")
 }
 
 /// A text that begins with a capital letter.
@@ -473,14 +452,14 @@ fn definition(value: &Definition) -> Right {
         Definition::Root(value) => root(value),
         Definition::ComplexZero { polynomial, imaginary, .. } => {
             let part = if *imaginary { "imaginary" } else { "real" };
-            let (text, latex) = written_polynomial(polynomial);
+            let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
             Right::Written(
                 format!("the {part} part of an x with {text} = 0"),
                 format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0"),
             )
         }
         Definition::Zero { polynomial, between: (lower, upper) } => {
-            let (text, latex) = written_polynomial(polynomial);
+            let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
             Right::Written(
                 format!("the x between {lower} and {upper} with {text} = 0"),
                 format!("x \\in ({lower}, {upper}),\\ {latex} = 0"),
@@ -491,25 +470,22 @@ fn definition(value: &Definition) -> Right {
 
 /// A factor and a root as the right side of a definition.
 fn root(value: &Root) -> Right {
-    let factor = Formula::new(
-        Head::Written(String::new(), String::new()),
-        &value.factor().clone().into(),
-        &Symbol::new("pi").expect("a name"),
-    );
-    let (text, latex) = (factor.to_line().replace(" = ", ""), factor.right_latex());
-    if value.radicand().is_one() {
-        return Right::Written(text, latex);
-    }
-    let under = Formula::new(
-        Head::Written(String::new(), String::new()),
-        &value.radicand().clone().into(),
-        &Symbol::new("pi").expect("a name"),
-    );
-    let (under_text, under_latex) = (under.to_line().replace(" = ", ""), under.right_latex());
-    let one = value.factor().is_one();
-    let text = if one { String::new() } else { format!("({text})*") };
-    let latex = if one { String::new() } else { latex };
-    Right::Written(format!("{text}sqrt({under_text})"), format!("{latex}\\sqrt{{{under_latex}}}"))
+    let [factor, under] = [value.factor(), value.radicand()].map(|part| flat(part, "pi"));
+    Right::both(|n| {
+        let (front, under) = (write_flat(&factor, n), write_flat(&under, n));
+        if value.radicand().is_one() {
+            return front;
+        }
+        let front = match (n, value.factor().is_one()) {
+            (_, true) => String::new(),
+            (Notation::Text, false) => format!("({front})*"),
+            (Notation::Latex, false) => front,
+        };
+        match n {
+            Notation::Text => format!("{front}sqrt({under})"),
+            Notation::Latex => format!("{front}\\sqrt{{{under}}}"),
+        }
+    })
 }
 
 /// A sentence in LaTeX.

@@ -2,9 +2,11 @@
 
 use crate::export::arrangement::arrange;
 use crate::export::lines::Writing;
-use crate::export::names::Names;
-use crate::export::notation::{Latex, Notation, Text, write, write_flat, write_named};
+use crate::export::names::{Names, latex_name};
+use crate::export::notation::Notation::{self, Latex, Text};
+use crate::export::notation::both;
 use crate::export::tree::Term;
+use crate::export::writer::{write, write_flat, write_named};
 use crate::expression::{Expression, Fraction};
 use crate::recurrence::Statement;
 use std::sync::Arc;
@@ -21,29 +23,18 @@ pub const LATEX_WIDTH: usize = 84;
 pub enum Head {
     /// `f[3](s)`: a wave on one period.
     Piece {
-        /// The wave.
         wave: String,
         /// The period.
         n: usize,
-        /// The local variable.
         local: Symbol,
     },
     /// `phi_f[3](s)`: an echo of a wave.
-    Echo {
-        /// The wave.
-        wave: String,
-        /// The echo.
-        k: usize,
-        /// The local variable.
-        local: Symbol,
-    },
+    Echo { wave: String, k: usize, local: Symbol },
     /// `phi_f[2,1](s)`: an echo of a wave on a lattice of delays.
     Arrival {
-        /// The wave.
         wave: String,
         /// How often each period of the lattice has passed.
         counts: Vec<usize>,
-        /// The local variable.
         local: Symbol,
     },
     /// Written as it is, in text and in LaTeX.
@@ -65,31 +56,24 @@ fn listed(counts: &[usize]) -> String {
 }
 
 impl Head {
-    fn text(&self) -> String {
-        match self {
-            Head::Piece { wave, n, local } => format!("{wave}[{n}]({local})"),
-            Head::Echo { wave, k, local } => format!("phi_{wave}[{k}]({local})"),
-            Head::Arrival { wave, counts, local } => {
-                format!("phi_{wave}[{}]({local})", listed(counts))
-            }
-            Head::Written(text, _) => text.clone(),
-        }
+    /// A head that is written as it is.
+    pub(crate) fn both(write: impl Fn(Notation) -> String) -> Head {
+        let (text, latex) = both(write);
+        Head::Written(text, latex)
     }
 
-    fn latex(&self) -> String {
+    fn written(&self, notation: Notation) -> String {
         match self {
             Head::Piece { wave, n, local } => {
-                format!("{}({})", Latex::indexed(wave, &n.to_string()), Latex.symbol(local))
+                format!("{}({})", notation.indexed(wave, &n.to_string()), notation.symbol(local))
             }
             Head::Echo { wave, k, local } => {
-                let wave = Latex::name(wave);
-                format!("\\varphi^{{{wave}}}_{{{k}}}({})", Latex.symbol(local))
+                notation.echo(wave, &k.to_string(), &notation.symbol(local))
             }
             Head::Arrival { wave, counts, local } => {
-                let (wave, counts) = (Latex::name(wave), listed(counts));
-                format!("\\varphi^{{{wave}}}_{{{counts}}}({})", Latex.symbol(local))
+                notation.echo(wave, &listed(counts), &notation.symbol(local))
             }
-            Head::Written(_, latex) => latex.clone(),
+            Head::Written(text, latex) => notation.choose(text, latex).to_owned(),
         }
     }
 }
@@ -106,36 +90,30 @@ pub(crate) enum Right {
 }
 
 impl Right {
-    fn text(&self) -> Writing {
-        match self {
-            Right::Terms(terms) => write(terms, &Text),
-            Right::Named(terms, names) => write_named(terms, &Text, names),
-            Right::Written(text, _) => solid(text, &Text),
-        }
+    /// A right-hand side that is written as it is.
+    pub fn both(write: impl Fn(Notation) -> String) -> Right {
+        let (text, latex) = both(write);
+        Right::Written(text, latex)
     }
 
-    fn latex(&self) -> Writing {
+    pub fn written(&self, notation: Notation) -> Writing {
         match self {
-            Right::Terms(terms) => write(terms, &Latex),
-            Right::Named(terms, names) => write_named(terms, &Latex, names),
-            Right::Written(_, latex) => solid(latex, &Latex),
+            Right::Terms(terms) => write(terms, notation),
+            Right::Named(terms, names) => write_named(terms, notation, names),
+            Right::Written(text, latex) => {
+                let text = notation.choose(text, latex);
+                let mut solid = Writing::default();
+                solid.push(text, notation.width(text));
+                solid
+            }
         }
     }
-}
-
-/// Writing that is never broken.
-fn solid(text: &str, notation: &dyn Notation) -> Writing {
-    let mut writing = Writing::default();
-    writing.push(text, notation.width(text));
-    writing
 }
 
 /// One formula: `head = right`, and a remark.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Formula {
-    /// The left-hand side.
     pub head: Head,
-    /// The right-hand side.
     pub(crate) right: Right,
     /// A remark in text, and in LaTeX, where it may be empty.
     pub remark: Option<(String, String)>,
@@ -144,7 +122,12 @@ pub struct Formula {
 impl Formula {
     /// `head = expression`, arranged by `variable`.
     pub fn new(head: Head, expression: &Expression, variable: &Symbol) -> Formula {
-        Formula { head, right: Right::Terms(arrange(expression, Some(variable))), remark: None }
+        Formula::of(head, Right::Terms(arrange(expression, Some(variable))))
+    }
+
+    /// `head = right`, without a remark.
+    pub(crate) fn of(head: Head, right: Right) -> Formula {
+        Formula { head, right, remark: None }
     }
 
     /// The formula with the interval on which a piece holds as its remark: with periods that
@@ -157,23 +140,23 @@ impl Formula {
     /// The formula with the interval on which it holds as its remark: `from <= t < to, s = t - from`.
     pub fn between(mut self, from: &Fraction, to: &Fraction, statement: &Statement) -> Formula {
         let Statement { local, time, .. } = statement;
-        let written = |notation: &dyn Notation, at_most: &str| {
+        let written = |notation: Notation, at_most: &str| {
             let bound =
                 |bound: &Fraction| write_flat(&arrange(&bound.clone().into(), None), notation);
             let (t, s, start) = (notation.symbol(time), notation.symbol(local), bound(from));
             let interval = format!("{start} {at_most} {t} < {}", bound(to));
             (interval, format!("{s} = {}", since(&t, &start)))
         };
-        let (interval, local) = written(&Text, "<=");
+        let (interval, local) = written(Text, "<=");
         let text = format!("{interval}, {local}");
-        let (interval, local) = written(&Latex, "\\le");
+        let (interval, local) = written(Latex, "\\le");
         self.remark = Some((text, format!("{interval},\\ {local}")));
         self
     }
 
     /// Plain text in one line, without the remark.
     pub fn to_line(&self) -> String {
-        format!("{} = {}", self.head.text(), self.right.text().text())
+        format!("{} = {}", self.head.written(Text), self.right.written(Text).text())
     }
 
     /// The formula of an echo on a lattice, with its arrival as a remark.
@@ -187,26 +170,21 @@ impl Formula {
     ) -> Formula {
         let (wave, counts) = (wave.to_owned(), counts.to_vec());
         let head = Head::Arrival { wave, counts, local: local.clone() };
-        let told = |notation: &dyn Notation, from: &str| {
+        let told = |notation: Notation, from: &str| {
             let delay = write_flat(&arrange(&delay.clone().into(), None), notation);
             let (t, s) = (notation.symbol(time), notation.symbol(local));
             (format!("{t} {from} {delay}"), format!("{s} = {}", since(&t, &delay)))
         };
-        let ((text, shift), (latex, latex_shift)) = (told(&Text, ">="), told(&Latex, "\\ge"));
+        let ((text, shift), (latex, latex_shift)) = (told(Text, ">="), told(Latex, "\\ge"));
         let remark = Some((format!("{text}, {shift}"), format!("{latex},\\ {latex_shift}")));
         Formula { remark, ..Formula::new(head, echo, local) }
-    }
-
-    /// The right-hand side in LaTeX, in one line.
-    pub(crate) fn right_latex(&self) -> String {
-        self.right.latex().text().to_owned()
     }
 
     /// Plain text in lines of at most `width` characters where it can be broken; continuation lines
     /// and a remark are indented.
     pub fn to_text(&self, width: usize) -> String {
-        let head = format!("{} = ", self.head.text());
-        let right = self.right.text();
+        let head = format!("{} = ", self.head.written(Text));
+        let right = self.right.written(Text);
         let lines = right.lines(width, head.chars().count(), 4);
         let mut text = format!("{head}{}\n", lines.join("\n    "));
         if let Some((remark, _)) = &self.remark {
@@ -217,9 +195,9 @@ impl Formula {
 
     /// Writes the lines of the formula in an `align*` environment, without the environment.
     fn write_latex(&self, width: usize, out: &mut String) {
-        let head = self.head.latex();
+        let head = self.head.written(Latex);
         let used = Latex.width(&head) + 3;
-        let right = self.right.latex();
+        let right = self.right.written(Latex);
         let lines = right.lines(width, used, used + 2);
         for (i, line) in lines.iter().enumerate() {
             match i {
@@ -238,7 +216,7 @@ impl Formula {
     /// The lines of a case: the right-hand side in one cell, the remark in the next.
     fn latex_case(&self, width: usize) -> String {
         let remark = self.remark.as_ref().map_or("", |(_, latex)| latex);
-        let right = self.right.latex();
+        let right = self.right.written(Latex);
         // The columns stand two quads apart, and the brace takes some room.
         let lines = right.lines(width.saturating_sub(Latex.width(remark) + 6), 0, 2);
         let body = match &lines[..] {
@@ -260,7 +238,7 @@ pub fn latex_width(latex: &str) -> usize {
 
 /// An expression as plain text in one line, which the language reads back.
 pub fn expression_text(expression: &Expression) -> String {
-    write_flat(&arrange(expression, None), &Text)
+    write_flat(&arrange(expression, None), Text)
 }
 
 /// Formulas as plain text, one a line; longer ones go on in further lines.
@@ -283,7 +261,7 @@ pub fn latex(formulas: &[Formula], width: usize) -> String {
 
 /// Formulas with remarks as the cases of one function, `name(variable) = …`.
 pub fn latex_cases(name: &str, variable: &Symbol, formulas: &[Formula], width: usize) -> String {
-    let head = format!("{}({})", Latex::name(name), Latex.symbol(variable));
+    let head = format!("{}({})", latex_name(name), Latex.symbol(variable));
     let left = width.saturating_sub(Latex.width(&head) + 3);
     let cases: Vec<String> = formulas.iter().map(|formula| formula.latex_case(left)).collect();
     let cases = cases.join(" \\\\\n");

@@ -2,8 +2,9 @@
 
 use crate::export::arrangement::arrange;
 use crate::export::formula::{Formula, Head, Right};
-use crate::export::notation::{Latex, Notation, Text, write_flat};
+use crate::export::notation::Notation::{Latex, Text};
 use crate::export::tree::{Sign, Term, Tree};
+use crate::export::writer::write_flat;
 use crate::expression::{Assumptions, Expression, Fraction};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::{
@@ -63,10 +64,8 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
 fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<Formula> {
     let wave = &recurrence.statement().waves[wave];
     let n = Symbol::new("n").expect("a name");
-    let formula = |index: &str, terms: Vec<Term>| Formula {
-        head: Head::Written(format!("{wave}[{index}]"), Latex::indexed(wave, index)),
-        right: Right::Terms(terms),
-        remark: None,
+    let formula = |index: &str, terms: Vec<Term>| {
+        Formula::of(Head::both(|n| n.indexed(wave, index)), Right::Terms(terms))
     };
     let first = form.first().iter().enumerate();
     let mut formulas: Vec<Formula> =
@@ -141,16 +140,8 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
         let head = Head::Echo { wave: wave.clone(), k: i, local: x.clone() };
         formulas.push(Formula::new(head, echo, x));
     }
-    let latex_wave = Latex::name(wave);
-    let head = Head::Written(
-        format!("phi_{wave}[{k}]({x})"),
-        format!("\\varphi^{{{latex_wave}}}_{{{k}}}({})", Latex.symbol(x)),
-    );
-    formulas.push(Formula {
-        head,
-        right: Right::Terms(template_terms(template, x, &k)),
-        remark: None,
-    });
+    let head = Head::both(|n| n.echo(wave, k.name(), &n.symbol(x)));
+    formulas.push(Formula::of(head, Right::Terms(template_terms(template, x, &k))));
     formulas
 }
 
@@ -159,18 +150,16 @@ fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
     let statement = recurrence.statement();
     let (t, k) = (&statement.time, echo_index(recurrence));
     let delay = Expression::from(&statement.period * &Fraction::symbol(&k));
-    let delay = |notation: &dyn Notation| write_flat(&arrange(&delay, None), notation);
-    let (text, latex) = (delay(&Text), delay(&Latex));
-    let (latex_wave, latex_time) = (Latex::name(wave), Latex.symbol(t));
-    let head = Head::Written(format!("{wave}({t})"), format!("{latex_wave}({latex_time})"));
-    let right = Right::Written(
-        format!("sum(phi_{wave}[{k}]({t} - {text}), 0 <= {text} <= {t})"),
-        format!(
-            "\\sum_{{0 \\le {latex} \\le {latex_time}}} \
-             \\varphi^{{{latex_wave}}}_{{{k}}}({latex_time} - {latex})"
-        ),
-    );
-    Formula { head, right, remark: None }
+    let head = Head::both(|n| format!("{}({})", n.name(wave), n.symbol(t)));
+    let right = Right::both(|n| {
+        let (t, delay) = (n.symbol(t), write_flat(&arrange(&delay, None), n));
+        let echo = n.echo(wave, k.name(), &format!("{t} - {delay}"));
+        match n {
+            Text => format!("sum({echo}, 0 <= {delay} <= {t})"),
+            Latex => format!("\\sum_{{0 \\le {delay} \\le {t}}} {echo}"),
+        }
+    });
+    Formula::of(head, right)
 }
 
 /// `ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)`.
@@ -255,7 +244,7 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
             sum += &(&both * &power);
             power = &power * &delay;
         }
-        let text = write_flat(&arrange(&sum, Some(&q)), &Text);
+        let text = write_flat(&arrange(&sum, Some(&q)), Text);
         parts.push(format!("({text})*{}", recurrence.statement().waves[wave]));
     }
     let forcing = unknown.equation.forcing_terms().iter().any(|function| !function.is_zero());
@@ -265,6 +254,6 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
 
 /// The factors of more than one term that are taken to be non-zero, as text.
 pub fn assumed_factors(assumptions: &Assumptions) -> Vec<String> {
-    let factor = |p: &Polynomial| write_flat(&arrange(&p.clone().into(), None), &Text);
+    let factor = |p: &Polynomial| write_flat(&arrange(&p.clone().into(), None), Text);
     assumptions.factors().filter(|p| p.term_count() > 1).map(factor).collect()
 }

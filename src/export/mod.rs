@@ -16,6 +16,7 @@ mod oscillation;
 mod source;
 mod terms;
 mod tree;
+mod writer;
 
 pub use c::{CHeading, to_c};
 pub use explain::{Derivation, form_text, latex_name, solved_equations};

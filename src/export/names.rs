@@ -1,4 +1,4 @@
-//! Symbols that are written otherwise than by their own names.
+//! Symbols that are written otherwise than by their own names, and names in LaTeX.
 
 use std::collections::BTreeMap;
 use wavestep_polynomial::Symbol;
@@ -6,9 +6,7 @@ use wavestep_polynomial::Symbol;
 /// The name of a symbol, in each notation.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Name {
-    /// In plain text.
     pub text: String,
-    /// In LaTeX.
     pub latex: String,
     /// Whether it is an expression, which takes brackets as a base or before a factor.
     pub compound: bool,
@@ -18,3 +16,74 @@ pub(crate) struct Name {
 
 /// The names of symbols that are not written by their own.
 pub(crate) type Names = BTreeMap<Symbol, Name>;
+
+impl Name {
+    /// A name without brackets, in text and in LaTeX.
+    pub fn plain((text, latex): (String, String)) -> Name {
+        Name { text, latex, compound: false, leads: false }
+    }
+}
+
+/// Names that have a command of their own.
+const GREEK: [&str; 34] = [
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
+    "lambda", "mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi",
+    "omega", "Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi",
+    "Omega",
+];
+
+/// Endings of names that are accents in LaTeX.
+const ACCENTS: [&str; 5] = ["tilde", "bar", "hat", "dot", "prime"];
+
+/// A name: Greek letters as such, one letter in italics, a word upright, `a_1` as subscript,
+/// `a_tilde` with an accent, `a_prime` with a prime.
+pub(crate) fn latex_name(name: &str) -> String {
+    let (letter, subscript) = parts(name);
+    subscript.map_or_else(|| letter.clone(), |subscript| format!("{letter}_{{{subscript}}}"))
+}
+
+/// A name with an index, which joins a subscript that is there already: `f_{1,2}`.
+pub(crate) fn latex_indexed(name: &str, index: &str) -> String {
+    let (letter, subscript) = parts(name);
+    let before = subscript.map_or_else(String::new, |subscript| format!("{subscript},"));
+    format!("{letter}_{{{before}{index}}}")
+}
+
+/// The letter with its accent, and the subscript.
+fn parts(name: &str) -> (String, Option<String>) {
+    let accented = ACCENTS.iter().find_map(|accent| {
+        let base = name.strip_suffix(accent)?.strip_suffix('_')?;
+        (!base.is_empty()).then_some((base, accent))
+    });
+    if let Some((base, accent)) = accented {
+        let (letter, subscript) = parts(base);
+        let letter = match *accent {
+            "prime" => format!("{letter}'"),
+            accent => format!("\\{accent}{{{letter}}}"),
+        };
+        return (letter, subscript);
+    }
+    if GREEK.contains(&name) {
+        return (format!("\\{name}"), None);
+    }
+    if let Some((base, subscript)) = name.split_once('_')
+        && !base.is_empty()
+        && !subscript.is_empty()
+    {
+        let subscript = match GREEK.contains(&subscript) || subscript.len() == 1 {
+            true => latex_name(subscript),
+            false => format!("\\mathrm{{{}}}", subscript.replace('_', "\\_")),
+        };
+        let (letter, digits) = parts(base);
+        let before = digits.map_or_else(String::new, |digits| format!("{digits},"));
+        return (letter, Some(before + &subscript));
+    }
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    if letters.len() < name.len() && !letters.is_empty() {
+        return (latex_name(letters), Some(name[letters.len()..].to_owned()));
+    }
+    match name.chars().count() {
+        1 => (name.to_owned(), None),
+        _ => (format!("\\mathrm{{{}}}", name.replace('_', "\\_")), None),
+    }
+}

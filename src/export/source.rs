@@ -4,8 +4,10 @@ use crate::export::arrangement::{Arrangement, arrange};
 use crate::export::formula::{Formula, Head, Right};
 use crate::export::general::general_form;
 use crate::export::names::{Name, Names};
-use crate::export::notation::{Latex, Notation, Text, write_flat, write_named};
+use crate::export::notation::Notation::{self, Latex, Text};
+use crate::export::notation::both;
 use crate::export::tree::{Sign, Term, Tree};
+use crate::export::writer::{write_flat, write_named};
 use crate::expression::Expression;
 use crate::recurrence::{Recurrence, SourceProduct, WaveIndex};
 use crate::solution::{GeneralForm, KeptEnds};
@@ -31,16 +33,10 @@ impl<'a> SourceForm<'a> {
             .map(|(symbol, value)| (symbol.clone(), name_of(value)))
             .collect();
         let period = arrange(&statement.period.clone().into(), None);
-        let (end, latex_end) =
-            (write_named(&period, &Text, &names), write_named(&period, &Latex, &names));
+        let end = both(|n| write_named(&period, n, &names).text().to_owned());
         for (symbol, wave, n) in ends.into_iter().flat_map(KeptEnds::symbols) {
             let (text, latex) = head(recurrence, wave, &n.to_string());
-            let name = Name {
-                text: format!("{text}({})", end.text()),
-                latex: format!("{latex}({})", latex_end.text()),
-                compound: false,
-                leads: false,
-            };
+            let name = Name::plain((format!("{text}({})", end.0), format!("{latex}({})", end.1)));
             names.insert(symbol.clone(), name);
         }
         SourceForm { recurrence, names: Arc::new(names) }
@@ -71,8 +67,7 @@ impl<'a> SourceForm<'a> {
         };
         let mut formulas = vec![self.formula(head(self.recurrence, wave, &n.to_string()), terms)];
         if let (Some(apart), Some(symbol)) = (apart, symbol) {
-            let latex = Latex::name(symbol.name());
-            formulas.push(self.formula((symbol.name().to_owned(), latex), apart));
+            formulas.push(self.formula(both(|n| n.symbol(&symbol)), apart));
         }
         formulas
     }
@@ -96,8 +91,7 @@ impl<'a> SourceForm<'a> {
     }
 
     fn formula(&self, (text, latex): (String, String), terms: Vec<Term>) -> Formula {
-        let head = Head::Written(text, latex);
-        Formula { head, right: Right::Named(terms, self.names.clone()), remark: None }
+        Formula::of(Head::Written(text, latex), Right::Named(terms, self.names.clone()))
     }
 }
 
@@ -136,7 +130,7 @@ fn in_unit(unit: &SourceProduct, mut terms: Vec<Term>) -> Vec<Term> {
 fn head(recurrence: &Recurrence, wave: WaveIndex, index: &str) -> (String, String) {
     let statement = recurrence.statement();
     let name = statement.notation.waves.get(&wave).unwrap_or(&statement.waves[wave]);
-    (format!("{name}[{index}]"), Latex::indexed(name, index))
+    both(|n| n.indexed(name, index))
 }
 
 /// A product in place of a symbol. In LaTeX a quotient stays on the line: `μz/L`.
@@ -144,17 +138,17 @@ fn name_of(product: &SourceProduct) -> Name {
     let tree = product_tree(product);
     let minus = if product.coefficient().is_negative() { "-" } else { "" };
     let flat =
-        |tree: &Tree, notation: &dyn Notation| write_flat(&[(Sign::Plus, tree.clone())], notation);
+        |tree: &Tree, notation: Notation| write_flat(&[(Sign::Plus, tree.clone())], notation);
     let latex = match &tree {
         Tree::Quotient(top, bottom) => {
             let single = matches!(**bottom, Tree::Symbol(_) | Tree::Number(_));
-            let (top, bottom) = (flat(top, &Latex), flat(bottom, &Latex));
+            let (top, bottom) = (flat(top, Latex), flat(bottom, Latex));
             if single { format!("{top}/{bottom}") } else { format!("{top}/({bottom})") }
         }
-        tree => flat(tree, &Latex),
+        tree => flat(tree, Latex),
     };
     let simple = matches!(tree, Tree::Symbol(_)) && minus.is_empty();
-    let text = flat(&tree, &Text);
+    let text = flat(&tree, Text);
     Name {
         text: format!("{minus}{text}"),
         latex: format!("{minus}{latex}"),

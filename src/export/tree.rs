@@ -8,14 +8,11 @@ use wavestep_polynomial::{Integer, Rational, Symbol};
 /// A function that oscillates.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Circular {
-    /// `cos`
     Cosine,
-    /// `sin`
     Sine,
 }
 
 impl Circular {
-    /// The name of the function.
     pub fn name(self) -> &'static str {
         match self {
             Circular::Cosine => "cos",
@@ -27,9 +24,7 @@ impl Circular {
 /// The sign in front of a term.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Sign {
-    /// `+`
     Plus,
-    /// `−`
     Minus,
 }
 
@@ -50,7 +45,6 @@ impl Sign {
 pub(crate) enum Tree {
     /// A number, not negative.
     Number(Rational),
-    /// A name.
     Symbol(Symbol),
     /// A sum of at least two terms.
     Sum(Vec<(Sign, Tree)>),
@@ -60,9 +54,7 @@ pub(crate) enum Tree {
     Monomial(Monomial),
     /// A product of at least two factors.
     Product(Vec<Tree>),
-    /// A quotient.
     Quotient(Box<Tree>, Box<Tree>),
-    /// A power.
     Power(Box<Tree>, Box<Tree>),
     /// `e^{…}`, with the exponent's sign.
     Exponential(Sign, Box<Tree>),
@@ -79,11 +71,8 @@ pub(crate) enum Tree {
 /// A positive number times powers of symbols.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Monomial {
-    /// The number.
     pub coefficient: Rational,
-    /// The symbols.
     pub symbols: Arc<[Symbol]>,
-    /// The exponent of each symbol.
     pub exponents: Exponents,
 }
 

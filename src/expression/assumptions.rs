@@ -20,13 +20,16 @@ pub enum Relation {
 /// A condition on the value of one symbol, such as `> 0`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Condition {
-    /// The comparison.
     pub relation: Relation,
-    /// The number compared with.
     pub bound: Rational,
 }
 
 impl Condition {
+    /// `> bound`
+    pub fn above(bound: i64) -> Condition {
+        Condition { relation: Relation::Greater, bound: Rational::from_integer(bound.into()) }
+    }
+
     /// Whether `value` meets the condition.
     pub fn holds(&self, value: &Rational) -> bool {
         match self.relation {
@@ -89,7 +92,6 @@ pub struct Assumptions {
 /// An expression that the declared factors do not allow to divide by.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NotInvertible {
-    /// The expression is zero.
     #[error("division by zero")]
     Zero,
     /// This factor would have to be declared non-zero first.

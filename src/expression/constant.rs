@@ -19,7 +19,6 @@ impl Root {
         Root { factor: Fraction::one(), radicand }.normal()
     }
 
-    /// The factor before the root.
     pub fn factor(&self) -> &Fraction {
         &self.factor
     }
@@ -34,13 +33,11 @@ impl Root {
         self.radicand.is_one().then(|| self.factor.clone())
     }
 
-    /// The product.
     pub fn times(&self, other: &Root) -> Root {
         let factor = &self.factor * &other.factor;
         Root { factor, radicand: &self.radicand * &other.radicand }.normal()
     }
 
-    /// The quotient.
     pub fn over(&self, other: &Root) -> Result<Root, NotAUnit> {
         let factor = &self.factor * &inverse(&other.factor)?;
         let radicand = &self.radicand * &inverse(&other.radicand)?;
@@ -65,7 +62,6 @@ impl From<Fraction> for Root {
     }
 }
 
-/// `1/value`.
 fn inverse(value: &Fraction) -> Result<Fraction, NotAUnit> {
     let inverse = Fraction::reciprocal(value.numerator())?;
     Ok(&inverse * &Fraction::from(value.denominator()))
@@ -90,16 +86,10 @@ pub enum Definition {
     Root(Root),
     /// A zero of a polynomial, coefficients from the highest power down, between two numbers at
     /// which it has different signs: the one that halving finds.
-    Zero {
-        /// The coefficients.
-        polynomial: Vec<Fraction>,
-        /// The ends of the interval.
-        between: (Rational, Rational),
-    },
+    Zero { polynomial: Vec<Fraction>, between: (Rational, Rational) },
     /// The real or imaginary part of a complex zero of a polynomial, coefficients from the highest
     /// power down: the zero that the method of Newton finds from a starting point.
     ComplexZero {
-        /// The coefficients.
         polynomial: Vec<Fraction>,
         /// The starting point, as real and imaginary part.
         near: (Rational, Rational),
@@ -118,7 +108,6 @@ impl From<Root> for Definition {
 /// numbers come from its definition.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Constant {
-    /// Its name in formulas.
     pub symbol: Symbol,
     /// Its definition, in `pi`, constants before it, and the scene's symbols.
     pub value: Definition,

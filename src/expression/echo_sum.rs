@@ -25,7 +25,6 @@ impl EchoSum {
         EchoSum { period, local, echoes }
     }
 
-    /// The echoes `φ_0, φ_1, …`.
     pub fn echoes(&self) -> &[Expression] {
         &self.echoes
     }

@@ -47,22 +47,18 @@ impl NotAUnit {
 }
 
 impl Fraction {
-    /// The value 0.
     pub fn zero() -> Fraction {
         Polynomial::zero().into()
     }
 
-    /// The value 1.
     pub fn one() -> Fraction {
         Polynomial::one().into()
     }
 
-    /// A rational constant.
     pub fn constant(value: &Rational) -> Fraction {
         Polynomial::constant(value).into()
     }
 
-    /// A symbol.
     pub fn symbol(x: &Symbol) -> Fraction {
         Polynomial::symbol(x).into()
     }
@@ -101,7 +97,6 @@ impl Fraction {
         Ok(Fraction { numerator: Polynomial::constant(&content.recip()), factors })
     }
 
-    /// The numerator.
     pub fn numerator(&self) -> &Polynomial {
         &self.numerator
     }
@@ -111,17 +106,14 @@ impl Fraction {
         self.factors.iter().map(|(factor, power)| (factor, *power))
     }
 
-    /// The denominator, multiplied out.
     pub fn denominator(&self) -> Polynomial {
         self.factors.iter().fold(Polynomial::one(), |d, (factor, power)| &d * &factor.pow(*power))
     }
 
-    /// Whether this is 0.
     pub fn is_zero(&self) -> bool {
         self.numerator.is_zero()
     }
 
-    /// Whether this is 1.
     pub fn is_one(&self) -> bool {
         self.factors.is_empty() && self.numerator.is_one()
     }
@@ -136,7 +128,6 @@ impl Fraction {
         self.as_polynomial().and_then(Polynomial::as_constant)
     }
 
-    /// Whether `x` occurs.
     pub fn contains(&self, x: &Symbol) -> bool {
         let occurs = |p: &Polynomial| p.symbols().binary_search(x).is_ok();
         occurs(&self.numerator) || self.factors.keys().any(occurs)
@@ -183,7 +174,6 @@ impl Fraction {
         Fraction { numerator: &self.numerator * by, factors: self.factors.clone() }
     }
 
-    /// `self^exponent`.
     pub fn pow(&self, exponent: u32) -> Fraction {
         if exponent == 0 {
             return Fraction::one();
@@ -192,7 +182,6 @@ impl Fraction {
         Fraction { numerator: self.numerator.pow(exponent), factors: factors.collect() }
     }
 
-    /// The partial derivative with respect to `x`.
     pub fn derivative(&self, x: &Symbol) -> Fraction {
         let mut sum = self.with_numerator(self.numerator.derivative(x));
         for (factor, power) in &self.factors {
@@ -208,7 +197,6 @@ impl Fraction {
         sum
     }
 
-    /// The value with `value` in place of `x`.
     pub fn substitute(&self, x: &Symbol, value: &Fraction) -> Result<Fraction, NotAUnit> {
         let mut result = substitute_in(&self.numerator, x, value);
         for (factor, power) in &self.factors {

@@ -21,12 +21,10 @@ pub struct Piecewise {
 }
 
 impl Piecewise {
-    /// A function with no pieces yet.
     pub(crate) fn new(period: Fraction, local: Symbol) -> Piecewise {
         Piecewise { period, local, pieces: Vec::new() }
     }
 
-    /// Adds the next piece.
     pub(crate) fn push(&mut self, piece: Expression) {
         self.pieces.push(piece);
     }

@@ -88,7 +88,6 @@ impl Expression {
     }
 }
 
-/// The root of −1.
 fn imaginary_unit() -> Fraction {
     Fraction::symbol(&Symbol::square_root(-1).expect("the imaginary unit"))
 }

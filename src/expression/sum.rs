@@ -41,27 +41,22 @@ pub struct Expression {
 pub type ExponentialSum = BTreeMap<Rational, Rational>;
 
 impl Expression {
-    /// The value 0.
     pub fn zero() -> Expression {
         Expression::default()
     }
 
-    /// The value 1.
     pub fn one() -> Expression {
         Fraction::one().into()
     }
 
-    /// A rational constant.
     pub fn constant(value: &Rational) -> Expression {
         Fraction::constant(value).into()
     }
 
-    /// An integer constant.
     pub fn integer(value: i64) -> Expression {
         Polynomial::integer(value).into()
     }
 
-    /// A symbol.
     pub fn symbol(x: &Symbol) -> Expression {
         Polynomial::symbol(x).into()
     }
@@ -71,12 +66,10 @@ impl Expression {
         Expression { terms: BTreeMap::from([(exponent, Fraction::one())]) }
     }
 
-    /// Whether this is 0.
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
 
-    /// Whether this is 1.
     pub fn is_one(&self) -> bool {
         self.as_fraction().is_some_and(|value| value.is_one())
     }
@@ -105,7 +98,6 @@ impl Expression {
         self.as_fraction().and_then(|value| value.as_constant())
     }
 
-    /// Whether `x` occurs.
     pub fn contains(&self, x: &Symbol) -> bool {
         self.terms.iter().any(|(exponent, p)| exponent.contains(x) || p.contains(x))
     }
@@ -162,7 +154,6 @@ impl Expression {
         Expression { terms: moved.collect() }
     }
 
-    /// The product with a fraction.
     pub fn times(&self, factor: &Fraction) -> Expression {
         if factor.is_zero() {
             return Expression::zero();
@@ -173,7 +164,6 @@ impl Expression {
         self.map(|p| p * factor)
     }
 
-    /// The product with a rational number.
     pub fn scale(&self, factor: &Rational) -> Expression {
         if factor.is_zero() { Expression::zero() } else { self.map(|p| p.scale(factor)) }
     }
@@ -249,19 +239,31 @@ impl From<Fraction> for Expression {
     }
 }
 
+impl From<&Fraction> for Expression {
+    fn from(value: &Fraction) -> Expression {
+        value.clone().into()
+    }
+}
+
 impl From<Polynomial> for Expression {
     fn from(value: Polynomial) -> Expression {
         Fraction::from(value).into()
     }
 }
 
-impl AddAssign<&Expression> for Expression {
-    fn add_assign(&mut self, other: &Expression) {
+impl Expression {
+    /// Adds each term of `other` to the term of the same exponent; `alone` is what it is without one.
+    fn merge(
+        &mut self,
+        other: &Expression,
+        alone: impl Fn(&Fraction) -> Fraction,
+        add: impl Fn(&mut Fraction, &Fraction),
+    ) {
         for (exponent, p) in &other.terms {
             match self.terms.get_mut(exponent) {
-                None => drop(self.terms.insert(exponent.clone(), p.clone())),
+                None => drop(self.terms.insert(exponent.clone(), alone(p))),
                 Some(own) => {
-                    *own += p;
+                    add(own, p);
                     if own.is_zero() {
                         self.terms.remove(exponent);
                     }
@@ -271,19 +273,15 @@ impl AddAssign<&Expression> for Expression {
     }
 }
 
+impl AddAssign<&Expression> for Expression {
+    fn add_assign(&mut self, other: &Expression) {
+        self.merge(other, Fraction::clone, |own, p| *own += p);
+    }
+}
+
 impl SubAssign<&Expression> for Expression {
     fn sub_assign(&mut self, other: &Expression) {
-        for (exponent, p) in &other.terms {
-            match self.terms.get_mut(exponent) {
-                None => drop(self.terms.insert(exponent.clone(), -p)),
-                Some(own) => {
-                    *own -= p;
-                    if own.is_zero() {
-                        self.terms.remove(exponent);
-                    }
-                }
-            }
-        }
+        self.merge(other, |p| -p, |own, p| *own -= p);
     }
 }
 

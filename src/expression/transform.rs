@@ -25,12 +25,9 @@ pub struct Transform<V = Expression> {
 /// The field of the coefficients of a [`Transform`]: exact expressions, or enclosures of a
 /// given precision. Poles are exact in either case, so that equal ones are recognised.
 pub trait Field {
-    /// A coefficient.
     type Value: Clone;
-    /// Why there is no coefficient.
     type Error: From<NotAUnit>;
 
-    /// The coefficient 0.
     fn zero(&self) -> Self::Value;
     /// Whether a coefficient is certainly 0.
     fn is_zero(&self, value: &Self::Value) -> bool;
@@ -38,9 +35,7 @@ pub trait Field {
     fn embed(&self, value: &Expression) -> Result<Self::Value, Self::Error>;
     /// The inverse of an exact value that is not 0.
     fn inverse(&self, value: &Fraction) -> Result<Self::Value, Self::Error>;
-    /// Adds `other`.
     fn add(&self, sum: &mut Self::Value, other: &Self::Value);
-    /// The product.
     fn product(&self, left: &Self::Value, right: &Self::Value) -> Self::Value;
     /// Adds `left · right`.
     fn add_product(&self, sum: &mut Self::Value, left: &Self::Value, right: &Self::Value) {
@@ -106,7 +101,6 @@ pub enum InexactDivision {
 }
 
 impl<V: Clone> Transform<V> {
-    /// The transform 0.
     pub(crate) fn zero() -> Transform<V> {
         Transform { poles: BTreeMap::new() }
     }
@@ -129,7 +123,6 @@ impl<V: Clone> Transform<V> {
         Transform { poles }
     }
 
-    /// Whether this is 0.
     pub fn is_zero(&self) -> bool {
         self.poles.is_empty()
     }
@@ -140,11 +133,25 @@ impl<V: Clone> Transform<V> {
     }
 
     /// Adds `factor · other`.
-    pub(crate) fn add_product<F: Field<Value = V>>(
+    pub fn add_product<F: Field<Value = V>>(
         &mut self,
         field: &F,
         other: &Transform<V>,
         factor: &V,
+    ) {
+        self.merge(field, other, |sum, coefficient| field.add_product(sum, coefficient, factor));
+    }
+
+    pub(crate) fn add<F: Field<Value = V>>(&mut self, field: &F, other: &Transform<V>) {
+        self.merge(field, other, |sum, coefficient| field.add(sum, coefficient));
+    }
+
+    /// Adds something of each coefficient of `other` to that of the same pole and power.
+    fn merge<F: Field<Value = V>>(
+        &mut self,
+        field: &F,
+        other: &Transform<V>,
+        add: impl Fn(&mut V, &V),
     ) {
         for (pole, coefficients) in &other.poles {
             let row = self.poles.entry(pole.clone()).or_default();
@@ -152,28 +159,14 @@ impl<V: Clone> Transform<V> {
                 row.resize(coefficients.len(), field.zero());
             }
             for (sum, coefficient) in row.iter_mut().zip(coefficients) {
-                field.add_product(sum, coefficient, factor);
-            }
-        }
-        *self = Transform::normal(field, std::mem::take(&mut self.poles));
-    }
-
-    /// Adds `other`.
-    pub(crate) fn add<F: Field<Value = V>>(&mut self, field: &F, other: &Transform<V>) {
-        for (pole, coefficients) in &other.poles {
-            let row = self.poles.entry(pole.clone()).or_default();
-            if row.len() < coefficients.len() {
-                row.resize(coefficients.len(), field.zero());
-            }
-            for (sum, coefficient) in row.iter_mut().zip(coefficients) {
-                field.add(sum, coefficient);
+                add(sum, coefficient);
             }
         }
         *self = Transform::normal(field, std::mem::take(&mut self.poles));
     }
 
     /// The value of the function at `x = 0+`: `lim p F(p) = Σ_λ c_{λ,0}`.
-    pub(crate) fn initial<F: Field<Value = V>>(&self, field: &F) -> V {
+    pub fn initial<F: Field<Value = V>>(&self, field: &F) -> V {
         let mut sum = field.zero();
         self.poles.values().for_each(|coefficients| field.add(&mut sum, &coefficients[0]));
         sum
@@ -181,10 +174,7 @@ impl<V: Clone> Transform<V> {
 
     /// The transform of the derivative on `x > 0`: `p F(p) − f(0+)`. Since
     /// `p/(p−λ)^{j+1} = 1/(p−λ)^j + λ/(p−λ)^{j+1}`, that is `c_j ← λ c_j + c_{j+1}`.
-    pub(crate) fn differentiated<F: Field<Value = V>>(
-        &self,
-        field: &F,
-    ) -> Result<Transform<V>, F::Error> {
+    pub fn differentiated<F: Field<Value = V>>(&self, field: &F) -> Result<Transform<V>, F::Error> {
         let mut poles = BTreeMap::new();
         for (pole, coefficients) in &self.poles {
             let factor = field.embed(&pole.clone().into())?;
@@ -206,7 +196,7 @@ impl<V: Clone> Transform<V> {
     /// ```text
     /// 1/((p−λ)^m (p−π)) = δ^{−m}/(p−π) − Σ_{i=1}^m δ^{i−m−1}/(p−λ)^i,     δ = π − λ ≠ 0.
     /// ```
-    pub(crate) fn over_pole<F: Field<Value = V>>(
+    pub fn over_pole<F: Field<Value = V>>(
         &self,
         field: &F,
         pole: &Fraction,
@@ -288,33 +278,5 @@ impl Transform {
             function += &polynomial.times_exponential(&(pole * &Fraction::symbol(x)));
         }
         function
-    }
-
-    /// Adds `factor · other`.
-    pub fn add_scaled(&mut self, other: &Transform, factor: &Expression) {
-        self.add_product(&Exact::new(&Assumptions::default()), other, factor);
-    }
-
-    /// The value of the function at `x = 0+`: `lim p F(p) = Σ_λ c_{λ,0}`.
-    pub fn initial_value(&self) -> Expression {
-        self.initial(&Exact::new(&Assumptions::default()))
-    }
-
-    /// The transform of the derivative on `x > 0`, `p F(p) − f(0+)`.
-    pub fn derivative(&self) -> Transform {
-        let nothing = Assumptions::default();
-        self.differentiated(&Exact::new(&nothing)).expect("exact values are embedded as they are")
-    }
-
-    /// `F(p) / (p − pole)`.
-    pub fn divide_by_pole(
-        &self,
-        pole: &Fraction,
-        assumptions: &Assumptions,
-    ) -> Result<Transform, NotInvertible> {
-        self.over_pole(&Exact::new(assumptions), pole).map_err(|error| match error {
-            InexactDivision::NotInvertible(reason) => reason,
-            InexactDivision::NotAUnit(_) => unreachable!("nothing is substituted here"),
-        })
     }
 }

@@ -8,16 +8,12 @@ use crate::solution::SolveError;
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LockError {
-    /// A piece cannot be given exactly.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// A value cannot be certified.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
-    /// Contacts cannot be followed.
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// Numbers cannot have this many digits.
     #[error("{0} significant digits cannot be certified")]
     Digits(usize),
     /// A number, by its name, that has no proven digits and is not so near to zero that it needs none.

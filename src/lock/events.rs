@@ -8,7 +8,7 @@ use crate::history::{
     ContactSummary, Ending, Event, EventKind, FollowedSignal, History, HistoryError,
 };
 use crate::lock::difference::{Difference, both, compared};
-use crate::lock::scene::stated;
+use crate::lock::stated::of_scene;
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
 use crate::network::Network;
 use num_bigint::BigInt;
@@ -61,7 +61,7 @@ impl Lock {
         let digits = request.digits as u64;
         let precisions = Precisions::doubling(digits, MOST_TIMES * digits);
         let (events, values) = precisions.raise(attempt).and_then(Attempt::done)?;
-        let stated = stated(network.scene());
+        let stated = of_scene(network.scene());
         Ok(Lock { stated, request, contents: Contents::Events(events), values })
     }
 }

@@ -10,7 +10,7 @@ mod difference;
 mod error;
 mod events;
 mod pieces;
-mod scene;
+mod stated;
 mod text;
 
 use crate::limits::MAX_DIGITS;
@@ -92,7 +92,6 @@ impl Request {
 }
 
 impl Lock {
-    /// The values asked for.
     pub fn request(&self) -> &Request {
         &self.request
     }

@@ -4,8 +4,8 @@ use crate::evaluate::{ClosedSignal, Limit, digits};
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::lock::difference::{Difference, compared};
+use crate::lock::stated::of_recurrence;
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
-use crate::recurrence::{Observation, Statement};
 use crate::solution::Solution;
 use std::collections::{BTreeMap, BTreeSet};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
@@ -44,7 +44,7 @@ impl Lock {
         }
         let values = values(solution, &request)?;
         let contents = Contents::Pieces(Pieces { through, all });
-        Ok(Lock { stated: stated(statement), request, contents, values })
+        Ok(Lock { stated: of_recurrence(statement), request, contents, values })
     }
 }
 
@@ -66,53 +66,6 @@ fn values(solution: &Solution, request: &Request) -> Result<Values, LockError> {
         }
     }
     Ok(values)
-}
-
-/// Title, period, symbols and observables of a recurrence, each in one line.
-fn stated(statement: &Statement) -> BTreeMap<String, String> {
-    let fraction = |value: &Fraction| expression_text(&value.clone().into());
-    let mut stated = BTreeMap::from([
-        ("title".to_owned(), statement.title.trim().to_owned()),
-        ("period".to_owned(), fraction(&statement.period)),
-    ]);
-    for (symbol, condition) in statement.assumptions.symbols() {
-        let condition = condition.map_or_else(|| "any".to_owned(), ToString::to_string);
-        stated.insert(format!("symbol {symbol}"), condition);
-    }
-    for observable in &statement.observables {
-        let seen = observed(&observable.observation, statement);
-        stated.insert(format!("observable {}", observable.name), seen);
-    }
-    stated
-}
-
-/// `f(t) - 2*f'(t - mu) + forcing`, in the order of the statement.
-fn observed(observation: &Observation, statement: &Statement) -> String {
-    let time = &statement.time;
-    let grouped = |text: String| if text.contains(' ') { format!("({text})") } else { text };
-    let mut terms: Vec<String> = Vec::new();
-    for seen in &observation.waves {
-        let factor = match &*grouped(expression_text(&seen.coefficient)) {
-            "1" => String::new(),
-            "-1" => "-".to_owned(),
-            coefficient => format!("{coefficient}*"),
-        };
-        let (wave, prime) = (&statement.waves[seen.wave], if seen.slope { "'" } else { "" });
-        let since = match seen.delay.is_zero() {
-            true => time.to_string(),
-            false => match expression_text(&(-&seen.delay).into()) {
-                early if !early.contains(' ') && !early.starts_with('-') => {
-                    format!("{time} + {early}")
-                }
-                _ => format!("{time} - {}", grouped(expression_text(&seen.delay.clone().into()))),
-            },
-        };
-        terms.push(format!("{factor}{wave}{prime}({since})"));
-    }
-    if !observation.forcing.is_zero() || terms.is_empty() {
-        terms.push(expression_text(&observation.forcing));
-    }
-    terms.join(" + ").replace(" + -", " - ")
 }
 
 impl Pieces {

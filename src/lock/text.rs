@@ -48,8 +48,46 @@ const KINDS: [EventKind; 4] =
 /// One line of a file with its place.
 #[derive(Clone, Copy)]
 struct Line<'a> {
+    source: &'a Source,
     text: &'a str,
     span: Span,
+}
+
+impl<'a> Line<'a> {
+    fn refused(self, remedy: &str) -> Diagnostic {
+        let message = "this line cannot be read";
+        Diagnostic::new(self.source, message, self.span, "in a file of locked results")
+            .with_remedy(remedy)
+    }
+
+    /// The sides of `name = value`.
+    fn equation(self, text: &'a str) -> Result<(&'a str, &'a str), Diagnostic> {
+        let sides = text.split_once('=').map(|(left, right)| (left.trim(), right.trim()));
+        sides.ok_or_else(|| self.refused("write it as `name = value`, or lock again"))
+    }
+
+    fn count(self, text: &str) -> Result<usize, Diagnostic> {
+        let number = text.trim().parse::<u32>().map(|number| number as usize);
+        number.map_err(|_| self.refused("write a whole number, or lock again"))
+    }
+
+    fn number(self, text: &str) -> Result<Rational, Diagnostic> {
+        parse_number(text).map_err(|_| self.refused("write a number such as 33/10, or lock again"))
+    }
+
+    /// Quantity, time and value of `f(33/10) = 0.3`.
+    fn value(self, rest: &'a str) -> Result<(String, Rational, String), Diagnostic> {
+        let (left, value) = self.equation(rest)?;
+        let call = left.strip_suffix(')').and_then(|left| left.split_once('('));
+        let Some((quantity, time)) = call else {
+            return Err(self.refused("write it as `value f(33/10) = 0.3`"));
+        };
+        let time = self.number(time)?;
+        if time.is_negative() || !is_value(value) {
+            return Err(self.refused("write a time from 0 on, and a number"));
+        }
+        Ok((quantity.to_owned(), time, value.to_owned()))
+    }
 }
 
 impl Lock {
@@ -100,7 +138,7 @@ impl Lock {
     /// Reads a lock.
     pub fn read(source: &Source) -> Result<Lock, Diagnostic> {
         let lines = lines(source);
-        let contents = match version(source, lines[0])? {
+        let contents = match version(lines[0])? {
             PIECES => Contents::Pieces(Pieces::default()),
             _ => Contents::Events(Events::default()),
         };
@@ -116,67 +154,61 @@ impl Lock {
                     said = Some((rest.trim(), *line));
                     true
                 }
-                Some((word, rest)) => lock.read_line(source, *line, word, rest)?,
+                Some((word, rest)) => lock.read_line(*line, word, rest)?,
                 None => false,
             };
             match (is_setting, &lock.contents) {
                 (true, _) => listing[line.span.start..line.span.end].fill(b' '),
                 (false, Contents::Pieces(_)) => {}
                 (false, Contents::Events(_)) => {
-                    return Err(refused(source, *line, "remove it, or lock again"));
+                    return Err(line.refused("remove it, or lock again"));
                 }
             }
         }
         if let Contents::Pieces(pieces) = &mut lock.contents {
-            pieces.read(source, listing, lines[0])?;
+            pieces.read(lines[0], listing)?;
         }
-        holds_as_said(source, lines[0], &lock.held(), said)?;
+        holds_as_said(lines[0], &lock.held(), said)?;
         Ok(lock)
     }
 
     /// Takes one line that begins with `word`; whether it is a setting, a fact or a value.
-    fn read_line(
-        &mut self,
-        source: &Source,
-        line: Line<'_>,
-        word: &str,
-        rest: &str,
-    ) -> Result<bool, Diagnostic> {
+    fn read_line(&mut self, line: Line<'_>, word: &str, rest: &str) -> Result<bool, Diagnostic> {
         let is_new = match (word, &mut self.contents) {
             ("digits", contents) => {
-                let digits = count(source, line, rest)?;
+                let digits = line.count(rest)?;
                 if !(1..=MAX_DIGITS).contains(&digits) {
                     let numbers = match contents {
                         Contents::Pieces(_) => "values",
                         Contents::Events(_) => "numbers",
                     };
                     let remedy = format!("{numbers} have 1 to {MAX_DIGITS} digits: lock again");
-                    return Err(refused(source, line, &remedy));
+                    return Err(line.refused(&remedy));
                 }
                 self.request.digits = digits;
                 true
             }
             ("set", _) => {
-                let (name, value) = equation(source, line, rest)?;
-                let value = number(source, line, value)?;
+                let (name, value) = line.equation(rest)?;
+                let value = line.number(value)?;
                 self.request.set.insert(normalise_name(name), value).is_none()
             }
             ("stated", _) => {
-                let (what, value) = equation(source, line, rest)?;
+                let (what, value) = line.equation(rest)?;
                 self.stated.insert(what.to_owned(), value.to_owned()).is_none()
             }
             ("value", _) => {
-                let (quantity, time, value) = value_line(source, line, rest)?;
+                let (quantity, time, value) = line.value(rest)?;
                 if !self.request.times.contains(&time) {
                     self.request.times.push(time.clone());
                 }
                 self.values.insert((quantity, time), value).is_none()
             }
             ("through", Contents::Pieces(pieces)) => {
-                pieces.through = count(source, line, rest)?;
+                pieces.through = line.count(rest)?;
                 true
             }
-            (_, Contents::Events(events)) => match events.read_line(source, line, word, rest)? {
+            (_, Contents::Events(events)) => match events.read_line(line, word, rest)? {
                 Some(is_new) => is_new,
                 None => return Ok(false),
             },
@@ -184,7 +216,7 @@ impl Lock {
         };
         match is_new {
             true => Ok(true),
-            false => Err(refused(source, line, "it stands there twice: remove one of the two")),
+            false => Err(line.refused("it stands there twice: remove one of the two")),
         }
     }
 }
@@ -201,23 +233,18 @@ impl Pieces {
     }
 
     /// Reads a listing; `first` is the line that an error points to.
-    fn read(
-        &mut self,
-        source: &Source,
-        listing: Vec<u8>,
-        first: Line<'_>,
-    ) -> Result<(), Diagnostic> {
+    fn read(&mut self, first: Line<'_>, listing: Vec<u8>) -> Result<(), Diagnostic> {
         let listing = String::from_utf8(listing).expect("whole lines were blanked out");
         if listing.trim().is_empty() {
             return Ok(());
         }
-        let blanked = Source::with_limit(source.name(), listing, MAX_LOCK_BYTES)?;
+        let blanked = Source::with_limit(first.source.name(), listing, MAX_LOCK_BYTES)?;
         for formula in read_listing(&blanked)? {
             let piece = Piece { variable: formula.variable, expression: formula.expression };
             let key = (formula.wave, formula.n);
             let message = format!("{}[{}] stands there twice", key.0, key.1);
             if self.all.insert(key, piece).is_some() {
-                return Err(Diagnostic::new(source, message, first.span, "in this file")
+                return Err(Diagnostic::new(first.source, message, first.span, "in this file")
                     .with_remedy("restore the file, or lock again"));
             }
         }
@@ -242,34 +269,32 @@ impl Events {
     /// of events.
     fn read_line(
         &mut self,
-        source: &Source,
         line: Line<'_>,
         word: &str,
         rest: &str,
     ) -> Result<Option<bool>, Diagnostic> {
-        let refuse = |remedy: &str| Err(refused(source, line, remedy));
         Ok(Some(match word {
             "until" => {
-                let until = number(source, line, rest)?;
+                let until = line.number(rest)?;
                 self.until.replace(until).is_none()
             }
             "event" | "contact" => {
-                let (left, value) = equation(source, line, rest)?;
+                let (left, value) = line.equation(rest)?;
                 let Some((place, name)) = left.split_once(' ') else {
-                    return refuse("write it as `event 1 time = 0`");
+                    return Err(line.refused("write it as `event 1 time = 0`"));
                 };
                 if !is_fact(name, value) {
-                    return refuse("restore the file, or lock again");
+                    return Err(line.refused("restore the file, or lock again"));
                 }
                 let all = if word == "event" { &mut self.events } else { &mut self.contacts };
-                let Facts(facts) = all.entry(count(source, line, place)?).or_default();
+                let Facts(facts) = all.entry(line.count(place)?).or_default();
                 let is_new = facts.iter().all(|(known, _)| known != name);
                 facts.push((name.to_owned(), value.to_owned()));
                 is_new
             }
             "ending" => {
                 let Some(ending) = rest.trim().strip_prefix('=').map(str::trim) else {
-                    return refuse("write it as `ending = parted`");
+                    return Err(line.refused("write it as `ending = parted`"));
                 };
                 let is_new = self.ending.is_empty();
                 self.ending = ending.to_owned();
@@ -295,17 +320,17 @@ fn lines(source: &Source) -> Vec<Line<'_>> {
     let mut lines = Vec::new();
     for line in source.text().split('\n') {
         let text = line.trim_end_matches('\r');
-        lines.push(Line { text, span: Span::new(start, start + text.len()) });
+        lines.push(Line { source, text, span: Span::new(start, start + text.len()) });
         start += line.len() + 1;
     }
     lines
 }
 
 /// The version that the first line says.
-fn version(source: &Source, first: Line<'_>) -> Result<u32, Diagnostic> {
+fn version(first: Line<'_>) -> Result<u32, Diagnostic> {
     let Some(version) = first.text.strip_prefix(HEADING) else {
         return Err(Diagnostic::new(
-            source,
+            first.source,
             "this is no file of locked results",
             first.span,
             format!("expected `{HEADING}{PIECES}`"),
@@ -315,7 +340,7 @@ fn version(source: &Source, first: Line<'_>) -> Result<u32, Diagnostic> {
     match version.trim().parse::<u32>() {
         Ok(version) if (PIECES..=EVENTS).contains(&version) => Ok(version),
         _ => Err(Diagnostic::new(
-            source,
+            first.source,
             format!("this file is of version {}", version.trim()),
             first.span,
             format!("versions up to {EVENTS} are read"),
@@ -326,13 +351,12 @@ fn version(source: &Source, first: Line<'_>) -> Result<u32, Diagnostic> {
 
 /// Refuses a file that does not hold what it says.
 fn holds_as_said(
-    source: &Source,
     first: Line<'_>,
     found: &str,
     said: Option<(&str, Line<'_>)>,
 ) -> Result<(), Diagnostic> {
     let refuse = |message: String, span: Span, label: &str| {
-        Err(Diagnostic::new(source, message, span, label)
+        Err(Diagnostic::new(first.source, message, span, label)
             .with_remedy("restore the file, or lock again"))
     };
     match said {
@@ -351,48 +375,4 @@ fn holds_as_said(
 /// Whether this is a number as locks write it: a decimal or a fraction, or `0 ± 1e-20`.
 fn is_value(text: &str) -> bool {
     parse_number(text.strip_prefix("0 ± ").unwrap_or(text)).is_ok()
-}
-
-/// Quantity, time and value of `f(33/10) = 0.3`.
-fn value_line(
-    source: &Source,
-    line: Line<'_>,
-    rest: &str,
-) -> Result<(String, Rational, String), Diagnostic> {
-    let (left, value) = equation(source, line, rest)?;
-    let call = left.strip_suffix(')').and_then(|left| left.split_once('('));
-    let Some((quantity, time)) = call else {
-        return Err(refused(source, line, "write it as `value f(33/10) = 0.3`"));
-    };
-    let time = number(source, line, time)?;
-    if time.is_negative() || !is_value(value) {
-        return Err(refused(source, line, "write a time from 0 on, and a number"));
-    }
-    Ok((quantity.to_owned(), time, value.to_owned()))
-}
-
-fn refused(source: &Source, line: Line<'_>, remedy: &str) -> Diagnostic {
-    Diagnostic::new(source, "this line cannot be read", line.span, "in a file of locked results")
-        .with_remedy(remedy)
-}
-
-fn count(source: &Source, line: Line<'_>, text: &str) -> Result<usize, Diagnostic> {
-    let number = text.trim().parse::<u32>().ok();
-    number
-        .map(|number| number as usize)
-        .ok_or_else(|| refused(source, line, "write a whole number, or lock again"))
-}
-
-fn equation<'a>(
-    source: &Source,
-    line: Line<'_>,
-    text: &'a str,
-) -> Result<(&'a str, &'a str), Diagnostic> {
-    let sides = text.split_once('=').map(|(left, right)| (left.trim(), right.trim()));
-    sides.ok_or_else(|| refused(source, line, "write it as `name = value`, or lock again"))
-}
-
-fn number(source: &Source, line: Line<'_>, text: &str) -> Result<Rational, Diagnostic> {
-    parse_number(text)
-        .map_err(|_| refused(source, line, "write a number such as 33/10, or lock again"))
 }

@@ -93,7 +93,6 @@ pub struct LinearForm {
 }
 
 impl LinearForm {
-    /// The form 0.
     pub fn zero() -> LinearForm {
         LinearForm::default()
     }
@@ -126,12 +125,10 @@ impl LinearForm {
         form
     }
 
-    /// The operators of the waves that occur.
     pub fn operators(&self) -> impl Iterator<Item = (WaveIndex, &Operator)> + '_ {
         self.operators.iter().map(|(wave, operator)| (*wave, operator))
     }
 
-    /// The operator of one wave.
     pub(crate) fn operator(&self, wave: WaveIndex) -> Operator {
         self.operators.get(&wave).cloned().unwrap_or_default()
     }
@@ -141,22 +138,18 @@ impl LinearForm {
         &self.forcing
     }
 
-    /// Whether no wave occurs.
     pub(crate) fn is_free_of_waves(&self) -> bool {
         self.operators.is_empty()
     }
 
-    /// Whether this is 0.
     pub fn is_zero(&self) -> bool {
         self.operators.is_empty() && self.forcing.is_empty()
     }
 
-    /// Whether a derivative of a wave occurs.
     pub(crate) fn has_slopes(&self) -> bool {
         self.operators.values().any(|operator| !operator.slope.is_empty())
     }
 
-    /// The waves that occur at lag 0.
     pub(crate) fn waves_now(&self) -> impl Iterator<Item = WaveIndex> + '_ {
         let now = |row: &Vec<Expression>| row.first().is_some_and(|c| !c.is_zero());
         let occurs = move |operator: &Operator| now(&operator.value) || now(&operator.slope);

@@ -137,7 +137,6 @@ impl Naming {
         Numbers::new(&self.constants).compare(value, &Fraction::zero()).ok()
     }
 
-    /// Names a constant.
     fn name(&mut self, name: &str, value: Definition, relation: Relation) -> Symbol {
         if let Some(known) = self.constants.iter().find(|constant| constant.value == value) {
             return known.symbol.clone();

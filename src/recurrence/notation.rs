@@ -42,7 +42,6 @@ pub struct SourceProduct {
 }
 
 impl SourceProduct {
-    /// The product 1.
     pub fn one() -> SourceProduct {
         SourceProduct { coefficient: Rational::one(), powers: Vec::new() }
     }
@@ -62,7 +61,6 @@ impl SourceProduct {
         SourceProduct { coefficient: Rational::one(), powers: self.powers.clone() }
     }
 
-    /// Multiplies by a number.
     pub fn scale(&mut self, number: &Rational) {
         assert!(!number.is_zero(), "a product of a source is not zero");
         self.coefficient *= number;
@@ -77,7 +75,6 @@ impl SourceProduct {
         self.powers.retain(|(_, power)| *power != 0);
     }
 
-    /// Its value.
     pub fn to_fraction(&self) -> Fraction {
         self.powers.iter().fold(Fraction::constant(&self.coefficient), |product, (x, power)| {
             let base = match *power < 0 {

@@ -15,7 +15,6 @@ use std::collections::BTreeSet;
 /// The equation of one wave on the n-th period.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Step {
-    /// The wave that this step determines.
     pub wave: WaveIndex,
     /// A form that is zero, without sums. At lag 0 it holds `wave`, with coefficient 1 on its
     /// slope (differential) or, without a slope, on its value (algebraic), and waves of earlier
@@ -69,7 +68,6 @@ pub(crate) struct Ordered {
 /// they are sums of `e^{−at}` where nothing else arrives.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Coupled {
-    /// The waves.
     pub waves: Vec<WaveIndex>,
     /// The rates, with their multiplicities.
     pub rates: Vec<Fraction>,

@@ -43,7 +43,6 @@ impl Recurrence {
         Ok(Recurrence { statement, steps, hidden, coupled })
     }
 
-    /// The statement.
     pub fn statement(&self) -> &Statement {
         &self.statement
     }
@@ -71,7 +70,6 @@ impl Recurrence {
         self.statement.waves.len() + self.hidden
     }
 
-    /// The name of a wave.
     pub fn wave_name(&self, wave: WaveIndex) -> String {
         assert!(wave < self.wave_count(), "a wave of this recurrence");
         let added = |wave| format!("mode_{}", wave - self.statement.waves.len());

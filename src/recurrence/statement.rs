@@ -10,7 +10,6 @@ use wavestep_polynomial::Symbol;
 /// `form[n](0) = form[n−1](D)`, `form[0](0) = start`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Continuity {
-    /// The continuous form.
     pub form: LinearForm,
     /// Its value at `t = 0+`, free of time.
     pub start: Expression,
@@ -19,9 +18,7 @@ pub struct Continuity {
 /// A named quantity, linear in the waves.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Observable {
-    /// Its name.
     pub name: String,
-    /// Its definition.
     pub observation: Observation,
 }
 
@@ -32,9 +29,7 @@ pub struct Observable {
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Observation {
-    /// The delayed waves.
     pub waves: Vec<ObservedWave>,
-    /// The function of scene time that is added.
     pub forcing: Expression,
 }
 
@@ -43,7 +38,6 @@ pub struct Observation {
 pub struct ObservedWave {
     /// The coefficient, free of time.
     pub coefficient: Expression,
-    /// The wave.
     pub wave: WaveIndex,
     /// Whether its derivative is seen, not its value.
     pub slope: bool,
@@ -54,7 +48,6 @@ pub struct ObservedWave {
 /// All that a person states of a recurrence.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Statement {
-    /// A title in words.
     pub title: String,
     /// Symbols with their conditions, and the factors taken to be non-zero.
     pub assumptions: Assumptions,
@@ -72,7 +65,6 @@ pub struct Statement {
     pub equations: Vec<LinearForm>,
     /// Forms that are continuous.
     pub continuity: Vec<Continuity>,
-    /// Quantities to observe.
     pub observables: Vec<Observable>,
     /// How the source writes it.
     pub notation: SourceNotation,
@@ -83,9 +75,7 @@ pub struct Statement {
 pub enum Clause {
     /// The period.
     Period,
-    /// An equation.
     Equation(usize),
-    /// A continuity rule.
     Continuity(usize),
     /// A wave.
     Wave(WaveIndex),
@@ -99,12 +89,7 @@ pub enum Fault {
     PeriodNotPositive,
     /// There are more or fewer equations than waves.
     #[error("{}", counted(*equations, *waves))]
-    Count {
-        /// How many equations.
-        equations: usize,
-        /// How many waves.
-        waves: usize,
-    },
+    Count { equations: usize, waves: usize },
     /// The equation holds no wave on the current period that is still to be determined.
     #[error("this equation determines no wave on the current period")]
     DeterminesNothing,
@@ -115,7 +100,6 @@ pub enum Fault {
     /// polynomial, are not known exactly.
     #[error("the rates at which {} decay together are not known exactly", waves.join(" and "))]
     Rates {
-        /// The waves.
         waves: Vec<String>,
         /// The characteristic polynomial, highest power first.
         polynomial: Vec<Fraction>,
@@ -156,8 +140,6 @@ fn counted(equations: usize, waves: usize) -> String {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{fault}")]
 pub struct InvalidRecurrence {
-    /// The clause at fault.
     pub clause: Clause,
-    /// The fault.
     pub fault: Fault,
 }

@@ -3,7 +3,7 @@
 
 use wavestep_polynomial::{Rational, Symbol};
 
-use crate::expression::{Assumptions, Condition, Fraction, Relation};
+use crate::expression::{Assumptions, Condition, Fraction};
 use crate::limits::MAX_CONTACT_EXPONENT;
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
@@ -14,11 +14,7 @@ use crate::scene::{
 impl Scene {
     /// The assumptions of the scene, and that `pi` is greater than 3.
     pub fn known(&self) -> Assumptions {
-        let mut known = self.assumptions.clone();
-        let pi = Symbol::new(PI).expect("a plain name");
-        let bound = Rational::from_integer(3.into());
-        known.declare_symbol(pi, Some(Condition { relation: Relation::Greater, bound }));
-        known
+        with_pi(self.assumptions.clone())
     }
 
     /// Everything that makes the scene impossible: first the elements, then the line, then the
@@ -42,6 +38,13 @@ impl Scene {
         }
         check.faults
     }
+}
+
+/// The assumptions, and that `pi` is greater than 3.
+pub(crate) fn with_pi(mut assumptions: Assumptions) -> Assumptions {
+    let pi = Symbol::new(PI).expect("a plain name");
+    assumptions.declare_symbol(pi, Some(Condition::above(3)));
+    assumptions
 }
 
 impl Scene {
@@ -80,10 +83,8 @@ impl Check<'_> {
             name.push('x');
         }
         let small = Symbol::new(&name).expect("a plain name");
-        let bound = Rational::from_integer(0.into());
         let mut known = self.known.clone();
-        let condition = Condition { relation: Relation::Greater, bound };
-        known.declare_symbol(small.clone(), Some(condition));
+        known.declare_symbol(small.clone(), Some(Condition::above(0)));
         known.is_positive(&(value + &Fraction::symbol(&small)))
     }
 

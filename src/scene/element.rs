@@ -9,9 +9,7 @@ pub type ElementIndex = usize;
 /// A named part of a scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Element {
-    /// What it is called.
     pub name: String,
-    /// What it is.
     pub kind: Kind,
 }
 
@@ -19,13 +17,10 @@ pub struct Element {
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a scene holds few elements, most of them bars")]
 pub enum Kind {
-    /// A uniform bar.
     Bar(Bar),
-    /// A rigid mass.
     Mass(Mass),
     /// A spring with a parallel damper, between what is left and right of it.
     Spring(Spring),
-    /// A local contact, between what is left and right of it.
     Hertz(Hertz),
     /// A spring with a parallel damper, to the ground.
     Support(Support),
@@ -36,9 +31,7 @@ pub enum Kind {
 /// A uniform bar, finite or endless, moving and strained uniformly at the start.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Bar {
-    /// What it is made of.
     pub body: Body,
-    /// The velocity at the start.
     pub velocity: Fraction,
     /// The strain at the start, positive where it pulls.
     pub strain: Fraction,
@@ -88,7 +81,6 @@ pub enum Body {
 pub struct Mass {
     /// `M`.
     pub mass: Fraction,
-    /// The velocity at the start.
     pub velocity: Fraction,
 }
 
@@ -136,7 +128,6 @@ pub struct Support {
 /// A load that acts from `from` until `until`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Load {
-    /// What is given.
     pub drive: Drive,
     /// Its course: an exponential polynomial of the scene's time, positive to the right.
     pub course: Expression,

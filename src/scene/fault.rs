@@ -8,7 +8,6 @@ use crate::scene::ElementIndex;
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{}", self.sentence())]
 pub struct Fault {
-    /// What is wrong.
     pub mistake: Mistake,
     /// The parts involved; at least one.
     pub parts: Vec<Part>,
@@ -31,9 +30,7 @@ impl Fault {
 /// A part of a scene.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Part {
-    /// An element as declared.
     Element(ElementIndex),
-    /// A property of an element.
     Property(ElementIndex, Property),
     /// A position in the line, counted from the left.
     Position(usize),
@@ -47,9 +44,7 @@ pub enum Part {
     Line,
     /// A term of an observable.
     Term {
-        /// Which observable.
         observable: usize,
-        /// Which of its terms.
         term: usize,
     },
 }
@@ -57,35 +52,23 @@ pub enum Part {
 /// A property of an element. `Display` names it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Property {
-    /// The impedance of a bar.
     Impedance,
-    /// The travel time of a bar.
     Travel,
-    /// The area of a bar's section.
     Area,
-    /// Young's modulus.
     Modulus,
-    /// The density of a bar.
     Density,
-    /// The length of a bar.
     Length,
     /// The strain of a bar at the start.
     Strain,
-    /// The mass of a mass.
     Mass,
-    /// The stiffness of a spring or a support.
     Stiffness,
-    /// The damping of a spring or a support.
     Damping,
-    /// When a load begins.
     From,
-    /// When a load ends.
     Until,
     /// The force of a local contact at its compression.
     Force,
     /// The compression of a local contact at which its force is given.
     Compression,
-    /// The exponent of a local contact.
     Exponent,
 }
 
@@ -98,29 +81,22 @@ pub enum Mistake {
     /// An element stands twice in the line: here, and there before.
     #[error("an element stands in the line twice")]
     Repeated,
-    /// An element stands nowhere in the line.
     #[error("an element does not stand in the line")]
     Unused,
-    /// A property that must be positive may be zero or negative.
     #[error("a property is not certainly positive")]
     NotPositive,
-    /// A property that must not be negative may be.
     #[error("a property may be negative")]
     Negative,
-    /// A spring or support with neither stiffness nor damping.
     #[error("it has neither stiffness nor damping")]
     NoStiffness,
-    /// A load may end before it begins.
     #[error("the load does not certainly end after it begins")]
     EndsBeforeBegin,
-    /// The exponent of a local contact is below 1/10.
     #[error("the exponent of a local contact is at least 1/10")]
     ExponentTooSmall,
     /// The exponent of a local contact is larger than
     /// [`MAX_CONTACT_EXPONENT`](crate::limits::MAX_CONTACT_EXPONENT).
     #[error("the exponent of a local contact is at most 100")]
     ExponentTooLarge,
-    /// No initial velocity, no strain, and no load.
     #[error("nothing moves in this scene")]
     NothingMoves,
     /// `endless` beside a lumped element.
@@ -132,10 +108,8 @@ pub enum Mistake {
     /// A bar without length that does not go on for ever.
     #[error("this bar has no length")]
     NoLength,
-    /// One bar endless on both sides.
     #[error("a bar that is endless on both sides has no end")]
     EndlessBothSides,
-    /// A contact with a free or endless end.
     #[error("there is nothing to be in contact with")]
     ContactAtEnd,
     /// A lumped element or a load at a place that is fixed.
@@ -147,7 +121,6 @@ pub enum Mistake {
     /// A second imposed velocity at one place.
     #[error("two velocities are imposed at one place")]
     TwoVelocities,
-    /// A measure that this place does not have.
     #[error("this cannot be measured there")]
     NotMeasurable,
     /// Stress of a bar that has no area.
@@ -159,13 +132,10 @@ pub enum Mistake {
     /// The end at which a bar goes on for ever.
     #[error("the bar goes on for ever on this side")]
     NoSuchEnd,
-    /// A share of the length of an endless bar.
     #[error("an endless bar has no length to take a share of")]
     ShareOfEndless,
-    /// A section that may lie outside the bar.
     #[error("this section may lie outside the bar")]
     OutsideBar,
-    /// Terms of different dimensions.
     #[error("terms of different dimensions cannot be added")]
     MixedDimensions,
     /// Energy or momentum of an endless bar that moves or is strained as a whole.

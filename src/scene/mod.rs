@@ -1,5 +1,5 @@
 //! Scenes as physics: bars, lumped elements, loads, ends, the line that joins them, and what is
-//! observed; quantities with their dimensions. No text.
+//! observed; dimensions of quantities. No text.
 //!
 //! A [`Scene`] is what the language reads and what the network is built from.
 
@@ -8,11 +8,11 @@ mod dimension;
 mod element;
 mod fault;
 mod observable;
-mod quantity;
 
 use crate::expression::Assumptions;
 use wavestep_polynomial::Symbol;
 
+pub(crate) use check::with_pi;
 pub use dimension::Dimension;
 pub use element::{
     Bar, Body, Drive, Element, ElementIndex, Hertz, Kind, LEAST_EXPONENT_INVERSE, Load, Mass,
@@ -20,7 +20,6 @@ pub use element::{
 };
 pub use fault::{Fault, Mistake, Part, Property};
 pub use observable::{Measure, Observable, Place, Position, Seen};
-pub use quantity::Quantity;
 
 /// The name of the number π in the expressions of a scene.
 pub const PI: &str = "pi";
@@ -31,7 +30,6 @@ pub const PI: &str = "pi";
 /// compress, strain and stress where they pull. Loads act to the right where they are positive.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Scene {
-    /// What is modelled, in words.
     pub title: String,
     /// Symbols with their conditions, and factors taken to be non-zero. `pi` is no symbol of a
     /// scene: it is the number.
@@ -40,12 +38,10 @@ pub struct Scene {
     pub dimensional: bool,
     /// The elements, in the order in which they are declared.
     pub elements: Vec<Element>,
-    /// How they are joined.
     pub line: Line,
     /// Whether contacts open where they would pull, and close where bodies meet again. Without, all of
     /// them stay closed.
     pub contacts_open: bool,
-    /// Quantities to observe.
     pub observables: Vec<Observable>,
     /// The time in loads, in seconds where the scene has units.
     pub time: Symbol,
@@ -54,14 +50,12 @@ pub struct Scene {
 /// Elements from left to right, between two ends.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Line {
-    /// What is at the left.
     pub left: End,
     /// The elements, each once.
     pub elements: Vec<ElementIndex>,
     /// How they are joined: `joints[0]` is between the left end and the first element, the last one
     /// between the last element and the right end; one more than there are elements.
     pub joints: Vec<Joint>,
-    /// What is at the right.
     pub right: End,
 }
 

@@ -7,7 +7,6 @@ use crate::scene::element::ElementIndex;
 /// A named quantity to observe: a sum of measures.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Observable {
-    /// What it is called.
     pub name: String,
     /// Its terms, all of one dimension.
     pub terms: Vec<Seen>,
@@ -20,7 +19,6 @@ pub struct Seen {
     pub coefficient: Fraction,
     /// What is measured.
     pub measure: Measure,
-    /// Where.
     pub place: Place,
 }
 
@@ -72,7 +70,6 @@ impl Measure {
         }
     }
 
-    /// The dimension of what is measured.
     pub const fn dimension(self) -> Dimension {
         match self {
             Measure::Velocity => Dimension::VELOCITY,
@@ -97,7 +94,6 @@ pub enum Place {
     At(ElementIndex, Position),
     /// A lumped element, or a bar as a whole.
     Element(ElementIndex),
-    /// The whole line.
     Line,
 }
 

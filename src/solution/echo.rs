@@ -29,11 +29,9 @@ pub struct EchoByEcho<'a, F: Field = Exact<'a>> {
 /// An echo that could not be worked out, and why.
 #[derive(Debug)]
 pub(crate) struct Failed<E> {
-    /// The wave.
     pub wave: WaveIndex,
     /// The number of the echo.
     pub order: usize,
-    /// The reason.
     pub reason: E,
 }
 

@@ -43,9 +43,7 @@ impl From<InexactDivision> for Unsolvable {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{wave}[{order}] cannot be given exactly: {reason}")]
 pub struct SolveError {
-    /// The wave.
     pub wave: String,
-    /// The period or echo.
     pub order: usize,
     /// The reason.
     #[source]

@@ -11,9 +11,7 @@ const MAX_RATIOS: usize = 16;
 /// One term `coefficient · n^power · ratio^n`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct GeometricTerm {
-    /// The constant in front.
     pub coefficient: Expression,
-    /// The power of n.
     pub power: u32,
     /// The ratio `λ`; `λ^0 = 1`, also for `λ = 0`.
     pub ratio: Expression,
@@ -126,7 +124,6 @@ impl Geometric {
         &self.terms
     }
 
-    /// The value at n.
     pub fn value(&self, n: usize) -> Expression {
         if let Some(value) = self.first.get(n) {
             return value.clone();

@@ -17,7 +17,6 @@ use wavestep_polynomial::Rational;
 /// It is zero before the offset.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ObservedPieces {
-    /// When the first period begins.
     pub offset: Fraction,
     /// The pieces, in the local variable.
     pub pieces: Vec<Expression>,
@@ -26,11 +25,8 @@ pub struct ObservedPieces {
 /// An observable between two of its arrivals: `q(from + s) = value(s)`, `0 ≤ s < to − from`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ObservedStretch {
-    /// When it begins.
     pub from: Fraction,
-    /// When it ends.
     pub to: Fraction,
-    /// The observable, in the local variable.
     pub value: Expression,
 }
 

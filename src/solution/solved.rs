@@ -30,7 +30,6 @@ impl Solution {
         Solution { recurrence, general }
     }
 
-    /// The recurrence that is solved.
     pub fn recurrence(&self) -> &Recurrence {
         &self.recurrence
     }

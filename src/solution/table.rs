@@ -44,9 +44,7 @@ pub struct ExpandedTerm<'a> {
     pub rate: &'a Rational,
     /// The number `m` of periods that the echo is old.
     pub age: u32,
-    /// The power of the local variable.
     pub local_power: u32,
-    /// The power of the period.
     pub period_power: u32,
     /// The integer in front.
     pub numerator: IntegerRef<'a>,
@@ -66,7 +64,6 @@ pub struct OrdinaryTerm<'a> {
     pub rate: &'a Rational,
     /// The number `m` of periods that the echo is old.
     pub age: u32,
-    /// The power of the local variable.
     pub local_power: u32,
     /// The power of `x`.
     pub symbol_power: u32,
@@ -91,7 +88,6 @@ impl EchoTable {
         self.rows
     }
 
-    /// The echoes.
     pub fn rows(&self) -> &[EchoRow] {
         &self.rows
     }

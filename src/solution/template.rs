@@ -322,10 +322,8 @@ fn source(step: &Step, time: &Symbol) -> Option<Vec<(Expression, Transform)>> {
     let forcing = step.equation.forcing_terms();
     let mut source = Vec::new();
     for lag in 0..constants.len().max(forcing.len()) {
-        let mut transform = Transform::zero();
-        if let Some(function) = forcing.get(lag) {
-            transform.add_scaled(&Transform::of(function, time), &Expression::integer(-1));
-        }
+        let forced = |function: &Expression| Transform::of(&-function, time);
+        let transform = forcing.get(lag).map_or_else(Transform::zero, forced);
         source.push((constants.get(lag).cloned().unwrap_or_default(), transform));
     }
     Some(source)

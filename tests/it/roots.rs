@@ -2,7 +2,9 @@
 //! that are roots of quadratics.
 
 use proptest::prelude::*;
-use wavestep::expression::{Assumptions, Condition, Expression, Fraction, Relation, Transform};
+use wavestep::expression::{
+    Assumptions, Condition, Exact, Expression, Fraction, Relation, Transform,
+};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 fn polynomial(text: &str) -> Polynomial {
@@ -186,8 +188,8 @@ fn two_ways_to_solve_equations_of_second_order() {
     for (b, c) in quadratics() {
         let [first, second] = poles(&b, &c);
         let transform = Transform::of(&forcing, &s());
-        let divided = transform.divide_by_pole(&first, &known).unwrap();
-        let divided = divided.divide_by_pole(&second, &known).unwrap();
+        let divided = transform.over_pole(&Exact::new(&known), &first).unwrap();
+        let divided = divided.over_pole(&Exact::new(&known), &second).unwrap();
         let y = divided.function(&s());
 
         let zero = Expression::zero();

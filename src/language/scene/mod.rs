@@ -22,7 +22,7 @@ use super::syntax::{
     self, Declaration, Declared, Expression as Tree, Name, Node, SceneStatementKind, Section, Span,
     Unit,
 };
-use crate::expression::{Assumptions, Condition, Expression, Fraction, Relation};
+use crate::expression::{Assumptions, Expression, Fraction};
 use crate::limits::MAX_MISTAKES;
 use crate::scene::{self, Dimension, ElementIndex, Kind, PI};
 use element::Material;
@@ -221,9 +221,7 @@ impl<'a> Lowering<'a> {
         self.keep(outcome);
         self.plain = self.scope.assumptions.clone();
         self.scope.symbols.insert(PI.to_owned(), None);
-        let bound = Rational::from_integer(3.into());
-        let condition = Condition { relation: Relation::Greater, bound };
-        self.scope.assumptions.declare_symbol(symbol(PI), Some(condition));
+        self.scope.assumptions = scene::with_pi(self.plain.clone());
         for statement in self.statements() {
             let SceneStatementKind::Nonzero(tree) = statement else { continue };
             let outcome = parameters::nonzero(&self.scope, tree, self.values);
