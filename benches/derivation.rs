@@ -107,7 +107,7 @@ fn periods(c: &mut Criterion) {
             b.iter(|| {
                 let mut solver = PeriodByPeriod::new(&recurrence);
                 (0..=through).for_each(|_| solver.advance().expect("solvable"));
-                black_box(solver.waves().len())
+                black_box(solver.pieces().len())
             });
         });
     }

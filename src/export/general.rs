@@ -15,14 +15,10 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// The first of these names that has no meaning in the recurrence.
 fn free_name(recurrence: &Recurrence, names: &[&str]) -> Symbol {
-    let statement = recurrence.statement();
-    let taken = |name: &str| {
-        recurrence.symbols().chain([&statement.local, &statement.time]).any(|x| x.name() == name)
-            || statement.waves.iter().any(|wave| wave == name)
-    };
     let numbered = (1..).map(|i| format!("{}{i}", names[0]));
     let mut candidates = names.iter().map(ToString::to_string).chain(numbered);
-    let free = candidates.find(|name| !taken(name)).expect("there is always another number");
+    let free =
+        candidates.find(|name| !recurrence.takes(name)).expect("there is always another number");
     Symbol::new(&free).expect("a name")
 }
 
@@ -239,8 +235,7 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
         let mut sum = Expression::zero();
         let mut power = Expression::one();
         for lag in 0..operator.reach() {
-            let at = |row: &[Expression]| row.get(lag).cloned().unwrap_or_default();
-            let both = &at(operator.value()) + &(&at(operator.slope()) * &slope);
+            let both = &operator.value_at(lag) + &(&operator.slope_at(lag) * &slope);
             sum += &(&both * &power);
             power = &power * &delay;
         }

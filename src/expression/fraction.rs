@@ -299,9 +299,12 @@ impl From<Polynomial> for Fraction {
     }
 }
 
-/// `left ± right` over the least common denominator.
-fn combine(left: &Fraction, right: &Fraction, subtract: bool) -> Fraction {
-    let add = |l: &Polynomial, r: &Polynomial| if subtract { l - r } else { l + r };
+/// The sum or difference over the least common denominator.
+fn combine(
+    left: &Fraction,
+    right: &Fraction,
+    add: impl Fn(&Polynomial, &Polynomial) -> Polynomial,
+) -> Fraction {
     if left.factors.is_empty() && right.factors.is_empty() {
         return add(&left.numerator, &right.numerator).into();
     }
@@ -322,14 +325,14 @@ fn combine(left: &Fraction, right: &Fraction, subtract: bool) -> Fraction {
 impl Add for &Fraction {
     type Output = Fraction;
     fn add(self, other: &Fraction) -> Fraction {
-        combine(self, other, false)
+        combine(self, other, |l, r| l + r)
     }
 }
 
 impl Sub for &Fraction {
     type Output = Fraction;
     fn sub(self, other: &Fraction) -> Fraction {
-        combine(self, other, true)
+        combine(self, other, |l, r| l - r)
     }
 }
 

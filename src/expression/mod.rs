@@ -4,7 +4,7 @@
 //! polynomials in named symbols, localised at factors known to be non-zero. A wave function on one
 //! period is an `Expression` in the local time; its coefficients, such as `1 + e^{−2μ}`, are
 //! expressions too. Poles of second order bring square roots into both. [`Assumptions`] says what may be divided by. [`Transform`] is the same kind of
-//! function in the Laplace domain. [`Piecewise`] and [`EchoSum`] are functions of all time.
+//! function in the Laplace domain. [`EchoSum`] is a function of all time.
 //!
 //! Nothing here knows of bars or of text.
 
@@ -13,7 +13,6 @@ mod calculus;
 mod constant;
 mod echo_sum;
 mod fraction;
-mod piecewise;
 mod root;
 mod sum;
 mod transform;
@@ -22,7 +21,6 @@ pub use assumptions::{Assumptions, Condition, NotInvertible, Relation};
 pub use constant::{Constant, Definition, Root};
 pub use echo_sum::EchoSum;
 pub use fraction::{Fraction, NotAUnit};
-pub use piecewise::Piecewise;
 pub use sum::{ExponentialSum, Expression};
 pub(crate) use transform::InexactDivision;
 pub use transform::{Exact, Field, Transform};

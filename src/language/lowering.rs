@@ -9,7 +9,7 @@ use super::diagnostic::Diagnostic;
 use super::parameters;
 use super::scope::{Linear, Place, Reference, Scope, symbol};
 use super::source::Source;
-use super::syntax::{self, Span, Spanned, StatementKind};
+use super::syntax::{self, Name, Span, Spanned, StatementKind};
 use super::written;
 use crate::expression::{Assumptions, Expression, Fraction, NotInvertible};
 use crate::recurrence::{
@@ -30,7 +30,6 @@ pub(super) fn recurrence(
     lowering.waves()?;
     lowering.factors()?;
     let (period, local, time) = lowering.period()?;
-    let spans = lowering.spans();
     let mut statement = Statement {
         title: tree.title.value.clone(),
         assumptions: Assumptions::default(),
@@ -47,24 +46,16 @@ pub(super) fn recurrence(
     statement.observables = lowering.observables(&statement)?;
     statement.notation = written::notation(tree, &lowering.scope)?;
     statement.assumptions = lowering.scope.assumptions.clone();
-    Recurrence::new(statement).map_err(|invalid| lowering.refusal(&invalid, &spans))
+    Recurrence::new(statement).map_err(|invalid| lowering.refusal(&invalid))
 }
 
 struct Lowering<'a> {
     tree: &'a syntax::Recurrence,
     values: &'a BTreeMap<String, Rational>,
     scope: Scope,
-    wave_names: Vec<Spanned<String>>,
+    wave_names: Vec<Name>,
     /// Where each name was declared.
     declared: BTreeMap<String, Span>,
-}
-
-/// Where the parts of a recurrence stand in the text.
-struct Spans {
-    period: Span,
-    equations: Vec<Span>,
-    continuity: Vec<Span>,
-    waves: Vec<Span>,
 }
 
 impl<'a> Lowering<'a> {
@@ -86,7 +77,7 @@ impl<'a> Lowering<'a> {
         self.tree.statements.iter().map(|statement| (&statement.value, statement.span))
     }
 
-    fn declare(&mut self, name: &Spanned<String>) -> Outcome<()> {
+    fn declare(&mut self, name: &Name) -> Outcome<()> {
         if name.value == "n" {
             return Err(self
                 .error("`n` always counts periods", name.span, "cannot be declared")
@@ -119,12 +110,9 @@ impl<'a> Lowering<'a> {
             }
         }
         if self.wave_names.is_empty() {
+            let title = self.tree.title.span;
             return Err(self
-                .error(
-                    "no wave is declared",
-                    self.tree.title.span,
-                    "this recurrence has no unknown",
-                )
+                .error("no wave is declared", title, "this recurrence has no unknown")
                 .with_remedy("name the unknown waves, as in `wave f, g`"));
         }
         Ok(())
@@ -142,17 +130,15 @@ impl<'a> Lowering<'a> {
     }
 
     fn period(&mut self) -> Outcome<(Fraction, Symbol, Symbol)> {
-        let mut found: Option<Span> = None;
-        let mut result = None;
+        let mut found: Option<(Span, Fraction, [&Name; 2])> = None;
         for (statement, span) in self.statements() {
             let StatementKind::Period { length, local, time } = statement else { continue };
-            if let Some(first) = found {
+            if let Some((first, ..)) = found {
                 return Err(self
                     .error("the period is stated twice", span, "again here")
                     .with_secondary(first, "first stated here")
                     .with_remedy("remove one of the two"));
             }
-            found = Some(span);
             let period = self.scope.lower_fraction(length, "a period")?;
             if period.roots().next().is_some() {
                 return Err(self
@@ -161,34 +147,37 @@ impl<'a> Lowering<'a> {
             }
             self.declare(local)?;
             self.declare(time)?;
-            result = Some((period, symbol(&local.value), symbol(&time.value)));
+            found = Some((span, period, [local, time]));
         }
-        let Some((period, local, time)) = result else {
+        let Some((_, period, names)) = found else {
             return Err(self
                 .error("no period is stated", self.tree.title.span, "of this recurrence")
                 .with_remedy("state it, as in `period 2*mu, local s, time t`"));
         };
+        let [local, time] = names.map(|name| symbol(&name.value));
         self.scope.local = Some(local.clone());
         self.scope.time = Some(time.clone());
         Ok((period, local, time))
     }
 
-    fn spans(&self) -> Spans {
-        let mut spans = Spans {
-            period: self.tree.title.span,
-            equations: Vec::new(),
-            continuity: Vec::new(),
-            waves: self.wave_names.iter().map(|name| name.span).collect(),
+    /// Where a clause stands in the text.
+    fn span(&self, clause: Clause) -> Span {
+        let nth = |i: usize, kind: fn(&StatementKind) -> bool| {
+            let mut statements = self.statements().filter(|(statement, _)| kind(statement));
+            statements.nth(i).map(|(_, span)| span)
         };
-        for (statement, span) in self.statements() {
-            match statement {
-                StatementKind::Period { length, .. } => spans.period = length.span,
-                StatementKind::Equation { .. } => spans.equations.push(span),
-                StatementKind::Continuous { .. } => spans.continuity.push(span),
-                _ => {}
+        let found = match clause {
+            Clause::Period => self.statements().find_map(|(statement, _)| match statement {
+                StatementKind::Period { length, .. } => Some(length.span),
+                _ => None,
+            }),
+            Clause::Equation(i) => nth(i, |kind| matches!(kind, StatementKind::Equation { .. })),
+            Clause::Continuity(i) => {
+                nth(i, |kind| matches!(kind, StatementKind::Continuous { .. }))
             }
-        }
-        spans
+            Clause::Wave(i) => self.wave_names.get(i).map(|name| name.span),
+        };
+        found.unwrap_or(self.tree.title.span)
     }
 
     fn form(&self, linear: &Linear) -> LinearForm {
@@ -277,13 +266,8 @@ impl<'a> Lowering<'a> {
     }
 
     /// What the recurrence refused, at its place in the text.
-    fn refusal(&self, invalid: &InvalidRecurrence, spans: &Spans) -> Diagnostic {
-        let span = match invalid.clause {
-            Clause::Period => spans.period,
-            Clause::Equation(i) => spans.equations[i],
-            Clause::Continuity(i) => spans.continuity[i],
-            Clause::Wave(i) => spans.waves[i],
-        };
+    fn refusal(&self, invalid: &InvalidRecurrence) -> Diagnostic {
+        let span = self.span(invalid.clause);
         let (label, remedy) = match &invalid.fault {
             Fault::PeriodNotPositive => (
                 "may be zero or negative",

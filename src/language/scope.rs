@@ -158,7 +158,7 @@ impl Scope {
     }
 
     /// Every name that an expression could have meant.
-    fn known_names(&self) -> impl Iterator<Item = &str> + Clone {
+    pub fn known_names(&self) -> impl Iterator<Item = &str> + Clone {
         let times = self.local.iter().chain(&self.time).map(Symbol::name);
         self.waves.keys().chain(self.symbols.keys()).map(String::as_str).chain(times)
     }

@@ -1,7 +1,6 @@
 //! `written` statements: how the source of a recurrence writes it.
 
 use num_traits::{ToPrimitive, Zero};
-use wavestep_polynomial::Symbol;
 
 use super::constant::constant;
 use super::diagnostic::Diagnostic;
@@ -76,10 +75,8 @@ impl Scope {
             Err(self.error(message, span, what).with_remedy(remedy))
         };
         if let Some(name) = name {
-            let times = [&self.local, &self.time].into_iter().flatten().map(Symbol::name);
-            let own = self.waves.keys().chain(self.symbols.keys()).map(String::as_str);
             let same = |other: &&str| *other == name || is_constant(other, name, item);
-            if let Some(other) = own.chain(times).chain(["n"]).find(same) {
+            if let Some(other) = self.known_names().chain(["n"]).find(same) {
                 return refuse(other, "a name of the recurrence", free);
             }
             let plain = |product: &SourceProduct| match product.powers() {

@@ -154,7 +154,7 @@ impl Problem {
             by_period.advance().map_err(|error| self.explained(error.into()))?;
             for (wave, name) in statement.waves.iter().enumerate() {
                 let piece = by_echo.sum(wave).piece(n).ok();
-                let other = &by_period.waves()[wave].pieces()[n];
+                let other = &by_period.pieces()[wave][n];
                 let difference =
                     piece.map(|piece| statement.assumptions.reduced(&(&piece - other)));
                 if difference.is_none_or(|difference| !difference.is_zero()) {

@@ -31,10 +31,6 @@ fn add_at(row: &mut Vec<Expression>, lag: usize, coefficient: &Expression) {
     }
 }
 
-fn coefficient(row: &[Expression], lag: usize) -> Expression {
-    row.get(lag).cloned().unwrap_or_default()
-}
-
 impl Operator {
     /// The coefficients of `w[n−j]`.
     pub fn value(&self) -> &[Expression] {
@@ -56,14 +52,22 @@ impl Operator {
         self.value.len().max(self.slope.len())
     }
 
-    /// The coefficient of `w[n]`.
-    pub(crate) fn value_now(&self) -> Expression {
-        coefficient(&self.value, 0)
+    /// The coefficient of `w[n−lag]`.
+    pub(crate) fn value_at(&self, lag: usize) -> Expression {
+        self.value.get(lag).cloned().unwrap_or_default()
     }
 
-    /// The coefficient of `w'[n]`.
+    /// The coefficient of `w'[n−lag]`.
+    pub(crate) fn slope_at(&self, lag: usize) -> Expression {
+        self.slope.get(lag).cloned().unwrap_or_default()
+    }
+
+    pub(crate) fn value_now(&self) -> Expression {
+        self.value_at(0)
+    }
+
     pub(crate) fn slope_now(&self) -> Expression {
-        coefficient(&self.slope, 0)
+        self.slope_at(0)
     }
 
     fn is_zero(&self) -> bool {

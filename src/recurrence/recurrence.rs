@@ -76,6 +76,14 @@ impl Recurrence {
         self.statement.waves.get(wave).cloned().unwrap_or_else(|| added(wave))
     }
 
+    /// Whether a wave, a symbol or a time has this name.
+    pub(crate) fn takes(&self, name: &str) -> bool {
+        let Statement { local, time, waves, assumptions, .. } = &self.statement;
+        let symbols = assumptions.symbols().map(|(symbol, _)| symbol);
+        symbols.chain([local, time]).any(|symbol| symbol.name() == name)
+            || waves.iter().any(|wave| wave == name)
+    }
+
     /// The place of the wave called `name`.
     pub fn wave(&self, name: &str) -> Option<WaveIndex> {
         self.statement.waves.iter().position(|wave| wave == name)

@@ -1,5 +1,5 @@
-//! Whether a scene can be: signs of its properties, ends and lengths that agree, elements that can
-//! do something where they stand, and measures that fit their places.
+//! Checks of a scene: signs of its properties, ends and lengths that agree, elements that can do something
+//! where they stand, and measures that fit their places.
 
 use wavestep_polynomial::{Rational, Symbol};
 

@@ -1,7 +1,5 @@
 //! What makes a scene impossible, and which parts of it are involved.
 
-use std::fmt;
-
 use crate::scene::ElementIndex;
 
 /// A mistake in a scene with the parts involved, the one to change first.
@@ -17,10 +15,10 @@ impl Fault {
     fn sentence(&self) -> String {
         match (self.mistake, self.parts.first()) {
             (Mistake::NotPositive, Some(Part::Property(_, property))) => {
-                format!("{property} is not certainly positive")
+                format!("{} is not certainly positive", property.words().0)
             }
             (Mistake::Negative, Some(Part::Property(_, property))) => {
-                format!("{property} may be negative")
+                format!("{} may be negative", property.words().0)
             }
             (mistake, _) => mistake.to_string(),
         }
@@ -49,7 +47,7 @@ pub enum Part {
     },
 }
 
-/// A property of an element. `Display` names it.
+/// A property of an element.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Property {
     Impedance,
@@ -143,24 +141,25 @@ pub enum Mistake {
     Infinite,
 }
 
-impl fmt::Display for Property {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Property::Impedance => "the impedance",
-            Property::Travel => "the travel time",
-            Property::Area => "the area of the section",
-            Property::Modulus => "the modulus",
-            Property::Density => "the density",
-            Property::Length => "the length",
-            Property::Strain => "the strain",
-            Property::Mass => "the mass",
-            Property::Stiffness => "the stiffness",
-            Property::Damping => "the damping",
-            Property::From => "the beginning of the load",
-            Property::Until => "the end of the load",
-            Property::Force => "the force",
-            Property::Compression => "the compression",
-            Property::Exponent => "the exponent",
-        })
+impl Property {
+    /// What it is called in a sentence, and the words that give it in a text.
+    pub(crate) fn words(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Property::Impedance => ("the impedance", &["impedance"]),
+            Property::Travel => ("the travel time", &["travel"]),
+            Property::Area => ("the area of the section", &["area", "diameter"]),
+            Property::Modulus => ("the modulus", &["modulus", "wave_speed"]),
+            Property::Density => ("the density", &["density"]),
+            Property::Length => ("the length", &["length"]),
+            Property::Strain => ("the strain", &["strain"]),
+            Property::Mass => ("the mass", &["mass"]),
+            Property::Stiffness => ("the stiffness", &["stiffness"]),
+            Property::Damping => ("the damping", &["damping"]),
+            Property::From => ("the beginning of the load", &["from"]),
+            Property::Until => ("the end of the load", &["until"]),
+            Property::Force => ("the force", &["force"]),
+            Property::Compression => ("the compression", &["compression"]),
+            Property::Exponent => ("the exponent", &["exponent"]),
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Observables as pieces, where their waves arrive together.
 
 use crate::expression::{Expression, Fraction};
-use crate::recurrence::{Observation, WaveIndex};
+use crate::recurrence::{Observation, Statement, WaveIndex};
 use crate::solution::error::SolveError;
 use crate::solution::solved::Solution;
 use num_traits::ToPrimitive;
@@ -77,6 +77,13 @@ impl Solution {
         common.filter(|(offset, _)| observation.forcing.is_zero() || offset.is_zero())
     }
 
+    /// What is added to the waves, from a scene time on.
+    fn forcing_from(&self, observation: &Observation, start: &Fraction) -> Expression {
+        let Statement { local, time, .. } = self.recurrence().statement();
+        let forcing = observation.forcing.substitute(time, &(&Fraction::symbol(local) + start));
+        forcing.expect("forcing has no time in denominators")
+    }
+
     /// An observable whose waves arrive apart, between its arrivals on the periods `first … last` of
     /// the waves.
     pub fn observed_between_arrivals(
@@ -133,9 +140,7 @@ impl Solution {
                     let moved = moved.map_err(|_| ObserveError::MixedOffsets)?;
                     value.add_scaled(&moved, &seen.coefficient);
                 }
-                let time = &Fraction::symbol(&statement.local) + &from;
-                let forcing = observation.forcing.substitute(&statement.time, &time);
-                value += &forcing.expect("forcing has no time in denominators");
+                value += &self.forcing_from(observation, &from);
                 stretches.push(ObservedStretch { from, to: period.scale(&next), value });
             }
         }
@@ -177,9 +182,7 @@ impl Solution {
         }
         for (n, piece) in (first..).zip(&mut pieces).filter(|_| forced) {
             let arrival = statement.period.scale(&Rational::from_integer(n.into()));
-            let time = &Fraction::symbol(&statement.local) + &arrival;
-            let forcing = observation.forcing.substitute(&statement.time, &time);
-            *piece += &forcing.expect("forcing has no time in denominators");
+            *piece += &self.forcing_from(observation, &arrival);
         }
         Ok(ObservedPieces { offset, pieces })
     }

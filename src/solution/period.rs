@@ -12,8 +12,8 @@
 //! The integrating factor is `e^{as}`; the constant is such that the continuous form goes on where
 //! it stopped.
 
-use crate::expression::{Expression, Fraction, Piecewise};
-use crate::recurrence::{LinearForm, Recurrence, Start, Step, WaveIndex};
+use crate::expression::{Expression, Fraction};
+use crate::recurrence::{LinearForm, Recurrence, Start, Statement, Step, WaveIndex};
 use crate::solution::error::{SolveError, Unsolvable, check_degree};
 use std::collections::BTreeSet;
 use wavestep_polynomial::{Rational, Symbol};
@@ -21,7 +21,8 @@ use wavestep_polynomial::{Rational, Symbol};
 /// The solution of a recurrence, period by period.
 pub struct PeriodByPeriod<'a> {
     recurrence: &'a Recurrence,
-    waves: Vec<Piecewise>,
+    /// `waves[wave][n]`, the pieces in the local variable, `w(nD + s)` for `0 ≤ s < D`.
+    waves: Vec<Vec<Expression>>,
     /// `ends[wave][n]`, the limits at the end of each period, where they were needed.
     ends: Vec<Vec<Option<Expression>>>,
     /// Symbols in place of the limits at the ends.
@@ -45,9 +46,7 @@ impl KeptEnds {
     /// A new symbol for the end of the n-th period of a wave, in the order of the periods.
     fn symbol(&mut self, recurrence: &Recurrence, wave: WaveIndex, n: usize) -> Symbol {
         let mut name = format!("{}_end_{n:05}", recurrence.statement().waves[wave]);
-        let statement = recurrence.statement();
-        let times = [&statement.local, &statement.time];
-        while recurrence.symbols().chain(times).any(|symbol| symbol.name() == name) {
+        while recurrence.takes(&name) {
             name.push('_');
         }
         let symbol = Symbol::new(&name).expect("a name of a wave with letters after it");
@@ -59,10 +58,8 @@ impl KeptEnds {
 impl<'a> PeriodByPeriod<'a> {
     /// No period solved yet.
     pub fn new(recurrence: &'a Recurrence) -> PeriodByPeriod<'a> {
-        let statement = recurrence.statement();
-        let empty = Piecewise::new(statement.period.clone(), statement.local.clone());
         let count = recurrence.wave_count();
-        let (waves, ends) = (vec![empty; count], vec![Vec::new(); count]);
+        let (waves, ends) = (vec![Vec::new(); count], vec![Vec::new(); count]);
         PeriodByPeriod { recurrence, waves, ends, kept: None }
     }
 
@@ -80,8 +77,8 @@ impl<'a> PeriodByPeriod<'a> {
         self.kept.as_ref()
     }
 
-    /// The waves on the periods solved so far.
-    pub fn waves(&self) -> &[Piecewise] {
+    /// The pieces of the waves on the periods solved so far, `pieces[wave][n]`.
+    pub fn pieces(&self) -> &[Vec<Expression>] {
         &self.waves
     }
 
@@ -147,11 +144,10 @@ impl<'a> PeriodByPeriod<'a> {
     fn earlier(&self, form: &LinearForm, wave: WaveIndex, n: usize) -> Vec<Earlier<'_>> {
         let mut earlier = Vec::new();
         for (other, operator) in form.operators() {
-            let at = |row: &[Expression], lag: usize| row.get(lag).cloned().unwrap_or_default();
             for lag in usize::from(other == wave)..operator.reach().min(n + 1) {
-                let (value, slope) = (at(operator.value(), lag), at(operator.slope(), lag));
+                let (value, slope) = (operator.value_at(lag), operator.slope_at(lag));
                 if !(value.is_zero() && slope.is_zero()) {
-                    let piece = &self.waves[other].pieces()[n - lag];
+                    let piece = &self.waves[other][n - lag];
                     earlier.push(Earlier { piece, value, slope });
                 }
             }
@@ -178,7 +174,8 @@ impl<'a> PeriodByPeriod<'a> {
             let first = usize::from(other == wave);
             let values = operator.value().iter().enumerate().take(n + 1).skip(first);
             for (lag, value) in values.filter(|(_, value)| !value.is_zero()) {
-                sum.add_scaled(&self.waves[other].start(n - lag), value);
+                let start = self.waves[other][n - lag].at_zero(&self.recurrence.statement().local);
+                sum.add_scaled(&start, value);
             }
         }
         Ok(sum)
@@ -194,7 +191,8 @@ impl<'a> PeriodByPeriod<'a> {
                 }
                 let place = &mut self.ends[wave][n - lag];
                 if place.is_none() {
-                    *place = Some(self.waves[wave].end(n - lag)?);
+                    let Statement { local, period, .. } = self.recurrence.statement();
+                    *place = Some(self.waves[wave][n - lag].substitute(local, period)?);
                 }
                 let end = place.as_ref().expect("just computed");
                 sum.add_scaled(end, value);

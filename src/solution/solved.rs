@@ -99,8 +99,7 @@ impl Solution {
         for _ in 0..=last {
             solver.advance()?;
         }
-        let pieces = solver.waves().iter().map(|wave| wave.pieces().to_vec()).collect();
-        Ok((pieces, solver.kept_ends().cloned().unwrap_or_default()))
+        Ok((solver.pieces().to_vec(), solver.kept_ends().cloned().unwrap_or_default()))
     }
 
     /// The echoes `φ_0 … φ_through` of a wave as a table of integers; `None` where a constant is no

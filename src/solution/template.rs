@@ -206,8 +206,7 @@ impl<'a> OnePole<'a> {
         if operator.reach() > 2 || start.continuous.has_slopes() {
             return None;
         }
-        let at = |row: &[Expression], lag: usize| row.get(lag).cloned().unwrap_or_default();
-        let (slope, value) = (at(operator.slope(), 1), at(operator.value(), 1));
+        let (slope, value) = (operator.slope_at(1), operator.value_at(1));
         let (ratio, zero) = if slope.is_zero() {
             ((-&value).as_fraction()?, None)
         } else {

@@ -168,7 +168,7 @@ impl<'a> Pieces<'a> {
             solver.advance().unwrap();
         }
         let period = recurrence.statement().period.as_constant().unwrap();
-        let waves = solver.waves().iter().map(|wave| wave.pieces().to_vec()).collect();
+        let waves = solver.pieces().to_vec();
         Pieces { recurrence, period, waves }
     }
 

@@ -199,12 +199,12 @@ fn claims_about_intricate_recurrences_hold() {
         let solution = Solution::new(recurrence.clone());
         let mut solver = PeriodByPeriod::new(&recurrence);
         (0..=7).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
-        for (wave, expected) in solver.waves().iter().enumerate() {
+        for (wave, expected) in solver.pieces().iter().enumerate() {
             let pieces = solution.pieces(wave, 0, 7).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(pieces, expected.pieces(), "wave {wave} of\n{text}");
+            assert_eq!(&pieces, expected, "wave {wave} of\n{text}");
             if let Ok(GeneralForm::Geometric(form)) = solution.general(wave) {
                 let values: Vec<Expression> = (0..=7).map(|n| form.value(n)).collect();
-                assert_eq!(values, expected.pieces(), "wave {wave} of\n{text}");
+                assert_eq!(&values, expected, "wave {wave} of\n{text}");
             }
         }
     }
@@ -224,10 +224,10 @@ fn assert_sequences_hold(recurrence: &Recurrence, first: &[usize]) {
     let solution = Solution::new(recurrence.clone());
     let mut solver = PeriodByPeriod::new(recurrence);
     (0..=30).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
-    for (wave, expected) in solver.waves().iter().enumerate() {
+    for (wave, expected) in solver.pieces().iter().enumerate() {
         let form = sequence(&solution, wave);
         assert_eq!(form.first().len(), first[wave], "{form:?}");
-        for (n, value) in expected.pieces().iter().enumerate() {
+        for (n, value) in expected.iter().enumerate() {
             assert_eq!(form.value(n), *value, "n = {n}");
         }
     }

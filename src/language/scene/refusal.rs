@@ -91,7 +91,7 @@ impl Lowering<'_> {
         let named = |declaration: &&Declaration| Some(&declaration.name.value) == material.as_ref();
         let declarations = std::iter::once(own).chain(materials.filter(named));
         let mut given = declarations.flat_map(|declaration| &declaration.properties);
-        let names = words(property);
+        let (_, names) = property.words();
         given
             .find(|given| names.contains(&given.name.value.as_str()))
             .map_or(own.name.span, |given| given.value.span)
@@ -303,27 +303,6 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
             "observe a finite bar, or let the endless one start at rest",
         ),
         _ => (&["not possible"], "check the values given"),
-    }
-}
-
-/// The words that give a property in the text.
-fn words(property: Property) -> &'static [&'static str] {
-    match property {
-        Property::Impedance => &["impedance"],
-        Property::Travel => &["travel"],
-        Property::Area => &["area", "diameter"],
-        Property::Modulus => &["modulus", "wave_speed"],
-        Property::Density => &["density"],
-        Property::Length => &["length"],
-        Property::Strain => &["strain"],
-        Property::Mass => &["mass"],
-        Property::Stiffness => &["stiffness"],
-        Property::Damping => &["damping"],
-        Property::From => &["from"],
-        Property::Until => &["until"],
-        Property::Force => &["force"],
-        Property::Compression => &["compression"],
-        Property::Exponent => &["exponent"],
     }
 }
 

@@ -83,14 +83,14 @@ impl<'a> Proof<'a> {
         let periods = (cells + late.unsigned_abs() as usize).div_ceil(each) + 1;
         let mut solver = PeriodByPeriod::new(&recurrence);
         (0..periods).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
-        let on_cells = |wave: &wavestep::expression::Piecewise| {
+        let on_cells = |wave: &Vec<wavestep::expression::Expression>| {
             let cell = |n: usize| {
                 let shift = length.scale(&BigRational::from_integer((n % each).into()));
-                wave.pieces()[n / each].shift(&statement.local, &shift).expect("a shift")
+                wave[n / each].shift(&statement.local, &shift).expect("a shift")
             };
             (0..periods * each).map(cell).collect()
         };
-        let waves = solver.waves().iter().map(on_cells).collect();
+        let waves = solver.pieces().iter().map(on_cells).collect();
         Proof { network, waves, local: statement.local.clone(), length, count: cells }
     }
 

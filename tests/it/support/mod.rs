@@ -12,8 +12,7 @@ pub fn by_periods(recurrence: &Recurrence, through: usize) -> Vec<Vec<Expression
     let mut solver = PeriodByPeriod::new(recurrence);
     (0..=through).for_each(|_| solver.advance().unwrap_or_else(|error| panic!("{error}")));
     // Waves that are added to uncouple others come last.
-    let stated = solver.waves().iter().take(recurrence.statement().waves.len());
-    stated.map(|wave| wave.pieces().to_vec()).collect()
+    solver.pieces()[..recurrence.statement().waves.len()].to_vec()
 }
 
 /// `pieces[wave][n]`, echo by echo.

@@ -222,8 +222,8 @@ impl Stage {
             for _ in 0..=n {
                 solver.advance()?;
             }
-            for (wave, known) in solver.waves().iter().enumerate() {
-                pieces.insert(wave, known.pieces().to_vec());
+            for (wave, known) in solver.pieces().iter().enumerate() {
+                pieces.insert(wave, known.clone());
             }
         }
         Ok(pieces[&wave][n].clone())
