@@ -9,7 +9,8 @@ use super::stable::first_rounded;
 use super::sum::EchoSum;
 use crate::Limit;
 use crate::double_double::DoubleDouble;
-use crate::lanes::{Lanes, WIDTH, Work, widest};
+use crate::lanes::{Lanes, WIDTH};
+use crate::vector::{Work, widest};
 use std::array::from_fn;
 
 /// Lanes are used while the exponents of `e^{−bx}` and of a bound of the polynomials are within this:
@@ -518,7 +519,7 @@ fn since_lanes<L: Lanes>(time: L, [lead, middle, last]: [f64; 3]) -> (L, L) {
 mod tests {
     use super::*;
     use crate::echoes::{Expansion, Method, Term};
-    use crate::lanes::each_way;
+    use crate::vector::each_way;
 
     /// Values at times of a sum, by any lanes; the size of a block does not change them.
     #[derive(Clone)]

@@ -81,7 +81,7 @@ pub(super) fn exponential_lanes<L: Lanes>(y: L, low: L) -> L {
 mod tests {
     use super::*;
     use crate::exponent::scale;
-    use crate::lanes::OneByOne;
+    use crate::vector::OneByOne;
 
     type Eight = OneByOne<true>;
 

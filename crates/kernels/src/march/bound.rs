@@ -58,7 +58,8 @@
 use super::compensated::{Ends, ends};
 use super::reflection::{Parameter, Reflection};
 use crate::double_double::{DoubleDouble, UNIT};
-use crate::lanes::{Lanes, WIDTH, Work, widest};
+use crate::lanes::{Lanes, WIDTH};
+use crate::vector::{Work, widest};
 
 /// More than all relative errors of sums of non-negative numbers.
 const SLACK: f64 = 1.0 + 1.0 / (1 << 20) as f64;

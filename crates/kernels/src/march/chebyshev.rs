@@ -3,7 +3,8 @@
 //! Values are summed from the end nearer to `x` in Reinsch's form of Clenshaw's recurrence, which
 //! needs no small difference of large numbers there and has an error bound that is uniform in `x`.
 
-use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
+use crate::lanes::{Lanes, WIDTH, padded};
+use crate::vector::{Work, widest};
 
 /// The value of the series at `x` in `[0, 1]`, within [`Sizes::evaluation_error`]. O(N). An empty series
 /// is zero.

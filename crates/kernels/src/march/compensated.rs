@@ -47,7 +47,7 @@ pub(crate) fn ends<L: Lanes>(coefficients: &[f64]) -> Ends {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::OneByOne;
+    use crate::vector::OneByOne;
 
     #[test]
     fn cancelled_terms_leave_the_small_ones() {

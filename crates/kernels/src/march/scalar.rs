@@ -14,7 +14,8 @@ use super::bound::Certificate;
 use super::chebyshev;
 use super::reflection::Reflection;
 use super::relaxation::Relaxation;
-use crate::lanes::{Lanes, WIDTH, Work, padded, widest};
+use crate::lanes::{Lanes, WIDTH, padded};
+use crate::vector::{Work, widest};
 use std::fmt;
 
 /// Whether a march proves bounds as it goes, at some two or three times the cost.

@@ -6,7 +6,8 @@
 //! which is asserted before.
 #![allow(unsafe_code)]
 
-use super::points::Parts;
+use super::eight::Eight;
+use super::parts::Parts;
 use super::scalar::Scalar;
 use super::{Simd, Task};
 use crate::Level;
@@ -31,9 +32,8 @@ pub(crate) fn dispatch<T: Task>(level: Level, task: T) -> T::Output {
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{Parts, Scalar, Simd, Task};
+    use super::{Eight, Parts, Scalar, Simd, Task};
     use crate::double_double::SPLITTER;
-    use crate::lanes::Eight;
     use std::arch::x86_64::*;
 
     /// Two doubles: SSE2, which every x86-64 has.

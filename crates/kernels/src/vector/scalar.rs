@@ -1,9 +1,9 @@
 //! Vectors of one double, for machines whose vector instructions are not used here.
 
 use super::Simd;
-use super::points::{MAX_STEP, Parts};
+use super::eight::Eight;
+use super::parts::{MAX_STEP, Parts};
 use crate::double_double::{fused_multiply_add, two_product};
-use crate::lanes::Eight;
 
 /// One double. With `FUSED`, only to be used where the machine fuses multiply-adds: elsewhere
 /// [`f64::mul_add`] is a slow call.
