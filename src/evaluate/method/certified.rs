@@ -6,7 +6,7 @@
 //! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
 //! enclosed one by one.
 
-use super::doubles::{Kept, piece};
+use super::doubles::{Kept, ascend, piece};
 use super::{Method, MethodError};
 use crate::ball::{Attempt, Precisions};
 use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
@@ -175,6 +175,7 @@ impl Method for Certified<'_> {
                 }
                 None => (0..at.len()).collect(),
             },
+            _ if ascend(at) => self.table()?.evaluator().rounded_sorted(at, values),
             _ => self.table()?.evaluator().rounded_unsorted(at, values),
         };
         for i in undecided {

@@ -5,13 +5,12 @@
 //! the rounding of their coefficients to doubles, and that of evaluating them, which
 //! [`Table`] proves. Whatever the order of the waves, a value costs some ten multiply-adds.
 
-use super::doubles::{Kept, piece};
+use super::doubles::{Kept, ascend, piece};
 use super::{Method, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
 use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
 use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::signal::Limit;
-use std::cmp::Ordering;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
 
@@ -135,9 +134,7 @@ impl Method for Compiled<'_> {
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         let evaluator = self.table.evaluator();
-        let ascending =
-            at.windows(2).all(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Greater));
-        match ascending {
+        match ascend(at) {
             true => evaluator.sorted(at, values),
             false => evaluator.unsorted(at, values),
         }

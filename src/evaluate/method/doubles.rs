@@ -6,6 +6,7 @@ use crate::ball::Ball;
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::evaluate::cells::{Cell, at_or_after, rational};
 use crate::expression::Fraction;
+use std::cmp::Ordering;
 use wavestep_kernels::Piece;
 use wavestep_polynomial::Rational;
 
@@ -39,6 +40,11 @@ pub(super) fn inside(at: &[f64], [from, to]: [&Rational; 2]) -> Result<(), Metho
 /// Doubles as the numbers that they are.
 pub(super) fn exactly(at: &[f64]) -> Vec<Rational> {
     at.iter().map(|time| rational(*time)).collect()
+}
+
+/// Whether no time is earlier than the one before.
+pub(super) fn ascend(at: &[f64]) -> bool {
+    at.windows(2).all(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Greater))
 }
 
 /// In how many doubles a coefficient is kept.

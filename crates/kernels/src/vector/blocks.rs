@@ -15,6 +15,13 @@ use crate::table::Table;
 /// Longer outputs are streamed past the caches: they are larger than a second-level cache.
 const STREAMED: usize = 1 << 18;
 
+/// How values are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stores {
+    Cached,
+    Streamed,
+}
+
 /// Blocks that touch more pieces than this gather their coefficients.
 const NEIGHBOURS: usize = 6;
 
@@ -241,12 +248,15 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
     fn write<const N: usize>(
         &self,
         (at, block): (usize, &mut [f64]),
-        streamed: bool,
+        stores: Stores,
         (values, doubts): ([S::Values; N], [u32; N]),
         undecided: &mut Vec<usize>,
     ) {
         for (chunk, &value) in block.chunks_exact_mut(S::LANES).zip(&values) {
-            if streamed { self.simd.stream(value, chunk) } else { self.simd.store(value, chunk) }
+            match stores {
+                Stores::Cached => self.simd.store(value, chunk),
+                Stores::Streamed => self.simd.stream(value, chunk),
+            }
         }
         for (j, &doubt) in doubts.iter().enumerate() {
             collect(at + j * S::LANES, doubt, undecided);
@@ -257,10 +267,11 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
     #[inline(always)]
     fn run<const N: usize>(&self, out: &mut [f64], undecided: &mut Vec<usize>) {
         let simd = self.simd;
-        let streamed = out.len() >= STREAMED;
+        let stores = if out.len() >= STREAMED { Stores::Streamed } else { Stores::Cached };
         let vector = size_of::<S::Values>();
         let misaligned = out.as_ptr().addr() % vector;
-        let head = if streamed && misaligned != 0 { (vector - misaligned) / 8 } else { 0 };
+        let streams = stores == Stores::Streamed;
+        let head = if streams && misaligned != 0 { (vector - misaligned) / 8 } else { 0 };
         let (head, body) = out.split_at_mut(head);
         let mut room = self.room(N);
         self.partial(0, head, &mut room, undecided);
@@ -274,18 +285,18 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
                 for block in blocks.by_ref().take(within) {
                     let times: [S::Values; N] = self.points.times(simd, at);
                     let values = self.evaluate.evaluate(simd, self.table, rows, &times);
-                    self.write((at, block), streamed, values, undecided);
+                    self.write((at, block), stores, values, undecided);
                     at += size;
                 }
             }
             if let Some(block) = blocks.next() {
                 let values = self.block::<N>(at, &mut piece, &mut room);
-                self.write((at, block), streamed, values, undecided);
+                self.write((at, block), stores, values, undecided);
                 at += size;
             }
         }
         self.partial(at, blocks.into_remainder(), &mut room, undecided);
-        if streamed {
+        if streams {
             simd.fence();
         }
     }

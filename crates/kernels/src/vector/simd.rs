@@ -6,7 +6,8 @@ use crate::lanes::Lanes;
 /// The operations of a vector of doubles.
 ///
 /// Code that is generic over implementing types runs where the machine has their instructions: only
-/// [`dispatch`](super::dispatch) can name the types. All methods are inlined into functions that enable the instructions.
+/// [`dispatch`](super::dispatch) can name the types. All methods are inlined into functions that enable
+/// the instructions.
 pub(crate) trait Simd: Copy {
     /// A vector of doubles.
     type Values: Copy;

@@ -4,3 +4,5 @@ mod echoes;
 mod fixed;
 mod march;
 mod piecewise;
+mod random;
+mod reference;

@@ -3,10 +3,11 @@
 
 mod support;
 
+use crate::random::Random;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
-use support::{Echoes, Samples, integer, ratio};
+use support::{Echoes, integer, ratio};
 use wavestep_kernels::Limit;
 use wavestep_kernels::fixed::{
     DelayEquation, FRACTION_BITS, FixedError, FixedValue, March, MarchOptions, Position, Reduction,
@@ -22,7 +23,7 @@ struct Seen {
 }
 
 /// Compares a march with the exact solution at `s + nD`, for random s, in all periods.
-fn compare(equation: &Echoes, periods: u32, places: u32, samples: &mut Samples, seen: &mut Seen) {
+fn compare(equation: &Echoes, periods: u32, places: u32, samples: &mut Random, seen: &mut Seen) {
     let march = equation.march(periods, &MarchOptions::default());
     for place in 0..places {
         // The ends of the period, the ends of pieces, and places in between.
@@ -53,7 +54,7 @@ fn compare(equation: &Echoes, periods: u32, places: u32, samples: &mut Samples, 
 
 #[test]
 fn rigid_masses_are_within_the_bound() {
-    let (mut samples, mut seen) = (Samples::new(1), Seen::default());
+    let (mut samples, mut seen) = (Random(1), Seen::default());
     for round in 0..60 {
         // mu from 1/100 to 10, evenly in its logarithm, as a hundredth.
         let hundredths = 1000f64.powf((samples.bits() % 1000) as f64 / 999.0).round() as i64;
@@ -72,7 +73,7 @@ fn rigid_masses_are_within_the_bound() {
 
 #[test]
 fn other_equations_are_within_the_bound() {
-    let (mut samples, mut seen) = (Samples::new(2), Seen::default());
+    let (mut samples, mut seen) = (Random(2), Seen::default());
     for (rate, zero, reflection, periods) in [
         // A passive end that absorbs, with an exact and a rounded reflection.
         (ratio(1, 1), ratio(1, 1), ratio(1, 2), 150),
@@ -106,7 +107,7 @@ fn other_equations_are_within_the_bound() {
 /// Coarse cuts have large bounds, which hold as well and are not idle.
 #[test]
 fn coarse_marches_are_within_their_bounds() {
-    let (mut samples, mut largest) = (Samples::new(3), 0.0f64);
+    let (mut samples, mut largest) = (Random(3), 0.0f64);
     let equation = Echoes::new(ratio(2, 1), ratio(1, 1), ratio(1, 1), ratio(1, 1));
     for (pieces, terms) in [(4, 20), (8, 16), (16, 12), (16, 14), (32, 10)] {
         let options = MarchOptions { pieces: Some(pieces), terms: Some(terms) };
@@ -194,7 +195,7 @@ fn radii_cover_the_rounding_of_positions() {
     let equation = Echoes::new(ratio(3, 1), ratio(1, 1), ratio(1, 1), ratio(1, 1));
     let march = equation.march(60, &MarchOptions::default());
     let reduction = Reduction::new(&equation.period, &BigRational::zero()).unwrap();
-    let mut samples = Samples::new(8);
+    let mut samples = Random(8);
     for period in 0..60 {
         let part = ratio((samples.bits() % 1000) as i64 * 3 + 1, 3000);
         let time = (part + integer(period)) * &equation.period;
@@ -222,7 +223,7 @@ fn nearest(exact: &BigInt, bits: u64) -> f64 {
 /// doubles, in all periods to 200.
 #[test]
 fn certified_doubles_are_the_rounded_exact_values() {
-    let mut samples = Samples::new(4);
+    let mut samples = Random(4);
     let (mut decided, mut undecided) = (0, 0);
     for (mu, periods, rounds) in
         [(ratio(1, 1), 200, 30), (ratio(3, 64), 250, 10), (ratio(5, 2), 60, 10)]
@@ -284,7 +285,7 @@ fn certified_doubles_are_the_rounded_exact_values() {
 /// Periods that are no doubles, times that are any doubles.
 #[test]
 fn certified_doubles_hold_for_any_times() {
-    let mut samples = Samples::new(5);
+    let mut samples = Random(5);
     for (period, rate) in [(ratio(2, 3), ratio(1, 1)), (ratio(7, 10), ratio(9, 7))] {
         let echoes = Echoes::new(period.clone(), rate.clone(), rate, ratio(1, 1));
         let taps = [
@@ -384,10 +385,10 @@ fn sums_before_the_start_are_zero_and_sides_are_told_apart() {
 /// The words' way and the rationals' way agree, and both enclose the place.
 #[test]
 fn reductions_are_exact() {
-    let mut samples = Samples::new(6);
+    let mut samples = Random(6);
     let mut joints = 0;
     for round in 0..30_000 {
-        let small = |samples: &mut Samples, bits: u32| (samples.bits() >> (64 - bits)) as i64 + 1;
+        let small = |samples: &mut Random, bits: u32| (samples.bits() >> (64 - bits)) as i64 + 1;
         let length = 1 + (samples.bits() % 31) as u32;
         let period = ratio(small(&mut samples, length), small(&mut samples, length));
         let delay = ratio(small(&mut samples, length) - 1, small(&mut samples, length.min(12)));
@@ -439,7 +440,7 @@ fn reductions_are_exact() {
 
 #[test]
 fn roundings_agree_with_exact_rationals() {
-    let mut samples = Samples::new(7);
+    let mut samples = Random(7);
     let (mut decided, mut ties) = (0, 0);
     for _ in 0..60_000 {
         let length = samples.bits() % 128;

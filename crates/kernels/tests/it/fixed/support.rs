@@ -1,4 +1,5 @@
-//! The exact solution of a delay equation, and repeatable random words.
+//! The exact solution of a delay equation, in integers: parameters are short rationals, and thousands of
+//! bits cost no more than their length.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -14,28 +15,6 @@ pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
 /// An integer as a fraction.
 pub fn integer(value: i64) -> BigRational {
     BigRational::from(BigInt::from(value))
-}
-
-/// A linear congruential generator.
-pub struct Samples(u64);
-
-impl Samples {
-    /// The generator that begins with a seed.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// Sixty-four random bits.
-    pub fn bits(&mut self) -> u64 {
-        let mut next = || {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            self.0 >> 32
-        };
-        (next() << 32) | next()
-    }
 }
 
 /// A delay equation, solved by its echoes: `Y(T) = Σ_k ρ^k e^(−b x_k) L_k((a + b) x_k)` over

@@ -306,7 +306,7 @@ fn ten_thousand_periods_agree_with_two_doubles() {
         let at = |k: usize| found.get(k).copied().unwrap_or(0.0);
         // The sum of all differences of coefficients bounds the difference of the waves.
         let difference: f64 =
-            exact.iter().enumerate().map(|(k, c)| ((c.0 - at(k)) + c.1).abs()).sum();
+            exact.iter().enumerate().map(|(k, c)| ((c.high() - at(k)) + c.low()).abs()).sum();
         let bound = march.bound().expect("a bound");
         println!("period {}: difference {difference:.1e}, bound {bound:.1e}", periods - 1);
         assert!(exact.len() >= found.len());
@@ -326,7 +326,7 @@ fn values_stay_within_the_error_of_evaluation() {
                 let x = (f64::from(i) / 400.0).powi(2);
                 for x in [x, 1.0 - x, x * 1e-3] {
                     let exact = double_double::chebyshev_value(&c, x);
-                    let error = ((exact.0 - chebyshev::value(&c, x)) + exact.1).abs();
+                    let error = ((exact.high() - chebyshev::value(&c, x)) + exact.low()).abs();
                     assert!(error <= bound, "{length} {x}: {error:e} above {bound:e}");
                     ratio = ratio.max(if length > 2 { error / bound } else { 0.0 });
                 }

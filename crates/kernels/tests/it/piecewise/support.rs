@@ -1,5 +1,6 @@
 //! Exact arithmetic with dyadic numbers, and tables made at random, for all tests of the kernels.
 
+pub use crate::random::Random;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 use wavestep_kernels::{Evaluator, Piece, Table, TableError};
@@ -87,28 +88,6 @@ pub fn exact(piece: &Piece, time: f64) -> Dyadic {
 /// The piece that a double belongs to, found without the table.
 pub fn piece_at(pieces: &[Piece], time: f64) -> &Piece {
     &pieces[pieces.partition_point(|piece| piece.start <= time) - 1]
-}
-
-/// Numbers without pattern, the same in every run (xorshift64*).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
-    }
-
-    /// In `[0, 1)`.
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// In `[−1, 1)`.
-    pub fn signed(&mut self) -> f64 {
-        2.0 * self.unit() - 1.0
-    }
 }
 
 /// What a table made at random looks like.
