@@ -6,7 +6,7 @@ use crate::expression::Fraction;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
 use crate::network::{
-    Contacts, ElementLaw, Layout, Measured, MeasuredValue, ModelLump, Node, ScaledScene, Term, unit,
+    ElementLaw, Measured, MeasuredValue, ModelLump, Node, ScaledScene, Term, unit,
 };
 use crate::scene::{ElementIndex, Kind, Measure};
 use num_traits::ToPrimitive as _;
@@ -182,7 +182,7 @@ impl Line {
         }
         let (scene, model) = (scaled.scene(), scaled.model());
         let double = |value: &Fraction| double(&numbers, value);
-        let layout = Layout::of(scene, model, Contacts::Closed);
+        let layout = scaled.layout();
         let mut bars = Vec::new();
         for (element, nodes) in layout.bars.iter().zip(&layout.ends) {
             let data = &model.bars[element];

@@ -26,7 +26,7 @@ use crate::model::error::{BadSetting, ModelError, NotRepresented, SolverFailure}
 use crate::model::line::{Bar, Line, LocalContact};
 use crate::model::track::{DEGREE, POINTS, Track, Values, points, series};
 use crate::network::{
-    Contacts, Face, Field, Layout, Lump, ModelLump, Reading, ScaledScene, Section, Side, System,
+    Face, Field, Lump, ModelLump, Reading, ScaledScene, Section, Side, System,
     Unresisted,
 };
 use crate::scene::ElementIndex;
@@ -214,9 +214,8 @@ fn systems(
     numbers: &Numbers,
     line: &Line,
 ) -> Result<Vec<System<f64>>, ModelError> {
-    let layout = Layout::of(scaled.scene(), scaled.model(), Contacts::Closed);
     let mut systems = Vec::new();
-    for node in &layout.nodes {
+    for node in &scaled.layout().nodes {
         let node = node.map(|value| numbers.number(value, BITS))?;
         let system = System::of(&node, |_| true, BITS).map_err(|Unresisted| {
             let near = node.elements.first().map(|own| line.name(own.element));

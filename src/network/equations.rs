@@ -8,7 +8,6 @@ use crate::expression::{Expression, Fraction};
 use crate::network::clocks::Clocks;
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
-use crate::network::layout::{Contacts, Layout};
 use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observe::Observed;
@@ -48,7 +47,6 @@ pub struct WaveRole {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Network {
     pub(crate) scaled: ScaledScene,
-    pub(crate) layout: Layout,
     pub(crate) waves: Vec<WaveRole>,
     pub(crate) lattice: Lattice,
     /// The round trip in each bar, counted on the lattice.
@@ -95,20 +93,19 @@ impl Network {
         if let Some(contact) = scaled.local_contact() {
             return Err(NetworkError::NotLinear(scaled.scene.elements[contact].name.clone()));
         }
-        let layout = Layout::of(&scaled.scene, &scaled.model, Contacts::Closed);
+        let (bars, nodes) = (scaled.layout.bars.len(), scaled.layout.nodes.len());
         let mut network = Network {
             scaled,
             waves: Vec::new(),
             lattice: Lattice::spanned_by(&[]).0,
-            round_trips: vec![None; layout.bars.len()],
+            round_trips: vec![None; bars],
             reference: 0,
             integrals: Vec::new(),
             observables: Vec::new(),
-            clocks: vec![None; layout.nodes.len()],
+            clocks: vec![None; nodes],
             leads: Vec::new(),
             loads: Vec::new(),
             derived: Derived::default(),
-            layout,
         };
         network.set_clocks();
         network.name_waves();
@@ -146,7 +143,7 @@ impl Network {
         let node = roles.into_iter().find_map(|wave| match wave.role {
             Role::Velocity(node, _) => Some(node),
             Role::Compression(element) | Role::Displacement(element) => {
-                self.layout.node_of(element)
+                self.scaled.layout.node_of(element)
             }
             _ => None,
         });
@@ -156,8 +153,8 @@ impl Network {
     /// Where a node is, in words.
     pub fn place_in_words(&self, node: usize) -> String {
         let name =
-            |bar: usize| format!("`{}`", self.scaled.scene.elements[self.layout.bars[bar]].name);
-        let Node { left, right, .. } = &self.layout.nodes[node];
+            |bar: usize| format!("`{}`", self.scaled.scene.elements[self.scaled.layout.bars[bar]].name);
+        let Node { left, right, .. } = &self.scaled.layout.nodes[node];
         match (left, right) {
             (Side::Bar(left), Side::Bar(right)) => {
                 format!("between {} and {}", name(*left), name(*right))
@@ -218,7 +215,7 @@ impl Network {
         let uneven = velocities.iter().any(Option::is_none);
         let apart = velocities.windows(2).any(|pair| pair[0] != pair[1]);
         let forced = |side: Side| match side {
-            Side::Bar(bar) => !self.scaled.model.bars[&self.layout.bars[bar]].force.is_zero(),
+            Side::Bar(bar) => !self.scaled.model.bars[&self.scaled.layout.bars[bar]].force.is_zero(),
             _ => false,
         };
         let pressed = forced(node.left) || forced(node.right);
@@ -234,7 +231,7 @@ impl Network {
     /// The velocities at the start of all that moves together.
     pub(crate) fn initial_velocities(&self, node: &Node<Fraction>, run: usize) -> Vec<Fraction> {
         let of_side = |side: Side| match side {
-            Side::Bar(bar) => Some(self.scaled.model.bars[&self.layout.bars[bar]].velocity.clone()),
+            Side::Bar(bar) => Some(self.scaled.model.bars[&self.scaled.layout.bars[bar]].velocity.clone()),
             Side::Fixed => Some(Fraction::zero()),
             Side::Free => None,
         };
@@ -247,8 +244,8 @@ impl Network {
 
     /// Finds the clocks of the nodes, and the lattice on which all delays can be counted.
     fn set_clocks(&mut self) {
-        let starting: Vec<bool> = self.layout.nodes.iter().map(|node| self.starts(node)).collect();
-        let clocks = Clocks::of(&self.layout, &self.scaled.model, &starting);
+        let starting: Vec<bool> = self.scaled.layout.nodes.iter().map(|node| self.starts(node)).collect();
+        let clocks = Clocks::of(&self.scaled.layout, &self.scaled.model, &starting);
         (self.reference, self.lattice, self.leads) =
             (clocks.reference, clocks.lattice, clocks.leads);
         (self.round_trips, self.clocks) = (clocks.round_trips, clocks.counted);
@@ -264,9 +261,9 @@ impl Network {
         let elements = &self.scaled.scene.elements;
         let name = |element: ElementIndex| &elements[element].name;
         let mut waves = Vec::new();
-        let lone = self.layout.bars.len() == 1;
-        for (bar, element) in self.layout.bars.iter().enumerate() {
-            let [left, right] = self.layout.ends[bar];
+        let lone = self.scaled.layout.bars.len() == 1;
+        for (bar, element) in self.scaled.layout.bars.iter().enumerate() {
+            let [left, right] = self.scaled.layout.ends[bar];
             let called = |letter: &str| match lone {
                 true => letter.to_owned(),
                 false => format!("{letter}_{}", name(*element)),
@@ -278,7 +275,7 @@ impl Network {
                 waves.push((called("g"), Role::Left(*element)));
             }
         }
-        for (place, node) in self.layout.nodes.iter().enumerate() {
+        for (place, node) in self.scaled.layout.nodes.iter().enumerate() {
             for own in &node.elements {
                 match &own.law {
                     ElementLaw::Spring { stiffness, .. } if !stiffness.is_zero() => {
@@ -341,9 +338,9 @@ impl Network {
 
     /// Velocity and force of a bar at a node, by the node's clock.
     pub(crate) fn bar_forms(&self, node: usize, bar: usize, strides: &[usize]) -> [LinearForm; 2] {
-        let element = self.layout.bars[bar];
+        let element = self.scaled.layout.bars[bar];
         let data = &self.scaled.model.bars[&element];
-        let [left, right] = self.layout.ends[bar];
+        let [left, right] = self.scaled.layout.ends[bar];
         let trip = self.round_trips[bar].as_ref().map_or(0, |trip| lag(trip, strides));
         // The wave that leaves the node farther from the reference is seen there and here at once.
         let outward = |at: Option<usize>, other: Option<usize>| match (at, other) {

@@ -49,7 +49,7 @@ impl Network {
     /// The bars from left to right. Integrals of their waves are followed from now on.
     pub(crate) fn field_bars(&mut self) -> Result<Vec<FieldBar>, NetworkError> {
         let mut bars = Vec::new();
-        for (place, element) in self.layout.bars.clone().into_iter().enumerate() {
+        for (place, element) in self.scaled.layout.bars.clone().into_iter().enumerate() {
             let Kind::Bar(bar) = &self.scaled.scene.elements[element].kind else {
                 unreachable!("a bar of the line")
             };
@@ -63,7 +63,7 @@ impl Network {
                 in_bar(Measure::Displacement)?,
                 in_bar(Measure::Force)?,
             ];
-            let [left, right] = self.layout.ends[place];
+            let [left, right] = self.scaled.layout.ends[place];
             let extent = match (left, right) {
                 (Some(_), None) => Extent::ToTheRight,
                 (None, Some(_)) => Extent::ToTheLeft,

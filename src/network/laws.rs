@@ -130,7 +130,7 @@ impl Network {
 
     fn all_laws(&self, strides: &[usize]) -> Laws {
         let mut laws = Laws::default();
-        for place in 0..self.layout.nodes.len() {
+        for place in 0..self.scaled.layout.nodes.len() {
             NodeLaws::of(self, place, strides).add_to(&mut laws);
         }
         for (i, wave) in self.integrals.iter().enumerate() {
@@ -217,7 +217,7 @@ struct NodeLaws<'a> {
 
 impl<'a> NodeLaws<'a> {
     fn of(network: &'a Network, place: usize, strides: &'a [usize]) -> NodeLaws<'a> {
-        let node = &network.layout.nodes[place];
+        let node = &network.scaled.layout.nodes[place];
         let (chains, laws, starts) = (chains(node), Vec::new(), Vec::new());
         NodeLaws { network, place, node, strides, chains, laws, starts }
     }

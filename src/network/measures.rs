@@ -7,7 +7,7 @@
 
 use crate::expression::{Fraction, Root};
 use crate::network::error::NetworkError;
-use crate::network::layout::{Contacts, Layout};
+use crate::network::layout::Layout;
 use crate::network::model::{Model, Scale, bar_roots};
 use crate::network::reading::{Elements, Face, Field, Reading, Section, Term, section};
 use crate::scene::{
@@ -54,22 +54,22 @@ pub(crate) fn unit(
 /// All observables of a scene. Ratios that are not rational are named in the model.
 pub(in crate::network) fn measures(
     scene: &Scene,
+    layout: &Layout,
     model: &mut Model,
 ) -> Result<Vec<Measured>, NetworkError> {
-    let layout = Layout::of(scene, model, Contacts::Closed);
     let mut table = Table { scene, layout, model };
     scene.observables.iter().map(|observable| table.measured(observable)).collect()
 }
 
 struct Table<'a> {
     scene: &'a Scene,
-    layout: Layout,
+    layout: &'a Layout,
     model: &'a mut Model,
 }
 
 impl<'a> Table<'a> {
     fn elements(&self) -> Elements<'_> {
-        Elements { model: self.model, layout: &self.layout }
+        Elements { model: self.model, layout: self.layout }
     }
 
     fn measured(&mut self, observable: &Observable) -> Result<Measured, NetworkError> {
@@ -201,7 +201,7 @@ impl<'a> Table<'a> {
             }
             _ => Fraction::zero(),
         };
-        Ok(Some(section(&self.layout, self.model, bar, time)))
+        Ok(Some(section(self.layout, self.model, bar, time)))
     }
 }
 
@@ -339,8 +339,7 @@ mod tests {
             &scene,
             rows.into_iter().map(|(name, terms)| (name, one.clone(), terms)).collect(),
         );
-        let layout = Layout::of(scene.scene(), scene.model(), Contacts::Closed);
-        let elements = Elements { model: scene.model(), layout: &layout };
+        let elements = Elements { model: scene.model(), layout: scene.layout() };
         let force = |place| {
             let terms = elements.force(lump(place)).expect("a linear law");
             terms.into_iter().map(|term| (term.coefficient, term.of)).collect::<Vec<_>>()

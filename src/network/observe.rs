@@ -87,7 +87,7 @@ impl Network {
     }
 
     fn elements(&self) -> Elements<'_> {
-        Elements { model: &self.scaled.model, layout: &self.layout }
+        Elements { model: &self.scaled.model, layout: &self.scaled.layout }
     }
 
     /// A reading in terms of waves.
@@ -119,7 +119,7 @@ impl Network {
     /// The waves to the right and to the left in a bar, with how far the clocks of their nodes are ahead;
     /// none for what comes from the far side of an endless bar.
     fn waves_of(&self, bar: usize) -> [Option<(WaveIndex, &Fraction)>; 2] {
-        let (element, [left, right]) = (self.layout.bars[bar], self.layout.ends[bar]);
+        let (element, [left, right]) = (self.scaled.layout.bars[bar], self.scaled.layout.ends[bar]);
         let wave = |role, node: Option<usize>| Some((self.wave(role)?, &self.leads[node?]));
         [wave(Role::Right(element), left), wave(Role::Left(element), right)]
     }
@@ -135,14 +135,14 @@ impl Network {
     }
 
     fn velocity_in(&self, section: &Section) -> Observation {
-        let data = &self.scaled.model.bars[&self.layout.bars[section.bar]];
+        let data = &self.scaled.model.bars[&self.scaled.layout.bars[section.bar]];
         let one = Fraction::one();
         let waves = self.waves_in(section, [&one, &one]);
         Observation { waves, forcing: data.velocity.clone().into() }
     }
 
     fn force_in(&self, section: &Section) -> Observation {
-        let data = &self.scaled.model.bars[&self.layout.bars[section.bar]];
+        let data = &self.scaled.model.bars[&self.scaled.layout.bars[section.bar]];
         let waves = self.waves_in(section, [&data.impedance, &-&data.impedance]);
         Observation { waves, forcing: data.force.clone().into() }
     }
@@ -175,14 +175,14 @@ impl Network {
     fn velocity_of_run(&self, place: usize, node: &Node<Fraction>, run: usize) -> Observation {
         let end = |bar: usize, time: Option<&Fraction>| {
             let time = time.cloned().unwrap_or_else(Fraction::zero);
-            self.velocity_in(&section(&self.layout, &self.scaled.model, bar, time))
+            self.velocity_in(&section(&self.scaled.layout, &self.scaled.model, bar, time))
         };
-        let travel = |bar: usize| self.scaled.model.bars[&self.layout.bars[bar]].travel.as_ref();
+        let travel = |bar: usize| self.scaled.model.bars[&self.scaled.layout.bars[bar]].travel.as_ref();
         for (side, own) in [node.left, node.right].into_iter().zip(node.side_runs()) {
             match side {
                 _ if own != run => {}
                 // A bar at the left of its node ends there.
-                Side::Bar(bar) if self.layout.ends[bar][1] == Some(place) => {
+                Side::Bar(bar) if self.scaled.layout.ends[bar][1] == Some(place) => {
                     return end(bar, travel(bar));
                 }
                 Side::Bar(bar) => return end(bar, None),
@@ -205,13 +205,13 @@ impl Network {
     /// The velocity beside a lumped element.
     fn velocity_at(&self, face: Face) -> Observation {
         let place = face.lump().node;
-        let node = &self.layout.nodes[place];
+        let node = &self.scaled.layout.nodes[place];
         self.velocity_of_run(place, node, node.run_beside(face))
     }
 
     /// The wave that is the compression of a spring, or the displacement of a support.
     fn compression_of(&self, lump: Lump) -> Observation {
-        let own = &self.layout.nodes[lump.node].elements[lump.place];
+        let own = &self.scaled.layout.nodes[lump.node].elements[lump.place];
         let role = match own.law {
             ElementLaw::Support { .. } => Role::Displacement(own.element),
             _ => Role::Compression(own.element),
@@ -222,7 +222,7 @@ impl Network {
     }
 
     fn momentum_of(&mut self, bar: usize) -> Observation {
-        let data = self.scaled.model.bars[&self.layout.bars[bar]].clone();
+        let data = self.scaled.model.bars[&self.scaled.layout.bars[bar]].clone();
         let mut momentum = match &data.travel {
             Some(travel) => constant(&(&(&data.impedance * travel) * &data.velocity)),
             None => Observation::default(),
@@ -267,7 +267,7 @@ impl Network {
         coefficient: &Fraction,
         bar: usize,
     ) -> Result<Vec<EnergyTerm>, NetworkError> {
-        let data = &self.scaled.model.bars[&self.layout.bars[bar]];
+        let data = &self.scaled.model.bars[&self.scaled.layout.bars[bar]];
         // The uniform state at the start as two waves: (V ± X_0/Z)/2.
         let pressed = match data.force.is_zero() {
             true => Root::from(Fraction::zero()),

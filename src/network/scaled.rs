@@ -3,6 +3,7 @@
 use crate::expression::Fraction;
 use crate::network::equations::Network;
 use crate::network::error::NetworkError;
+use crate::network::layout::{Contacts, Layout};
 use crate::network::measures::{Measured, measures};
 use crate::network::model::Model;
 use crate::scene::{ElementIndex, Kind, Scene};
@@ -19,6 +20,7 @@ use wavestep_polynomial::Rational;
 pub struct ScaledScene {
     pub(in crate::network) scene: Scene,
     pub(in crate::network) model: Model,
+    pub(in crate::network) layout: Layout,
     measures: Vec<Measured>,
 }
 
@@ -30,8 +32,9 @@ impl ScaledScene {
     /// [`NetworkError::Unobservable`] for a measure at a place that does not have it.
     pub fn of(scene: &Scene) -> Result<ScaledScene, NetworkError> {
         let mut model = Model::of(scene)?;
-        let measures = measures(scene, &mut model)?;
-        Ok(ScaledScene { scene: scene.clone(), model, measures })
+        let layout = Layout::of(scene, &model, Contacts::Closed);
+        let measures = measures(scene, &layout, &mut model)?;
+        Ok(ScaledScene { scene: scene.clone(), model, layout, measures })
     }
 
     /// The network of the scene.
@@ -50,6 +53,11 @@ impl ScaledScene {
     /// The scene in its own scales.
     pub fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// Its bars and nodes, with all contacts closed.
+    pub(crate) fn layout(&self) -> &Layout {
+        &self.layout
     }
 
     /// The observables of the scene, as sums of readings.
