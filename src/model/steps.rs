@@ -26,8 +26,7 @@ use crate::model::error::{BadSetting, ModelError, NotRepresented, SolverFailure}
 use crate::model::line::{Bar, Line, LocalContact};
 use crate::model::track::{DEGREE, POINTS, Track, Values, points, series};
 use crate::network::{
-    Face, Field, Lump, ModelLump, Reading, ScaledScene, Section, Side, System,
-    Unresisted,
+    Face, Field, Lump, ModelLump, Reading, ScaledScene, Section, Side, System, Unresisted,
 };
 use crate::scene::ElementIndex;
 use num_integer::Integer as _;

@@ -152,8 +152,9 @@ impl Network {
 
     /// Where a node is, in words.
     pub fn place_in_words(&self, node: usize) -> String {
-        let name =
-            |bar: usize| format!("`{}`", self.scaled.scene.elements[self.scaled.layout.bars[bar]].name);
+        let name = |bar: usize| {
+            format!("`{}`", self.scaled.scene.elements[self.scaled.layout.bars[bar]].name)
+        };
         let Node { left, right, .. } = &self.scaled.layout.nodes[node];
         match (left, right) {
             (Side::Bar(left), Side::Bar(right)) => {
@@ -215,7 +216,9 @@ impl Network {
         let uneven = velocities.iter().any(Option::is_none);
         let apart = velocities.windows(2).any(|pair| pair[0] != pair[1]);
         let forced = |side: Side| match side {
-            Side::Bar(bar) => !self.scaled.model.bars[&self.scaled.layout.bars[bar]].force.is_zero(),
+            Side::Bar(bar) => {
+                !self.scaled.model.bars[&self.scaled.layout.bars[bar]].force.is_zero()
+            }
             _ => false,
         };
         let pressed = forced(node.left) || forced(node.right);
@@ -231,7 +234,9 @@ impl Network {
     /// The velocities at the start of all that moves together.
     pub(crate) fn initial_velocities(&self, node: &Node<Fraction>, run: usize) -> Vec<Fraction> {
         let of_side = |side: Side| match side {
-            Side::Bar(bar) => Some(self.scaled.model.bars[&self.scaled.layout.bars[bar]].velocity.clone()),
+            Side::Bar(bar) => {
+                Some(self.scaled.model.bars[&self.scaled.layout.bars[bar]].velocity.clone())
+            }
             Side::Fixed => Some(Fraction::zero()),
             Side::Free => None,
         };
@@ -244,7 +249,8 @@ impl Network {
 
     /// Finds the clocks of the nodes, and the lattice on which all delays can be counted.
     fn set_clocks(&mut self) {
-        let starting: Vec<bool> = self.scaled.layout.nodes.iter().map(|node| self.starts(node)).collect();
+        let starting: Vec<bool> =
+            self.scaled.layout.nodes.iter().map(|node| self.starts(node)).collect();
         let clocks = Clocks::of(&self.scaled.layout, &self.scaled.model, &starting);
         (self.reference, self.lattice, self.leads) =
             (clocks.reference, clocks.lattice, clocks.leads);

@@ -177,7 +177,8 @@ impl Network {
             let time = time.cloned().unwrap_or_else(Fraction::zero);
             self.velocity_in(&section(&self.scaled.layout, &self.scaled.model, bar, time))
         };
-        let travel = |bar: usize| self.scaled.model.bars[&self.scaled.layout.bars[bar]].travel.as_ref();
+        let travel =
+            |bar: usize| self.scaled.model.bars[&self.scaled.layout.bars[bar]].travel.as_ref();
         for (side, own) in [node.left, node.right].into_iter().zip(node.side_runs()) {
             match side {
                 _ if own != run => {}
