@@ -27,6 +27,7 @@ const ENDPOINT_BITS: i64 = 1 << 20;
 /// - A precision `p` is a number of bits: it bounds the length of the midpoint, and the rounding
 ///   adds at most `2^(2−p)` of the larger operand (sums) or of the result (products, quotients).
 ///   Fewer than two bits count as two.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ball {
     midpoint: Binary,
@@ -35,38 +36,32 @@ pub struct Ball {
 
 impl Ball {
     /// The ball of this midpoint and radius.
-    #[must_use]
     pub(crate) const fn new(midpoint: Binary, radius: Magnitude) -> Self {
         Self { midpoint, radius }
     }
 
     /// The ball of one point, zero.
-    #[must_use]
     pub fn zero() -> Self {
         Self::new(Binary::zero(), Magnitude::ZERO)
     }
 
     /// The ball of one point, the integer itself.
-    #[must_use]
     pub fn from_integer(value: &BigInt) -> Self {
         Self::new(Binary::new(value.clone(), 0), Magnitude::ZERO)
     }
 
     /// A ball around a rational: `radius ≤ 2^(2−p)·|value|`, and zero when `p` bits hold the value.
-    #[must_use]
     pub fn from_rational(value: &BigRational, precision: u64) -> Self {
         let (midpoint, radius) = Binary::quotient(value.numer(), value.denom(), 0, precision);
         Self::new(midpoint, radius)
     }
 
     /// The ball around zero with this radius, rounded up.
-    #[must_use]
     pub fn symmetric(radius: &BigRational) -> Self {
         Self::new(Binary::zero(), Magnitude::from_rational(radius))
     }
 
     /// A ball around two rationals and all that is between them.
-    #[must_use]
     pub fn between(lower: &BigRational, upper: &BigRational, precision: u64) -> Self {
         let two = BigRational::from_integer(2.into());
         let half = (upper - lower) / &two;
@@ -76,25 +71,21 @@ impl Ball {
     }
 
     /// The midpoint.
-    #[must_use]
     pub const fn midpoint(&self) -> &Binary {
         &self.midpoint
     }
 
     /// The radius.
-    #[must_use]
     pub const fn radius(&self) -> &Magnitude {
         &self.radius
     }
 
     /// Whether the ball is a single point.
-    #[must_use]
     pub const fn is_exact(&self) -> bool {
         self.radius.is_zero()
     }
 
     /// The sign of all points of the ball, where they have one.
-    #[must_use]
     pub fn sign(&self) -> Option<Ordering> {
         match self.contains_zero() {
             true => self.is_exact().then_some(Ordering::Equal),
@@ -104,7 +95,6 @@ impl Ball {
     }
 
     /// Whether zero is in the ball.
-    #[must_use]
     pub fn contains_zero(&self) -> bool {
         let below = |midpoint: Binary| midpoint <= self.radius.to_binary();
         if self.midpoint.is_negative() {
@@ -115,7 +105,6 @@ impl Ball {
     }
 
     /// Whether this rational is in the ball, decided exactly. The cost grows with the exponents.
-    #[must_use]
     pub fn contains(&self, value: &BigRational) -> bool {
         let distance = value - BigRational::from(&self.midpoint);
         let radius = BigRational::from(&self.radius);
@@ -123,7 +112,6 @@ impl Ball {
     }
 
     /// An upper bound of `|x|` over the ball.
-    #[must_use]
     pub fn magnitude(&self) -> Magnitude {
         self.midpoint.magnitude().add(&self.radius)
     }
@@ -133,7 +121,6 @@ impl Ball {
     /// They are the exact ends unless the ball contains zero, where they may lie up to one radius
     /// further out, or the radius is more than `2^20` bits below the last bit of the midpoint,
     /// where they lie that far out.
-    #[must_use]
     pub fn endpoints(&self) -> (Binary, Binary) {
         if self.is_exact() {
             return (self.midpoint.clone(), self.midpoint.clone());
@@ -149,40 +136,34 @@ impl Ball {
     }
 
     /// The same points and at most a few more, with a midpoint of at most `precision` bits.
-    #[must_use]
     pub(crate) fn round(self, precision: u64) -> Self {
         let (midpoint, error) = self.midpoint.round(precision);
         Self::new(midpoint, self.radius.add(&error))
     }
 
     /// All points within `by` of this ball.
-    #[must_use]
     pub fn widened(&self, by: &Magnitude) -> Self {
         Self::new(self.midpoint.clone(), self.radius.add(by))
     }
 
     /// `−x`, exactly.
-    #[must_use]
     pub fn negate(self) -> Self {
         Self::new(self.midpoint.negate(), self.radius)
     }
 
     /// `x + y`: `radius ≤ r_x + r_y + ε`, `ε` the rounding error of the midpoint.
-    #[must_use]
     pub fn add(&self, other: &Self, precision: u64) -> Self {
         let (midpoint, error) = self.midpoint.add_rounded(&other.midpoint, precision);
         Self::new(midpoint, self.radius.add(&other.radius).add(&error))
     }
 
     /// `x − y`, with the radius of [`Self::add`].
-    #[must_use]
     pub fn subtract(&self, other: &Self, precision: u64) -> Self {
         self.add(&other.clone().negate(), precision)
     }
 
     /// `x·y`: `radius ≤ |m_x| r_y + |m_y| r_x + r_x r_y + ε`, `ε` the rounding error of the
     /// midpoint.
-    #[must_use]
     pub fn multiply(&self, other: &Self, precision: u64) -> Self {
         let (midpoint, error) = self.midpoint.multiply(&other.midpoint).round(precision);
         let mut radius = error;
@@ -196,7 +177,6 @@ impl Ball {
     }
 
     /// `x²`: `radius ≤ (2|m| + r) r + ε`.
-    #[must_use]
     pub(crate) fn square(&self, precision: u64) -> Self {
         let (midpoint, error) = self.midpoint.multiply(&self.midpoint).round(precision);
         let sum = self.midpoint.magnitude().scale(1).add(&self.radius);
@@ -204,7 +184,6 @@ impl Ball {
     }
 
     /// `x·q`: `radius ≤ |q| r + ε`.
-    #[must_use]
     pub fn multiply_rational(&self, factor: &BigRational, precision: u64) -> Self {
         let (numerator, denominator) = (factor.numer(), factor.denom());
         let product = self.midpoint.mantissa() * numerator;

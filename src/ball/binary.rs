@@ -23,6 +23,7 @@ pub(super) const LEAST_PRECISION: u64 = 2;
 ///
 /// # Panics
 /// Every operation panics when the exponent of its result leaves `i64`.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Binary {
     mantissa: BigInt,
@@ -31,7 +32,6 @@ pub struct Binary {
 
 impl Binary {
     /// `mantissa·2^exponent`.
-    #[must_use]
     pub fn new(mut mantissa: BigInt, exponent: i64) -> Self {
         match mantissa.trailing_zeros() {
             None => Self { mantissa, exponent: 0 },
@@ -44,31 +44,26 @@ impl Binary {
     }
 
     /// Zero.
-    #[must_use]
     pub fn zero() -> Self {
         Self { mantissa: BigInt::zero(), exponent: 0 }
     }
 
     /// The odd `m` of `m·2^e`, or zero.
-    #[must_use]
     pub const fn mantissa(&self) -> &BigInt {
         &self.mantissa
     }
 
     /// The `e` of `m·2^e`.
-    #[must_use]
     pub const fn exponent(&self) -> i64 {
         self.exponent
     }
 
     /// Whether the number is zero.
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.mantissa.is_zero()
     }
 
     /// Whether the number is below zero.
-    #[must_use]
     pub fn is_negative(&self) -> bool {
         self.mantissa.is_negative()
     }
@@ -79,19 +74,16 @@ impl Binary {
     }
 
     /// The `t` with `2^(t−1) ≤ |self| < 2^t`, or `None` for zero.
-    #[must_use]
     pub fn top(&self) -> Option<i64> {
         (!self.is_zero()).then(|| shifted(self.exponent, self.mantissa.bits() as i64))
     }
 
     /// An upper bound of `|self|`, within one part in 2^31.
-    #[must_use]
     pub fn magnitude(&self) -> Magnitude {
         Magnitude::from_integer(&self.mantissa, self.exponent)
     }
 
     /// `⌊self·2^shift⌋`. The cost grows with the size of the result.
-    #[must_use]
     pub(super) fn floor_scaled(&self, shift: i64) -> BigInt {
         match shifted(self.exponent, shift) {
             up @ 0.. => &self.mantissa << up as u64,
@@ -100,13 +92,11 @@ impl Binary {
     }
 
     /// `−self`.
-    #[must_use]
     pub fn negate(self) -> Self {
         Self { mantissa: -self.mantissa, exponent: self.exponent }
     }
 
     /// The exact sum. The cost grows with the distance of the exponents; see [`Self::add_rounded`].
-    #[must_use]
     pub fn add(&self, other: &Self) -> Self {
         if self.is_zero() {
             return other.clone();
@@ -126,7 +116,6 @@ impl Binary {
     }
 
     /// The exact product.
-    #[must_use]
     pub fn multiply(&self, other: &Self) -> Self {
         if self.is_zero() || other.is_zero() {
             return Self::zero();
@@ -140,7 +129,6 @@ impl Binary {
 
     /// `(y, ε)` with `|self − y| ≤ ε ≤ 2^(t−p−1)`, where `2^(t−1) ≤ |self| < 2^t` and `p` is the
     /// precision; `y` has at most `p` bits and is `self` itself (`ε = 0`) when that fits.
-    #[must_use]
     pub fn round(self, precision: u64) -> (Self, Magnitude) {
         let precision = precision.max(LEAST_PRECISION);
         let bits = self.mantissa.bits();
@@ -164,7 +152,6 @@ impl Binary {
     ///
     /// An operand that cannot reach the kept bits is left out and counted in `ε`, so that the cost
     /// does not depend on the distance of the exponents.
-    #[must_use]
     pub fn add_rounded(&self, other: &Self, precision: u64) -> (Self, Magnitude) {
         let precision = precision.max(LEAST_PRECISION);
         if let (Some(first), Some(second)) = (self.top(), other.top()) {
@@ -250,7 +237,6 @@ impl From<&Binary> for BigRational {
 
 impl Magnitude {
     /// The bound itself as an exact binary number.
-    #[must_use]
     pub fn to_binary(self) -> Binary {
         let (mantissa, exponent) = self.parts();
         Binary::new(BigInt::from(mantissa), exponent)

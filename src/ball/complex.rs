@@ -13,6 +13,7 @@ use super::magnitude::Magnitude;
 /// # Invariants
 /// - A complex ball made by an operation contains the exact result for every choice of points in
 ///   its operands.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ComplexBall {
     re: Ball,
@@ -21,31 +22,26 @@ pub struct ComplexBall {
 
 impl ComplexBall {
     /// `re + i·im`.
-    #[must_use]
     pub fn new(re: Ball, im: Ball) -> Self {
         Self { re, im }
     }
 
     /// The point 0.
-    #[must_use]
     pub(crate) fn zero() -> Self {
         Ball::zero().into()
     }
 
     /// The point 1.
-    #[must_use]
     pub(crate) fn one() -> Self {
         Ball::from_integer(&1.into()).into()
     }
 
     /// `−z`, exactly.
-    #[must_use]
     pub(crate) fn negate(self) -> Self {
         Self::new(self.re.negate(), self.im.negate())
     }
 
     /// An upper bound of `|z|` over the rectangle.
-    #[must_use]
     pub(crate) fn magnitude(&self) -> Magnitude {
         match self.is_real() {
             true => self.re.magnitude(),
@@ -72,19 +68,16 @@ impl ComplexBall {
     }
 
     /// The real part.
-    #[must_use]
     pub const fn real(&self) -> &Ball {
         &self.re
     }
 
     /// The imaginary part.
-    #[must_use]
     pub const fn imaginary(&self) -> &Ball {
         &self.im
     }
 
     /// `z + w`.
-    #[must_use]
     pub fn add(&self, other: &Self, precision: u64) -> Self {
         if self.is_real() && other.is_real() {
             return self.re.add(&other.re, precision).into();
@@ -93,7 +86,6 @@ impl ComplexBall {
     }
 
     /// `z·w`.
-    #[must_use]
     pub fn multiply(&self, other: &Self, precision: u64) -> Self {
         if self.is_real() && other.is_real() {
             return self.re.multiply(&other.re, precision).into();
@@ -105,7 +97,6 @@ impl ComplexBall {
     }
 
     /// `z·q`.
-    #[must_use]
     pub fn multiply_rational(&self, factor: &BigRational, precision: u64) -> Self {
         let product = |part: &Ball| part.multiply_rational(factor, precision);
         Self::new(product(&self.re), product(&self.im))

@@ -28,6 +28,7 @@ const EXACT_EXPONENT: u64 = 1 << 16;
 /// # Invariants
 /// - At least one digit; the first is not 0 unless all are. Zero has no sign and the exponent 0.
 /// - Numbers of different counts of digits differ: `1.0` is not `1.00`.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Decimal {
     negative: bool,
@@ -76,7 +77,6 @@ impl Decimal {
     ///
     /// # Cost
     /// A division of integers as long as the fraction's terms and the digits.
-    #[must_use]
     pub fn from_rational(value: &BigRational, significant: usize) -> (Self, Exactness) {
         assert!(significant > 0, "a decimal has at least one digit");
         if value.is_zero() {
@@ -104,19 +104,16 @@ impl Decimal {
     }
 
     /// The count of digits.
-    #[must_use]
     pub(super) fn significant(&self) -> usize {
         self.digits.len()
     }
 
     /// Whether the number is zero.
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.digits.starts_with('0')
     }
 
     /// The power of ten of the first digit.
-    #[must_use]
     pub(super) const fn exponent(&self) -> i64 {
         self.exponent
     }
@@ -127,7 +124,6 @@ impl Decimal {
     }
 
     /// The exact value. The cost grows with the exponent.
-    #[must_use]
     pub fn to_rational(&self) -> BigRational {
         let digits = BigInt::parse_bytes(self.digits.as_bytes(), 10).expect("digits are a number");
         let digits = BigRational::from_integer(if self.negative { -digits } else { digits });
@@ -193,7 +189,6 @@ impl Ball {
     /// # Cost
     /// Products and divisions of integers as long as the digits and the exponent of the ball, up to
     /// `2^16`; independent of the exponent beyond.
-    #[must_use]
     pub(crate) fn proven_digits(&self, significant: usize) -> Option<Decimal> {
         assert!(significant > 0, "a decimal has at least one digit");
         if self.contains_zero() {

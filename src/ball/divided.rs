@@ -40,7 +40,6 @@ use super::magnitude::Magnitude;
 /// A step multiplies, divides and adds integers of about `p + log_2 n` bits, whatever the length of
 /// the coefficients; one with a numerator and a denominator of `x` below some `2^40` costs no more
 /// than a few machine operations for each word of these.
-#[must_use]
 pub(crate) fn evaluate_divided(coefficients: &IntegerRow, x: &BigRational, precision: u64) -> Ball {
     let precision = precision.max(LEAST_PRECISION);
     let weights = weights(x, coefficients.len());

@@ -21,6 +21,7 @@ const EXACT_EXPONENT: u64 = 1 << 16;
 /// `midpoint ± radius`.
 ///
 /// The radius includes what the printing of the midpoint rounded away, and is itself rounded up.
+#[must_use]
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct DecimalEnclosure {
     midpoint: Decimal,
@@ -29,14 +30,12 @@ pub struct DecimalEnclosure {
 
 impl DecimalEnclosure {
     /// The midpoint.
-    #[must_use]
     pub const fn midpoint(&self) -> &Decimal {
         &self.midpoint
     }
 
     /// The radius, two significant digits; zero when the midpoint is the number. Print it with
     /// `{:e}`.
-    #[must_use]
     pub const fn radius(&self) -> &Decimal {
         &self.radius
     }
@@ -61,7 +60,6 @@ impl Ball {
     ///
     /// # Panics
     /// Panics if `most` is zero.
-    #[must_use]
     pub fn to_decimal(&self, most: usize) -> DecimalEnclosure {
         assert!(most > 0, "a decimal has at least one digit");
         let place = if self.is_exact() {

@@ -134,7 +134,6 @@ impl Ball {
     }
 
     /// Whether all numbers of the ball are less than all of another one.
-    #[must_use]
     pub fn is_below(&self, other: &Ball) -> bool {
         self.endpoints().1 < other.endpoints().0
     }

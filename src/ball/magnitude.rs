@@ -25,6 +25,7 @@ const BITS: u32 = 32;
 /// Every operation panics when the exponent of its result leaves `i64`, that is beyond
 /// `2^(2^63)`: no sum of exponentials whose arguments `exp_of_rational`
 /// admits comes near.
+#[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Magnitude {
     mantissa: u64,
@@ -56,19 +57,16 @@ impl Magnitude {
     }
 
     /// The least magnitude of at least `value`.
-    #[must_use]
     pub fn from_u64(value: u64) -> Self {
         Self::round_up(u128::from(value), 0)
     }
 
     /// `2^exponent`, exactly.
-    #[must_use]
     pub fn power_of_two(exponent: i64) -> Self {
         Self::round_up(1, exponent)
     }
 
     /// An upper bound of `|value|·2^exponent`, within one part in 2^31.
-    #[must_use]
     pub fn from_integer(value: &BigInt, exponent: i64) -> Self {
         Self::from_natural(value.magnitude(), exponent)
     }
@@ -93,7 +91,6 @@ impl Magnitude {
     }
 
     /// An upper bound of `|value|`, within one part in 2^30.
-    #[must_use]
     pub fn from_rational(value: &BigRational) -> Self {
         let (numerator, denominator) = (value.numer().magnitude(), value.denom().magnitude());
         if let (Some(numerator), Some(denominator)) = (numerator.to_u64(), denominator.to_u64()) {
@@ -106,13 +103,11 @@ impl Magnitude {
     }
 
     /// Whether the bound is zero, that is the bounded number is.
-    #[must_use]
     pub const fn is_zero(&self) -> bool {
         self.mantissa == 0
     }
 
     /// An upper bound of the sum.
-    #[must_use]
     pub fn add(&self, other: &Self) -> Self {
         let (large, small) = if self < other { (other, self) } else { (self, other) };
         if small.is_zero() {
@@ -132,7 +127,6 @@ impl Magnitude {
     }
 
     /// An upper bound of the product.
-    #[must_use]
     pub fn multiply(&self, other: &Self) -> Self {
         let mantissa = u128::from(self.mantissa) * u128::from(other.mantissa);
         if mantissa == 0 {
@@ -145,7 +139,6 @@ impl Magnitude {
     ///
     /// # Panics
     /// Panics if `divisor` is zero.
-    #[must_use]
     pub fn divide(&self, divisor: u64) -> Self {
         if self.is_zero() {
             assert!(divisor != 0, "division of a magnitude by zero");
@@ -161,7 +154,6 @@ impl Magnitude {
     }
 
     /// `self·2^exponent`, exactly.
-    #[must_use]
     pub fn scale(&self, exponent: i64) -> Self {
         if self.is_zero() {
             return Self::ZERO;
@@ -170,7 +162,6 @@ impl Magnitude {
     }
 
     /// The `t` with `2^(t−1) ≤ self < 2^t`, or `None` for zero.
-    #[must_use]
     pub fn top(&self) -> Option<i64> {
         (!self.is_zero()).then(|| shifted(self.exponent, i64::from(BITS)))
     }

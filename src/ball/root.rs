@@ -14,7 +14,6 @@ impl Ball {
     ///
     /// With an integer `y = ⌊2^k √q⌋`, the root lies between `y/2^k` and `(y + 1)/2^k`, whose middle
     /// is the midpoint; `k` is such that `y` has more than `p` bits.
-    #[must_use]
     pub fn square_root(q: &BigRational, precision: u64) -> Option<Ball> {
         if q.is_negative() {
             return None;
@@ -36,7 +35,6 @@ impl Ball {
 impl Ball {
     /// `√x` over a ball of positive numbers, `None` where it may hold others. With the midpoint `m`
     /// and the radius `r`, `|√x − √m| = |x − m|/(√x + √m) ≤ r/√m`.
-    #[must_use]
     pub fn sqrt(&self, precision: u64) -> Option<Ball> {
         if self.contains_zero() || self.midpoint().is_negative() {
             return None;

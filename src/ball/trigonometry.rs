@@ -70,7 +70,6 @@ fn cos_sin_of_small(argument: &BigInt, working: u64) -> (BigInt, BigInt, u64) {
 
 impl Ball {
     /// π: `radius ≤ 2^(2−p)` for precision `p`.
-    #[must_use]
     pub fn pi(precision: u64) -> Ball {
         let precision = precision.max(LEAST_PRECISION);
         let working = precision + u64::from(precision.ilog2()) + 8;

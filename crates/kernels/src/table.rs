@@ -8,7 +8,6 @@ use crate::double_double::two_sum;
 use crate::heads::Heads;
 use crate::lookup::Lookup;
 use crate::rows::AlignedRows;
-use std::fmt;
 
 /// The highest degree of a piece.
 pub const MAX_DEGREE: usize = 63;
@@ -41,71 +40,32 @@ pub struct Piece {
 }
 
 /// Why pieces do not make a table. Pieces are numbered from 0.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[expect(missing_docs, reason = "the messages say it")]
+#[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
 pub enum TableError {
-    /// No pieces.
+    #[error("a table needs at least one piece")]
     Empty,
-    /// A start is not finite, or not greater than the one before.
+    #[error("piece {0} must start at a finite double after the start before it")]
     Start(usize),
-    /// The end is not finite, or less than the last start.
+    #[error("the end must be finite and not before the last start")]
     End,
-    /// A scale is not a positive power of two.
+    #[error("the scale of piece {0} must be a positive power of two")]
     Scale(usize),
-    /// A centre is not finite, or `centre · scale` is not a double.
+    #[error("the centre of piece {0} times its scale is not a double; move the centre")]
     Centre(usize),
-    /// `|u| > 1` somewhere on the piece.
+    #[error("piece {0} reaches beyond |u| = 1; take a smaller scale or a shorter piece")]
     Argument(usize),
-    /// More than `MAX_DEGREE + 1` coefficients.
+    #[error("piece {0} has a degree above {most}; cut it into shorter pieces", most = MAX_DEGREE)]
     Degree(usize),
-    /// More low parts than coefficients.
+    #[error("piece {0} has more low parts than coefficients")]
     Low(usize),
-    /// A coefficient or a low part is not finite, or their magnitudes add up to more than `2⁹⁹⁰`.
+    #[error("piece {0} needs finite coefficients with magnitudes of 2^990 in sum at most")]
     Coefficient(usize),
-    /// An error bound is negative, infinite or no number.
+    #[error("the error bound of piece {0} must be finite and not negative")]
     Error(usize),
-    /// More pieces than the row numbers of gathering instructions reach.
+    #[error("the table is too large; cut it into tables of fewer pieces")]
     Size,
 }
-
-impl fmt::Display for TableError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty => write!(f, "a table needs at least one piece"),
-            Self::Start(piece) => {
-                write!(f, "piece {piece} must start at a finite double after the start before it")
-            }
-            Self::End => write!(f, "the end must be finite and not before the last start"),
-            Self::Scale(piece) => {
-                write!(f, "the scale of piece {piece} must be a positive power of two")
-            }
-            Self::Centre(piece) => write!(
-                f,
-                "the centre of piece {piece} times its scale is not a double; move the centre"
-            ),
-            Self::Argument(piece) => write!(
-                f,
-                "piece {piece} reaches beyond |u| = 1; take a smaller scale or a shorter piece"
-            ),
-            Self::Degree(piece) => {
-                write!(
-                    f,
-                    "piece {piece} has a degree above {MAX_DEGREE}; cut it into shorter pieces"
-                )
-            }
-            Self::Low(piece) => write!(f, "piece {piece} has more low parts than coefficients"),
-            Self::Coefficient(piece) => write!(
-                f,
-                "piece {piece} needs finite coefficients with magnitudes of 2^990 in sum at most"
-            ),
-            Self::Error(piece) => {
-                write!(f, "the error bound of piece {piece} must be finite and not negative")
-            }
-            Self::Size => write!(f, "the table is too large; cut it into tables of fewer pieces"),
-        }
-    }
-}
-
-impl std::error::Error for TableError {}
 
 /// A piecewise polynomial, ready for evaluation.
 ///

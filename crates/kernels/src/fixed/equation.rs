@@ -52,13 +52,11 @@ impl DelayEquation {
     }
 
     /// The period D.
-    #[must_use]
     pub fn period(&self) -> &BigRational {
         &self.period
     }
 
     /// The reflection ρ.
-    #[must_use]
     pub fn reflection(&self) -> &BigRational {
         &self.reflection
     }

@@ -57,26 +57,22 @@ impl March {
     }
 
     /// How many periods there are.
-    #[must_use]
     pub fn periods(&self) -> u32 {
         self.proofs.len() as u32
     }
 
     /// How many pieces a period is cut into: S, a power of two.
-    #[must_use]
     pub fn pieces_per_period(&self) -> u32 {
         self.scheme.pieces
     }
 
     /// The absolute bound of the error on all periods, rounded upwards.
-    #[must_use]
     pub fn bound(&self) -> f64 {
         self.proofs.last().map_or(0.0, |proof| units_upwards(proof.bound))
     }
 
     /// The absolute bound of the error up to the end of a period, rounded upwards; none after the
     /// last period.
-    #[must_use]
     pub fn bound_of(&self, period: u32) -> Option<f64> {
         self.proofs.get(period as usize).map(|proof| units_upwards(proof.bound))
     }
@@ -89,7 +85,6 @@ impl March {
     /// The coefficients `c_m` of piece q of period n in units of `2^−112`: there `p = Σ c_m u^m`,
     /// with the place `x = (2q + 1 + u)/(2S)` in parts of the period. None if there is no such
     /// piece.
-    #[must_use]
     pub fn piece(&self, period: u32, piece: u32) -> Option<&[i128]> {
         let proof = self.proofs.get(period as usize)?;
         if piece >= self.scheme.pieces {

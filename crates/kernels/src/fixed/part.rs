@@ -24,7 +24,6 @@ impl March {
     ///
     /// # Cost
     /// A product of 128 bits for each pair of terms.
-    #[must_use]
     pub fn part(&self, period: u32, piece: u32, a: &BigRational, b: &BigRational) -> Option<Part> {
         let coefficients = self.piece(period, piece)?.to_vec();
         let terms = coefficients.len();

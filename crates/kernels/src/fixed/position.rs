@@ -39,25 +39,21 @@ impl Position {
     }
 
     /// The period n.
-    #[must_use]
     pub fn period(&self) -> u32 {
         self.period
     }
 
     /// The place x in units of `2^−120`, rounded downwards.
-    #[must_use]
     pub fn fraction(&self) -> u128 {
         self.fraction
     }
 
     /// The place on the period as a double from 0 to 1, off by `2^−53` of itself and `2^−120` at most.
-    #[must_use]
     pub fn local(&self) -> f64 {
         self.fraction as f64 / END as f64
     }
 
     /// Whether the place is not rounded.
-    #[must_use]
     pub fn is_exact(&self) -> bool {
         self.exact
     }

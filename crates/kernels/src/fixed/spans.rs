@@ -93,7 +93,6 @@ impl Spans {
     ///
     /// # Cost
     /// O(coefficients), and O(degree³) for the interpolation.
-    #[must_use]
     pub fn new(
         start: &BigRational,
         length: &BigRational,
@@ -180,7 +179,6 @@ impl Spans {
     ///
     /// # Cost
     /// O(degree · terms + degree²).
-    #[must_use]
     pub fn interpolated(&self, first: f64, last: f64) -> Option<Interpolant> {
         let (cell, middle) = self.cell(first, last)?;
         let value = |node: Multiplier| {
@@ -210,7 +208,6 @@ impl Spans {
     ///
     /// # Cost
     /// O(degree² + terms²) for each span that the cell touches; for those that lie in it, O(degree²).
-    #[must_use]
     pub fn distance(&self, interpolant: &Interpolant) -> Option<f64> {
         let (cell, middle) = self.cell(interpolant.first, interpolant.last)?;
         let scale = f64::from(cell.scale_bits - self.unit_bits).exp2();

@@ -21,13 +21,11 @@ pub struct FixedValue {
 
 impl FixedValue {
     /// The correctly rounded double, if the interval has only one: see [`round_to_double`].
-    #[must_use]
     pub fn to_double(&self) -> Option<f64> {
         round_to_double(self.midpoint, self.radius, i64::from(FRACTION_BITS))
     }
 
     /// The double nearest to the midpoint.
-    #[must_use]
     pub fn to_f64(&self) -> f64 {
         scaled(self.midpoint, i64::from(FRACTION_BITS))
     }
@@ -62,7 +60,6 @@ pub(super) fn scaled(value: i128, fraction_bits: i64) -> f64 {
 ///
 /// # Cost
 /// Some ten instructions on words of 128 bits.
-#[must_use]
 pub fn round_to_double(value: i128, radius: u128, fraction_bits: i64) -> Option<f64> {
     let size = value.unsigned_abs();
     if size <= radius {

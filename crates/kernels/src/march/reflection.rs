@@ -1,8 +1,6 @@
 //! The numbers of a reflected wave: the rate of decay and the zero of the reflection, in units of
 //! the period, and the ratio by which it multiplies. A number that was rounded carries its radius.
 
-use std::fmt;
-
 /// A real number known to lie within `radius` of `value`. Pure numbers, without unit.
 ///
 /// # Invariants
@@ -140,37 +138,14 @@ impl Reflection {
 }
 
 /// Why numbers do not describe a reflection.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the messages say it")]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReflectionError {
-    /// A value or a radius is infinite or not a number.
+    #[error("a value or its radius is not finite: give a finite number")]
     NotFinite,
-    /// A radius is below zero.
-    NegativeRadius {
-        /// The radius given.
-        radius: f64,
-    },
-    /// The rate of decay may be zero or negative.
-    RateNotPositive {
-        /// The least rate within the radius.
-        rate: f64,
-    },
+    #[error("the radius {radius} is below zero: give its absolute value")]
+    NegativeRadius { radius: f64 },
+    #[error("the rate of decay may be as small as {rate}: it has to be positive")]
+    RateNotPositive { rate: f64 },
 }
-
-impl fmt::Display for ReflectionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotFinite => {
-                write!(f, "a value or its radius is not finite: give a finite number")
-            }
-            Self::NegativeRadius { radius } => {
-                write!(f, "the radius {radius} is below zero: give its absolute value")
-            }
-            Self::RateNotPositive { rate } => {
-                write!(f, "the rate of decay may be as small as {rate}: it has to be positive")
-            }
-        }
-    }
-}
-
-impl std::error::Error for ReflectionError {}

@@ -16,7 +16,6 @@ use super::reflection::Reflection;
 use super::relaxation::Relaxation;
 use crate::lanes::{Lanes, WIDTH, padded};
 use crate::vector::{Work, widest};
-use std::fmt;
 
 /// Whether a march proves bounds as it goes, at some two or three times the cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -306,43 +305,18 @@ fn advance_wave<L: Lanes>(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f6
 }
 
 /// Why a march cannot go on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the messages say it")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MarchError {
-    /// The threshold or the limit of [`MarchOptions`] is out of range.
+    #[error(
+        "the options are out of range: give a positive threshold and a limit from 1 to 1048575"
+    )]
     Options,
-    /// A period needs more coefficients than allowed.
-    TooManyCoefficients {
-        /// The period that needs them.
-        period: usize,
-        /// The limit that was set.
-        limit: usize,
-    },
-    /// The wave has grown beyond the range of doubles.
-    NotFinite {
-        /// The period on which it did.
-        period: usize,
-    },
+    #[error(
+        "period {period} needs more than {limit} coefficients: raise the limit or stop earlier"
+    )]
+    TooManyCoefficients { period: usize, limit: usize },
+    #[error("the wave outgrows the doubles on period {period}: stop earlier")]
+    NotFinite { period: usize },
 }
-
-impl fmt::Display for MarchError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Options => write!(
-                f,
-                "the options are out of range: give a positive threshold and a limit from 1 to \
-                 1048575"
-            ),
-            Self::TooManyCoefficients { period, limit } => write!(
-                f,
-                "period {period} needs more than {limit} coefficients: raise the limit or stop \
-                 earlier"
-            ),
-            Self::NotFinite { period } => {
-                write!(f, "the wave outgrows the doubles on period {period}: stop earlier")
-            }
-        }
-    }
-}
-
-impl std::error::Error for MarchError {}

@@ -14,7 +14,6 @@
 //! with complex numbers.
 
 use super::number::{Complex, Scalar};
-use std::fmt;
 
 /// `weight · v[n−lag]`, or the same of `v'`.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -65,41 +64,21 @@ pub struct WaveSystem<T> {
 }
 
 /// Why steps make no system.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[expect(missing_docs, reason = "the messages say it")]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum SystemError {
-    /// There are no waves.
+    #[error("there are no waves; give one step at least")]
     Empty,
-    /// A wave that does not have exactly one step.
+    #[error("give exactly one step for wave {0}")]
     Steps(usize),
-    /// The step of a wave needs another one of the same period, whose step comes later.
-    NotYetKnown {
-        /// The wave.
-        wave: usize,
-        /// The wave that it needs.
-        other: usize,
-    },
-    /// A number in the step of this wave is not finite.
+    #[error(
+        "wave {wave} follows from wave {other} of the same period; put the step of that one \
+         before it"
+    )]
+    NotYetKnown { wave: usize, other: usize },
+    #[error("wave {0} is given by numbers that are too large; change the units")]
     NotFinite(usize),
 }
-
-impl fmt::Display for SystemError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SystemError::Empty => f.write_str("there are no waves; give one step at least"),
-            SystemError::Steps(wave) => write!(f, "give exactly one step for wave {wave}"),
-            SystemError::NotYetKnown { wave, other } => write!(
-                f,
-                "wave {wave} follows from wave {other} of the same period; put the step of that \
-                 one before it"
-            ),
-            SystemError::NotFinite(wave) => {
-                write!(f, "wave {wave} is given by numbers that are too large; change the units")
-            }
-        }
-    }
-}
-
-impl std::error::Error for SystemError {}
 
 impl<T: Scalar> WaveSystem<T> {
     /// A system of steps in the order in which they are taken. O(terms).

@@ -11,7 +11,6 @@ use super::number::{Complex, Scalar};
 use super::system::{State, Term, WaveStep, WaveSystem};
 use std::borrow::Cow;
 use std::collections::VecDeque;
-use std::fmt;
 
 /// Trailing coefficients of this size are dropped, relative to the largest of a wave so far.
 const THRESHOLD: f64 = 1.0 / (1u128 << 66) as f64;
@@ -23,46 +22,16 @@ const MAX_SPANS: usize = 1 << 12;
 const MAX_COEFFICIENTS: usize = 1 << 13;
 
 /// Why a march cannot go on.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[expect(missing_docs, reason = "the messages say it")]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum WaveMarchError {
-    /// A pole turns so often in a period that more spans would be needed than allowed.
-    TooManySpans {
-        /// The most that are allowed.
-        limit: usize,
-    },
-    /// A polynomial of this period needs more coefficients than allowed.
-    TooManyCoefficients {
-        /// Which period.
-        period: usize,
-        /// The most that are allowed.
-        limit: usize,
-    },
-    /// Waves of this period are too large for a double.
-    Overflow {
-        /// Which period.
-        period: usize,
-    },
+    #[error("a wave turns or grows so often in a period that more than {limit} spans were needed")]
+    TooManySpans { limit: usize },
+    #[error("period {period} needs more than {limit} coefficients; ask for an earlier time")]
+    TooManyCoefficients { period: usize, limit: usize },
+    #[error("waves of period {period} are too large for doubles")]
+    Overflow { period: usize },
 }
-
-impl fmt::Display for WaveMarchError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            WaveMarchError::TooManySpans { limit } => write!(
-                f,
-                "a wave turns or grows so often in a period that more than {limit} spans were needed"
-            ),
-            WaveMarchError::TooManyCoefficients { period, limit } => write!(
-                f,
-                "period {period} needs more than {limit} coefficients; ask for an earlier time"
-            ),
-            WaveMarchError::Overflow { period } => {
-                write!(f, "waves of period {period} are too large for doubles")
-            }
-        }
-    }
-}
-
-impl std::error::Error for WaveMarchError {}
 
 /// A wave on a period.
 struct Piece<T> {
