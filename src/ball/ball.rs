@@ -204,9 +204,6 @@ impl Ball {
     }
 
     /// `1/x`: `radius ≤ r/(|m| (|m| − r)) + ε`, by `|1/x − 1/m| = |x − m|/(|x| |m|)`.
-    ///
-    /// # Errors
-    /// [`BallError::DivisorMayBeZero`] where zero is in the ball.
     pub fn reciprocal(&self, precision: u64) -> Result<Self, BallError> {
         if self.contains_zero() {
             return Err(BallError::DivisorMayBeZero);

@@ -167,9 +167,6 @@ impl Binary {
 
     /// `(y, ε)` with `|numerator/denominator·2^exponent − y| ≤ ε ≤ 2^(2−p)·|y|` for precision `p`;
     /// `ε = 0` when the division leaves no remainder.
-    ///
-    /// # Panics
-    /// Panics if the denominator is zero.
     pub(super) fn quotient(
         numerator: &BigInt,
         denominator: &BigInt,

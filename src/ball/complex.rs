@@ -103,9 +103,6 @@ impl ComplexBall {
     }
 
     /// `1/z = (re − i·im)/(re² + im²)`.
-    ///
-    /// # Errors
-    /// [`BallError::DivisorMayBeZero`] where the enclosure of `re² + im²` contains zero.
     pub fn reciprocal(&self, precision: u64) -> Result<Self, BallError> {
         let norm = self.re.square(precision).add(&self.im.square(precision), precision);
         let inverse = norm.reciprocal(precision)?;
@@ -114,9 +111,6 @@ impl ComplexBall {
     }
 
     /// `e^z = e^re (cos im + i sin im)`.
-    ///
-    /// # Errors
-    /// [`BallError::ArgumentTooLarge`] where a part may exceed `2^40` in absolute value.
     pub fn exp(&self, precision: u64) -> Result<Self, BallError> {
         let size = self.re.exp(precision)?;
         if self.im.is_exact() && self.im.contains_zero() {

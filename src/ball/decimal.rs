@@ -72,10 +72,6 @@ impl Decimal {
     /// The decimal of `significant` digits nearest to a rational, ties to even. When fewer digits
     /// are the number exactly, the zeros that say nothing are left out.
     ///
-    /// # Panics
-    /// Panics if `significant` is zero.
-    ///
-    /// # Cost
     /// A division of integers as long as the fraction's terms and the digits.
     pub fn from_rational(value: &BigRational, significant: usize) -> (Self, Exactness) {
         assert!(significant > 0, "a decimal has at least one digit");
@@ -183,10 +179,6 @@ impl Ball {
     /// returned for a point within about `2^(−64)` units of the last digit of a tie when its exponent
     /// is beyond `±2^16`.
     ///
-    /// # Panics
-    /// Panics if `significant` is zero.
-    ///
-    /// # Cost
     /// Products and divisions of integers as long as the digits and the exponent of the ball, up to
     /// `2^16`; independent of the exponent beyond.
     pub(crate) fn proven_digits(&self, significant: usize) -> Option<Decimal> {

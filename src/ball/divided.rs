@@ -36,7 +36,6 @@ use super::magnitude::Magnitude;
 ///
 /// The unit `f` is chosen so that the largest term keeps the `p` bits after all `n` steps.
 ///
-/// # Cost
 /// A step multiplies, divides and adds integers of about `p + log_2 n` bits, whatever the length of
 /// the coefficients; one with a numerator and a denominator of `x` below some `2^40` costs no more
 /// than a few machine operations for each word of these.

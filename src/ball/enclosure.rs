@@ -57,9 +57,6 @@ impl Ball {
     /// thus with every digit that the ball proves, but with `most` digits at most.
     ///
     /// For each `x` of the ball: `|x − midpoint| ≤ radius`.
-    ///
-    /// # Panics
-    /// Panics if `most` is zero.
     pub fn to_decimal(&self, most: usize) -> DecimalEnclosure {
         assert!(most > 0, "a decimal has at least one digit");
         let place = if self.is_exact() {

@@ -70,10 +70,6 @@ impl Reduction {
 ///
 /// Results of any size are represented: `e^(−10^6)` is not zero.
 ///
-/// # Errors
-/// [`BallError::ArgumentTooLarge`] if `|x| > 2^40`.
-///
-/// # Cost
 /// About `2√p` products of `p` bits, and one of `p` bits for each bit of `⌊x⌋`.
 pub(crate) fn exp_of_rational(x: &BigRational, precision: u64) -> Result<Ball, BallError> {
     let (numerator, denominator) = (x.numer(), x.denom());
@@ -94,9 +90,6 @@ impl Ball {
     /// For a midpoint `m` and a radius `r`, `|e^x − e^m| ≤ e^m (e^r − 1)`; that is at most
     /// `e^m r (1 + r)` for `r ≤ 1`, since `e^r ≤ 1 + r + r²` there, and else at most
     /// `e^m 2^{3r/2}`, since `log₂ e < 3/2`.
-    ///
-    /// # Errors
-    /// [`BallError::ArgumentTooLarge`] where an `x` of the ball may exceed `2^40` in absolute value.
     pub fn exp(&self, precision: u64) -> Result<Ball, BallError> {
         if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
             return Err(BallError::ArgumentTooLarge);

@@ -61,11 +61,6 @@ impl Ball {
     /// `ln x` over a ball of positive numbers. With the midpoint `m` and the radius `r`,
     /// `|ln x − ln m| ≤ r/(m − r)`.
     ///
-    /// # Errors
-    /// [`BallError::NotPositive`] where a number of the ball may not be positive,
-    /// [`BallError::ArgumentTooLarge`] where its logarithm exceeds what exponentials take.
-    ///
-    /// # Cost
     /// About two exponentials of the same precision.
     pub fn ln(&self, precision: u64) -> Result<Ball, BallError> {
         if self.contains_zero() || self.midpoint().is_negative() {
@@ -83,9 +78,6 @@ impl Ball {
     }
 
     /// `x^q = e^{q ln x}` over a ball of positive numbers.
-    ///
-    /// # Errors
-    /// Those of [`ln`](Self::ln) and [`exp`](Self::exp).
     pub fn power(&self, exponent: &BigRational, precision: u64) -> Result<Ball, BallError> {
         if exponent.is_zero() {
             return Ok(Ball::from_integer(&BigInt::one()));
@@ -103,9 +95,6 @@ impl Ball {
     /// Five times `arctan x = 2 arctan(x/(1 + √(1 + x²)))`, then `x − x³/3 + …`; the sum stops where the
     /// next term, which bounds what is left out of an alternating sum with falling terms, is
     /// negligible.
-    ///
-    /// # Errors
-    /// None for finite balls but those of the operations it is made of.
     pub fn arctan(&self, precision: u64) -> Result<Ball, BallError> {
         let working = precision.max(LEAST_PRECISION) + 16;
         let one = Ball::from_integer(&BigInt::one());

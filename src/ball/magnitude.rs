@@ -136,9 +136,6 @@ impl Magnitude {
     }
 
     /// An upper bound of the quotient by `divisor`.
-    ///
-    /// # Panics
-    /// Panics if `divisor` is zero.
     pub fn divide(&self, divisor: u64) -> Self {
         if self.is_zero() {
             assert!(divisor != 0, "division of a magnitude by zero");

@@ -131,9 +131,6 @@ impl Number {
     }
 
     /// `1/x`.
-    ///
-    /// # Errors
-    /// [`BallError::DivisorMayBeZero`] where it may be zero.
     pub fn reciprocal(&self, bits: u64) -> Result<Number, BallError> {
         match self {
             Number::Exact(value) if value.is_zero() => Err(BallError::DivisorMayBeZero),

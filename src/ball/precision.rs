@@ -51,9 +51,8 @@ impl Precisions {
 
     /// Makes attempts with rising precision until one is done, which is returned, or else the last one.
     ///
-    /// # Errors
-    /// That of an attempt, at once. Where more bits may help, an attempt returns [`Attempt::NotYet`]
-    /// instead, if need be with the error in it.
+    /// An error of an attempt ends the loop. Where more bits may help, an attempt returns
+    /// [`Attempt::NotYet`] instead, if need be with the error in it.
     pub fn raise<T, B, E>(
         self,
         mut attempt: impl FnMut(u64) -> Result<Attempt<T, B>, E>,

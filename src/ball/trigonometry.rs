@@ -85,9 +85,6 @@ impl Ball {
     /// With `n` the integer next to `2m/π`, `m` the midpoint, `y = m − nπ/2` is at most `π/4` in
     /// absolute value but for rounding; `n` modulo 4 says which of `±cos y`, `±sin y` are meant. Both
     /// functions move by no more than their argument.
-    ///
-    /// # Errors
-    /// [`BallError::ArgumentTooLarge`] where an `x` of the ball may exceed `2^40` in absolute value.
     pub fn cos_sin(&self, precision: u64) -> Result<(Ball, Ball), BallError> {
         if self.magnitude() > Magnitude::power_of_two(i64::from(ARGUMENT_BITS)) {
             return Err(BallError::ArgumentTooLarge);

@@ -56,12 +56,6 @@ impl Value {
     /// depends on the precision is its own affair. The precision starts 32 bits above that of the digits;
     /// the last attempt is made at `limit_bits`. A number that is a tie between two decimals, or zero, is
     /// never decided by balls of positive radius: decide such cases exactly beforehand.
-    ///
-    /// # Errors
-    /// That of an enclosure.
-    ///
-    /// # Panics
-    /// Panics if `digits` is zero.
     #[doc(hidden)]
     pub fn certify<E>(
         digits: usize,

@@ -15,11 +15,6 @@ type Powers = BTreeMap<Symbol, Vec<ComplexBall>>;
 /// are wanted. An expression that is real, such as a sum of conjugate terms, has an imaginary part
 /// whose enclosure contains 0.
 ///
-/// # Errors
-/// - [`EnclosureError::MissingValue`] with the first symbol for which `values` answers `None`;
-/// - [`EnclosureError::Ball`] where an exponent is too large or a denominator may be zero.
-///
-/// # Cost
 /// A product of complex balls for each symbol of each term, and an exponential for each exponent.
 pub fn enclose_expression(
     expression: &Expression,

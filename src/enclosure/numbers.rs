@@ -44,17 +44,11 @@ impl Numbers {
     }
 
     /// An enclosure of a real value.
-    ///
-    /// # Errors
-    /// [`EnclosureError`] where a symbol has no value.
     pub fn enclose(&self, value: &Fraction, bits: u64) -> Result<Ball, EnclosureError> {
         real_part(self.enclose_complex(&value.clone().into(), bits)?)
     }
 
     /// A value as a number: exact where it is rational.
-    ///
-    /// # Errors
-    /// As [`Numbers::enclose`].
     pub(crate) fn number(&self, value: &Fraction, bits: u64) -> Result<Number, EnclosureError> {
         match value.as_constant() {
             Some(value) => Ok(Number::of_rational(value, bits)),
@@ -63,9 +57,6 @@ impl Numbers {
     }
 
     /// An enclosure of what a named constant is defined to be.
-    ///
-    /// # Errors
-    /// As [`Numbers::enclose`].
     pub fn enclose_definition(
         &self,
         value: &Definition,
@@ -91,9 +82,6 @@ impl Numbers {
     }
 
     /// An enclosure of a factor times a root.
-    ///
-    /// # Errors
-    /// As [`Numbers::enclose`]; also where the radicand is not certainly positive.
     pub fn enclose_root(&self, value: &Root, bits: u64) -> Result<Ball, EnclosureError> {
         let factor = self.enclose(value.factor(), bits)?;
         if value.radicand().is_one() {
@@ -176,9 +164,6 @@ impl Numbers {
     }
 
     /// Which of two numbers is larger; equal where they are so as expressions.
-    ///
-    /// # Errors
-    /// [`EnclosureError::Undecided`] where they cannot be told apart.
     pub fn compare(&self, left: &Fraction, right: &Fraction) -> Result<Ordering, EnclosureError> {
         if let (Some(left), Some(right)) = (left.as_constant(), right.as_constant()) {
             return Ok(left.cmp(&right));
@@ -198,9 +183,6 @@ impl Numbers {
     }
 
     /// Where a value stands among ascending ones, or where it would.
-    ///
-    /// # Errors
-    /// As [`Numbers::compare`].
     pub(crate) fn search(
         &self,
         ascending: &[Fraction],
@@ -225,9 +207,6 @@ impl Numbers {
 }
 
 /// The real part of a value that is real: zero lies in the enclosure of its imaginary part.
-///
-/// # Errors
-/// [`EnclosureError::NotReal`] where it does not.
 pub(crate) fn real_part(value: ComplexBall) -> Result<Ball, EnclosureError> {
     match value.imaginary().contains_zero() {
         true => Ok(value.real().clone()),

@@ -67,9 +67,6 @@ fn between(low: &Rational, high: &Rational, bits: u64) -> Ball {
 /// holds exactly one zero. From there on `m − f(m)/f'(X)` encloses that zero, by the mean value
 /// theorem, and is about twice as exact as the interval X around m. That there is only one zero
 /// between the given bounds is not proven.
-///
-/// # Errors
-/// `ZeroError`: no change of sign, a zero that may be double, or a symbol without a value.
 pub fn enclose_zero(
     expression: &Expression,
     symbol: &Symbol,

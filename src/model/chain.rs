@@ -94,9 +94,6 @@ enum Sampled {
 
 impl Chain {
     /// Cuts a line.
-    ///
-    /// # Errors
-    /// As `Leapfrog::new`.
     pub fn of(line: &Line, cells: usize, courant: f64) -> Result<Chain, ModelError> {
         let refuse = |reason| Err(ModelError::Refused { model: NAME, reason });
         let shortest = line.bars.iter().filter_map(|bar| bar.travel).fold(f64::INFINITY, f64::min);

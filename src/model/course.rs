@@ -57,9 +57,6 @@ fn complex(numbers: &Numbers, value: &Fraction) -> Result<Complex, EnclosureErro
 
 impl Course {
     /// The course as a function of one symbol.
-    ///
-    /// # Errors
-    /// As [`Numbers::enclose`].
     pub fn of(
         numbers: &Numbers,
         course: &Expression,

@@ -18,10 +18,6 @@ const NAME: &str = "equivalent spring";
 /// `m = 3/2`). Both forces then tend to `V/S`, and the contact's `1 − X S/V` and the spring's
 /// `e^{−h_1 t}` are functions of the same `h_1 t`, `h_1 = k_1 S`. An end that is fixed is a bar of
 /// infinite impedance at rest; a strain at the start adds `X_0/Z` to the velocity of a bar.
-///
-/// # Errors
-/// [`ModelError::Refused`] for what is no local contact, where something else stands beside it, and
-/// where what it joins does not approach; [`ModelError::MissingValue`] for symbols without values.
 pub fn equivalent_stiffness(
     scene: &impl AsRef<ScaledScene>,
     contact: ElementIndex,

@@ -45,12 +45,6 @@ impl Leapfrog {
     /// Cuts the bar with the shortest travel time into `cells`, the others into as many of the same
     /// travel time as they hold, a little longer where they must be; with steps of `courant` times the
     /// shortest travel time of a cell.
-    ///
-    /// # Errors
-    /// [`ModelError::Setting`] for no cells, and where `courant` is not in `(0, 1]`;
-    /// [`ModelError::Refused`] where no bar is finite, and where something moves that has no mass;
-    /// [`ModelError::TooMuch`] for more cells than [`MAX_CELL_UPDATES`];
-    /// [`ModelError::MissingValue`] for symbols without values.
     pub fn new(
         scene: &impl AsRef<ScaledScene>,
         cells: usize,

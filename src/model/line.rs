@@ -171,9 +171,6 @@ pub(crate) struct Line {
 
 impl Line {
     /// The line of a scene.
-    ///
-    /// # Errors
-    /// [`ModelError::MissingValue`] for a symbol without a value.
     pub fn of(scaled: &ScaledScene) -> Result<Line, ModelError> {
         let numbers = Numbers::new(&scaled.model().constants);
         let mut symbols = scaled.model().assumptions.symbols().map(|(symbol, _)| symbol);
@@ -217,9 +214,6 @@ impl Line {
     }
 
     /// The line of a scene, for a model that takes linear laws.
-    ///
-    /// # Errors
-    /// As [`Line::of`]; [`ModelError::Refused`] for a line with a local contact.
     pub fn linear(model: &'static str, scaled: &ScaledScene) -> Result<Line, ModelError> {
         let line = Line::of(scaled)?;
         let mut elements = line.nodes.iter().flat_map(|node| &node.elements);
@@ -238,9 +232,6 @@ impl Line {
     }
 
     /// Times in the scale of the line.
-    ///
-    /// # Errors
-    /// [`ModelError::Time`] for one that is not finite.
     pub fn scaled(&self, times: &[f64]) -> Result<Vec<f64>, ModelError> {
         match times.iter().find(|time| !time.is_finite()) {
             Some(time) => Err(ModelError::Time(*time)),
@@ -249,10 +240,6 @@ impl Line {
     }
 
     /// An observable by its number.
-    ///
-    /// # Errors
-    /// [`ModelError::NoObservable`] where there is none; [`ModelError::Refused`] for energies, which
-    /// are not linear in the motion.
     pub fn observable(&self, model: &'static str, index: usize) -> Result<&Observable, ModelError> {
         let count = self.observables.len();
         let observable = self.observables.get(index);
@@ -295,9 +282,6 @@ impl Line {
 
     /// What the unit of time is to the user, and the strain that goes with the unit of velocity in a
     /// bar, `V/c`.
-    ///
-    /// # Errors
-    /// [`ModelError::Value`] where they are no numbers.
     pub fn units_of(&self, scaled: &ScaledScene, bar: usize) -> Result<(f64, f64), ModelError> {
         let numbers = Numbers::new(&scaled.model().constants);
         let Kind::Bar(data) = &scaled.scene().elements[self.bars[bar].element].kind else {

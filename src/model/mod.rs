@@ -38,8 +38,5 @@ pub trait Model {
     /// [`Network::observables`](crate::network::Network::observables), in metres, kilograms and
     /// seconds or as plain numbers, at times in seconds or plain numbers. Where the value jumps it is
     /// the one after the jump; before the start it is zero.
-    ///
-    /// # Errors
-    /// [`ModelError`] for what the model does not represent, and where it would be too much work.
     fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError>;
 }

@@ -47,9 +47,6 @@ fn refuse<T>(reason: NotRepresented) -> Result<T, ModelError> {
 }
 
 /// The parts of a line from left to right, and of each node where its parts begin.
-///
-/// # Errors
-/// [`ModelError::Refused`] for what does not keep energy, or has no modes.
 fn parts(line: &Line) -> Result<Vec<Part>, ModelError> {
     if let Some(bar) = line.endless() {
         return refuse(NotRepresented::EndlessVibration(bar.name.clone()));
@@ -84,11 +81,6 @@ fn parts(line: &Line) -> Result<Vec<Part>, ModelError> {
 
 impl Modes {
     /// The first `count` modes.
-    ///
-    /// # Errors
-    /// [`ModelError::Refused`] for endless bars, dampers, loads, and lines without bars;
-    /// [`ModelError::Setting`] for no modes, [`ModelError::TooMuch`] for more than [`MAX_MODES`];
-    /// [`ModelError::MissingValue`] for symbols without values.
     pub fn new(scene: &impl AsRef<ScaledScene>, count: usize) -> Result<Modes, ModelError> {
         if count == 0 {
             let reason = BadSetting::NoModes;

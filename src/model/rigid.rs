@@ -79,10 +79,6 @@ fn moved(body: &RigidBody, [x, v]: [f64; 2], force: f64, t: f64) -> [f64; 2] {
 
 impl RigidBody {
     /// The body that a line is where nothing in it yields.
-    ///
-    /// # Errors
-    /// [`ModelError::Refused`] for endless and strained bars, springs between bodies, ends that are
-    /// fixed without a spring, imposed velocities and forces that vary; and for symbols without values.
     pub fn new(scene: &impl AsRef<ScaledScene>) -> Result<RigidBody, ModelError> {
         let line = Line::linear(NAME, scene.as_ref())?;
         if let Some(bar) = line.endless() {

@@ -68,9 +68,6 @@ pub struct Steps {
 }
 
 /// The common measure of times, and how often each holds it.
-///
-/// # Errors
-/// [`NotRepresented::NoCommonMeasure`] of the time that has none with those before.
 fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>, NotRepresented> {
     let refused = |name: &str| NotRepresented::NoCommonMeasure(name.to_owned());
     let Some((_, first)) = times.iter().find(|(_, time)| !time.is_zero()) else { return Ok(None) };
@@ -93,12 +90,6 @@ fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>,
 
 impl Steps {
     /// The method of steps with a relative tolerance.
-    ///
-    /// # Errors
-    /// [`ModelError::Setting`] where the tolerance is not in `[1e-13, 1e-2]`;
-    /// [`ModelError::Refused`] where travel times, and times of loads, have no common measure, and
-    /// where something without mass moves against nothing; [`ModelError::MissingValue`] for symbols
-    /// without values.
     pub fn new(scene: &impl AsRef<ScaledScene>, tolerance: f64) -> Result<Steps, ModelError> {
         let scaled = scene.as_ref();
         if !(1e-13..=1e-2).contains(&tolerance) {
@@ -205,9 +196,6 @@ impl Steps {
 }
 
 /// The systems of all nodes, with their contacts closed.
-///
-/// # Errors
-/// [`ModelError::Refused`] where something has no mass and nothing resists its motion.
 fn systems(
     scaled: &ScaledScene,
     numbers: &Numbers,

@@ -57,10 +57,6 @@ fn refuse<T>(reason: NotRepresented) -> Result<T, ModelError> {
 
 impl ThirdOfMass {
     /// The model of a mass that strikes a bar with a fixed end.
-    ///
-    /// # Errors
-    /// [`ModelError::Refused`] for every other scene, with what differs;
-    /// [`ModelError::MissingValue`] for symbols without values.
     pub fn new(
         scene: &impl AsRef<ScaledScene>,
         start: StartingVelocity,

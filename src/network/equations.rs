@@ -80,10 +80,6 @@ impl Eq for Derived {}
 
 impl Network {
     /// The network of a scene.
-    ///
-    /// # Errors
-    /// [`NetworkError::NotLinear`] for a scene with a local contact, of which a [`ScaledScene`] is all
-    /// there is; [`NetworkError`] where a value would have to be divided by that cannot be.
     pub fn new(scene: &Scene) -> Result<Network, NetworkError> {
         ScaledScene::of(scene)?.network()
     }

@@ -75,9 +75,6 @@ fn scaled(form: &LinearForm, factor: &Fraction) -> LinearForm {
 
 impl Network {
     /// The recurrence of the scene, where all delays lie on one grid. It is derived once.
-    ///
-    /// # Errors
-    /// [`NetworkError::Incommensurate`] where they do not, or what the recurrence refuses.
     pub fn recurrence(&self) -> Result<Recurrence, NetworkError> {
         let derive = || match self.lattice.periods().len() {
             1 => Recurrence::new(self.statement(&[1])).map_err(|invalid| self.refused(invalid)),
@@ -147,9 +144,6 @@ impl Network {
     }
 
     /// The laws at the nodes, with lags on a grid of one period.
-    ///
-    /// # Panics
-    /// Where the delays do not lie on one grid.
     pub fn laws(&self) -> Vec<Law> {
         assert_eq!(self.lattice.periods().len(), 1, "a scene on one grid");
         self.all_laws(&[1]).laws

@@ -101,9 +101,6 @@ pub(crate) fn bar_roots(body: &Body) -> Outcome<(Root, Option<Root>, Root)> {
 
 impl Model {
     /// The scene in its own scales.
-    ///
-    /// # Errors
-    /// [`NetworkError`] where a value would have to be divided by that cannot be.
     pub fn of(scene: &Scene) -> Outcome<Model> {
         let scale = Scale::of(scene)?;
         let mut model = Model {
@@ -342,9 +339,6 @@ impl Scale {
 
     /// The unit of any dimension: `Z^m V^l T^(l + m + t)` is in metres to the power `l`, kilograms to `m`
     /// and seconds to `t`.
-    ///
-    /// # Errors
-    /// [`NotAUnit`] where it would have to be divided by what cannot be.
     pub fn unit(&self, dimension: Dimension) -> Result<Root, NotAUnit> {
         let Dimension { length, mass, time } = dimension;
         let powers =

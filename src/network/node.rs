@@ -122,9 +122,6 @@ impl<V> ElementLaw<V> {
 
 impl<V> Node<V> {
     /// The same node with other numbers.
-    ///
-    /// # Errors
-    /// Those of the conversion.
     pub fn map<W, E>(&self, value: impl Fn(&V) -> Result<W, E>) -> Result<Node<W>, E> {
         let element = |own: &Lumped<V>| {
             Ok(Lumped { element: own.element, run: own.run, law: own.law.map(&value)? })

@@ -115,9 +115,6 @@ impl Term {
     }
 
     /// The same with other numbers.
-    ///
-    /// # Errors
-    /// Those of the conversion.
     pub fn map<V, E>(&self, convert: impl Fn(&Fraction) -> Result<V, E>) -> Result<Term<V>, E> {
         let of = match &self.of {
             Reading::InBar(field, Section { bar, delays: [right, left] }) => {
@@ -209,9 +206,6 @@ impl Elements<'_> {
     }
 
     /// The momentum of an element: that of a mass or a bar; others have none.
-    ///
-    /// # Errors
-    /// [`Mistake::Infinite`] for an endless bar that moves or is strained from the start.
     pub fn momentum(&self, element: ElementIndex) -> Result<Vec<Term>, Mistake> {
         if let Some(bar) = self.layout.bar(element) {
             return Ok(vec![Term::one(Reading::Momentum(self.bar(bar)?))]);
@@ -227,10 +221,6 @@ impl Elements<'_> {
     }
 
     /// The energy of an element: `m v²/2`, `k α²/2`, or that of a bar.
-    ///
-    /// # Errors
-    /// [`Mistake::Infinite`] for an endless bar that moves or is strained from the start,
-    /// [`Mistake::NotMeasurable`] for a local contact.
     pub fn energy(&self, element: ElementIndex) -> Result<Vec<Energy>, Mistake> {
         if let Some(bar) = self.layout.bar(element) {
             return Ok(vec![Energy::InBar(self.bar(bar)?)]);

@@ -26,10 +26,6 @@ pub struct ScaledScene {
 
 impl ScaledScene {
     /// The scene in its own scales.
-    ///
-    /// # Errors
-    /// [`NetworkError::Division`] where a value would have to be divided by that cannot be;
-    /// [`NetworkError::Unobservable`] for a measure at a place that does not have it.
     pub fn of(scene: &Scene) -> Result<ScaledScene, NetworkError> {
         let mut model = Model::of(scene)?;
         let layout = Layout::of(scene, &model, Contacts::Closed);
@@ -38,9 +34,6 @@ impl ScaledScene {
     }
 
     /// The network of the scene.
-    ///
-    /// # Errors
-    /// As [`Network::new`].
     pub fn network(self) -> Result<Network, NetworkError> {
         Network::of_scaled(self)
     }

@@ -138,9 +138,6 @@ impl ElementLaw<Number> {
 
 impl System<Number> {
     /// The system of a node with these contacts closed.
-    ///
-    /// # Errors
-    /// [`Unresisted`] where something without mass moves against nothing.
     pub fn of(
         node: &Node<Number>,
         is_closed: impl Fn(usize) -> bool,

@@ -23,12 +23,6 @@ pub struct Unfolded {
 impl Network {
     /// The recurrence of the scene with counts on its lattice up to `bounds`, one for each period
     /// of [`Network::lattice`].
-    ///
-    /// # Errors
-    /// [`NetworkError`] where the laws cannot be solved for the waves.
-    ///
-    /// # Panics
-    /// Where there are not as many bounds as periods.
     pub fn unfold(&self, bounds: &[usize]) -> Result<Unfolded, NetworkError> {
         assert_eq!(bounds.len(), self.lattice().periods().len(), "one bound a period");
         let largest = self.largest_lags();

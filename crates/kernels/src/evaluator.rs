@@ -42,17 +42,11 @@ impl<'a> Evaluator<'a> {
     /// `out[i] = f(times[i])`, fast where neighbouring times mostly lie in one piece.
     ///
     /// Any order is allowed. O(points · degree).
-    ///
-    /// # Panics
-    /// If the slices have different lengths.
     pub fn sorted(self, times: &[f64], out: &mut [f64]) {
         self.at_times(times, Neighbours::Together, Plain, out);
     }
 
     /// `out[i] = f(times[i])` for times in no order. O(points · degree).
-    ///
-    /// # Panics
-    /// If the slices have different lengths.
     pub fn unsorted(self, times: &[f64], out: &mut [f64]) {
         self.at_times(times, Neighbours::Apart, Plain, out);
     }
@@ -65,18 +59,12 @@ impl<'a> Evaluator<'a> {
 
     /// Like [`sorted`](Self::sorted), rounded correctly. Returns the indices that are not decided,
     /// ascending.
-    ///
-    /// # Panics
-    /// If the slices have different lengths.
     pub fn rounded_sorted(self, times: &[f64], out: &mut [f64]) -> Vec<usize> {
         self.at_times(times, Neighbours::Together, Certified, out)
     }
 
     /// Like [`unsorted`](Self::unsorted), rounded correctly. Returns the indices that are not decided,
     /// ascending.
-    ///
-    /// # Panics
-    /// If the slices have different lengths.
     pub fn rounded_unsorted(self, times: &[f64], out: &mut [f64]) -> Vec<usize> {
         self.at_times(times, Neighbours::Apart, Certified, out)
     }

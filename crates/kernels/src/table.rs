@@ -169,9 +169,6 @@ impl Table {
     /// A table of pieces in ascending order; the last one reaches to `end`, inclusive.
     ///
     /// O(pieces · degree).
-    ///
-    /// # Errors
-    /// See [`TableError`].
     pub fn new(pieces: &[Piece], end: f64) -> Result<Self, TableError> {
         let last_piece = pieces.last().ok_or(TableError::Empty)?;
         let ascends = |i: usize| i == 0 || pieces[i - 1].start < pieces[i].start;

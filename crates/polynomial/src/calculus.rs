@@ -22,9 +22,6 @@ impl Polynomial {
 
     /// The antiderivative `∫_0^x p dx`, which is zero at `x = 0`: exponents of `x` go up by one,
     /// `x^[j] → x^[j+1]`. O(terms).
-    ///
-    /// # Panics
-    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn antiderivative(&self, x: &Symbol) -> Polynomial {
         let symbols = common_symbols(&self.symbols, &Arc::from([x.clone()]));
         let column = symbols.binary_search(x).expect("x is among the common symbols");

@@ -22,9 +22,6 @@ impl Polynomial {
     /// A divisor with square roots is first multiplied, together with the dividend, by its
     /// conjugates until it has none: `p/d = p m/(d m)`. The polynomials with square roots have no
     /// divisors of zero, so one quotient exists where the other does.
-    ///
-    /// # Panics
-    /// Where the divisor is zero.
     pub fn divide(&self, divisor: &Polynomial) -> Option<Polynomial> {
         assert!(!divisor.is_zero(), "division by the zero polynomial");
         if let Some(value) = divisor.as_constant() {

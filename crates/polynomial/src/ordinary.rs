@@ -27,9 +27,6 @@ pub struct Ordinary<'a> {
 impl<'a> Ordinary<'a> {
     /// `p / divisor` for each polynomial. A product for each symbol of a term, and one division a
     /// term: the gcd with the denominator soon no longer changes.
-    ///
-    /// # Panics
-    /// Where `divisor` is not positive.
     pub fn new(
         polynomials: impl IntoIterator<Item = &'a Polynomial>,
         divisor: &BigInt,

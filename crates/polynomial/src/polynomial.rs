@@ -81,9 +81,6 @@ impl Polynomial {
 
     /// The single term `coefficient · Π x_i^{e_i}` (ordinary powers); a symbol may come twice.
     /// One product with a factorial for each symbol.
-    ///
-    /// # Panics
-    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn monomial(coefficient: &BigRational, powers: &[(&Symbol, u32)]) -> Polynomial {
         let mut powers = powers.to_vec();
         powers.sort();

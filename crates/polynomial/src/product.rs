@@ -75,9 +75,6 @@ fn scale(p: &Polynomial, factor: &BigRational) -> Polynomial {
 impl Mul for &Polynomial {
     type Output = Polynomial;
     /// O(terms of one × terms of the other × log).
-    ///
-    /// # Panics
-    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     fn mul(self, other: &Polynomial) -> Polynomial {
         product(self, other)
     }
@@ -94,9 +91,6 @@ impl Mul<&BigRational> for &Polynomial {
 impl Div<&BigRational> for &Polynomial {
     type Output = Polynomial;
     /// O(terms).
-    ///
-    /// # Panics
-    /// Where the divisor is zero.
     fn div(self, divisor: &BigRational) -> Polynomial {
         scale(self, &divisor.recip())
     }
@@ -104,9 +98,6 @@ impl Div<&BigRational> for &Polynomial {
 
 impl Polynomial {
     /// `p^exponent`, by repeated squaring; `p^0 = 1`, also for 0. O(log exponent) products.
-    ///
-    /// # Panics
-    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn pow(&self, exponent: u32) -> Polynomial {
         let mut power = Polynomial::one();
         for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {

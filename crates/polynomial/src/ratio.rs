@@ -52,9 +52,6 @@ impl WordRatio {
     /// With `p/q` and `a/b` reduced, `g = gcd(p, b)` and `h = gcd(a, q)`, the product is
     /// `(p/g · a/h) / (q/h · b/g)`, and that is reduced: what `p/g` and `b/g`, or `a/h` and `q/h`,
     /// have in common was taken out, and the other pairs had nothing.
-    ///
-    /// # Panics
-    /// Where `b` is zero.
     pub fn multiply(&mut self, a: u32, b: u32) {
         assert!(b > 0, "a division by zero");
         if a == 0 || self.numerator.is_empty() {

@@ -192,9 +192,6 @@ impl IntegerRef<'_> {
     }
 
     /// The remainder of the value modulo `word`, from 0 on. One division a limb.
-    ///
-    /// # Panics
-    /// Where `word` is zero.
     pub fn modulo(self, word: u64) -> u64 {
         let divisor = u128::from(word);
         let fold =

@@ -18,9 +18,6 @@ use std::collections::{BTreeMap, BTreeSet};
 impl Polynomial {
     /// `p` with the polynomial `value` in place of `x`. The divided powers of `value` that occur
     /// are formed once; then as many products of terms as the answer adds up.
-    ///
-    /// # Panics
-    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn substitute(&self, x: &Symbol, value: &Polynomial) -> Polynomial {
         let Some(column) = self.column(x) else { return self.clone() };
         if value.is_zero() {
@@ -54,9 +51,6 @@ impl Polynomial {
 
     /// The Taylor shift `p(x + step)`. Cost as for [`Polynomial::substitute`]. A shift by an
     /// integer multiple of a symbol makes no denominator: `(x + ka)^[n] = Σ_j k^j a^[j] x^[n−j]`.
-    ///
-    /// # Panics
-    /// Where an exponent exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn shift(&self, x: &Symbol, step: &Polynomial) -> Polynomial {
         if let Some(shifted) = self.shift_by_multiple(x, step) {
             return shifted;
@@ -97,9 +91,6 @@ impl Polynomial {
 
     /// The value where every symbol has a value, or the first symbol that has none. At most one
     /// product for each symbol of each term, and one gcd.
-    ///
-    /// # Errors
-    /// The symbol for which `values` answers `None`, or a square root: it has no rational value.
     pub fn evaluate(
         &self,
         values: impl Fn(&Symbol) -> Option<BigRational>,

@@ -25,9 +25,6 @@ impl Clone for Term {
 }
 
 /// The exponent of a product of powers.
-///
-/// # Panics
-/// Where it exceeds [`MAX_EXPONENT`].
 pub(crate) fn add_exponents(a: u32, b: u32) -> u32 {
     let sum = a.checked_add(b).filter(|sum| *sum <= MAX_EXPONENT);
     sum.unwrap_or_else(|| panic!("an exponent exceeds {}", MAX_EXPONENT))

@@ -101,9 +101,6 @@ impl FromStr for Polynomial {
     /// numerators held are longer than the text where exponents are high (5 kB for the highest)
     /// or fractions have many different denominators: limit the length of a text of unknown
     /// origin.
-    ///
-    /// # Errors
-    /// What was expected, and where, at the first place that does not fit.
     fn from_str(text: &str) -> Result<Polynomial, ReadError> {
         let mut reader = Reader { text, offset: 0 };
         let mut terms = Vec::new();

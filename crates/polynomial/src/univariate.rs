@@ -33,18 +33,12 @@ pub struct Univariate {
 impl Univariate {
     /// `(1/denominator) Σ_j coefficients_j x^j/j!`. O(degree), and gcds while they are
     /// not 1.
-    ///
-    /// # Panics
-    /// Where the denominator is zero.
     pub fn new(coefficients: impl IntoIterator<Item = BigInt>, denominator: BigInt) -> Univariate {
         Univariate::from_row(coefficients.into_iter().collect(), denominator)
     }
 
     /// `(1/denominator) Σ_j coefficients_j x^j/j!`. O(degree), and gcds while they are
     /// not 1.
-    ///
-    /// # Panics
-    /// Where the denominator is zero.
     pub fn from_row(mut coefficients: IntegerRow, mut denominator: BigInt) -> Univariate {
         assert!(!denominator.is_zero(), "a polynomial over the denominator zero");
         coefficients.trim();
@@ -91,9 +85,6 @@ impl Univariate {
     }
 
     /// The same polynomial in the symbol `x`. O(degree).
-    ///
-    /// # Panics
-    /// Where the degree exceeds [`Polynomial::MAX_EXPONENT`].
     pub fn to_polynomial(&self, x: &Symbol) -> Polynomial {
         let descending = self.coefficients.iter().enumerate().rev().map(|(j, numerator)| {
             let exponent = add_exponents(index(j), 0);

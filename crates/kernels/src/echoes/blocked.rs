@@ -37,8 +37,7 @@ impl EchoSum {
     /// Times may come in any order; neighbours of the same period are fastest, because one
     /// exponential then serves all their echoes.
     ///
-    /// # Errors
-    /// When the lengths differ, or as for [`EchoSum::value`]; then no value is written.
+    /// After an error no value is written.
     pub fn fill(&self, times: &[f64], limit: Limit, values: &mut [f64]) -> Result<(), EchoError> {
         if times.len() != values.len() {
             return Err(EchoError::LengthsDiffer { times: times.len(), values: values.len() });

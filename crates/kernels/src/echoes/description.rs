@@ -58,9 +58,6 @@ pub struct Echoes {
 
 impl Echoes {
     /// Echoes that all follow the rule: `rate` is `b`, `scale` is `c`, `ratio` is `ρ`.
-    ///
-    /// # Errors
-    /// When the period is not positive, a number is out of range, or a lag too large.
     pub fn new(
         family: Family,
         rate: Expansion,
@@ -92,9 +89,6 @@ impl Echoes {
     }
 
     /// The same wave, whose echoes `0, 1, …` are the sums given instead of what the rule says.
-    ///
-    /// # Errors
-    /// When a number is out of range.
     pub fn with_first(
         mut self,
         first: Vec<Vec<ExponentialPolynomial>>,

@@ -24,9 +24,6 @@ impl Expansion {
     pub const ONE: Expansion = Expansion([1.0, 0.0, 0.0]);
 
     /// The sum of three doubles in any order; constant cost.
-    ///
-    /// # Errors
-    /// When a part, or the sum, is not finite.
     pub fn new(parts: [f64; 3]) -> Result<Expansion, EchoError> {
         let sum = Expansion::sum(parts);
         match sum.0.iter().all(|part| part.is_finite()) {

@@ -57,9 +57,6 @@ pub struct EchoSum {
 
 impl EchoSum {
     /// Tables for the echoes `0 … last`; cost and storage grow like `last`.
-    ///
-    /// # Errors
-    /// When `last` is beyond `LARGEST_ECHO`.
     pub fn new(echoes: Echoes, last: usize) -> Result<EchoSum, EchoError> {
         if last > LARGEST_ECHO {
             return Err(EchoError::TooManyEchoes { last });
@@ -101,9 +98,6 @@ impl EchoSum {
     /// `f(T)` by one method, the echoes of late arrival last. Before the first arrival it is 0. An
     /// echo that arrives at this very time counts in the limit from the right.
     /// [`Method::Expanded`] and [`Method::Plain`] decide that, as all else, from the rounded delay.
-    ///
-    /// # Errors
-    /// When the time is not finite, too late for the rates, or echo `last + 1` has arrived.
     pub fn value(
         &self,
         method: Method,
@@ -114,9 +108,6 @@ impl EchoSum {
     }
 
     /// The same, not rounded by [`Method::DoubleDouble`]: for sums of waves that cancel.
-    ///
-    /// # Errors
-    /// As [`EchoSum::value`].
     pub fn pair(
         &self,
         method: Method,

@@ -37,10 +37,6 @@ impl Certificate {
     ///
     /// `before` and `current` are the coefficients of a period and the next; those from `terms` on
     /// are zero in both.
-    ///
-    /// # Errors
-    /// [`FixedError::Overflow`] if the sizes of a piece's coefficients add up to more than
-    /// [`LARGEST_SUM`], [`FixedError::NotProven`] if the faults add up to more than `2^−12`.
     pub(super) fn extend(
         &mut self,
         before: &[i128],

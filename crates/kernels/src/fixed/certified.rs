@@ -48,11 +48,6 @@ struct Prepared {
 /// size; then a weighted value is off by `|w|·radius`, and by one unit more for the weight and the
 /// product.
 ///
-/// # Errors
-/// [`FixedError::TooManyTaps`], [`FixedError::TimeNotFinite`], [`FixedError::TimeTooLate`], and
-/// those of [`March::new`](super::March::new).
-///
-/// # Cost
 /// A march up to the last time, of which two periods are held, and for each tap and time a reduction
 /// and some forty products.
 pub fn certified<T: ExactTime>(

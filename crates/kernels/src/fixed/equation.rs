@@ -24,10 +24,6 @@ pub struct DelayEquation {
 impl DelayEquation {
     /// The equation with the period D, the rate b of the pole, the zero a and the reflection ρ.
     /// D is a time, a and b are reciprocals of times, ρ is a pure number.
-    ///
-    /// # Errors
-    /// [`FixedError::PeriodNotPositive`], [`FixedError::RateNotPositive`] or
-    /// [`FixedError::ReflectionTooLarge`] for parameters outside the invariants.
     pub fn new(
         period: &BigRational,
         rate: &BigRational,

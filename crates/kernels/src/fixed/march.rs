@@ -26,14 +26,6 @@ pub struct March {
 impl March {
     /// Marches through `periods` periods and proves the bound.
     ///
-    /// # Errors
-    /// [`FixedError::NoPeriods`], [`FixedError::InvalidPieces`], [`FixedError::InvalidTerms`] or
-    /// [`FixedError::TooFewPieces`] for counts that cannot be; [`FixedError::TooLarge`] for more
-    /// than `2^26` coefficients; [`FixedError::Overflow`] if the solution, or what cancels in it,
-    /// leaves the range of fixed-point numbers; [`FixedError::NotProven`] if the bound is of no
-    /// use.
-    ///
-    /// # Cost
     /// About three products of 128 bits a coefficient: for the rigid mass with μ = 1, some 600
     /// coefficients a period.
     pub fn new(
@@ -98,10 +90,6 @@ impl March {
     /// The value at a position, with a radius that holds everything: the bound of the march, the
     /// rounding of the sum and that of the position.
     ///
-    /// # Errors
-    /// [`FixedError::BeyondMarch`] for a later period.
-    ///
-    /// # Cost
     /// A product of 128 bits a term, some forty.
     pub fn value(&self, position: &Position) -> Result<FixedValue, FixedError> {
         let period = position.period();

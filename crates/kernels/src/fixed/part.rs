@@ -22,7 +22,6 @@ impl March {
     /// The error holds where `|a + bu| ≤ 1`; it is that of the shift, less than a unit for each pair of
     /// terms.
     ///
-    /// # Cost
     /// A product of 128 bits for each pair of terms.
     pub fn part(&self, period: u32, piece: u32, a: &BigRational, b: &BigRational) -> Option<Part> {
         let coefficients = self.piece(period, piece)?.to_vec();

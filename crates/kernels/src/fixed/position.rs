@@ -28,9 +28,6 @@ pub struct Position {
 
 impl Position {
     /// The position `fraction·2^−120` in a period.
-    ///
-    /// # Errors
-    /// [`FixedError::PositionOutside`] beyond the end of the period.
     pub fn exact(period: u32, fraction: u128) -> Result<Self, FixedError> {
         if fraction > END {
             return Err(FixedError::PositionOutside);
@@ -92,9 +89,6 @@ struct Words {
 
 impl Reduction {
     /// The reduction for a period and a delay.
-    ///
-    /// # Errors
-    /// [`FixedError::PeriodNotPositive`].
     pub fn new(period: &BigRational, delay: &BigRational) -> Result<Self, FixedError> {
         if !period.is_positive() {
             return Err(FixedError::PeriodNotPositive);
@@ -106,10 +100,6 @@ impl Reduction {
     /// The position of a time that is a double, which is taken as the exact number it is; none
     /// before the start.
     ///
-    /// # Errors
-    /// [`FixedError::TimeNotFinite`] and [`FixedError::TimeTooLate`].
-    ///
-    /// # Cost
     /// Three divisions of words, if period and delay are fractions of words; divisions of long
     /// integers otherwise.
     pub fn of_double(&self, time: f64, side: Limit) -> Result<Option<Position>, FixedError> {
@@ -127,10 +117,6 @@ impl Reduction {
 
     /// The position of a time that is a rational; none before the start.
     ///
-    /// # Errors
-    /// [`FixedError::TimeTooLate`].
-    ///
-    /// # Cost
     /// Divisions of long integers.
     pub fn of_rational(
         &self,
@@ -156,9 +142,6 @@ pub trait ExactTime {
     fn is_finite(&self) -> bool;
 
     /// Its position; none before the start.
-    ///
-    /// # Errors
-    /// [`FixedError::TimeNotFinite`] and [`FixedError::TimeTooLate`].
     fn position(&self, reduction: &Reduction, side: Limit) -> Result<Option<Position>, FixedError>;
 }
 

@@ -91,7 +91,6 @@ impl Spans {
     /// times at or beyond `2^100`, spans shorter than about `2^−24` of the latest time, large
     /// coefficients, degrees beyond 31.
     ///
-    /// # Cost
     /// O(coefficients), and O(degree³) for the interpolation.
     pub fn new(
         start: &BigRational,
@@ -177,7 +176,6 @@ impl Spans {
     /// The polynomial that agrees with the function at the nodes of Chebyshev on a cell, about: how far
     /// it is off, [`distance`](Self::distance) tells. None if the cell is narrower than `2^96` units.
     ///
-    /// # Cost
     /// O(degree · terms + degree²).
     pub fn interpolated(&self, first: f64, last: f64) -> Option<Interpolant> {
         let (cell, middle) = self.cell(first, last)?;
@@ -206,7 +204,6 @@ impl Spans {
     /// the polynomial of the cell is the one that changes. The coefficients of the cell are rounded to
     /// units, half a unit each.
     ///
-    /// # Cost
     /// O(degree² + terms²) for each span that the cell touches; for those that lie in it, O(degree²).
     pub fn distance(&self, interpolant: &Interpolant) -> Option<f64> {
         let (cell, middle) = self.cell(interpolant.first, interpolant.last)?;

@@ -58,7 +58,6 @@ pub(super) fn scaled(value: i128, fraction_bits: i64) -> f64 {
 /// rounds to at least d and at most d. A tie between would round to different doubles under the two
 /// rules.
 ///
-/// # Cost
 /// Some ten instructions on words of 128 bits.
 pub fn round_to_double(value: i128, radius: u128, fraction_bits: i64) -> Option<f64> {
     let size = value.unsigned_abs();

@@ -38,9 +38,6 @@ impl Walk {
 
     /// Writes the coefficients of the next period, which are zeros before, by those of the period
     /// before, which are zeros for the first one, and proves the bound.
-    ///
-    /// # Errors
-    /// [`FixedError::Overflow`] and [`FixedError::NotProven`].
     pub(super) fn advance(
         &mut self,
         before: &[i128],
@@ -53,9 +50,6 @@ impl Walk {
     }
 
     /// Marches through periods up to a last one, each of which is shown to `visit` with its number.
-    ///
-    /// # Errors
-    /// As [`Walk::advance`].
     pub(super) fn through(
         mut self,
         last: u32,

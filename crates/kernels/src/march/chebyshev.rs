@@ -16,9 +16,6 @@ pub fn value(coefficients: &[f64], x: f64) -> f64 {
 
 /// The values of the series at all `points` of `[0, 1]`, in any order, into `values`: as [`value`],
 /// bit for bit, and several times faster. O(N · points).
-///
-/// # Panics
-/// Where `points` and `values` differ in length.
 pub fn values(coefficients: &[f64], points: &[f64], values: &mut [f64]) {
     values_of([Samples { coefficients, points, values }]);
 }
@@ -36,9 +33,6 @@ pub struct Samples<'a> {
 
 /// The values of many series: the same as one after the other, and faster, because each step of a
 /// recurrence waits for the one before, and here two go side by side. O(N · points).
-///
-/// # Panics
-/// Where points and values of one differ in length.
 pub fn values_of<'a>(series: impl IntoIterator<Item = Samples<'a>>) {
     let groups = series.into_iter().flat_map(|samples| {
         let Samples { coefficients, points, values } = samples;

@@ -13,18 +13,11 @@ pub struct Parameter {
 
 impl Parameter {
     /// The number `value` itself. O(1).
-    ///
-    /// # Errors
-    /// [`ReflectionError::NotFinite`] for an infinity or not-a-number.
     pub fn exact(value: f64) -> Result<Parameter, ReflectionError> {
         Parameter::within(value, 0.0)
     }
 
     /// Some number `x` with `|x − value| ≤ radius`. O(1).
-    ///
-    /// # Errors
-    /// [`ReflectionError::NotFinite`] for an infinity or not-a-number,
-    /// [`ReflectionError::NegativeRadius`] for a radius below zero.
     pub fn within(value: f64, radius: f64) -> Result<Parameter, ReflectionError> {
         if !value.is_finite() || !radius.is_finite() {
             return Err(ReflectionError::NotFinite);
@@ -87,9 +80,6 @@ pub struct Reflection {
 
 impl Reflection {
     /// The reflection with `B = rate`, `A = zero`, `ρ = ratio`. O(1).
-    ///
-    /// # Errors
-    /// [`ReflectionError::RateNotPositive`] where the rate may be zero or negative.
     pub fn new(
         rate: Parameter,
         zero: Parameter,
@@ -102,9 +92,6 @@ impl Reflection {
     }
 
     /// The reflection with the given numbers, all of them exact. O(1).
-    ///
-    /// # Errors
-    /// As [`Parameter::exact`] and [`Reflection::new`].
     pub fn exact(rate: f64, zero: f64, ratio: f64) -> Result<Reflection, ReflectionError> {
         let exact = Parameter::exact;
         Reflection::new(exact(rate)?, exact(zero)?, exact(ratio)?)

@@ -79,11 +79,6 @@ pub struct March {
 
 impl March {
     /// The march on its first period, 0, where `y_0 = e^{−Bx}`. O(√B).
-    ///
-    /// # Errors
-    /// [`MarchError::Options`] where the threshold is not positive and finite or the limit is not
-    /// between 1 and 2²⁰ − 1; [`MarchError::TooManyCoefficients`] where the first period needs
-    /// more.
     pub fn new(reflection: &Reflection, options: MarchOptions) -> Result<March, MarchError> {
         let threshold = options.threshold;
         if !(threshold.is_finite() && threshold > 0.0 && (1..1 << 20).contains(&options.limit)) {
@@ -140,10 +135,7 @@ impl March {
     /// Moves on by one period. O(N), N the number of coefficients, about
     /// `z + 4 z^{1/3} + 40`, `z = √(2nB)`, for the rigid mass.
     ///
-    /// # Errors
-    /// [`MarchError::TooManyCoefficients`] where the period needs more than the limit,
-    /// [`MarchError::NotFinite`] where the wave outgrows the doubles. Every later call then
-    /// fails in the same way, and nothing is proven any more.
+    /// After an error every later call fails in the same way, and nothing is proven any more.
     pub fn advance(&mut self) -> Result<(), MarchError> {
         if let Some(error) = self.failed {
             return Err(error);
@@ -217,9 +209,6 @@ impl March {
     }
 
     /// `y_n` at all `points` of `[0, 1]` into `values`; faster than one by one. O(N · points).
-    ///
-    /// # Panics
-    /// Where `points` and `values` differ in length.
     pub fn values(&self, points: &[f64], values: &mut [f64]) {
         chebyshev::values(&self.wave, points, values);
     }

@@ -82,9 +82,6 @@ pub enum SystemError {
 
 impl<T: Scalar> WaveSystem<T> {
     /// A system of steps in the order in which they are taken. O(terms).
-    ///
-    /// # Errors
-    /// [`SystemError`], where an invariant does not hold.
     pub fn new(steps: Vec<WaveStep<T>>) -> Result<WaveSystem<T>, SystemError> {
         if steps.is_empty() {
             return Err(SystemError::Empty);

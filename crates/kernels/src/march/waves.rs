@@ -66,9 +66,6 @@ struct Scratch<T> {
 
 impl<T: Scalar> WaveMarch<T> {
     /// The march on its first period, 0. The cost is that of [`WaveMarch::advance`].
-    ///
-    /// # Errors
-    /// [`WaveMarchError`], where the first period cannot be held.
     pub fn new(system: WaveSystem<T>) -> Result<WaveMarch<T>, WaveMarchError> {
         let fastest = system.steps().iter().filter_map(|step| step.state.as_ref());
         let fastest = fastest.map(|state| turning(state.rate)).fold(0.0, f64::max);
@@ -109,35 +106,25 @@ impl<T: Scalar> WaveMarch<T> {
 
     /// The largest coefficient of a wave so far, its state's included: what its roundings are relative
     /// to.
-    ///
-    /// # Panics
-    /// Where there is no such wave.
     pub fn largest(&self, wave: usize) -> f64 {
         self.largest[wave]
     }
 
     /// Goes on to the next period. O(SMN) for `S` spans, `M` terms and polynomials of degree `N`.
     ///
-    /// # Errors
-    /// [`WaveMarchError`]; the march is then of no further use.
+    /// After an error the march is of no further use.
     pub fn advance(&mut self) -> Result<(), WaveMarchError> {
         self.period += 1;
         self.solve()
     }
 
     /// The values of a wave at places on the current period, from 0 to 1. O(N) a point.
-    ///
-    /// # Panics
-    /// Where there is no such wave.
     pub fn values(&self, wave: usize, points: &[f64]) -> Vec<Complex> {
         let spans = &self.kept[0][wave].spans;
         self.sampled(points, |span| Cow::Borrowed(&spans[span]))
     }
 
     /// The slopes of a wave by period, as [`WaveMarch::values`].
-    ///
-    /// # Panics
-    /// Where there is no such wave.
     pub fn slopes(&self, wave: usize, points: &[f64]) -> Vec<Complex> {
         let spans = &self.kept[0][wave].spans;
         self.sampled(points, |span| {
