@@ -62,6 +62,12 @@ impl From<Fraction> for Root {
     }
 }
 
+impl From<&Fraction> for Root {
+    fn from(factor: &Fraction) -> Root {
+        Root::from(factor.clone())
+    }
+}
+
 fn inverse(value: &Fraction) -> Result<Fraction, NotAUnit> {
     let inverse = Fraction::reciprocal(value.numerator())?;
     Ok(&inverse * &Fraction::from(value.denominator()))

@@ -4,13 +4,16 @@ use crate::expression::Fraction;
 use crate::network::delay::Lattice;
 use crate::network::layout::Layout;
 use crate::network::model::{Model, ModelLump};
+use crate::network::node::{ElementLaw, Node, Side};
+use crate::network::scaled::ScaledScene;
 use crate::scene::ElementIndex;
 use num_integer::Integer as _;
 
 /// A delay, counted on a lattice.
-type Counts = Vec<i64>;
+pub(super) type Counts = Vec<i64>;
 
 /// The clocks of the nodes of a line.
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Clocks {
     /// The node whose clock is not ahead.
     pub reference: usize,
@@ -29,8 +32,10 @@ pub(super) struct Clocks {
 type Moment<'a> = (ElementIndex, usize, &'a Fraction, Option<&'a Fraction>);
 
 impl Clocks {
-    /// The clocks of a line at whose nodes something starts, or not.
-    pub fn of(layout: &Layout, model: &Model, starting: &[bool]) -> Clocks {
+    /// The clocks of a line; the first node at which something starts is the reference.
+    pub fn of(scaled: &ScaledScene) -> Clocks {
+        let ScaledScene { layout, model, .. } = scaled;
+        let starting: Vec<bool> = layout.nodes.iter().map(|node| starts(scaled, node)).collect();
         let travel: Vec<Option<&Fraction>> =
             layout.bars.iter().map(|bar| model.bars[bar].travel.as_ref()).collect();
         let finite =
@@ -47,7 +52,7 @@ impl Clocks {
         let late: Vec<Counts> = (0..layout.nodes.len()).map(late).collect();
         let twice = |travel: &Fraction| scale.counts(travel).iter().map(|n| 2 * n).collect();
         let at = |node: usize, time: &Fraction| sum_of(late[node].clone(), &scale.counts(time));
-        let counted = late.iter().zip(starting).map(|(late, starts)| starts.then(|| late.clone()));
+        let counted = late.iter().zip(&starting).map(|(late, starts)| starts.then(|| late.clone()));
         let clocks = Clocks {
             reference,
             leads: late.iter().map(|counts| scale.lattice.delay(counts)).collect(),
@@ -64,13 +69,17 @@ impl Clocks {
         clocks.coarsened()
     }
 
+    /// The delays that equations name: round trips, clocks, and moments of loads.
+    pub fn all_counts(&self) -> impl Iterator<Item = &Counts> {
+        let moments =
+            self.loads.iter().flat_map(|(_, from, until)| std::iter::once(from).chain(until));
+        self.round_trips.iter().flatten().chain(self.counted.iter().flatten()).chain(moments)
+    }
+
     /// The same on a lattice as coarse as what is counted allows.
     fn coarsened(mut self) -> Clocks {
         let mut steps = vec![0_i64; self.lattice.periods().len()];
-        let moments =
-            self.loads.iter().flat_map(|(_, from, until)| std::iter::once(from).chain(until));
-        let used = self.round_trips.iter().flatten().chain(self.counted.iter().flatten());
-        for counts in used.chain(moments) {
+        for counts in self.all_counts() {
             for (step, count) in steps.iter_mut().zip(counts) {
                 *step = step.gcd(count);
             }
@@ -141,4 +150,28 @@ fn loads<'a>(layout: &Layout, model: &'a Model) -> Vec<Moment<'a>> {
         }
     }
     loads
+}
+
+/// Whether something happens at a node at the start, or later by a load.
+fn starts(scaled: &ScaledScene, node: &Node<Fraction>) -> bool {
+    let velocity = |run| {
+        let mut all = scaled.initial_velocities(node, run);
+        all.dedup();
+        (all.len() <= 1).then(|| all.into_iter().next().unwrap_or_else(Fraction::zero))
+    };
+    let velocities: Vec<Option<Fraction>> = (0..node.runs()).map(velocity).collect();
+    let uneven = velocities.iter().any(Option::is_none);
+    let apart = velocities.windows(2).any(|pair| pair[0] != pair[1]);
+    let forced = |side: Side| match side {
+        Side::Bar(bar) => !scaled.model.bars[&scaled.layout.bars[bar]].force.is_zero(),
+        _ => false,
+    };
+    let pressed = forced(node.left) || forced(node.right);
+    let moved = velocities.iter().flatten().any(|velocity| !velocity.is_zero());
+    let held = node.elements.iter().any(|own| match own.law {
+        ElementLaw::Load(_) => true,
+        ElementLaw::Support { .. } => moved,
+        _ => false,
+    });
+    uneven || apart || pressed || held
 }

@@ -10,7 +10,7 @@ use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
 use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
-use crate::network::observe::Observed;
+use crate::network::observed::Observed;
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, Recurrence, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
@@ -48,21 +48,10 @@ pub struct WaveRole {
 pub struct Network {
     pub(crate) scaled: ScaledScene,
     pub(crate) waves: Vec<WaveRole>,
-    pub(crate) lattice: Lattice,
-    /// The round trip in each bar, counted on the lattice.
-    round_trips: Vec<Option<Vec<i64>>>,
-    /// The node whose clock is not ahead.
-    reference: usize,
-    /// How far the clock of each node is ahead, counted on the lattice; `None` where nothing starts there
-    /// and the count is not needed.
-    clocks: Vec<Option<Vec<i64>>>,
-    /// The same as a time.
-    pub(crate) leads: Vec<Fraction>,
+    pub(super) clocks: Clocks,
     /// Waves whose integrals are observed; these follow after `waves`.
     pub(crate) integrals: Vec<WaveIndex>,
     pub(crate) observables: Vec<Observed>,
-    /// When loads begin and end, by the clock of their node, counted on the lattice.
-    pub(crate) loads: Vec<(ElementIndex, Vec<i64>, Option<Vec<i64>>)>,
     pub(super) derived: Derived,
 }
 
@@ -78,35 +67,36 @@ impl PartialEq for Derived {
 
 impl Eq for Derived {}
 
+impl ScaledScene {
+    /// The network of the scene, which every law has to be linear for.
+    pub fn network(self) -> Result<Network, NetworkError> {
+        if let Some(contact) = self.local_contact() {
+            return Err(NetworkError::NotLinear(self.scene.elements[contact].name.clone()));
+        }
+        let mut network = Network {
+            clocks: Clocks::of(&self),
+            scaled: self,
+            waves: Vec::new(),
+            integrals: Vec::new(),
+            observables: Vec::new(),
+            derived: Derived::default(),
+        };
+        network.name_waves();
+        network.set_observables()?;
+        Ok(network)
+    }
+}
+
+impl AsRef<ScaledScene> for Network {
+    fn as_ref(&self) -> &ScaledScene {
+        &self.scaled
+    }
+}
+
 impl Network {
     /// The network of a scene.
     pub fn new(scene: &Scene) -> Result<Network, NetworkError> {
         ScaledScene::of(scene)?.network()
-    }
-
-    /// The network of a scene in its own scales.
-    pub(super) fn of_scaled(scaled: ScaledScene) -> Result<Network, NetworkError> {
-        if let Some(contact) = scaled.local_contact() {
-            return Err(NetworkError::NotLinear(scaled.scene.elements[contact].name.clone()));
-        }
-        let (bars, nodes) = (scaled.layout.bars.len(), scaled.layout.nodes.len());
-        let mut network = Network {
-            scaled,
-            waves: Vec::new(),
-            lattice: Lattice::spanned_by(&[]).0,
-            round_trips: vec![None; bars],
-            reference: 0,
-            integrals: Vec::new(),
-            observables: Vec::new(),
-            clocks: vec![None; nodes],
-            leads: Vec::new(),
-            loads: Vec::new(),
-            derived: Derived::default(),
-        };
-        network.set_clocks();
-        network.name_waves();
-        network.set_observables()?;
-        Ok(network)
     }
 
     /// The scene.
@@ -121,7 +111,7 @@ impl Network {
 
     /// The times at which waves arrive.
     pub fn lattice(&self) -> &Lattice {
-        &self.lattice
+        &self.clocks.lattice
     }
 
     /// A fault of the recurrence, at its place in the scene.
@@ -174,7 +164,7 @@ impl Network {
 
     /// How far the clock of each node is ahead: what happens at a time shows later by so much.
     pub fn leads(&self) -> impl Iterator<Item = &Fraction> + '_ {
-        self.leads.iter()
+        self.clocks.leads.iter()
     }
 
     /// The observables of the scene.
@@ -184,74 +174,13 @@ impl Network {
 
     /// The largest lag in each direction of the lattice.
     pub(crate) fn largest_lags(&self) -> Vec<usize> {
-        let mut largest = vec![0_i64; self.lattice.periods().len()];
-        let moments =
-            self.loads.iter().flat_map(|(_, from, until)| std::iter::once(from).chain(until));
-        let all = self.round_trips.iter().flatten().chain(self.clocks.iter().flatten());
-        for counts in all.chain(moments) {
+        let mut largest = vec![0_i64; self.lattice().periods().len()];
+        for counts in self.clocks.all_counts() {
             for (largest, count) in largest.iter_mut().zip(counts) {
                 *largest = (*largest).max(*count);
             }
         }
         largest.into_iter().map(|lag| usize::try_from(lag).expect("not early")).collect()
-    }
-
-    /// Whether constants act at a node from the start.
-    pub(crate) fn has_clock(&self, node: usize) -> bool {
-        self.clocks[node].is_some()
-    }
-
-    /// Whether something happens at a node at the start, or later by a load.
-    fn starts(&self, node: &Node<Fraction>) -> bool {
-        let velocity = |run| {
-            let mut all = self.initial_velocities(node, run);
-            all.dedup();
-            (all.len() <= 1).then(|| all.into_iter().next().unwrap_or_else(Fraction::zero))
-        };
-        let velocities: Vec<Option<Fraction>> = (0..node.runs()).map(velocity).collect();
-        let uneven = velocities.iter().any(Option::is_none);
-        let apart = velocities.windows(2).any(|pair| pair[0] != pair[1]);
-        let forced = |side: Side| match side {
-            Side::Bar(bar) => {
-                !self.scaled.model.bars[&self.scaled.layout.bars[bar]].force.is_zero()
-            }
-            _ => false,
-        };
-        let pressed = forced(node.left) || forced(node.right);
-        let moved = velocities.iter().flatten().any(|velocity| !velocity.is_zero());
-        let held = node.elements.iter().any(|own| match own.law {
-            ElementLaw::Load(_) => true,
-            ElementLaw::Support { .. } => moved,
-            _ => false,
-        });
-        uneven || apart || pressed || held
-    }
-
-    /// The velocities at the start of all that moves together.
-    pub(crate) fn initial_velocities(&self, node: &Node<Fraction>, run: usize) -> Vec<Fraction> {
-        let of_side = |side: Side| match side {
-            Side::Bar(bar) => {
-                Some(self.scaled.model.bars[&self.scaled.layout.bars[bar]].velocity.clone())
-            }
-            Side::Fixed => Some(Fraction::zero()),
-            Side::Free => None,
-        };
-        let masses = node.attached(run).filter_map(|own| match &own.law {
-            ElementLaw::Mass { velocity, .. } => Some(velocity.clone()),
-            _ => None,
-        });
-        node.sides(run).filter_map(of_side).chain(masses).collect()
-    }
-
-    /// Finds the clocks of the nodes, and the lattice on which all delays can be counted.
-    fn set_clocks(&mut self) {
-        let starting: Vec<bool> =
-            self.scaled.layout.nodes.iter().map(|node| self.starts(node)).collect();
-        let clocks = Clocks::of(&self.scaled.layout, &self.scaled.model, &starting);
-        (self.reference, self.lattice, self.leads) =
-            (clocks.reference, clocks.lattice, clocks.leads);
-        (self.round_trips, self.clocks) = (clocks.round_trips, clocks.counted);
-        self.loads = clocks.loads;
     }
 
     /// Whether nothing beside a run gives its velocity.
@@ -329,7 +258,7 @@ impl Network {
     /// A constant that acts from the start, by the clock of a node. Where nothing starts, all that
     /// moves has the same velocity, and only differences from it are followed.
     pub(crate) fn constant(&self, node: usize, value: &Fraction, strides: &[usize]) -> LinearForm {
-        let Some(clock) = self.clocks[node].as_ref().filter(|_| !value.is_zero()) else {
+        let Some(clock) = self.clocks.counted[node].as_ref().filter(|_| !value.is_zero()) else {
             return LinearForm::zero();
         };
         let mut form = LinearForm::zero();
@@ -343,11 +272,11 @@ impl Network {
         let element = self.scaled.layout.bars[bar];
         let data = &self.scaled.model.bars[&element];
         let [left, right] = self.scaled.layout.ends[bar];
-        let trip = self.round_trips[bar].as_ref().map_or(0, |trip| lag(trip, strides));
+        let trip = self.clocks.round_trips[bar].as_ref().map_or(0, |trip| lag(trip, strides));
         // The wave that leaves the node farther from the reference is seen there and here at once.
-        let outward = |at: Option<usize>, other: Option<usize>| match (at, other) {
-            (Some(at), Some(other)) => self.is_nearer(at, other),
-            _ => true,
+        let ahead = |node: usize| node.abs_diff(self.clocks.reference);
+        let outward = |at: Option<usize>, other: Option<usize>| {
+            at.zip(other).is_none_or(|(at, other)| ahead(at) < ahead(other))
         };
         let at_left = left == Some(node);
         let (f_lag, g_lag) = match at_left {
@@ -374,11 +303,6 @@ impl Network {
             form.add_scaled(&self.constant(node, constant, strides), &Expression::one(), 0);
         }
         waves
-    }
-
-    /// Whether the clock of one node is less ahead than that of its neighbour.
-    pub(crate) fn is_nearer(&self, node: usize, other: usize) -> bool {
-        node.abs_diff(self.reference) < other.abs_diff(self.reference)
     }
 }
 

@@ -83,7 +83,7 @@ impl Network {
     }
 
     fn way(&mut self, role: Role, node: Option<usize>) -> Option<Way> {
-        let (wave, lead) = (self.wave(role)?, self.leads[node?].clone());
+        let (wave, lead) = (self.wave(role)?, self.clocks.leads[node?].clone());
         let integral = self.integral(wave);
         Some(Way { waves: [wave, integral, self.integral(integral)], lead })
     }

@@ -5,7 +5,7 @@ use crate::network::equations::{Network, Role, lag};
 use crate::network::error::NetworkError;
 use crate::network::model::ModelLump;
 use crate::network::node::{Acting, ElementLaw, Lumped, Node, Side};
-use crate::network::observe::{Observed, ObservedValue};
+use crate::network::observed::{Observed, ObservedValue};
 use crate::recurrence::{
     Continuity, LinearForm, Observable, Recurrence, SourceNotation, Statement, WaveIndex,
 };
@@ -76,7 +76,7 @@ fn scaled(form: &LinearForm, factor: &Fraction) -> LinearForm {
 impl Network {
     /// The recurrence of the scene, where all delays lie on one grid. It is derived once.
     pub fn recurrence(&self) -> Result<Recurrence, NetworkError> {
-        let derive = || match self.lattice.periods().len() {
+        let derive = || match self.lattice().periods().len() {
             1 => Recurrence::new(self.statement(&[1])).map_err(|invalid| self.refused(invalid)),
             _ => Err(NetworkError::Incommensurate),
         };
@@ -101,7 +101,7 @@ impl Network {
             title: self.scaled.scene.title.clone(),
             assumptions: self.scaled.model.assumptions.clone(),
             constants: self.scaled.model.constants.clone(),
-            period: self.lattice.periods()[0].clone(),
+            period: self.lattice().periods()[0].clone(),
             local: self.local(),
             time: self.scaled.scene.time.clone(),
             waves,
@@ -145,7 +145,7 @@ impl Network {
 
     /// The laws at the nodes, with lags on a grid of one period.
     pub fn laws(&self) -> Vec<Law> {
-        assert_eq!(self.lattice.periods().len(), 1, "a scene on one grid");
+        assert_eq!(self.lattice().periods().len(), 1, "a scene on one grid");
         self.all_laws(&[1]).laws
     }
 
@@ -154,7 +154,7 @@ impl Network {
         let ModelLump::Load(_, course, from, until) = &self.scaled.model.lumps[&element] else {
             unreachable!("asked for loads only");
         };
-        let moments = self.loads.iter().find(|(load, ..)| *load == element);
+        let moments = self.clocks.loads.iter().find(|(load, ..)| *load == element);
         let (_, begins, ends) = moments.expect("every load has its moments");
         let time = &self.scaled.scene.time;
         let later = |by: &Fraction| {

@@ -114,77 +114,79 @@ impl Model {
         let second = one().over(&model.scale.time)?;
         model.slowness = model.number("nu", second);
         for index in &scene.line.elements {
-            let element = &scene.elements[*index];
-            let named = |symbol: &str| format!("{symbol}_{}", element.name);
-            match &element.kind {
-                Kind::Bar(bar) => {
-                    let (impedance, travel, stiffness) = bar_roots(&bar.body)?;
-                    let scale = &model.scale;
-                    let impedance = impedance.over(&scale.impedance)?;
-                    let travel = travel.map(|travel| travel.over(&scale.time)).transpose()?;
-                    let velocity = Root::from(bar.velocity.clone()).over(&scale.velocity)?;
-                    let force = stiffness.times(&Root::from(-&bar.strain)).over(&scale.force())?;
-                    let bar = ModelBar {
-                        impedance: model.number(&named("r"), impedance),
-                        travel: travel.map(|travel| model.number(&named("tau"), travel)),
-                        velocity: model.number(&named("V"), velocity),
-                        force: model.number(&named("X"), force),
-                    };
-                    model.bars.insert(*index, bar);
-                }
-                Kind::Mass(mass) => {
-                    let scale = &model.scale;
-                    let unit = scale.unit(Dimension::MASS)?;
-                    let velocity = Root::from(mass.velocity.clone()).over(&scale.velocity)?;
-                    let mass = Root::from(mass.mass.clone()).over(&unit)?;
-                    let mass = model.number(&named("m"), mass);
-                    let velocity = model.number(&named("V"), velocity);
-                    model.lumps.insert(*index, ModelLump::Mass(mass, velocity));
-                }
-                Kind::Spring(spring) => {
-                    let (k, d) =
-                        model.yielding(&element.name, &spring.stiffness, &spring.damping)?;
-                    model.lumps.insert(*index, ModelLump::Spring(k, d));
-                }
-                Kind::Hertz(hertz) => {
-                    let scale = &model.scale;
-                    let length = scale.unit(Dimension::LENGTH)?;
-                    let force = Root::from(hertz.force.clone()).over(&scale.force())?;
-                    let compression = Root::from(hertz.compression.clone()).over(&length)?;
-                    let force = model.number(&named("F"), force);
-                    let compression = model.number(&named("alpha"), compression);
-                    let exponent = hertz.exponent.clone();
-                    model.lumps.insert(*index, ModelLump::Hertz(force, compression, exponent));
-                }
-                Kind::Support(support) => {
-                    let (k, d) =
-                        model.yielding(&element.name, &support.stiffness, &support.damping)?;
-                    model.lumps.insert(*index, ModelLump::Support(k, d));
-                }
-                Kind::Load(load) => {
-                    let scale = &model.scale;
-                    let unit = match load.drive {
-                        Drive::Force => scale.force(),
-                        Drive::Velocity => scale.velocity.clone(),
-                    };
-                    let unit = one().over(&unit)?;
-                    let time = scale.time.clone();
-                    let from = Root::from(load.from.clone()).over(&time)?;
-                    let until = load.until.clone().map(|until| Root::from(until).over(&time));
-                    let until = until.transpose()?;
-                    let unit = model.number(&named("A"), unit);
-                    let slowness = &model.slowness;
-                    let unit_of_time = &Fraction::reciprocal(slowness.numerator())?
-                        * &Fraction::from(slowness.denominator());
-                    let clock = &unit_of_time * &Fraction::symbol(&scene.time);
-                    let course = load.course.substitute(&scene.time, &clock)?.times(&unit);
-                    let from = model.number(&named("from"), from);
-                    let until = until.map(|until| model.number(&named("until"), until));
-                    model.lumps.insert(*index, ModelLump::Load(load.drive, course, from, until));
-                }
-            }
+            model.add(scene, *index)?;
         }
         Ok(model)
+    }
+
+    /// Adds an element.
+    fn add(&mut self, scene: &Scene, index: ElementIndex) -> Outcome<()> {
+        let element = &scene.elements[index];
+        let named = |symbol: &str| format!("{symbol}_{}", element.name);
+        let scale = self.scale.clone();
+        let lump = match &element.kind {
+            Kind::Bar(bar) => {
+                let (impedance, travel, stiffness) = bar_roots(&bar.body)?;
+                let force = stiffness.times(&Root::from(-&bar.strain));
+                let impedance = self.in_unit(&named("r"), impedance, &scale.impedance)?;
+                let travel = travel.map(|travel| self.in_unit(&named("tau"), travel, &scale.time));
+                let bar = ModelBar {
+                    impedance,
+                    travel: travel.transpose()?,
+                    velocity: self.in_unit(&named("V"), &bar.velocity, &scale.velocity)?,
+                    force: self.in_unit(&named("X"), force, &scale.force())?,
+                };
+                self.bars.insert(index, bar);
+                return Ok(());
+            }
+            Kind::Mass(mass) => {
+                let unit = scale.unit(Dimension::MASS)?;
+                ModelLump::Mass(
+                    self.in_unit(&named("m"), &mass.mass, &unit)?,
+                    self.in_unit(&named("V"), &mass.velocity, &scale.velocity)?,
+                )
+            }
+            Kind::Spring(spring) => {
+                let (k, d) = self.yielding(&element.name, &spring.stiffness, &spring.damping)?;
+                ModelLump::Spring(k, d)
+            }
+            Kind::Hertz(hertz) => {
+                let length = scale.unit(Dimension::LENGTH)?;
+                ModelLump::Hertz(
+                    self.in_unit(&named("F"), &hertz.force, &scale.force())?,
+                    self.in_unit(&named("alpha"), &hertz.compression, &length)?,
+                    hertz.exponent.clone(),
+                )
+            }
+            Kind::Support(support) => {
+                let (k, d) = self.yielding(&element.name, &support.stiffness, &support.damping)?;
+                ModelLump::Support(k, d)
+            }
+            Kind::Load(load) => {
+                let unit = match load.drive {
+                    Drive::Force => scale.force(),
+                    Drive::Velocity => scale.velocity.clone(),
+                };
+                let unit = self.in_unit(&named("A"), one(), &unit)?;
+                let slowness = &self.slowness;
+                let unit_of_time = &Fraction::reciprocal(slowness.numerator())?
+                    * &Fraction::from(slowness.denominator());
+                let clock = &unit_of_time * &Fraction::symbol(&scene.time);
+                let course = load.course.substitute(&scene.time, &clock)?.times(&unit);
+                let from = self.in_unit(&named("from"), &load.from, &scale.time)?;
+                let until = load.until.as_ref();
+                let until = until.map(|until| self.in_unit(&named("until"), until, &scale.time));
+                ModelLump::Load(load.drive, course, from, until.transpose()?)
+            }
+        };
+        self.lumps.insert(index, lump);
+        Ok(())
+    }
+
+    /// A value in a unit, as [`Model::number`].
+    fn in_unit(&mut self, name: &str, value: impl Into<Root>, unit: &Root) -> Outcome<Fraction> {
+        let value = value.into().over(unit)?;
+        Ok(self.number(name, value))
     }
 
     /// Stiffness and damping without units.
@@ -195,10 +197,11 @@ impl Model {
         damping: &Fraction,
     ) -> Outcome<(Fraction, Fraction)> {
         let unit = self.scale.unit(Dimension::STIFFNESS)?;
-        let stiffness = Root::from(stiffness.clone()).over(&unit)?;
-        let damping = Root::from(damping.clone()).over(&self.scale.impedance)?;
-        let stiffness = self.number(&format!("kappa_{name}"), stiffness);
-        Ok((stiffness, self.number(&format!("delta_{name}"), damping)))
+        let impedance = self.scale.impedance.clone();
+        Ok((
+            self.in_unit(&format!("kappa_{name}"), stiffness, &unit)?,
+            self.in_unit(&format!("delta_{name}"), damping, &impedance)?,
+        ))
     }
 
     /// The value as a number where it is one, or a fraction of symbols; else as a constant, which is

@@ -9,56 +9,11 @@ use crate::network::equations::{Derived, Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
+use crate::network::observed::{EnergyTerm, Observed, ObservedValue, Window};
 use crate::network::reading::{Elements, Energy, Face, Field, Lump, Reading, Section, section};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
-use crate::scene::{Dimension, ElementIndex};
+use crate::scene::ElementIndex;
 use wavestep_polynomial::Rational;
-
-/// An observable of a scene: what it is in the waves, and its unit.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Observed {
-    /// Its name.
-    pub name: String,
-    /// In the scene's own scales.
-    pub value: ObservedValue,
-    /// The unit of its values, in metres, kilograms and seconds.
-    pub unit: Root,
-    /// The dimension of the unit; none for scenes without units.
-    pub dimension: Dimension,
-}
-
-/// An observable in the scales of its scene.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum ObservedValue {
-    /// Linear in the waves.
-    Linear(Observation),
-    /// A sum of energies.
-    Energy(Vec<EnergyTerm>),
-}
-
-/// One part of an energy: `c q²`, or `c ∫ q² dt` over the time that a wave needs to leave a bar.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct EnergyTerm {
-    /// The coefficient `c`.
-    pub coefficient: Fraction,
-    /// The quantity `q`, zero before the start but for `before`.
-    pub of: Observation,
-    /// What `q` was before the start.
-    pub before: Fraction,
-    /// Over which time it is integrated.
-    pub window: Window,
-}
-
-/// The time over which the square of a wave is integrated.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Window {
-    /// None: its value at the time itself.
-    Now,
-    /// The last travel time.
-    Last(Fraction),
-    /// All since the start.
-    Always,
-}
 
 impl Network {
     /// Forms all observables of the scene.
@@ -120,7 +75,7 @@ impl Network {
     /// none for what comes from the far side of an endless bar.
     fn waves_of(&self, bar: usize) -> [Option<(WaveIndex, &Fraction)>; 2] {
         let (element, [left, right]) = (self.scaled.layout.bars[bar], self.scaled.layout.ends[bar]);
-        let wave = |role, node: Option<usize>| Some((self.wave(role)?, &self.leads[node?]));
+        let wave = |role, node: Option<usize>| Some((self.wave(role)?, &self.clocks.leads[node?]));
         [wave(Role::Right(element), left), wave(Role::Left(element), right)]
     }
 
@@ -194,11 +149,11 @@ impl Network {
         let wave =
             self.wave(Role::Velocity(place, node.first_place(run))).expect("else it is known");
         let mut velocity = Observation::default();
-        if !self.has_clock(place) {
-            let common = self.initial_velocities(node, run).into_iter().next();
+        if self.clocks.counted[place].is_none() {
+            let common = self.scaled.initial_velocities(node, run).into_iter().next();
             velocity = constant(&common.unwrap_or_else(Fraction::zero));
         }
-        let delay = -&self.leads[place];
+        let delay = -&self.clocks.leads[place];
         velocity.waves.push(seen(wave, delay, &Fraction::one()));
         velocity
     }
@@ -217,7 +172,7 @@ impl Network {
             ElementLaw::Support { .. } => Role::Displacement(own.element),
             _ => Role::Compression(own.element),
         };
-        let wave = self.wave(role).map(|wave| (wave, -&self.leads[lump.node]));
+        let wave = self.wave(role).map(|wave| (wave, -&self.clocks.leads[lump.node]));
         let waves = wave.map(|(wave, delay)| seen(wave, delay, &Fraction::one()));
         Observation { waves: waves.into_iter().collect(), forcing: Expression::zero() }
     }

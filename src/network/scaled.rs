@@ -1,11 +1,11 @@
 //! A scene together with its scales, without waves.
 
 use crate::expression::Fraction;
-use crate::network::equations::Network;
 use crate::network::error::NetworkError;
 use crate::network::layout::{Contacts, Layout};
 use crate::network::measures::{Measured, measures};
 use crate::network::model::Model;
+use crate::network::node::{ElementLaw, Node, Side};
 use crate::scene::{ElementIndex, Kind, Scene};
 use wavestep_polynomial::Rational;
 
@@ -33,11 +33,6 @@ impl ScaledScene {
         Ok(ScaledScene { scene: scene.clone(), model, layout, measures })
     }
 
-    /// The network of the scene.
-    pub fn network(self) -> Result<Network, NetworkError> {
-        Network::of_scaled(self)
-    }
-
     /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -63,6 +58,24 @@ impl ScaledScene {
         self.model.slowness.scale(time)
     }
 
+    /// The velocities at the start of all that moves together.
+    pub(in crate::network) fn initial_velocities(
+        &self,
+        node: &Node<Fraction>,
+        run: usize,
+    ) -> Vec<Fraction> {
+        let of_side = |side: Side| match side {
+            Side::Bar(bar) => Some(self.model.bars[&self.layout.bars[bar]].velocity.clone()),
+            Side::Fixed => Some(Fraction::zero()),
+            Side::Free => None,
+        };
+        let masses = node.attached(run).filter_map(|own| match &own.law {
+            ElementLaw::Mass { velocity, .. } => Some(velocity.clone()),
+            _ => None,
+        });
+        node.sides(run).filter_map(of_side).chain(masses).collect()
+    }
+
     /// The first local contact of the line, which makes the scene one without a recurrence; `None`
     /// where every law is linear.
     pub fn local_contact(&self) -> Option<ElementIndex> {
@@ -75,11 +88,5 @@ impl ScaledScene {
 impl AsRef<ScaledScene> for ScaledScene {
     fn as_ref(&self) -> &ScaledScene {
         self
-    }
-}
-
-impl AsRef<ScaledScene> for Network {
-    fn as_ref(&self) -> &ScaledScene {
-        &self.scaled
     }
 }

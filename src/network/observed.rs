@@ -1,0 +1,50 @@
+//! What an observable is in the waves of a network.
+
+use crate::expression::{Fraction, Root};
+use crate::recurrence::Observation;
+use crate::scene::Dimension;
+
+/// An observable of a scene: what it is in the waves, and its unit.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Observed {
+    pub name: String,
+    /// In the scene's own scales.
+    pub value: ObservedValue,
+    /// The unit of its values, in metres, kilograms and seconds.
+    pub unit: Root,
+    /// The dimension of the unit; none for scenes without units.
+    pub dimension: Dimension,
+}
+
+/// An observable in the scales of its scene.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum ObservedValue {
+    /// Linear in the waves.
+    Linear(Observation),
+    /// A sum of energies.
+    Energy(Vec<EnergyTerm>),
+}
+
+/// One part of an energy: `c q²`, or `c ∫ q² dt` over the time that a wave needs to leave a bar.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EnergyTerm {
+    /// The coefficient `c`.
+    pub coefficient: Fraction,
+    /// The quantity `q`, zero before the start but for `before`.
+    pub of: Observation,
+    /// What `q` was before the start.
+    pub before: Fraction,
+    /// Over which time it is integrated.
+    pub window: Window,
+}
+
+/// The time over which the square of a wave is integrated.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Window {
+    /// None: its value at the time itself.
+    Now,
+    /// The last travel time.
+    Last(Fraction),
+    /// All since the start.
+    Always,
+}
