@@ -41,10 +41,10 @@ pub fn enclose_expression(
     }
     let mut sum = ComplexBall::zero();
     for (exponent, p) in expression.terms() {
-        let mut term = fraction(p, &powers, bits).map_err(EnclosureError::Ball)?;
+        let mut term = fraction(p, &powers, bits)?;
         if !exponent.is_zero() {
-            let exponent = fraction(exponent, &powers, bits).map_err(EnclosureError::Ball)?;
-            let exponential = exponent.exp(bits).map_err(EnclosureError::Ball)?;
+            let exponent = fraction(exponent, &powers, bits)?;
+            let exponential = exponent.exp(bits)?;
             term = term.multiply(&exponential, bits);
         }
         sum = sum.add(&term, bits);

@@ -143,7 +143,7 @@ impl Numbers {
                 slope = slope.multiply(z, bits).add(&value, bits);
                 value = value.multiply(z, bits).add(coefficient, bits);
             }
-            let inverse = slope.reciprocal(bits).map_err(EnclosureError::Ball)?;
+            let inverse = slope.reciprocal(bits)?;
             Ok(value.multiply(&inverse, bits))
         };
         for _ in 0..2 * (64 - bits.leading_zeros()) + 8 {

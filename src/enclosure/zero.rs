@@ -19,13 +19,10 @@ const MAX_HALVINGS: u32 = 200;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ZeroError {
-    /// The expression has the same sign at both ends, or a sign is not decided.
     #[error("the expression has no certain change of sign between these bounds; take others")]
     SameSign,
-    /// The derivative has no certain sign on any interval that was tried: the zero may be double.
     #[error("the zero may be double, and cannot be enclosed by signs")]
     NotSimple,
-    /// An enclosure failed.
     #[error(transparent)]
     Enclosure(#[from] EnclosureError),
 }
@@ -54,13 +51,6 @@ impl Function<'_> {
     }
 }
 
-/// The ball of all numbers between two.
-fn between(low: &Rational, high: &Rational, bits: u64) -> Ball {
-    let two = Rational::from_integer(2.into());
-    let middle = Ball::from_rational(&((low + high) / &two), bits);
-    middle.add(&Ball::symmetric(&((high - low) / two)), bits)
-}
-
 /// A zero between two bounds at which an expression has different signs, to about `bits` bits.
 ///
 /// The interval is halved, keeping a change of sign, until the derivative is known to a quarter on it: it then
@@ -79,7 +69,7 @@ pub fn enclose_zero(
     if function.sign(&high)? != Some(first.reverse()) {
         return Err(ZeroError::SameSign);
     }
-    let mut interval = between(&low, &high, FIRST_BITS);
+    let mut interval = Ball::between(&low, &high, FIRST_BITS);
     let mut halvings = 0;
     loop {
         // With a slope that is known to a quarter, Newton's step less than halves the interval: its radius
@@ -109,7 +99,7 @@ pub fn enclose_zero(
         } else {
             high = cut
         }
-        interval = between(&low, &high, FIRST_BITS);
+        interval = Ball::between(&low, &high, FIRST_BITS);
     }
     let precisions = Precisions::doubling(FIRST_BITS, 2 * bits + LAST_BITS);
     let mut working = precisions.first();

@@ -38,7 +38,7 @@ impl Course {
         let mut terms = Vec::new();
         for (exponent, coefficient) in course.terms() {
             let rate = enclose(at_zero(&exponent.derivative(time))?)?;
-            let size = enclose(at_zero(exponent)?)?.exp(bits).map_err(EnclosureError::Ball)?;
+            let size = enclose(at_zero(exponent)?)?.exp(bits)?;
             let (mut polynomial, mut derivative) = (Vec::new(), coefficient.clone());
             let mut factorial = Rational::from_integer(1.into());
             while !derivative.is_zero() {
@@ -83,7 +83,7 @@ impl Course {
                     shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&now, bits), bits);
                 }
             }
-            let size = rate.multiply(&now, bits).exp(bits).map_err(EnclosureError::Ball)?;
+            let size = rate.multiply(&now, bits).exp(bits)?;
             let mut power = ComplexBall::one();
             for i in 0..cut.order {
                 for (j, c) in shifted.iter().enumerate().take(cut.order - i) {

@@ -102,10 +102,7 @@ impl Chain {
         }
         let size = shortest / cells as f64;
         let count = line.bars.iter().filter_map(|bar| bar.travel).sum::<f64>() / size;
-        if count > MAX_CELL_UPDATES {
-            let limit = MAX_CELL_UPDATES;
-            return Err(ModelError::TooMuch { model: NAME, what: "cells", count, limit });
-        }
+        ModelError::limited(NAME, "cells", count, MAX_CELL_UPDATES)?;
         let mut chain = Chain {
             step: f64::INFINITY,
             bars: Vec::new(),

@@ -1,10 +1,10 @@
 //! The course of a load in doubles: `Σ Re(p(t) e^{λt})` with complex polynomials and rates.
 
-use crate::ball::{Ball, ComplexBall, Number};
+use crate::ball::{ComplexBall, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, Root};
 use num_traits::ToPrimitive;
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::Symbol;
 
 /// The precision at which exact values are enclosed before they are rounded to doubles.
 const BITS: u64 = 96;
@@ -19,16 +19,11 @@ pub(crate) struct Course {
     terms: Vec<(Complex, Vec<Complex>)>,
 }
 
-/// The middle of a ball.
-fn middle(ball: &Ball) -> f64 {
-    Rational::from(ball.midpoint()).to_f64().unwrap_or(f64::NAN)
-}
-
 /// A real value, rounded.
 pub(crate) fn double(numbers: &Numbers, value: &Fraction) -> Result<f64, EnclosureError> {
     match value.as_constant() {
         Some(number) => Ok(number.to_f64().unwrap_or(f64::NAN)),
-        None => numbers.enclose(value, BITS).map(|ball| middle(&ball)),
+        None => numbers.enclose(value, BITS).map(|ball| ball.midpoint().to_double()),
     }
 }
 
@@ -36,23 +31,20 @@ pub(crate) fn double(numbers: &Numbers, value: &Fraction) -> Result<f64, Enclosu
 pub(crate) fn double_of(value: &Number) -> f64 {
     match value {
         Number::Exact(value) => value.to_f64().unwrap_or(f64::NAN),
-        Number::Enclosed(ball) => middle(ball),
+        Number::Enclosed(ball) => ball.midpoint().to_double(),
     }
 }
 
 /// A factor times a root, rounded.
-pub(crate) fn double_root(
-    numbers: &Numbers,
-    value: &crate::expression::Root,
-) -> Result<f64, EnclosureError> {
-    numbers.enclose_root(value, BITS).map(|ball| middle(&ball))
+pub(crate) fn double_root(numbers: &Numbers, value: &Root) -> Result<f64, EnclosureError> {
+    numbers.enclose_root(value, BITS).map(|ball| ball.midpoint().to_double())
 }
 
 fn complex(numbers: &Numbers, value: &Fraction) -> Result<Complex, EnclosureError> {
     let expression = Expression::from(value.clone());
     let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
     let ball: ComplexBall = enclose_expression(&expression, &values, BITS)?;
-    Ok([middle(ball.real()), middle(ball.imaginary())])
+    Ok([ball.real().midpoint().to_double(), ball.imaginary().midpoint().to_double()])
 }
 
 impl Course {

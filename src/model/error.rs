@@ -144,6 +144,21 @@ pub enum SolverFailure {
     NotSmooth(i64),
 }
 
+impl ModelError {
+    /// Refuses more work than the limit.
+    pub(super) fn limited(
+        model: &'static str,
+        what: &'static str,
+        count: f64,
+        limit: f64,
+    ) -> Result<(), ModelError> {
+        match count > limit {
+            true => Err(ModelError::TooMuch { model, what, count, limit }),
+            false => Ok(()),
+        }
+    }
+}
+
 impl From<EnclosureError> for ModelError {
     fn from(error: EnclosureError) -> ModelError {
         match error {

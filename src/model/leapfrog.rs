@@ -131,10 +131,8 @@ impl Model for Leapfrog {
         ascending.sort_by(|a, b| a.0.total_cmp(&b.0));
         let Some((last, _)) = ascending.last() else { return Ok(values) };
         let steps = last / self.chain.step + 2.0;
-        let (count, limit) = (steps * self.cells() as f64, MAX_CELL_UPDATES);
-        if count > limit {
-            return Err(ModelError::TooMuch { model: NAME, what: "cell updates", count, limit });
-        }
+        let count = steps * self.cells() as f64;
+        ModelError::limited(NAME, "cell updates", count, MAX_CELL_UPDATES)?;
         let mut motion = self.chain.start();
         while taps.iter().any(|samples| samples.served < ascending.len()) {
             motion.advance(&self.line);

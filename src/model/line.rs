@@ -6,7 +6,7 @@ use crate::expression::Fraction;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
 use crate::network::{
-    ElementLaw, Measured, MeasuredValue, ModelLump, Node, ScaledScene, Term, unit,
+    ElementLaw, Measured, MeasuredValue, ModelLump, Node, Reading, ScaledScene, Term, unit,
 };
 use crate::scene::{ElementIndex, Kind, Measure};
 use num_traits::ToPrimitive as _;
@@ -248,6 +248,26 @@ impl Line {
             return self.refuse(model, observable, NotSeen::Energy);
         }
         Ok(observable)
+    }
+
+    /// An observable as factors of a displacement and a velocity, from those of each reading.
+    pub fn factors(
+        &self,
+        model: &'static str,
+        observable: &Observable,
+        seen: impl Fn(&Reading<f64>) -> Result<[f64; 2], NotSeen>,
+    ) -> Result<[f64; 2], ModelError> {
+        let mut factors = [0.0; 2];
+        for term in observable.terms() {
+            match seen(&term.of) {
+                Ok([x, v]) => {
+                    factors[0] += term.coefficient * x;
+                    factors[1] += term.coefficient * v;
+                }
+                Err(term) => return self.refuse(model, observable, term),
+            }
+        }
+        Ok(factors)
     }
 
     /// An observable is refused.

@@ -86,10 +86,7 @@ impl Modes {
             let reason = BadSetting::NoModes;
             return Err(ModelError::Setting { model: NAME, reason });
         }
-        if count > MAX_MODES {
-            let (count, limit) = (count as f64, MAX_MODES as f64);
-            return Err(ModelError::TooMuch { model: NAME, what: "modes", count, limit });
-        }
+        ModelError::limited(NAME, "modes", count as f64, MAX_MODES as f64)?;
         let line = Line::linear(NAME, scene.as_ref())?;
         let parts = parts(&line)?;
         let held = |side| side == Side::Fixed;
@@ -209,10 +206,7 @@ impl Model for Modes {
     fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
         let observable = self.line.observable(NAME, observable)?;
         let count = self.modes.len() as f64 * times.len() as f64;
-        if count > MAX_MODE_TERMS {
-            let limit = MAX_MODE_TERMS;
-            return Err(ModelError::TooMuch { model: NAME, what: "terms", count, limit });
-        }
+        ModelError::limited(NAME, "terms", count, MAX_MODE_TERMS)?;
         let times = self.line.scaled(times)?;
         let mut constant = 0.0;
         for term in observable.terms() {
@@ -222,14 +216,8 @@ impl Model for Modes {
         }
         let mut values = vec![constant; times.len()];
         for mode in &self.modes {
-            let mut factors = [0.0; 2];
-            for term in observable.terms() {
-                let Some([x, v]) = self.seen(&term.of, &mode.shape) else {
-                    return self.line.refuse(NAME, observable, NotSeen::Other);
-                };
-                factors[0] += term.coefficient * x;
-                factors[1] += term.coefficient * v;
-            }
+            let seen = |of: &_| self.seen(of, &mode.shape).ok_or(NotSeen::Other);
+            let factors = self.line.factors(NAME, observable, seen)?;
             if factors == [0.0; 2] || (mode.velocity == 0.0 && mode.push == 0.0) {
                 continue;
             }

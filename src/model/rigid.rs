@@ -224,16 +224,7 @@ impl Model for RigidBody {
 
     fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
         let observable = self.line.observable(NAME, observable)?;
-        let mut factors = [0.0; 2];
-        for term in observable.terms() {
-            match self.seen(&term.of) {
-                Ok([x, v]) => {
-                    factors[0] += term.coefficient * x;
-                    factors[1] += term.coefficient * v;
-                }
-                Err(term) => return self.line.refuse(NAME, observable, term),
-            }
-        }
+        let factors = self.line.factors(NAME, observable, |of| self.seen(of))?;
         let value = |time: f64| match time < 0.0 {
             true => 0.0,
             false => {

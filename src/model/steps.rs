@@ -141,15 +141,7 @@ impl Steps {
         let period = self.period.unwrap_or(if last > 0.0 { last } else { 1.0 });
         let periods = (last / period * (1.0 + 1e-11)).floor() + 1.0;
         let count = periods * self.systems.len() as f64;
-        if count > MAX_NODE_PERIODS {
-            let limit = MAX_NODE_PERIODS;
-            return Err(ModelError::TooMuch {
-                model: NAME,
-                what: "periods of nodes",
-                count,
-                limit,
-            });
-        }
+        ModelError::limited(NAME, "periods of nodes", count, MAX_NODE_PERIODS)?;
         let track = |before| Track::new(before, period);
         let tracks = |count: usize| vec![track(0.0); count];
         let speed = self.line.speed();

@@ -139,28 +139,19 @@ impl Model for ThirdOfMass {
         let bar = &self.line.bars[0];
         let travel = bar.travel.expect("finite");
         let stiffness = bar.impedance / travel;
+        let share = |at: f64| if self.mirrored { at / travel } else { 1.0 - at / travel };
+        let pressed = if self.mirrored { -stiffness } else { stiffness };
         // Factors of the displacement and the velocity of the struck end.
-        let mut factors = [0.0; 2];
-        for term in observable.terms() {
-            let share = |at: f64| if self.mirrored { at / travel } else { 1.0 - at / travel };
-            let pressed = if self.mirrored { -stiffness } else { stiffness };
-            let [x, v] = match &term.of {
-                Reading::InBar(Field::Velocity, section) => [0.0, share(*section.distance())],
-                Reading::InBar(Field::Displacement, section) => [share(*section.distance()), 0.0],
-                Reading::InBar(Field::Force, _) => [pressed, 0.0],
-                // Masses alone stand at the struck end.
-                Reading::Velocity(_) => [0.0, 1.0],
-                Reading::Displacement(_) => [1.0, 0.0],
-                Reading::Momentum(_) => {
-                    return self.line.refuse(NAME, observable, NotSeen::MomentumOfThird);
-                }
-                Reading::Compression(_) | Reading::Force(_) => {
-                    return self.line.refuse(NAME, observable, NotSeen::Other);
-                }
-            };
-            factors[0] += term.coefficient * x;
-            factors[1] += term.coefficient * v;
-        }
+        let factors = self.line.factors(NAME, observable, |of| match of {
+            Reading::InBar(Field::Velocity, section) => Ok([0.0, share(*section.distance())]),
+            Reading::InBar(Field::Displacement, section) => Ok([share(*section.distance()), 0.0]),
+            Reading::InBar(Field::Force, _) => Ok([pressed, 0.0]),
+            // Masses alone stand at the struck end.
+            Reading::Velocity(_) => Ok([0.0, 1.0]),
+            Reading::Displacement(_) => Ok([1.0, 0.0]),
+            Reading::Momentum(_) => Err(NotSeen::MomentumOfThird),
+            Reading::Compression(_) | Reading::Force(_) => Err(NotSeen::Other),
+        })?;
         let value = |time: f64| {
             let (sine, cosine) = (self.frequency * time).sin_cos();
             let [x, v] = [self.start * sine / self.frequency, self.start * cosine];

@@ -108,7 +108,7 @@ impl<'a> SystemBuilder<'a> {
         let (mut values, mut slopes) = (Weights::new(), Weights::new());
         let Some((pole, continuous, initial)) = start else {
             values.extend(forcing);
-            let inverse = self.period.reciprocal(BITS).map_err(EnclosureError::Ball)?;
+            let inverse = self.period.reciprocal(BITS)?;
             for term in &equation.terms {
                 let place = (term.wave, term.lag);
                 if let Some(value) = &term.value {
