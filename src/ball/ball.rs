@@ -70,12 +70,10 @@ impl Ball {
         Self::new(middle.midpoint, radius)
     }
 
-    /// The midpoint.
     pub const fn midpoint(&self) -> &Binary {
         &self.midpoint
     }
 
-    /// The radius.
     pub const fn radius(&self) -> &Magnitude {
         &self.radius
     }

@@ -43,7 +43,6 @@ impl Binary {
         }
     }
 
-    /// Zero.
     pub fn zero() -> Self {
         Self { mantissa: BigInt::zero(), exponent: 0 }
     }

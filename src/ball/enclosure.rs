@@ -29,7 +29,6 @@ pub struct DecimalEnclosure {
 }
 
 impl DecimalEnclosure {
-    /// The midpoint.
     pub const fn midpoint(&self) -> &Decimal {
         &self.midpoint
     }

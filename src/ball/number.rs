@@ -20,7 +20,6 @@ const MAX_EXACT_BITS: u64 = 1 << 11;
 /// A rational has at most 2048 bits above and below the line.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Number {
-    /// This rational.
     Exact(Rational),
     /// Some number in this ball.
     Enclosed(Ball),

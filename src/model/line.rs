@@ -170,7 +170,6 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// The line of a scene.
     pub fn of(scaled: &ScaledScene) -> Result<Line, ModelError> {
         let numbers = Numbers::new(&scaled.model().constants);
         let mut symbols = scaled.model().assumptions.symbols().map(|(symbol, _)| symbol);

@@ -1,7 +1,7 @@
-//! The laws at the nodes as equations between waves.
+//! A network: the nodes of a line, the waves between them, and what a bar brings to the equations of a node.
 //!
 //! Each node has a clock of its own, ahead by the travel time from a node where something happens at
-//! the start. So of the two waves in a bar one is seen at both ends at once, and the other a round
+//! the start. So one of the two waves in a bar is seen at both ends at once, and the other a round
 //! trip later: the wave functions of successive periods, as textbooks have them.
 
 use crate::expression::{Expression, Fraction};
@@ -37,7 +37,6 @@ pub enum Role {
 /// A wave of a network.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct WaveRole {
-    /// Its name.
     pub name: String,
     /// Its meaning.
     pub role: Role,
@@ -99,7 +98,6 @@ impl Network {
         ScaledScene::of(scene)?.network()
     }
 
-    /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scaled.scene
     }
@@ -250,7 +248,6 @@ impl Network {
         }
     }
 
-    /// The wave with this role.
     pub(crate) fn wave(&self, role: Role) -> Option<WaveIndex> {
         self.waves.iter().position(|wave| wave.role == role)
     }

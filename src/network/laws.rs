@@ -1,4 +1,4 @@
-//! The equations of a network.
+//! The laws at the nodes of a network, as equations between wave functions.
 
 use crate::expression::{Expression, Fraction};
 use crate::network::equations::{Network, Role, lag};

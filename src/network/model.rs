@@ -33,7 +33,6 @@ pub struct Scale {
 /// A bar without units.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ModelBar {
-    /// Its impedance.
     pub impedance: Fraction,
     /// Its travel time; `None` where it is endless.
     pub travel: Option<Fraction>,
@@ -70,13 +69,18 @@ pub struct Model {
     pub scale: Scale,
     /// One second in the unit of time.
     pub slowness: Fraction,
-    /// The bars by element.
     pub bars: BTreeMap<ElementIndex, ModelBar>,
     /// The lumped elements.
     pub lumps: BTreeMap<ElementIndex, ModelLump>,
 }
 
 type Outcome<T> = Result<T, NetworkError>;
+
+/// The absolute value of a number that is not zero.
+fn size(value: Option<Rational>) -> Option<Root> {
+    let value = value.filter(|value| !value.is_zero())?;
+    Some(Root::from(Fraction::constant(&value.abs())))
+}
 
 fn one() -> Root {
     Root::from(Fraction::one())
@@ -220,26 +224,25 @@ impl Model {
         });
         multiple.unwrap_or_else(|| {
             let positive = self.is_positive(value.factor());
-            let negative = positive.is_none() && self.is_positive(&-value.factor()).is_some();
+            let negative = !positive && self.is_positive(&-value.factor());
             let value = match negative {
                 true => value.times(&Root::from(-&Fraction::one())),
                 false => value,
             };
-            let condition = positive.is_some() || negative;
-            let symbol = Fraction::symbol(&self.name(name, value.into(), condition));
+            let symbol = Fraction::symbol(&self.name(name, value.into(), positive || negative));
             if negative { -&symbol } else { symbol }
         })
     }
 
-    /// Says so where a value is certainly positive.
-    fn is_positive(&self, value: &Fraction) -> Option<()> {
+    /// Whether a value is certainly positive.
+    fn is_positive(&self, value: &Fraction) -> bool {
         let order = Numbers::new(&self.constants).compare(value, &Fraction::zero());
         let by_number = order == Ok(Ordering::Greater);
         let mut known = self.assumptions.clone();
         let three = Rational::from_integer(3.into());
         let above = Condition { relation: Relation::Greater, bound: three };
         known.declare_symbol(Symbol::new(PI).expect("a name"), Some(above));
-        (by_number || known.is_positive(value)).then_some(())
+        by_number || known.is_positive(value)
     }
 
     /// Names a constant, and declares it positive where it is known to be.
@@ -296,43 +299,40 @@ impl Scale {
 
     /// The first velocity in the line that is not zero, else that of a force or a strain.
     fn set_velocity(&mut self, scene: &Scene) -> Outcome<()> {
-        let given = |value: &Fraction| value.as_constant().filter(|value| !value.is_zero());
-        let root = |value: Rational| Root::from(Fraction::constant(&value.abs()));
-        for index in &scene.line.elements {
-            let velocity = match &scene.elements[*index].kind {
-                Kind::Bar(bar) => given(&bar.velocity).map(root),
-                Kind::Mass(mass) => given(&mass.velocity).map(root),
-                _ => None,
-            };
-            if let Some(velocity) = velocity {
-                (self.velocity, self.moving) = (velocity, Some(*index));
-                return Ok(());
-            }
-        }
-        for index in &scene.line.elements {
-            let velocity = match &scene.elements[*index].kind {
-                Kind::Bar(bar) => match given(&bar.strain).map(root) {
-                    Some(strain) => {
-                        let (impedance, _, stiffness) = bar_roots(&bar.body)?;
-                        Some(strain.times(&stiffness.over(&impedance)?))
-                    }
-                    None => None,
-                },
-                Kind::Load(load) => {
-                    let value = load.course.as_constant().filter(|value| !value.is_zero());
-                    match (value.map(root), load.drive) {
-                        (Some(force), Drive::Force) => Some(force.over(&self.impedance)?),
-                        (velocity, _) => velocity,
-                    }
+        for velocity in [Scale::given_velocity, Scale::caused_velocity] {
+            for index in &scene.line.elements {
+                if let Some(velocity) = velocity(self, &scene.elements[*index].kind)? {
+                    (self.velocity, self.moving) = (velocity, Some(*index));
+                    return Ok(());
                 }
-                _ => None,
-            };
-            if let Some(velocity) = velocity {
-                (self.velocity, self.moving) = (velocity, Some(*index));
-                return Ok(());
             }
         }
         Ok(())
+    }
+
+    /// The velocity of a bar or a mass at the start.
+    fn given_velocity(&self, kind: &Kind) -> Outcome<Option<Root>> {
+        Ok(match kind {
+            Kind::Bar(bar) => size(bar.velocity.as_constant()),
+            Kind::Mass(mass) => size(mass.velocity.as_constant()),
+            _ => None,
+        })
+    }
+
+    /// The velocity that goes with a strain at the start, or with a constant load.
+    fn caused_velocity(&self, kind: &Kind) -> Outcome<Option<Root>> {
+        match kind {
+            Kind::Bar(bar) => {
+                let Some(strain) = size(bar.strain.as_constant()) else { return Ok(None) };
+                let (impedance, _, stiffness) = bar_roots(&bar.body)?;
+                Ok(Some(strain.times(&stiffness.over(&impedance)?)))
+            }
+            Kind::Load(load) => match (size(load.course.as_constant()), load.drive) {
+                (Some(force), Drive::Force) => Ok(Some(force.over(&self.impedance)?)),
+                (velocity, _) => Ok(velocity),
+            },
+            _ => Ok(None),
+        }
     }
 
     /// The unit `Z V` of force.

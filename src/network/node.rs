@@ -222,7 +222,6 @@ impl<V> Node<V> {
         self.contacts().position(|(_, left)| left + 1 == run)
     }
 
-    /// The contact at the right of a run.
     pub fn contact_right_of(&self, run: usize) -> Option<usize> {
         self.contacts().position(|(_, left)| left == run)
     }

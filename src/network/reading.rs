@@ -49,7 +49,6 @@ pub(crate) enum Face {
 /// What measures are made of.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Reading<V = Fraction> {
-    /// In a section of a bar.
     InBar(Field, Section<V>),
     /// The momentum of a bar: `Z ∫ (w₊ + w₋) dt` over the last travel time, of an endless bar since the
     /// start.

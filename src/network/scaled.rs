@@ -33,7 +33,6 @@ impl ScaledScene {
         Ok(ScaledScene { scene: scene.clone(), model, layout, measures })
     }
 
-    /// The scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }

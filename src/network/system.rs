@@ -116,7 +116,6 @@ pub(crate) fn dot(row: &[Number], column: &[Number], bits: u64) -> Number {
 }
 
 impl Node<Number> {
-    /// The mass of a run.
     pub fn mass_of(&self, run: usize, bits: u64) -> Number {
         let masses = self.attached(run).filter_map(|own| match &own.law {
             ElementLaw::Mass { mass, .. } => Some(mass),

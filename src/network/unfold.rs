@@ -40,7 +40,6 @@ impl Network {
 }
 
 impl Unfolded {
-    /// The recurrence.
     pub fn recurrence(&self) -> &Recurrence {
         &self.recurrence
     }

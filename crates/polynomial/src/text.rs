@@ -50,7 +50,8 @@ impl fmt::Debug for Polynomial {
 }
 
 /// What [`Polynomial::from_str`] could not read, and where.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("at byte {offset}: expected {expected}")]
 pub struct ReadError {
     /// Byte offset of the place in the text.
     pub offset: usize,
@@ -59,36 +60,20 @@ pub struct ReadError {
 }
 
 /// What a reader of polynomials may miss.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[expect(missing_docs, reason = "the messages say it")]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Expected {
-    /// A number or a name.
+    #[error("a number or a name")]
     Factor,
-    /// `+`, `-`, `*` or the end.
+    #[error("`+`, `-`, `*` or the end")]
     Operator,
-    /// An integer exponent; at most [`Polynomial::MAX_EXPONENT`] for one symbol in one term.
+    #[error("an exponent, at most {} in a term", Polynomial::MAX_EXPONENT)]
     Exponent,
-    /// A denominator other than zero.
+    #[error("a denominator other than zero")]
     Denominator,
-    /// −1 or a prime, in parentheses after `sqrt`.
+    #[error("-1 or a prime in parentheses")]
     Radicand,
 }
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at byte {}: expected ", self.offset)?;
-        match self.expected {
-            Expected::Factor => f.write_str("a number or a name"),
-            Expected::Operator => f.write_str("`+`, `-`, `*` or the end"),
-            Expected::Exponent => {
-                write!(f, "an exponent, at most {} in a term", Polynomial::MAX_EXPONENT)
-            }
-            Expected::Denominator => f.write_str("a denominator other than zero"),
-            Expected::Radicand => f.write_str("-1 or a prime in parentheses"),
-        }
-    }
-}
-
-impl std::error::Error for ReadError {}
 
 impl FromStr for Polynomial {
     type Err = ReadError;

@@ -1,6 +1,7 @@
 //! The march in fixed point against sums of Laguerre polynomials with hundreds to thousands of
 //! bits, its doubles against the rounded sums, and reductions and roundings against rationals.
 
+mod spans;
 mod support;
 
 use crate::random::Random;
