@@ -17,7 +17,6 @@ use crate::network::NetworkError;
 use crate::problem::{EqualError, LockRefusal, ProblemError};
 use crate::scenes::SCENES;
 use crate::solution::{SolveError, Unsolvable};
-use std::borrow::Cow;
 use std::fmt;
 
 /// Why there is no answer.
@@ -87,7 +86,7 @@ impl Error {
     /// What can be done about it, where that is known; diagnostics have remedies of their own.
     #[must_use]
     pub fn remedy(&self) -> Option<String> {
-        remedy(&self.0).map(Cow::into_owned)
+        remedy(&self.0)
     }
 
     /// What went wrong, for programs that name their own options in a remedy.
@@ -214,16 +213,46 @@ fn kind_of_way(error: &WayError) -> Kind {
     }
 }
 
-type Remedy = Option<Cow<'static, str>>;
+/// What can be done about an error: what its layer says, what names something of the problem, or a rule.
+fn remedy(error: &ProblemError) -> Option<String> {
+    Some(match error {
+        ProblemError::Solve(error) => remedy_of_solve(error),
+        ProblemError::Network(error) => remedy_of_network(error).to_owned(),
+        ProblemError::Evaluate(error) => remedy_of_evaluate(error),
+        ProblemError::History(error) => remedy_of_history(error),
+        ProblemError::Way(error) => remedy_of_way(error),
+        ProblemError::Equal(error) => remedy_of_equal(error),
+        ProblemError::NotBuiltIn(_) => {
+            format!("the built-in scenes are {}", SCENES.map(|scene| scene.name).join(", "))
+        }
+        ProblemError::Unknown { name, names } => {
+            match closest(name, names.iter().map(String::as_str)) {
+                Some(name) => format!("did you mean `{name}`?"),
+                None => format!("ask for one of {}", names.join(", ")),
+            }
+        }
+        ProblemError::NotAWave { waves, .. } => {
+            format!("the waves of this scene are {}", waves.join(", "))
+        }
+        ProblemError::NotAnObservable { observables, .. } if !observables.is_empty() => {
+            format!("the observables of this scene are {}", observables.join(", "))
+        }
+        ProblemError::Digits(_) => format!("ask for 1 to {MAX_DIGITS} digits"),
+        ProblemError::OutsidePeriod(times) => format!("give a time from 0 to below {}", times[1]),
+        ProblemError::LocalContact { contact, spring } => {
+            let spring = match spring {
+                Some(spring) => format!("the equivalent one is `{spring}`"),
+                None => format!("`spring {contact} {{ stiffness = … }}`"),
+            };
+            format!("ask for values, or put a spring in its place: {spring}")
+        }
+        error => return usual_remedy(error).map(str::to_owned),
+    })
+}
 
-fn remedy(error: &ProblemError) -> Remedy {
-    let text = match error {
-        ProblemError::Solve(error) => return remedy_of_solve(error),
-        ProblemError::Network(error) => return remedy_of_network(error),
-        ProblemError::Evaluate(error) => return remedy_of_evaluate(error),
-        ProblemError::History(error) => return remedy_of_history(error),
-        ProblemError::Way(error) => return remedy_of_way(error),
-        ProblemError::Equal(error) => return remedy_of_equal(error),
+/// The same where it depends on nothing but the variant.
+fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
+    Some(match error {
         ProblemError::NoLock(refusal) => remedy_of_lock(refusal),
         ProblemError::Lock(_) | ProblemError::Undecided { .. } => "ask for fewer digits",
         ProblemError::Field(error) => match **error {
@@ -231,53 +260,20 @@ fn remedy(error: &ProblemError) -> Remedy {
             // The others say themselves what to give.
             _ => return None,
         },
-        ProblemError::Text(_) => return None,
         ProblemError::ContactsOpen => "leave `contacts open` out of the scene",
-        ProblemError::NotBuiltIn(_) => {
-            let names: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
-            return said(format!("the built-in scenes are {}", names.join(", ")));
-        }
-        ProblemError::Unknown { name, names } => {
-            return said(match closest(name, names.iter().map(String::as_str)) {
-                Some(name) => format!("did you mean `{name}`?"),
-                None => format!("ask for one of {}", names.join(", ")),
-            });
-        }
-        ProblemError::NotAWave { waves, .. } => {
-            return said(format!("the waves of this scene are {}", waves.join(", ")));
-        }
-        ProblemError::NotAnObservable { observables, .. } if !observables.is_empty() => {
-            return said(format!("the observables of this scene are {}", observables.join(", ")));
-        }
         ProblemError::NotAnObservable { .. } => "this scene has no observables: derive its waves",
         ProblemError::ObservableIsNoWave(_) => "it is an observable: derive it as such",
         ProblemError::NoNumber(_) | ProblemError::NotFinite(_) => "give a number",
-        ProblemError::Digits(_) => return said(format!("ask for 1 to {MAX_DIGITS} digits")),
         ProblemError::Tolerance(_) => "give a number such as 1e-9, abs:1e-9 or ulp:4",
         ProblemError::Method(_) => "see `Method::NAMES`",
         ProblemError::BeforeStart(_) => "give times from 0 on",
         ProblemError::EmptyWindow(_) => "let the window end after it begins",
         ProblemError::NoEnd => "give the window an end",
-        ProblemError::OutsidePeriod(times) => {
-            return said(format!("give a time from 0 to below {}", times[1]));
-        }
         ProblemError::WaveOfClosedContacts(_) => {
             "ask for an observable, or leave out `contacts open`"
         }
         ProblemError::Equations(_) | ProblemError::EquationsHaveNoContacts => DESCRIBE,
         ProblemError::NoContact => "write `|` in its line where bodies only touch",
-        ProblemError::LocalContact { contact, spring } => {
-            return said(match spring {
-                Some(spring) => {
-                    format!(
-                        "ask for values, or put a spring in its place: the equivalent one is `{spring}`"
-                    )
-                }
-                None => format!(
-                    "ask for values, or put a spring in its place: `spring {contact} {{ stiffness = … }}`"
-                ),
-            });
-        }
         ProblemError::ModelOfLocalContact(_)
         | ProblemError::NoProof(..)
         | ProblemError::NoDigits(_) => "ask for tested values, by the method of steps",
@@ -305,30 +301,24 @@ fn remedy(error: &ProblemError) -> Remedy {
              rational, or roots of one quadratic in rational numbers"
         }
         ProblemError::Disagreement(..) => "please report this scene: it is a fault of wavestep",
-    };
-    Some(text.into())
+        _ => return None,
+    })
 }
 
 const DESCRIBE: &str = "describe it by its parts: see docs/scene-language.md";
 
-fn said(text: String) -> Remedy {
-    Some(text.into())
-}
-
-fn remedy_of_solve(error: &SolveError) -> Remedy {
-    Some(match &error.reason {
+fn remedy_of_solve(error: &SolveError) -> String {
+    match &error.reason {
         Unsolvable::NotInvertible(NotInvertible::Undeclared(factor)) => {
-            return said(format!(
-                "give the symbols values, or state `nonzero {factor}` in the scene"
-            ));
+            format!("give the symbols values, or state `nonzero {factor}` in the scene")
         }
-        Unsolvable::DegreeTooHigh => "ask for a smaller order".into(),
-        _ => "give the symbols values".into(),
-    })
+        Unsolvable::DegreeTooHigh => "ask for a smaller order".to_owned(),
+        _ => "give the symbols values".to_owned(),
+    }
 }
 
-fn remedy_of_network(error: &NetworkError) -> Remedy {
-    Some(Cow::Borrowed(match error {
+fn remedy_of_network(error: &NetworkError) -> &'static str {
+    match error {
         NetworkError::Division(_) => "give the symbols values",
         NetworkError::Incommensurate => "ask for echoes in order of their arrival, or for values",
         NetworkError::Unobservable { .. } => "observe it at another place",
@@ -340,12 +330,12 @@ fn remedy_of_network(error: &NetworkError) -> Remedy {
         NetworkError::Recurrence(_) => {
             "what has no mass cannot be forced or held against a spring or a moving bar: put a mass there"
         }
-    }))
+    }
 }
 
-fn remedy_of_evaluate(error: &EvaluateError) -> Remedy {
-    Some(Cow::Borrowed(match error {
-        EvaluateError::MissingValue(symbol) => return said(format!("give {symbol} a value")),
+fn remedy_of_evaluate(error: &EvaluateError) -> String {
+    let usual = match error {
+        EvaluateError::MissingValue(symbol) => return format!("give {symbol} a value"),
         EvaluateError::NotLinear(_) => "ask for a force or a velocity, or for digits",
         EvaluateError::EmptyWindow => "let the window end after it begins",
         EvaluateError::TooManyRoots { .. } | EvaluateError::TooManyCells { .. } => {
@@ -354,12 +344,13 @@ fn remedy_of_evaluate(error: &EvaluateError) -> Remedy {
         EvaluateError::NotReal => "observe a wave in which both poles of each complex pair occur",
         EvaluateError::AccuracyNotReached { .. } => "allow more bits, or ask for fewer digits",
         _ => "ask for an earlier time",
-    }))
+    };
+    usual.to_owned()
 }
 
-fn remedy_of_history(error: &HistoryError) -> Remedy {
-    Some(Cow::Borrowed(match error {
-        HistoryError::MissingValue(symbol) => return said(format!("give {symbol} a value")),
+fn remedy_of_history(error: &HistoryError) -> String {
+    let usual = match error {
+        HistoryError::MissingValue(symbol) => return format!("give {symbol} a value"),
         HistoryError::Undecided { .. } => "change a value a little, or ask for an earlier end",
         HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
             "ask for an earlier end"
@@ -368,15 +359,16 @@ fn remedy_of_history(error: &HistoryError) -> Remedy {
             "docs/scene-language.md says under `Contacts` what is followed"
         }
         _ => "ask for an earlier time",
-    }))
+    };
+    usual.to_owned()
 }
 
-fn remedy_of_way(error: &WayError) -> Remedy {
-    Some(Cow::Borrowed(match error {
+fn remedy_of_way(error: &WayError) -> String {
+    let usual = match error {
         WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
         WayError::Method(_) => "ask for a shorter window, or use the method certified",
         WayError::Model(ModelError::MissingValue(symbol)) => {
-            return said(format!("give {symbol} a value"));
+            return format!("give {symbol} a value");
         }
         WayError::Model(_) => "use another model, or a method on the exact solution",
         WayError::NeedsRecurrence(_) => "use the method of steps",
@@ -384,21 +376,23 @@ fn remedy_of_way(error: &WayError) -> Remedy {
         WayError::LeftLimit(_) => "ask for the limit from the right",
         WayError::NoNumber(..) => "use the method certified",
         WayError::NotMet { .. } => "ask for digits instead",
-    }))
+    };
+    usual.to_owned()
 }
 
-fn remedy_of_equal(error: &EqualError) -> Remedy {
-    Some(Cow::Borrowed(match error {
+fn remedy_of_equal(error: &EqualError) -> String {
+    let usual = match error {
         EqualError::TooManyDigits { limit, .. } => {
-            return said(format!("ask for 1 to {limit} digits"));
+            return format!("ask for 1 to {limit} digits");
         }
         EqualError::EqualAtEnd => "give another range",
         EqualError::NoChange(_) => "give a range in which that changes",
         EqualError::NotAscending { .. } => "give T1 before T2 before T3",
         EqualError::NoTime { symbol, .. } => {
-            return said(format!("let it hold no symbol but {symbol}"));
+            return format!("let it hold no symbol but {symbol}");
         }
-    }))
+    };
+    usual.to_owned()
 }
 
 fn remedy_of_lock(refusal: &LockRefusal) -> &'static str {

@@ -47,21 +47,39 @@ fn array(output: &mut String, kind: &str, name: &str, values: impl Iterator<Item
 
 /// A C file with the function `double wavestep_QUANTITY(double t)` and one for many times.
 pub fn to_c(compiled: &Compiled<'_>, heading: &CHeading) -> String {
-    let (pieces, table) = (compiled.pieces(), compiled.table());
-    let starts: Vec<f64> = pieces.iter().map(|piece| piece.start).collect();
-    let end = table.end();
-    let length = table.degree() + 1;
-    let count = (2 * pieces.len()).next_power_of_two();
     // An identifier, whatever the observable is called.
     let letter = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     let name: String = heading.quantity.chars().map(letter).collect();
-    let bound = number(compiled.bound().unwrap_or(f64::INFINITY));
+    let (pieces, end) = (compiled.pieces(), compiled.table().end());
+    let starts: Vec<f64> = pieces.iter().map(|piece| piece.start).collect();
+    let count = (2 * pieces.len()).next_power_of_two();
+    let bound = compiled.bound().unwrap_or(f64::INFINITY);
+    let mut output = preamble(heading, &name, [starts[0], end], bound);
+    array(&mut output, "double", "start", starts.iter().map(|value| number(*value)));
+    array(&mut output, "double", "middle", pieces.iter().map(|piece| number(piece.centre)));
+    array(&mut output, "double", "inverse", pieces.iter().map(|piece| number(piece.scale)));
+    let length = compiled.table().degree() + 1;
+    let rows = pieces.iter().flat_map(|piece| {
+        (0..length).map(|m| number(piece.coefficients.get(m).copied().unwrap_or(0.0)))
+    });
+    array(&mut output, "double", "coefficient", rows);
+    let kind = if pieces.len() <= 1 << 16 { "unsigned short" } else { "unsigned int" };
+    let first = buckets(&starts, end, count);
+    array(&mut output, kind, "bucket", first.iter().map(ToString::to_string));
+    let per_bucket = number(count as f64 / (end - starts[0]).max(f64::MIN_POSITIVE));
+    let pieces = pieces.len();
+    let _ =
+        write!(output, "enum {{ PIECES = {pieces}, LENGTH = {length}, BUCKETS = {count} }};\n\n");
+    output + &functions(&name, &number(end), &per_bucket)
+}
+
+/// The comment that says what the file holds and proves, and the bound as a macro.
+fn preamble(heading: &CHeading, name: &str, [first, end]: [f64; 2], bound: f64) -> String {
     // The end of a comment would end this one.
     let plain = |text: &str| text.replace("*/", "* /").replace(['\n', '\r'], " ");
     let unit = |unit: &str| if unit.is_empty() { "1".to_owned() } else { plain(unit) };
-    let mut output = String::new();
-    let _ = write!(
-        output,
+    let bound = number(bound);
+    format!(
         "/* {title}: {name}(t)\n \
          *\n \
          * Written by wavestep {version}:\n \
@@ -81,26 +99,18 @@ pub fn to_c(compiled: &Compiled<'_>, heading: &CHeading) -> String {
         title = plain(&heading.title),
         version = env!("CARGO_PKG_VERSION"),
         command = plain(&heading.command),
-        first = number(starts[0]),
+        first = number(first),
         end = number(end),
         time_unit = unit(&heading.time_unit),
         unit = unit(&heading.unit),
         upper = name.to_uppercase(),
-    );
-    array(&mut output, "double", "start", starts.iter().map(|value| number(*value)));
-    array(&mut output, "double", "middle", pieces.iter().map(|piece| number(piece.centre)));
-    array(&mut output, "double", "inverse", pieces.iter().map(|piece| number(piece.scale)));
-    let rows = pieces.iter().flat_map(|piece| {
-        (0..length).map(|m| number(piece.coefficients.get(m).copied().unwrap_or(0.0)))
-    });
-    array(&mut output, "double", "coefficient", rows);
-    let kind = if pieces.len() <= 1 << 16 { "unsigned short" } else { "unsigned int" };
-    let first = buckets(&starts, end, count);
-    array(&mut output, kind, "bucket", first.iter().map(ToString::to_string));
-    let _ = write!(
-        output,
-        "enum {{ PIECES = {pieces}, LENGTH = {length}, BUCKETS = {count} }};\n\n\
-         static double evaluate(size_t piece, double t)\n{{\n    \
+    )
+}
+
+/// The functions of the file, which read its tables.
+fn functions(name: &str, end: &str, per_bucket: &str) -> String {
+    format!(
+        "static double evaluate(size_t piece, double t)\n{{\n    \
              const double *c = coefficient + piece * LENGTH;\n    \
              const double u = (t - middle[piece]) * inverse[piece];\n    \
              double value = c[LENGTH - 1];\n    \
@@ -130,9 +140,5 @@ pub fn to_c(compiled: &Compiled<'_>, heading: &CHeading) -> String {
                  if (t[i] < start[piece] || (piece + 1 < PIECES && t[i] >= start[piece + 1]))\n            \
                      piece = find(t[i]);\n        \
                  values[i] = evaluate(piece, t[i]);\n    }}\n}}\n",
-        pieces = pieces.len(),
-        per_bucket = number(count as f64 / (end - starts[0]).max(f64::MIN_POSITIVE)),
-        end = number(end),
-    );
-    output
+    )
 }

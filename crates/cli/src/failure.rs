@@ -171,136 +171,150 @@ impl From<PlotError> for Failure {
 
 /// The remedy, where it takes options or subcommands of this program.
 fn in_options(cause: &ProblemError) -> Option<String> {
-    Some(
-        match cause {
-            ProblemError::History(HistoryError::MissingValue(symbol)) => return Some(set(symbol)),
-            ProblemError::Solve(error) => match &error.reason {
-                Unsolvable::NotInvertible(NotInvertible::Undeclared(factor)) => {
-                    let remedy = "give values with --set, or state";
-                    return Some(format!("{remedy} `nonzero {factor}` in the scene"));
-                }
-                Unsolvable::DegreeTooHigh => return None,
-                _ => "give values with --set",
-            },
-            ProblemError::Network(error) => match error {
-                NetworkError::Incommensurate => {
-                    "ask `derive` for echoes in order of their arrival, with --form echo, or `eval` for \
-                     values"
-                }
-                NetworkError::Rates { .. } => {
-                    "give values with --set; or state the elements by their rates a and b, or sigma and \
-                     omega, as docs/scene-language.md shows"
-                }
-                NetworkError::NotLinear(_) => "ask for values, with `eval`",
-                NetworkError::Division(_) => "give values with --set",
-                _ => return None,
-            },
-            ProblemError::Evaluate(error) => match &**error {
-                EvaluateError::MissingValue(symbol) => return Some(set(symbol)),
-                EvaluateError::NotLinear(_) => {
-                    "ask for a force or a velocity, or for digits: `eval` without --tol and --method"
-                }
-                EvaluateError::AccuracyNotReached { .. } => {
-                    "raise --max-bits, or ask for fewer digits"
-                }
-                EvaluateError::EmptyWindow => WINDOW,
-                _ => return None,
-            },
-            ProblemError::EmptyWindow(_) => WINDOW,
-            ProblemError::Field(error) => match &**error {
-                FieldError::Undecided { .. } => return None,
-                _ => "see `wavestep field --help`",
-            },
-            ProblemError::Way(error) => match &**error {
-                WayError::Model(ModelError::MissingValue(symbol)) => return Some(set(symbol)),
-                WayError::Method(MethodError::NoTaps(_)) => "use --method compiled or certified",
-                WayError::Method(_) => "ask for a shorter window, or use --method certified",
-                WayError::NeedsRecurrence(_) => STEPS,
-                WayError::LeftLimit(_) => "leave out --side left",
-                WayError::NoNumber(..) => "use --method certified",
-                WayError::NotMet { .. } => "ask for digits instead: --digits 25",
-                _ => return None,
-            },
-            ProblemError::ModelOfLocalContact(_) => STEPS,
-            ProblemError::NoProof(..) => "ask for tested values, as in `--method steps:1e-10`",
-            ProblemError::NoDigits(_) => {
-                "leave out --digits; finer values are had by `--method steps:1e-13`"
+    Some(match cause {
+        ProblemError::History(HistoryError::MissingValue(symbol)) => set(symbol),
+        ProblemError::Solve(error) => match &error.reason {
+            Unsolvable::NotInvertible(NotInvertible::Undeclared(factor)) => {
+                format!("{VALUES}, or state `nonzero {factor}` in the scene")
             }
-            ProblemError::LocalContact { contact, spring } => {
-                let spring = match spring {
-                    Some(spring) => format!("the equivalent one is `{spring}`"),
-                    None => format!("`spring {contact} {{ stiffness = … }}`"),
-                };
-                let remedy = "ask for values, with `eval`, or put a spring in its place";
-                return Some(format!("{remedy}: {spring}"));
-            }
-            ProblemError::ObservableIsNoWave(name) => {
-                return Some(format!("it is an observable: ask for --observable {name}"));
-            }
-            ProblemError::EnergyHasNoPieces(name) => {
-                return Some(format!("evaluate it: wavestep eval SCENE --quantity {name} --at T"));
-            }
-            ProblemError::NoCommonPeriods(_) => {
-                "evaluate it with `wavestep eval`, or derive its waves"
-            }
-            ProblemError::UnknownOrder(_) => {
-                "give values with --set, or evaluate it with `wavestep eval`"
-            }
-            ProblemError::NoPeriodsToExplain => "derive its echoes: leave out --explain",
-            ProblemError::NothingArrives(_) => "ask for a larger --through",
-            ProblemError::NoGeneralForm { symbol: Some(_), .. } => {
-                "ask for single orders, with --through or --piece; where a factor of symbols may vanish, \
-                 stating `nonzero …` can help"
-            }
-            ProblemError::NoGeneralForm { symbol: None, .. } => {
-                "ask for single orders, with --through or --piece"
-            }
-            ProblemError::NoNumber(name) => {
-                return Some(format!("write a number such as {name} 33/10"));
-            }
-            ProblemError::OutsidePeriod(times) => {
-                let period = &times[1];
-                return Some(format!("give 0 <= S < {period}, or S = {period} with --side left"));
-            }
-            ProblemError::NoPeriods(_)
-            | ProblemError::NoPeriodsWhereContactsOpen
-            | ProblemError::NoPeriodsWithLocalContact(_) => {
-                "give --at T, or --from, --to and --points"
-            }
-            ProblemError::NoEnd => "give --to T",
-            ProblemError::TooManyTerms(_) => {
-                "ask for a smaller order, one wave, one piece, or --form echo"
-            }
-            ProblemError::TooManyEchoes { .. } => "ask for a smaller --through, or one wave",
-            ProblemError::EchoesOfObservable(_) => "derive the waves with --form echo",
-            ProblemError::NoCommonMeasure(_) => {
-                "ask for the echoes of waves, with --wave NAME and --through N, or evaluate"
-            }
-            ProblemError::NothingToExplain => {
-                "ask for --explain with a scene of bars and elements, or leave it out"
-            }
-            ProblemError::NoSourceForm => {
-                "add a statement such as `written f in V/c, s as mu*z/L`, or leave out --source-form"
-            }
-            ProblemError::NoGeneralSourceForm => "leave out --source-form, or --general",
-            ProblemError::NoLock(refusal) => match refusal {
-                LockRefusal::PeriodsWhereContactsOpen => {
-                    "leave out --through: events are locked, until --until T"
-                }
-                LockRefusal::NoEvents => "give --through N for pieces and --at T for values",
-                LockRefusal::ValuesWithUnits => "leave out --at: pieces are locked, without units",
-                LockRefusal::ValuesWithConstants(_) => {
-                    "leave out --at: pieces are locked with their symbols"
-                }
-                LockRefusal::NoLastPeriod => "give --through N, for the periods 0 … N",
-                LockRefusal::PiecesLocked | LockRefusal::EventsLocked => return None,
-            },
-            _ => return None,
+            Unsolvable::DegreeTooHigh => return None,
+            _ => VALUES.to_owned(),
+        },
+        ProblemError::Evaluate(error) => match &**error {
+            EvaluateError::MissingValue(symbol) => set(symbol),
+            error => for_evaluate(error)?.to_owned(),
+        },
+        ProblemError::Way(error) => match &**error {
+            WayError::Model(ModelError::MissingValue(symbol)) => set(symbol),
+            error => for_way(error)?.to_owned(),
+        },
+        ProblemError::LocalContact { contact, spring } => {
+            let spring = match spring {
+                Some(spring) => format!("the equivalent one is `{spring}`"),
+                None => format!("`spring {contact} {{ stiffness = … }}`"),
+            };
+            format!("ask for values, with `eval`, or put a spring in its place: {spring}")
         }
-        .to_owned(),
-    )
+        ProblemError::ObservableIsNoWave(name) => {
+            format!("it is an observable: ask for --observable {name}")
+        }
+        ProblemError::EnergyHasNoPieces(name) => {
+            format!("evaluate it: wavestep eval SCENE --quantity {name} --at T")
+        }
+        ProblemError::NoNumber(name) => format!("write a number such as {name} 33/10"),
+        ProblemError::OutsidePeriod(times) => {
+            let period = &times[1];
+            format!("give 0 <= S < {period}, or S = {period} with --side left")
+        }
+        cause => usual(cause)?.to_owned(),
+    })
 }
 
+/// The same where it depends on nothing but the variant.
+fn usual(cause: &ProblemError) -> Option<&'static str> {
+    Some(match cause {
+        ProblemError::Network(error) => for_network(error)?,
+        ProblemError::NoLock(refusal) => for_lock(refusal)?,
+        ProblemError::EmptyWindow(_) => WINDOW,
+        ProblemError::Field(error) => match &**error {
+            FieldError::Undecided { .. } => return None,
+            _ => "see `wavestep field --help`",
+        },
+        ProblemError::ModelOfLocalContact(_) => STEPS,
+        ProblemError::NoProof(..) => "ask for tested values, as in `--method steps:1e-10`",
+        ProblemError::NoDigits(_) => {
+            "leave out --digits; finer values are had by `--method steps:1e-13`"
+        }
+        ProblemError::NoCommonPeriods(_) => "evaluate it with `wavestep eval`, or derive its waves",
+        ProblemError::UnknownOrder(_) => {
+            "give values with --set, or evaluate it with `wavestep eval`"
+        }
+        ProblemError::NoPeriodsToExplain => "derive its echoes: leave out --explain",
+        ProblemError::NothingArrives(_) => "ask for a larger --through",
+        ProblemError::NoGeneralForm { symbol: Some(_), .. } => {
+            "ask for single orders, with --through or --piece; where a factor of symbols may vanish, \
+             stating `nonzero …` can help"
+        }
+        ProblemError::NoGeneralForm { symbol: None, .. } => {
+            "ask for single orders, with --through or --piece"
+        }
+        ProblemError::NoPeriods(_)
+        | ProblemError::NoPeriodsWhereContactsOpen
+        | ProblemError::NoPeriodsWithLocalContact(_) => "give --at T, or --from, --to and --points",
+        ProblemError::NoEnd => "give --to T",
+        ProblemError::TooManyTerms(_) => {
+            "ask for a smaller order, one wave, one piece, or --form echo"
+        }
+        ProblemError::TooManyEchoes { .. } => "ask for a smaller --through, or one wave",
+        ProblemError::EchoesOfObservable(_) => "derive the waves with --form echo",
+        ProblemError::NoCommonMeasure(_) => {
+            "ask for the echoes of waves, with --wave NAME and --through N, or evaluate"
+        }
+        ProblemError::NothingToExplain => {
+            "ask for --explain with a scene of bars and elements, or leave it out"
+        }
+        ProblemError::NoSourceForm => {
+            "add a statement such as `written f in V/c, s as mu*z/L`, or leave out --source-form"
+        }
+        ProblemError::NoGeneralSourceForm => "leave out --source-form, or --general",
+        _ => return None,
+    })
+}
+
+fn for_network(error: &NetworkError) -> Option<&'static str> {
+    Some(match error {
+        NetworkError::Incommensurate => {
+            "ask `derive` for echoes in order of their arrival, with --form echo, or `eval` for values"
+        }
+        NetworkError::Rates { .. } => {
+            "give values with --set; or state the elements by their rates a and b, or sigma and \
+             omega, as docs/scene-language.md shows"
+        }
+        NetworkError::NotLinear(_) => "ask for values, with `eval`",
+        NetworkError::Division(_) => VALUES,
+        _ => return None,
+    })
+}
+
+fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
+    Some(match error {
+        EvaluateError::NotLinear(_) => {
+            "ask for a force or a velocity, or for digits: `eval` without --tol and --method"
+        }
+        EvaluateError::AccuracyNotReached { .. } => "raise --max-bits, or ask for fewer digits",
+        EvaluateError::EmptyWindow => WINDOW,
+        _ => return None,
+    })
+}
+
+fn for_way(error: &WayError) -> Option<&'static str> {
+    Some(match error {
+        WayError::Method(MethodError::NoTaps(_)) => "use --method compiled or certified",
+        WayError::Method(_) => "ask for a shorter window, or use --method certified",
+        WayError::NeedsRecurrence(_) => STEPS,
+        WayError::LeftLimit(_) => "leave out --side left",
+        WayError::NoNumber(..) => "use --method certified",
+        WayError::NotMet { .. } => "ask for digits instead: --digits 25",
+        _ => return None,
+    })
+}
+
+fn for_lock(refusal: &LockRefusal) -> Option<&'static str> {
+    Some(match refusal {
+        LockRefusal::PeriodsWhereContactsOpen => {
+            "leave out --through: events are locked, until --until T"
+        }
+        LockRefusal::NoEvents => "give --through N for pieces and --at T for values",
+        LockRefusal::ValuesWithUnits => "leave out --at: pieces are locked, without units",
+        LockRefusal::ValuesWithConstants(_) => {
+            "leave out --at: pieces are locked with their symbols"
+        }
+        LockRefusal::NoLastPeriod => "give --through N, for the periods 0 … N",
+        LockRefusal::PiecesLocked | LockRefusal::EventsLocked => return None,
+    })
+}
+
+const VALUES: &str = "give values with --set";
 const WINDOW: &str = "give --from before --to";
 const STEPS: &str = "leave out --method, or ask for `--method steps:1e-10`";
 

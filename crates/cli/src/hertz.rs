@@ -51,7 +51,7 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
     })?;
     let bits = 10 * options.digits as u64 / 3 + SPARE_BITS;
     let contact = ContactOfScene::new(scaled, bits)?;
-    let rows = rows(&contact, &problem, options, bits)?;
+    let rows = Told { contact: &contact, problem: &problem, options, bits }.rows()?;
     let text = |row: &Row| row.value.to_decimal(row.digits).midpoint().to_string();
     let name = &scaled.scene().elements[contact.element].name;
     Ok(match options.format {
@@ -77,90 +77,95 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
     })
 }
 
-/// All values that are told.
-fn rows(
-    contact: &ContactOfScene,
-    problem: &Problem,
-    options: &Hertz,
+/// What is told of a contact, in the units of its scene.
+struct Told<'a> {
+    contact: &'a ContactOfScene,
+    problem: &'a Problem,
+    options: &'a Hertz,
     bits: u64,
-) -> Result<Vec<Row>, Failure> {
-    let dimensional = problem.has_units();
-    let bars = &contact.bars;
-    let spring = bars.equivalent_spring();
-    let unit = |dimension: Dimension| match dimensional {
-        true => dimension.unit(),
-        false => String::new(),
-    };
-    let row = |name: String, key: String, value: &Ball, unit: String| Row {
-        name,
-        key,
-        value: value.clone(),
-        unit,
-        digits: options.digits,
-    };
-    let fixed = |name: &str, key: &str, value: &Ball, dimension| {
-        row(name.to_owned(), key.to_owned(), value, unit(dimension))
-    };
-    let exponent = bars.law().exponent();
-    let unit_of_law = match (dimensional, exponent.is_integer()) {
-        (true, true) if exponent.is_one() => "N/m".to_owned(),
-        (true, true) => format!("N/m^{exponent}"),
-        (true, false) => format!("N/m^({exponent})"),
-        (false, _) => String::new(),
-    };
-    let mut rows = vec![
-        row("stiffness".to_owned(), "stiffness".to_owned(), bars.stiffness(), unit_of_law),
-        fixed("largest force", "largest_force", bars.largest_force(), Dimension::FORCE),
-        fixed(
-            "largest compression",
-            "largest_compression",
-            bars.largest_compression(),
-            Dimension::LENGTH,
-        ),
-        fixed("characteristic time", "time_unit", bars.time_unit(), Dimension::TIME),
-        fixed("equivalent spring", "equivalent_spring", spring.stiffness(), Dimension::STIFFNESS),
-        Row {
-            digits: options.digits.min(PLACES as usize - 2),
-            ..row(
-                "its force is off by at most".to_owned(),
-                "distance_from_spring".to_owned(),
-                &distance_from_spring(bars.law(), PLACES)?,
-                "of the largest force".to_owned(),
-            )
-        },
-    ];
-    for text in &options.rise {
-        let share = number("--rise", text)?;
-        let text = text.trim();
-        let times = [
-            (format!("rise to {text}"), format!("rise_to_{text}"), bars.rise_time(&share)?),
-            (
-                format!("rise to {text}, equivalent spring"),
-                format!("spring_rise_to_{text}"),
-                spring.rise_time(&share)?,
-            ),
-        ];
-        for (name, key, time) in times {
-            told_past_return(contact, &name, &time);
-            rows.push(row(name, key, &time, unit(Dimension::TIME)));
+}
+
+impl Told<'_> {
+    /// All values.
+    fn rows(&self) -> Result<Vec<Row>, Failure> {
+        let mut rows = self.constants()?;
+        for share in &self.options.rise {
+            rows.extend(self.rise(share)?);
         }
+        for time in &self.options.at {
+            rows.push(self.force_at(time)?);
+        }
+        let until = self.contact.first_return.as_ref();
+        rows.extend(until.map(|time| self.row("valid until", time, Dimension::TIME)));
+        Ok(rows)
     }
-    for text in &options.at {
-        let text = text.trim();
-        let time: BigRational = problem.time("--at", text)?;
-        let at = Ball::from_rational(&time, bits);
-        let force = match num_traits::Zero::is_zero(&time) {
-            true => at.clone(),
-            false => bars.force(&at)?,
+
+    /// A value of a dimension; its key is its name with low lines.
+    fn row(&self, name: &str, value: &Ball, dimension: Dimension) -> Row {
+        let unit = if self.problem.has_units() { dimension.unit() } else { String::new() };
+        let (key, digits) = (name.replace(' ', "_"), self.options.digits);
+        Row { name: name.to_owned(), key, value: value.clone(), unit, digits }
+    }
+
+    fn constants(&self) -> Result<Vec<Row>, Failure> {
+        let bars = &self.contact.bars;
+        let exponent = bars.law().exponent();
+        let unit_of_law = match (self.problem.has_units(), exponent.is_integer()) {
+            (true, true) if exponent.is_one() => "N/m".to_owned(),
+            (true, true) => format!("N/m^{exponent}"),
+            (true, false) => format!("N/m^({exponent})"),
+            (false, _) => String::new(),
         };
-        let name = format!("force at {text}");
-        told_past_return(contact, &name, &at);
-        rows.push(row(name, format!("force_at_{text}"), &force, unit(Dimension::FORCE)));
+        let stiffness = self.row("stiffness", bars.stiffness(), Dimension::NONE);
+        let spring = bars.equivalent_spring();
+        let distance = distance_from_spring(bars.law(), PLACES)?;
+        Ok(vec![
+            Row { unit: unit_of_law, ..stiffness },
+            self.row("largest force", bars.largest_force(), Dimension::FORCE),
+            self.row("largest compression", bars.largest_compression(), Dimension::LENGTH),
+            Row {
+                key: "time_unit".to_owned(),
+                ..self.row("characteristic time", bars.time_unit(), Dimension::TIME)
+            },
+            self.row("equivalent spring", spring.stiffness(), Dimension::STIFFNESS),
+            Row {
+                key: "distance_from_spring".to_owned(),
+                unit: "of the largest force".to_owned(),
+                digits: self.options.digits.min(PLACES as usize - 2),
+                ..self.row("its force is off by at most", &distance, Dimension::NONE)
+            },
+        ])
     }
-    if let Some(time) = &contact.first_return {
-        rows.push(fixed("valid until", "valid_until", time, Dimension::TIME));
+
+    /// The times in which the force rises to a share of its largest value, here and with the equivalent
+    /// spring.
+    fn rise(&self, share: &str) -> Result<[Row; 2], Failure> {
+        let bars = &self.contact.bars;
+        let (part, share) = (number("--rise", share)?, share.trim());
+        let here = self.row(&format!("rise to {share}"), &bars.rise_time(&part)?, Dimension::TIME);
+        let here = Row { key: format!("rise_to_{share}"), ..here };
+        let name = format!("rise to {share}, equivalent spring");
+        let time = bars.equivalent_spring().rise_time(&part)?;
+        let spring = self.row(&name, &time, Dimension::TIME);
+        let rows = [here, Row { key: format!("spring_rise_to_{share}"), ..spring }];
+        for row in &rows {
+            told_past_return(self.contact, &row.name, &row.value);
+        }
+        Ok(rows)
     }
-    Ok(rows)
+
+    fn force_at(&self, time: &str) -> Result<Row, Failure> {
+        let (exact, text): (BigRational, &str) =
+            (self.problem.time("--at", time.trim())?, time.trim());
+        let at = Ball::from_rational(&exact, self.bits);
+        let force = match num_traits::Zero::is_zero(&exact) {
+            true => at.clone(),
+            false => self.contact.bars.force(&at)?,
+        };
+        let row = self.row(&format!("force at {text}"), &force, Dimension::FORCE);
+        told_past_return(self.contact, &row.name, &at);
+        Ok(Row { key: format!("force_at_{text}"), ..row })
+    }
 }
 
 /// Notes that a value belongs to a time at which waves from far ends are felt.
