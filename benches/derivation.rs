@@ -38,19 +38,6 @@ fn expand(solution: &Solution, through: usize) -> u64 {
     bits
 }
 
-/// Streams all coefficients of f_0 … f_through in ordinary powers of s and μ, reduced.
-fn reduce(solution: &Solution, through: usize) -> usize {
-    let ordinary = table(solution, through).to_ordinary();
-    let mut limbs = 0;
-    for n in 0..=through {
-        ordinary.for_each_ordinary_term(n, 2, |term| {
-            let (numerator, denominator) = term.value.limbs();
-            limbs += numerator.len() + denominator.len();
-        });
-    }
-    limbs
-}
-
 /// f_80 derived and written as LaTeX.
 fn formula(recurrence: &Recurrence) -> usize {
     let solution = Solution::new(recurrence.clone());
@@ -71,10 +58,6 @@ fn expanded(c: &mut Criterion) {
             });
         }
     }
-    let solution = Solution::new(rigid_mass());
-    group.bench_function("rigid mass to 80, reduced in ordinary powers", |b| {
-        b.iter(|| black_box(reduce(&solution, 80)));
-    });
     let recurrence = rigid_mass();
     group.bench_function("rigid mass, f_80 as LaTeX", |b| {
         b.iter(|| black_box(formula(&recurrence)));

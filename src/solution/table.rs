@@ -2,7 +2,7 @@
 //!
 //! `docs/divided-powers.md` proves that they are integers, and counts them.
 
-use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate, WordRatio};
+use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate};
 
 /// One echo whose constants are all rational numbers,
 ///
@@ -50,25 +50,6 @@ pub struct ExpandedTerm<'a> {
     pub numerator: IntegerRef<'a>,
     /// The shared denominator of the row.
     pub denominator: &'a Integer,
-}
-
-/// One term of a piece in ordinary powers of the local variable `s` and of `x`, where the
-/// period is `D = c x` with a whole number c:
-///
-/// ```text
-/// value · e^{λ (s + mD)} · s^i · x^l
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct OrdinaryTerm<'a> {
-    /// The exponent `λ`.
-    pub rate: &'a Rational,
-    /// The number `m` of periods that the echo is old.
-    pub age: u32,
-    pub local_power: u32,
-    /// The power of `x`.
-    pub symbol_power: u32,
-    /// The reduced number in front, not zero.
-    pub value: &'a WordRatio,
 }
 
 /// The echoes `φ_0 … φ_N` of a wave whose constants are all rational numbers: the factored form of
@@ -127,58 +108,5 @@ impl EchoTable {
             let age = u32::try_from(n - k).expect("orders fit 32 bits");
             row.parts.iter().map(move |(rate, polynomial)| (age, rate, polynomial))
         })
-    }
-
-    /// The table in ordinary powers. One gcd a coefficient.
-    pub fn to_ordinary(&self) -> OrdinaryTable {
-        let ratios = |polynomial: &Univariate| {
-            let count = polynomial.coefficients().len();
-            (0..count).map(|j| WordRatio::from(&polynomial.coefficient(j))).collect()
-        };
-        let row = |row: &EchoRow| {
-            row.parts.iter().map(|(rate, polynomial)| (rate.clone(), ratios(polynomial))).collect()
-        };
-        OrdinaryTable { rows: self.rows.iter().map(row).collect() }
-    }
-}
-
-/// The coefficients of an [`EchoTable`] in ordinary powers, reduced.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct OrdinaryTable {
-    rows: Vec<Vec<(Rational, Vec<WordRatio>)>>,
-}
-
-impl OrdinaryTable {
-    /// Calls `visit` for every coefficient of the n-th piece in ordinary powers, with the period
-    /// `D = multiple · x`.
-    ///
-    /// With `m = n−k` and `j = i+l` it is `a_{k,j} C(j,l) (cm)^l`, where `a_{k,j}` belongs to `x^j`
-    /// in the k-th echo: from `l` to `l+1` it changes by `cm (j−l)/(l+1)`, so that only gcds of
-    /// words are taken.
-    pub fn for_each_ordinary_term(
-        &self,
-        n: usize,
-        multiple: u32,
-        mut visit: impl FnMut(OrdinaryTerm<'_>),
-    ) {
-        let mut value = WordRatio::from(&Rational::default());
-        for (k, row) in self.rows[..=n].iter().enumerate() {
-            let age = u32::try_from(n - k).expect("orders fit 32 bits");
-            let step = age.checked_mul(multiple).expect("a delay fits 32 bits");
-            for (rate, start) in row {
-                for (j, start) in (0_u32..).zip(start) {
-                    value.clone_from(start);
-                    for l in 0..=j {
-                        if value.limbs().0.is_empty() {
-                            break;
-                        }
-                        let (local_power, symbol_power) = (j - l, l);
-                        visit(OrdinaryTerm { rate, age, local_power, symbol_power, value: &value });
-                        let above = step.checked_mul(j - l).expect("a step fits 32 bits");
-                        value.multiply(above, l + 1);
-                    }
-                }
-            }
-        }
     }
 }

@@ -324,33 +324,6 @@ fn streamed_terms_add_up_to_pieces() {
     }
 }
 
-/// In ordinary powers the same pieces, each coefficient reduced.
-#[test]
-fn streamed_coefficients_add_up_to_pieces() {
-    for (name, multiple) in [("rigid-mass", 2), ("pulse-shape", 1)] {
-        let solution = Solution::new(scene(name));
-        let statement = solution.recurrence().statement();
-        let (s, period) = (Fraction::symbol(&statement.local), &statement.period);
-        let x = period.scale(&Rational::new(1.into(), multiple.into()));
-        let ordinary = table(&solution, 0, 12).to_ordinary();
-        let pieces = solution.pieces(0, 0, 12).unwrap_or_else(|error| panic!("{error}"));
-        for (n, piece) in pieces.iter().enumerate() {
-            let mut sum = Expression::zero();
-            ordinary.for_each_ordinary_term(n, multiple, |term| {
-                let value = term.value.to_rational();
-                let (numerator, denominator) = term.value.limbs();
-                assert!(value.numer().magnitude().iter_u64_digits().eq(numerator.iter().copied()));
-                assert!(value.denom().iter_u64_digits().eq(denominator.iter().copied()));
-                let age = Rational::from_integer(term.age.into());
-                let exponent = (&s + &period.scale(&age)).scale(term.rate);
-                let powers = &s.pow(term.local_power) * &x.pow(term.symbol_power);
-                sum.add_term(exponent, powers.scale(&value));
-            });
-            assert_eq!(sum, *piece, "{name}: {n}");
-        }
-    }
-}
-
 /// The coefficient of `e^{−s−mD} s^j/j! D^l/l!` in `f_n` is `C(k,i) (−2)^i m^l`, `k = n − m`,
 /// `i = j + l`; with `D = 2μ` the period form of 6.80–6.82.
 #[test]
