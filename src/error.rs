@@ -186,9 +186,10 @@ fn kind_of_evaluate(error: &EvaluateError) -> Kind {
         EvaluateError::Network(error) => kind_of_network(error),
         EvaluateError::Division(error) => kind_of_division(error),
         EvaluateError::NotReal => Kind::Undefined,
-        EvaluateError::Ball(_) | EvaluateError::TooSteep | EvaluateError::NotLinear(_) => {
-            Kind::NotSupported
-        }
+        EvaluateError::Ball(_)
+        | EvaluateError::TooSteep
+        | EvaluateError::NoClosedForm
+        | EvaluateError::NotLinear(_) => Kind::NotSupported,
     }
 }
 
@@ -260,7 +261,6 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             // The others say themselves what to give.
             _ => return None,
         },
-        ProblemError::ContactsOpen => "leave `contacts open` out of the scene",
         ProblemError::NotAnObservable { .. } => "this scene has no observables: derive its waves",
         ProblemError::ObservableIsNoWave(_) => "it is an observable: derive it as such",
         ProblemError::NoNumber(_) | ProblemError::NotFinite(_) => "give a number",
@@ -337,6 +337,7 @@ fn remedy_of_evaluate(error: &EvaluateError) -> String {
     let usual = match error {
         EvaluateError::MissingValue(symbol) => return format!("give {symbol} a value"),
         EvaluateError::NotLinear(_) => "ask for a force or a velocity, or for digits",
+        EvaluateError::NoClosedForm => "ask for `certified` or `compiled` values",
         EvaluateError::EmptyWindow => "let the window end after it begins",
         EvaluateError::TooManyRoots { .. } | EvaluateError::TooManyCells { .. } => {
             "ask for a shorter window"

@@ -4,7 +4,7 @@
 //! `cargo bench --bench costs` and rounded: they rank ways against each other and are not promises.
 //! `docs/accuracy-and-speed.md` draws such measurements.
 
-use crate::answer::way::Kind;
+use crate::answer::kind::Kind;
 use crate::evaluate::StablePrecision;
 
 /// How large a problem is.

@@ -1,8 +1,9 @@
 //! Values in doubles: by a method that is named, or by the cheapest that is proven to be good enough.
 
+use crate::answer::kind::Kind;
 use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
-use crate::answer::way::{Kind, Way, WayError};
+use crate::answer::way::{Way, WayError};
 use crate::answer::weigh::{Weighed, consider};
 use crate::evaluate::Limit;
 use std::cell::OnceCell;
@@ -115,7 +116,7 @@ struct Choice<'p, 'a> {
     remarks: Vec<Remark>,
 }
 
-impl<'a> Choice<'_, 'a> {
+impl<'p> Choice<'p, '_> {
     fn scale(&self) -> Result<f64, WayError> {
         if let Some(scale) = self.scale.get() {
             return Ok(*scale);
@@ -137,7 +138,7 @@ impl<'a> Choice<'_, 'a> {
     }
 
     /// The method that is named.
-    fn named(&mut self, kind: Kind, tolerance: Option<Tolerance>) -> Result<Way<'a>, WayError> {
+    fn named(&mut self, kind: Kind, tolerance: Option<Tolerance>) -> Result<Way<'p>, WayError> {
         let absolute = tolerance.map(|tolerance| self.absolute(tolerance)).transpose()?;
         let way = Way::new(kind, self.question, absolute)?;
         self.remarks.push(Remark::AsAskedFor);
@@ -150,7 +151,7 @@ impl<'a> Choice<'_, 'a> {
     }
 
     /// The cheapest method that is proven to be good enough.
-    fn cheapest(&mut self, points: usize, tolerance: Tolerance) -> Result<Way<'a>, WayError> {
+    fn cheapest(&mut self, points: usize, tolerance: Tolerance) -> Result<Way<'p>, WayError> {
         let absolute = self.absolute(tolerance)?;
         let weighed = consider(self.question, points, absolute, self.scale()?)?;
         if !weighed.met {

@@ -7,6 +7,7 @@
 
 mod cost;
 mod doubles;
+mod kind;
 mod question;
 mod tolerance;
 mod way;
@@ -14,7 +15,8 @@ mod weigh;
 
 pub use cost::{Cost, Size};
 pub use doubles::{Accuracy, Doubles, Remark, Tested, doubles};
+pub use kind::{InvalidWay, Kind};
 pub use question::Question;
 pub use tolerance::{InvalidTolerance, Tolerance};
-pub use way::{InvalidWay, Kind, Way, WayError};
+pub use way::{Way, WayError};
 pub use weigh::{Candidate, Promise, Weighed, consider};

@@ -1,11 +1,12 @@
 //! Which way is the cheapest whose proven bound meets a tolerance.
 
 use crate::answer::cost::{Cost, Size};
+use crate::answer::kind::Kind;
 use crate::answer::question::Question;
-use crate::answer::way::Kind;
 use crate::ball::unit_in_the_last_place;
 use crate::evaluate::{EvaluateError, NoTaps, StablePrecision, Taps};
 use crate::limits::MAX_PIECES;
+use std::fmt;
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Kind; 7] = [
@@ -73,35 +74,36 @@ pub fn consider(
     scale: f64,
 ) -> Result<Weighed, EvaluateError> {
     let order = question.order()?;
-    let taps = Taps::of(question.signal);
-    let marches = taps.as_ref().is_ok_and(Taps::is_rational) && question.signal.is_rational();
+    let form = question.signal.closed_form();
+    let taps = form.as_ref().map(|form| Taps::of(form));
+    let marches = matches!((&form, &taps), (Ok(form), Ok(Ok(taps))) if taps.is_rational() && form.is_rational());
     let size = Size { order, points, marches };
     let ulp = unit_in_the_last_place(scale);
     let candidate = |kind: Kind| {
-        let cost = match (&kind, &taps) {
-            (Kind::Marched { .. }, Err(_)) => {
-                Some(Cost::of_waves(size, question.signal.recurrence().wave_count()))
+        let cost = match (kind, &form, &taps) {
+            (Kind::Marched { .. }, Ok(form), Ok(Err(_))) => {
+                Some(Cost::of_waves(size, form.recurrence().wave_count()))
             }
             _ => Cost::of(kind, size),
         };
         let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));
-        let needs_taps = !matches!(kind, Kind::Certified | Kind::Compiled | Kind::Expanded);
-        if let (true, Err(reason)) = (needs_taps, &taps) {
-            if matches!(kind, Kind::Marched { .. }) && *reason != NoTaps::NoGrid {
+        let told = |promise, verdict: String| Candidate { kind, promise, seconds, verdict };
+        let refused = |reason: &dyn fmt::Display| told(None, format!("has no values: {reason}"));
+        match (kind, &taps) {
+            (Kind::Certified | Kind::Compiled, _) | (_, Ok(Ok(_))) => {}
+            (_, Err(reason)) => return refused(reason),
+            (Kind::Expanded, _) => {}
+            (Kind::Marched { .. }, Ok(Err(reason))) if *reason != NoTaps::NoGrid => {
                 let promise = Some(Promise::Measured(MARCHED_WAVES * scale));
-                let verdict = "it has no bound here: its error is measured, not proven".to_owned();
-                return Candidate { kind, promise, seconds, verdict };
+                return told(
+                    promise,
+                    "it has no bound here: its error is measured, not proven".into(),
+                );
             }
-            return Candidate {
-                kind,
-                promise: None,
-                seconds,
-                verdict: format!("has no values: {reason}"),
-            };
+            (_, Ok(Err(reason))) => return refused(reason),
         }
-        if order > MAX_PIECES && !needs_taps {
-            let verdict = format!("has no values: more than {MAX_PIECES} periods");
-            return Candidate { kind, promise: None, seconds, verdict };
+        if order > MAX_PIECES && matches!(kind, Kind::Certified | Kind::Compiled | Kind::Expanded) {
+            return refused(&format_args!("more than {MAX_PIECES} periods"));
         }
         let promise = match kind {
             Kind::Certified => Promise::Proven(ulp / 2.0),
@@ -112,12 +114,12 @@ pub fn consider(
             _ => Promise::Nothing,
         };
         let verdict = match promise {
-            Promise::Proven(bound) if bound <= tolerance => "proven to be good enough".to_owned(),
-            Promise::Proven(_) => "its proven bound is larger than the tolerance".to_owned(),
-            Promise::Measured(_) => "its error is measured, not proven".to_owned(),
-            Promise::Nothing => "it promises nothing".to_owned(),
+            Promise::Proven(bound) if bound <= tolerance => "proven to be good enough",
+            Promise::Proven(_) => "its proven bound is larger than the tolerance",
+            Promise::Measured(_) => "its error is measured, not proven",
+            Promise::Nothing => "it promises nothing",
         };
-        Candidate { kind, promise: Some(promise), seconds, verdict }
+        told(Some(promise), verdict.to_owned())
     };
     let mut candidates: Vec<Candidate> = METHODS.into_iter().map(candidate).collect();
     let meets = |candidate: &Candidate| matches!(candidate.promise, Some(Promise::Proven(bound)) if bound <= tolerance);

@@ -3,6 +3,7 @@
 use crate::ball::{Ball, Binary, Magnitude};
 use num_bigint::BigInt;
 use num_traits::{ToPrimitive as _, Zero as _};
+use wavestep_polynomial::Rational;
 
 impl Ball {
     /// A double near the midpoint, and a bound on its distance from every point of the ball.
@@ -114,6 +115,27 @@ impl Magnitude {
             Some(_) => self.to_binary().to_double(),
         }
     }
+}
+
+/// A finite double as a fraction.
+pub(crate) fn rational(value: f64) -> Rational {
+    Rational::from(&Binary::from_double(value).expect("a finite number"))
+}
+
+/// The smallest double that is at least as large.
+pub(crate) fn at_or_after(value: &Rational) -> f64 {
+    let ball = Ball::from_rational(value, 80);
+    let double = ball.midpoint().to_double();
+    match rational(double) < *value {
+        true => double.next_up(),
+        false if rational(double.next_down()) >= *value => double.next_down(),
+        false => double,
+    }
+}
+
+/// The largest double that is at most as large.
+pub(crate) fn at_or_before(value: &Rational) -> f64 {
+    -at_or_after(&-value)
 }
 
 /// The distance of doubles at a value: `2^(e−52)` for `2^e ≤ |value| < 2^(e+1)`.

@@ -31,7 +31,7 @@ pub use binary::Binary;
 pub(crate) use complex::ComplexBall;
 pub use decimal::{Decimal, Exactness, in_decimals};
 pub(crate) use divided::evaluate_divided;
-pub(crate) use double::unit_in_the_last_place;
+pub(crate) use double::{at_or_after, at_or_before, rational, unit_in_the_last_place};
 pub use enclosure::DecimalEnclosure;
 pub use error::BallError;
 pub(crate) use exponential::exp_of_rational;

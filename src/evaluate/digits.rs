@@ -54,6 +54,27 @@ pub fn digits(
     }
 }
 
+/// The value where it is zero, or a rational number of which one look tells; nothing where exact
+/// arithmetic cannot go so far.
+///
+/// # Errors
+/// [`EvaluateError`], where the value cannot be enclosed.
+pub(crate) fn rational_value(
+    signal: &dyn Signal,
+    at: &Rational,
+    limit: Limit,
+) -> Result<Option<Rational>, EvaluateError> {
+    match signal.point(at, limit).and_then(|point| point.rational()) {
+        Err(
+            EvaluateError::TooManyPeriods { .. }
+            | EvaluateError::TooManyEchoes { .. }
+            | EvaluateError::Network(_)
+            | EvaluateError::NotReal,
+        ) => Ok(None),
+        value => value,
+    }
+}
+
 impl Point<'_> {
     /// See [`value`].
     pub(crate) fn value(&self, digits: usize, limit_bits: u64) -> Result<Value, EvaluateError> {

@@ -49,6 +49,9 @@ pub enum EvaluateError {
     /// A time after the last one that an evaluator was made for.
     #[error("the time is after the last one that was prepared for")]
     AfterLast,
+    /// Waves that are followed from event to event, where sums of echoes or steps of periods are asked for.
+    #[error("there is no closed form of the waves, as this method needs it")]
+    NoClosedForm,
     /// A value that cannot be divided by.
     #[error(transparent)]
     Division(#[from] NotAUnit),

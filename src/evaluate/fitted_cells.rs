@@ -5,7 +5,7 @@
 //! doubles, against the pieces of a march.
 
 use crate::ball::{Ball, Binary, Magnitude};
-use crate::evaluate::cells::{Cell, Fit};
+use crate::evaluate::cell::{Cell, Fit};
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::taylor::Taylor;
 use wavestep_kernels::fixed::{Interpolant, Spans};

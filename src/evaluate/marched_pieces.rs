@@ -4,12 +4,10 @@
 //! the march of [`wavestep_kernels::fixed`] gives Taylor polynomials of the response on equal pieces of
 //! all periods, with one proven bound, in a fraction of the time that balls take.
 
-use crate::ball::{Ball, Binary, ComplexBall, Magnitude};
+use crate::ball::{Ball, Binary, ComplexBall, Magnitude, at_or_after, rational};
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::{at_or_after, rational};
-use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::Limit;
+use crate::evaluate::signal::{Limit, Signal};
 use crate::evaluate::taps::{Extra, Taps};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::{Field as _, Transform};
@@ -53,7 +51,8 @@ struct RationalTap {
 
 impl MarchedPieces {
     /// The pieces of a signal, where it has some.
-    pub(crate) fn of(signal: &ClosedForm, from: &Rational, to: &Rational) -> Option<MarchedPieces> {
+    pub(crate) fn of(signal: &dyn Signal) -> Option<MarchedPieces> {
+        let ([from, to], signal) = (signal.window(), signal.closed_form().ok()?);
         let slowness = signal.slowness().as_constant()?;
         let unit = signal.unit().exact()?.as_constant()?;
         if from.is_negative() {

@@ -6,6 +6,7 @@
 //! digits asked for are certain (`digits`).
 
 mod arrivals;
+mod cell;
 mod cells;
 mod closed;
 mod digits;
@@ -22,14 +23,15 @@ mod transforms;
 pub use crate::ball::Value;
 pub use arrivals::{Arrival, arrivals};
 pub(crate) use cells::scale;
+pub use cells::{first_doubles, reaching_a_double};
 pub(crate) use closed::Waves;
 pub use closed::{ClosedForm, ClosedSignal, Stretch};
 pub use digits::{digits, value};
 pub use error::EvaluateError;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub use method::{
-    Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Recogniser, Stable,
-    StablePrecision, instructions,
+    Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Stable, StablePrecision,
+    instructions,
 };
 pub(crate) use signal::Known;
 pub use signal::{At, Limit, Point, Signal};

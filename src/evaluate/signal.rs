@@ -4,6 +4,7 @@ use crate::ball::{Ball, Magnitude};
 use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taylor::Taylor;
+use std::cmp::Ordering;
 pub use wavestep_kernels::Limit;
 use wavestep_polynomial::Rational;
 
@@ -80,12 +81,43 @@ pub trait Signal {
 
     /// The waves that it is seen in, where these are known in closed form: what methods for doubles
     /// that sum echoes or march from period to period need.
-    fn closed_form(&self) -> Option<&ClosedForm> {
-        None
+    ///
+    /// # Errors
+    /// [`EvaluateError::NoClosedForm`] for all other signals.
+    fn closed_form(&self) -> Result<&ClosedForm, EvaluateError> {
+        Err(EvaluateError::NoClosedForm)
     }
 
     /// How many stretches there are, with numbers from 0 on; to tell that, all breaks are found.
     fn count(&self) -> Result<usize, EvaluateError>;
+
+    /// How the beginning of a stretch compares with a time.
+    fn begins(&self, stretch: usize, at: &Rational) -> Result<Ordering, EvaluateError>;
+
+    /// The stretch of a time: for the limit from the left the one that ends there, which is not known
+    /// where the window begins.
+    ///
+    /// # Errors
+    /// [`EvaluateError::AfterLast`] outside the window; [`EvaluateError`] where the order of two times is not decided.
+    fn stretch_at(&self, at: &Rational, side: Limit) -> Result<Option<usize>, EvaluateError> {
+        let [from, to] = self.window();
+        if at < from || at > to {
+            return Err(EvaluateError::AfterLast);
+        }
+        if at == from && side == Limit::Left {
+            return Ok(None);
+        }
+        let (mut low, mut high) = (0, self.count()?);
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            let order = self.begins(middle, at)?;
+            match order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        Ok(Some(low))
+    }
 
     /// Whether a stretch is the last instant of the window alone.
     fn is_instant(&self, stretch: usize) -> bool;

@@ -323,6 +323,16 @@ impl Signal for FollowedSignal<'_> {
         Ok(pieces.map_err(|error| error.of_value(known.engine.cut.bits))?.len())
     }
 
+    fn begins(&self, stretch: usize, at: &Rational) -> Result<Ordering, EvaluateError> {
+        let at = Moment::at(self.network.scaled_time(at));
+        let attempt = |bits| {
+            let followed = self.cut(bits)?;
+            let order = followed.engine.clock.compare(&followed.piece(stretch).ends[0], &at);
+            Ok(order.map_or_else(|error| Attempt::NotYet(error.of_value(bits)), Attempt::Done))
+        };
+        Precisions::whole_doublings(FIRST_BITS, SEARCH_BITS).raise(attempt).and_then(Attempt::done)
+    }
+
     fn is_instant(&self, stretch: usize) -> bool {
         let known = self.known.borrow();
         let [from, to] = &known.piece(stretch).ends;

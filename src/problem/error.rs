@@ -71,9 +71,6 @@ pub enum ProblemError {
         /// The spring nearest to it, as a scene states it.
         spring: Option<String>,
     },
-    /// Contacts open, so that waves have no closed form.
-    #[error("contacts open in this scene")]
-    ContactsOpen,
     /// Contacts open, so that there are no periods, and no echoes to count.
     #[error("where contacts open there are no periods and no counted echoes")]
     NoPeriodsWhereContactsOpen,

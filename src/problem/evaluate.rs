@@ -2,14 +2,14 @@
 
 use super::error::equivalent_spring;
 use super::{Kind, Problem, ProblemError, Wanted};
-use crate::answer::{self, Accuracy, Doubles, Kind as Method, Remark, Tested, Way, WayError};
-use crate::evaluate::{self, ClosedSignal, EvaluateError, Limit, Recogniser, Signal, Value};
+use crate::answer::{
+    self, Accuracy, Doubles, Kind as Method, Question, Remark, Tested, Way, WayError,
+};
+use crate::evaluate::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use crate::expression::Fraction;
 use crate::model::ModelError;
-use crate::network::Network;
 use crate::signal::{self, Purpose};
 use num_traits::Signed as _;
-use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// How values with proven digits are asked for.
@@ -33,25 +33,6 @@ pub struct Proven {
     /// How many echoes were worked out, of how many that can reach what is observed, where they were
     /// counted.
     pub echoes: Option<(usize, usize)>,
-}
-
-/// A wave or an observable on a window, with what tells its values.
-pub struct OnWindow<'p> {
-    signal: Rc<ClosedSignal<'p>>,
-    scene: Option<(&'p Network, usize)>,
-    recognise: Box<Recogniser<'p>>,
-}
-
-impl OnWindow<'_> {
-    /// What methods and models are asked.
-    ///
-    /// # Errors
-    /// [`EvaluateError`] where there is no closed form.
-    pub fn question(&self) -> Result<answer::Question<'_>, EvaluateError> {
-        let [from, to] = self.signal.window().map(Clone::clone);
-        let (signal, recognise) = (self.signal.form()?, &*self.recognise);
-        Ok(answer::Question { signal, scene: self.scene, recognise, from, to })
-    }
 }
 
 #[doc(hidden)]
@@ -120,28 +101,24 @@ impl Problem {
         }
         let first = times.iter().min().cloned().unwrap_or_default();
         let last = times.iter().max().cloned().unwrap_or_default();
-        let on_window = self.on_window(name, [first, last])?;
-        Ok(answer::doubles(&on_window.question()?, times, limit, accuracy)?)
+        let question = self.question(name, [first, last])?;
+        Ok(answer::doubles(&question, times, limit, accuracy)?)
     }
 
-    /// A wave or an observable on a window, for methods and models in doubles.
+    /// A wave or an observable on a window, for methods and models in doubles; where no double lies in the
+    /// window, it is begun at the one before.
     ///
     /// # Errors
-    /// [`ProblemError::ContactsOpen`]; [`ProblemError`] where it is unknown or has no values.
-    pub fn on_window(
+    /// [`ProblemError`] where it is unknown or has no values.
+    pub fn question(
         &self,
         name: &str,
         window: [Rational; 2],
-    ) -> Result<OnWindow<'_>, ProblemError> {
-        if self.contacts_open() {
-            return Err(ProblemError::ContactsOpen);
-        }
+    ) -> Result<Question<'_>, ProblemError> {
         let wanted = self.wanted(name)?;
-        let signal = Rc::new(self.closed_signal(&wanted, window.each_ref())?);
-        let scene = self.network().ok().zip(wanted.place());
-        let exact = signal.clone();
-        let recognise = Box::new(move |at: &Rational, limit| exact.rational(at, limit));
-        Ok(OnWindow { signal, scene, recognise })
+        let window = reaching_a_double(window);
+        let signal = self.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
+        Ok(Question { signal, scene: self.network().ok().zip(wanted.place()) })
     }
 
     /// A wave or an observable as a function of time on a window.

@@ -32,7 +32,7 @@ pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
 pub use equal::{Crossing, EqualError, EqualExtrema};
 pub use error::{Missing, ProblemError};
-pub use evaluate::{Digits, OnWindow, Proven};
+pub use evaluate::{Digits, Proven};
 pub use find::Course;
 pub use given::{Given, number};
 pub use lock::{LockRefusal, ToLock};

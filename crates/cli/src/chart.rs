@@ -28,8 +28,6 @@ pub fn run(options: &Options) -> Result<String, Failure> {
         None => usual_end(&problem)?,
     };
     let window = window(problem.time("--from", options.from.as_str())?, to)?;
-    let on_window = problem.on_window(quantity, window);
-    let on_window = on_window.map_err(|error| Failure::not_followed(error, "chart"))?;
     let asked = ToChart {
         quantity,
         sampling: Sampling { points: options.points, seed: options.seed },
@@ -40,7 +38,7 @@ pub fn run(options: &Options) -> Result<String, Failure> {
     let charts = {
         let spinner = progress::spinner("measuring");
         let tick = |text: &str| spinner.set_message(text.to_owned());
-        charts(&problem, &on_window.question()?, &asked, &tick)?
+        charts(&problem, window, &asked, &tick)?
     };
     for (name, reason) in &charts.left_out {
         eprintln!("note: {name} is left out: {reason}");

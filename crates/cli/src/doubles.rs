@@ -82,7 +82,7 @@ pub fn refused(error: ProblemError, points: usize, explain: bool) -> Failure {
     {
         eprint!("{}", explained(weighed, points, &tolerance.to_string(), *absolute));
     }
-    Failure::not_followed(error, "eval --tol` and `eval --method")
+    error.into()
 }
 
 /// The methods that were weighed, as a table.

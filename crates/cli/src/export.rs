@@ -21,12 +21,9 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     let nearest = to.to_f64().and_then(BigRational::from_float);
     let to = nearest.map_or(to.clone(), |nearest| nearest.max(to));
     let spinner = progress::spinner("expanding the observable");
-    let on_window = problem.on_window(&options.quantity, [from, to]);
-    let on_window = on_window.map_err(|error| Failure::not_followed(error, "export"))?;
-    let question = on_window.question()?;
+    let question = problem.question(&options.quantity, [from, to])?;
     let absolute = tolerance.absolute(question.scale()?);
-    let compiled = Compiled::new(question.signal, &question.from, &question.to, Some(absolute))
-        .map_err(WayError::from)?;
+    let compiled = Compiled::new(&*question.signal, Some(absolute)).map_err(WayError::from)?;
     drop(spinner);
     let bound = compiled.bound().expect("compiled polynomials have a bound");
     if bound > absolute {

@@ -102,14 +102,6 @@ impl Failure {
         }
     }
 
-    /// Why a command has no answer that does not follow contacts that open.
-    pub fn not_followed(error: ProblemError, command: &str) -> Failure {
-        let ProblemError::ContactsOpen = error else { return error.into() };
-        let message = format!("contacts that open are not followed by `{command}`");
-        let remedy = "leave `contacts open` out of the scene, or use `events`, `eval` with --digits, `find` or `plot`";
-        Failure::usage(message, remedy)
-    }
-
     /// A fault of usage.
     pub fn usage(message: impl Into<String>, remedy: impl Into<String>) -> Failure {
         Failure::Usage(message.into(), remedy.into())

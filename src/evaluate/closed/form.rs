@@ -7,7 +7,6 @@
 //! there.
 
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::first_double;
 use crate::evaluate::closed::periods::Periods;
 use crate::evaluate::closed::scene::{Echoes, SceneEchoes, solve_in, whole_periods};
 use crate::evaluate::error::EvaluateError;
@@ -166,15 +165,6 @@ impl ClosedForm {
         let slowness = self.numbers.enclose(&self.slowness, 128).ok()?;
         let inverse = slowness.reciprocal(128).ok()?;
         self.is_on_grid().then(|| period.multiply(&inverse, 128).to_double().0)
-    }
-
-    /// The smallest doubles that are not before the arrivals within a window, its ends apart.
-    ///
-    /// # Errors
-    /// As [`ClosedForm::stretches`].
-    pub fn arrivals(&self, from: &Rational, to: &Rational) -> Result<Vec<f64>, EvaluateError> {
-        let stretches = self.stretches(from, to)?;
-        stretches.iter().skip(1).map(|stretch| first_double(self, &stretch.from)).collect()
     }
 
     /// Whether unit and time are those of the waves, but for rational factors.

@@ -14,6 +14,7 @@ use crate::recurrence::Observation;
 use crate::solution::Solution;
 use std::borrow::Cow;
 use std::cell::OnceCell;
+use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// The precision in bits with which echoes that are zero are left out.
@@ -44,8 +45,6 @@ pub struct ClosedSignal<'a> {
 
 /// Where exact values come from.
 enum Source<'a> {
-    /// There are none.
-    Nowhere,
     Recurrence {
         echoes: Box<ExactEchoes<'a>>,
         value: Observation,
@@ -89,18 +88,6 @@ impl<'a> ClosedSignal<'a> {
         ClosedSignal::new(Source::Scene { network, observed, exact, echoes }, window)
     }
 
-    /// What is known by enclosures alone: a root that is an arrival, or one of even order, is not told.
-    ///
-    /// # Errors
-    /// [`EvaluateError::EmptyWindow`].
-    pub fn of_form(
-        form: ClosedForm,
-        window: [&Rational; 2],
-    ) -> Result<ClosedSignal<'static>, EvaluateError> {
-        let signal = ClosedSignal::new(Source::Nowhere, window)?;
-        Ok(ClosedSignal { form: OnceCell::from(form), ..signal })
-    }
-
     fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
         if to < from {
             return Err(EvaluateError::EmptyWindow);
@@ -140,27 +127,8 @@ impl<'a> ClosedSignal<'a> {
             Source::Scene { network, observed, .. } => {
                 ClosedForm::of_scene(network, observed, &self.window[1])?
             }
-            Source::Nowhere => unreachable!("a form without a source is given"),
         };
         Ok(self.form.get_or_init(|| form))
-    }
-
-    /// The value where it is zero, or a rational number of which one look tells; nothing where exact
-    /// arithmetic cannot go so far.
-    ///
-    /// # Errors
-    /// [`EvaluateError`], where the value cannot be enclosed.
-    pub fn rational(&self, at: &Rational, limit: Limit) -> Result<Option<Rational>, EvaluateError> {
-        match self.point(at, limit) {
-            Ok(point) => point.rational(),
-            Err(
-                EvaluateError::TooManyPeriods { .. }
-                | EvaluateError::TooManyEchoes { .. }
-                | EvaluateError::Network(_)
-                | EvaluateError::NotReal,
-            ) => Ok(None),
-            Err(error) => Err(error),
-        }
     }
 
     fn known_form(&self) -> &ClosedForm {
@@ -184,7 +152,6 @@ impl<'a> ClosedSignal<'a> {
     fn exact_value(&self, at: &Fraction, side: Limit) -> Result<Option<Rational>, EvaluateError> {
         let digits = |point: Point<'_>| point.value(FEW_DIGITS, SIGN_BITS);
         let value = match &self.source {
-            Source::Nowhere => return Ok(None),
             Source::Recurrence { echoes, value } => match at.as_constant() {
                 Some(at) => echoes.point(value, &at, side).and_then(digits),
                 None => return Ok(None),
@@ -287,20 +254,11 @@ impl Signal for ClosedSignal<'_> {
                     }
                 }
             }
-            Source::Nowhere => {
-                let form = self.form()?;
-                self.count()?;
-                let stretches = self.stretches.get().expect("stretches were counted");
-                let stretch = &stretches[form.stretch_at(stretches, at, side)?];
-                let scaled = form.slowness().scale(at);
-                let enclose = move |bits| form.enclose(stretch, 0, &scaled, bits);
-                Ok(Point::irrational(enclose))
-            }
         }
     }
 
-    fn closed_form(&self) -> Option<&ClosedForm> {
-        self.form().ok()
+    fn closed_form(&self) -> Result<&ClosedForm, EvaluateError> {
+        self.form()
     }
 
     fn count(&self) -> Result<usize, EvaluateError> {
@@ -310,6 +268,11 @@ impl Signal for ClosedSignal<'_> {
         let (form, [from, to]) = (self.form()?, &self.window);
         let stretches = form.audible(form.stretches(from, to)?, FIRST_BITS)?;
         Ok(self.stretches.get_or_init(|| stretches).len())
+    }
+
+    fn begins(&self, stretch: usize, at: &Rational) -> Result<Ordering, EvaluateError> {
+        let (form, from) = (self.known_form(), self.stretch(stretch).from());
+        Ok(form.numbers().compare(from, &form.slowness().scale(at))?)
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
@@ -385,7 +348,6 @@ impl Signal for ClosedSignal<'_> {
     fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
         let at = self.scaled(stretch, At::End(end));
         let value = match &self.source {
-            Source::Nowhere => return Ok(false),
             Source::Recurrence { echoes, value } => {
                 let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
                     return Ok(false);

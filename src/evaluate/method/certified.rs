@@ -6,14 +6,16 @@
 //! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
 //! enclosed one by one.
 
-use super::doubles::{Kept, ascend, piece};
+use super::doubles::{Kept, ascend, inside, piece};
 use super::{Method, MethodError};
-use crate::ball::{Attempt, Precisions};
-use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
-use crate::evaluate::closed::ClosedForm;
+use crate::ball::{Attempt, Ball, Precisions, rational};
+use crate::evaluate::cell::Fit;
+use crate::evaluate::cells::{Window, enclosure};
+use crate::evaluate::digits::rational_value;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::marched_pieces::MarchedPieces;
-use crate::evaluate::signal::Limit;
+use crate::evaluate::signal::{Limit, Signal};
+use num_traits::ToPrimitive as _;
 use std::cell::OnceCell;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
@@ -31,37 +33,25 @@ const MAX_BITS: u64 = 1 << 13;
 /// From how many values on polynomials pay: about what they cost over what a ball costs.
 const MANY: usize = 2_000;
 
-/// Tells a value that is a rational number: it gives the number at a time and a side, or nothing.
-pub type Recogniser<'a> = dyn Fn(&Rational, Limit) -> Result<Option<Rational>, EvaluateError> + 'a;
-
 /// Correctly rounded values of an observable on a window.
 pub struct Certified<'a> {
-    signal: &'a ClosedForm,
-    from: Rational,
-    to: Rational,
+    signal: &'a dyn Signal,
     /// Pieces from a march, where there is one.
     marched: Option<MarchedPieces>,
     /// Made when values are asked for that no march decides.
     window: OnceCell<Window<'a>>,
-    recognise: &'a Recogniser<'a>,
     table: OnceCell<Table>,
 }
 
 impl<'a> Certified<'a> {
-    /// Values on a window; `recognise` tells those that are rational.
+    /// Values of a signal on its window.
     ///
     /// # Errors
     /// [`MethodError`], where the window has too many arrivals.
-    pub fn new(
-        signal: &'a ClosedForm,
-        from: &Rational,
-        to: &Rational,
-        recognise: &'a Recogniser<'a>,
-    ) -> Result<Certified<'a>, MethodError> {
-        let marched = MarchedPieces::of(signal, from, to);
-        let (from, to) = (from.clone(), to.clone());
+    pub fn new(signal: &'a dyn Signal) -> Result<Certified<'a>, MethodError> {
+        let marched = MarchedPieces::of(signal);
         let (window, table) = (OnceCell::new(), OnceCell::new());
-        let certified = Certified { signal, from, to, marched, window, recognise, table };
+        let certified = Certified { signal, marched, window, table };
         if certified.marched.is_none() {
             certified.window()?;
         }
@@ -72,16 +62,15 @@ impl<'a> Certified<'a> {
         if let Some(window) = self.window.get() {
             return Ok(window);
         }
-        let window = Window::new(self.signal, &self.from, &self.to)?;
+        let window = Window::new(self.signal)?;
         let window = if self.marched.is_some() { window.marching() } else { window };
         Ok(self.window.get_or_init(|| window))
     }
 
     /// Values that a march gives, and the places of those that it does not decide.
     fn by_march(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
-        let window = at_or_after(&self.from)..=-at_or_after(&-&self.to);
-        let inside = times.iter().all(|time| window.contains(time));
-        self.marched.as_ref().filter(|_| inside)?.certified(times, Limit::Right)
+        inside(times, self.signal.window()).ok()?;
+        self.marched.as_ref()?.certified(times, Limit::Right)
     }
 
     /// The polynomials in pairs of doubles, made when they are first asked for.
@@ -98,40 +87,56 @@ impl<'a> Certified<'a> {
 
     fn make_table(&self) -> Result<Table, MethodError> {
         let window = self.window()?;
-        let error = window.scale()?.scale(-ERROR_BITS);
+        let error = window.scale_of_errors()?.scale(-ERROR_BITS);
         let cells = window.cells(Fit { degree: DEGREE, error, rounding: None })?;
         let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, Kept::Two)).collect();
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         Ok(Table::new(&pieces, end)?)
     }
 
-    /// The value of a double's time that no table decides.
+    /// A value that no table decides.
     fn alone(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
-        let window = self.window()?;
-        let stretch = &window.stretches[window.stretch_at(at, side)?];
-        let scaled = self.signal.slowness().scale(at);
+        match self.rounded(at, side, &*enclosure(self.signal, at, side)?) {
+            // Digits at one time can be had where a search for stretches stops.
+            Err(EvaluateError::AccuracyNotReached { .. } | EvaluateError::NotFollowed { .. }) => {
+                let point = self.signal.point(at, side)?;
+                Ok(self.rounded(at, side, &*point.enclose)?)
+            }
+            value => Ok(value?),
+        }
+    }
+
+    /// The double that enclosures of rising precision round to.
+    fn rounded(
+        &self,
+        at: &Rational,
+        side: Limit,
+        enclose: &dyn Fn(u64) -> Result<Ball, EvaluateError>,
+    ) -> Result<f64, EvaluateError> {
         let attempt = |bits| {
-            let ball = self.signal.enclose(stretch, 0, &scaled, bits)?;
+            let ball = enclose(bits)?;
             if let Some(value) = ball.rounded() {
                 return Ok(Attempt::Done(value));
             }
             // Rational numbers alone can be zero or half-way between two doubles.
             if bits == FIRST_BITS
-                && let Some(value) = (self.recognise)(at, side)?
+                && let Some(value) = rational_value(self.signal, at, side)?
             {
-                return Ok(Attempt::Done(nearest(&value)));
+                return Ok(Attempt::Done(value.to_f64().unwrap_or(f64::NAN)));
             }
-            let best = Box::new(ball);
-            Ok(Attempt::NotYet(EvaluateError::AccuracyNotReached { best, bits }.into()))
+            if rounds_to_zero(&ball) {
+                return Ok(Attempt::Done(0.0));
+            }
+            Ok(Attempt::NotYet(EvaluateError::AccuracyNotReached { best: Box::new(ball), bits }))
         };
         Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
     }
 }
 
-/// The nearest double of a rational number, ties to even.
-fn nearest(value: &Rational) -> f64 {
-    use num_traits::ToPrimitive as _;
-    value.to_f64().unwrap_or(f64::NAN)
+/// Whether all points of a ball round to zero, from one side or the other.
+fn rounds_to_zero(ball: &Ball) -> bool {
+    let (lower, upper) = ball.endpoints();
+    lower.to_double() == 0.0 && upper.to_double() == 0.0
 }
 
 impl Method for Certified<'_> {
@@ -153,7 +158,8 @@ impl Method for Certified<'_> {
 
     /// By the march in integers, where there is one, and by a ball where that does not decide.
     fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
-        let inside = || at.iter().all(|at| *at >= self.from && *at <= self.to);
+        let [from, to] = self.signal.window();
+        let inside = || at.iter().all(|at| at >= from && at <= to);
         let marched = self.marched.as_ref().filter(|_| inside());
         let Some((mut values, undecided)) = marched.and_then(|march| march.certified(at, side))
         else {

@@ -1,9 +1,8 @@
 //! The period, and the place on it, at which a delayed wave is seen: rounded once, at the end.
 
 use super::MethodError;
-use crate::ball::Ball;
+use crate::ball::{Ball, at_or_after, rational};
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::{at_or_after, rational};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;

@@ -8,9 +8,9 @@
 use super::doubles::{Kept, ascend, piece};
 use super::{Method, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
-use crate::evaluate::cells::{Fit, Window, at_or_after, rational};
-use crate::evaluate::closed::ClosedForm;
-use crate::evaluate::signal::Limit;
+use crate::evaluate::cell::Fit;
+use crate::evaluate::cells::Window;
+use crate::evaluate::signal::{Limit, Signal};
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
 
@@ -37,28 +37,19 @@ impl<'a> Compiled<'a> {
     /// where none is given or that is larger.
     ///
     /// # Errors
-    /// [`MethodError`], where the window is too long or the observable an energy.
+    /// [`MethodError`], where the window is too long or the observable an energy;
+    /// [`MethodError::Outside`] where it holds no double, see
+    /// [`reaching_a_double`](crate::evaluate::reaching_a_double).
     ///
     /// # Cost
     /// For each piece as many operations in balls as a piece of a wave has coefficients, times 30; some
     /// milliseconds each at n = 200.
     pub fn new(
-        signal: &'a ClosedForm,
-        from: &Rational,
-        to: &Rational,
+        signal: &'a dyn Signal,
         tolerance: Option<f64>,
     ) -> Result<Compiled<'a>, MethodError> {
-        // A window between two neighbouring doubles is begun at the lower one.
-        let first = at_or_after(from);
-        let lower = (rational(first) > *to).then(|| rational(first.next_down()));
-        let from = lower.as_ref().unwrap_or(from);
-        let window = Window::new(signal, from, to)?.marching();
-        let scale = window.scale()?;
-        if scale.is_zero() && from == to {
-            // Nothing is small against a single zero: a little later there are values.
-            let later = to + Rational::new(1.into(), (1 << 20).into());
-            return Compiled::new(signal, from, &later, tolerance);
-        }
+        let window = Window::new(signal)?.marching();
+        let scale = window.scale_of_errors()?;
         let fine = scale.scale(-ERROR_BITS);
         let coarse = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 4.0));
         let error = coarse.map_or(fine, |coarse| coarse.max(fine));
@@ -71,9 +62,8 @@ impl<'a> Compiled<'a> {
         let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, Kept::One)).collect();
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         let table = Table::new(&pieces, end)?;
-        let stretches = window.stretches.len();
         let first_of = |stretch| cells.partition_point(|cell| cell.stretch < stretch);
-        let first_pieces = (0..=stretches).map(first_of).collect();
+        let first_pieces = (0..=window.count()).map(first_of).collect();
         Ok(Compiled { window, table, first_pieces, pieces })
     }
 
@@ -111,7 +101,9 @@ impl Method for Compiled<'_> {
     /// the second term, is below `2^−80` of the coefficients. Beside the ends of pieces the value is
     /// enclosed in a ball.
     fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
-        let stretch = self.window.stretch_at(at, side)?;
+        let Some(stretch) = self.window.signal.stretch_at(at, side)? else {
+            return Ok(self.window.enclosed(at, side)?);
+        };
         let pieces = &self.pieces[self.first_pieces[stretch]..self.first_pieces[stretch + 1]];
         let (near, rest) = Ball::from_rational(at, 128).split();
         let place = pieces.partition_point(|piece| piece.start <= near);
@@ -121,7 +113,7 @@ impl Method for Compiled<'_> {
         let Some(piece) = place.checked_sub(1).map(|place| &pieces[place]).filter(|piece| {
             !ends_here && near < self.table.end() && (near > piece.start || rest >= 0.0)
         }) else {
-            return Ok(self.window.enclosed(at, stretch)?);
+            return Ok(self.window.enclosed(at, side)?);
         };
         let u = (near - piece.centre) * piece.scale;
         let (mut value, mut slope) = (0.0_f64, 0.0_f64);

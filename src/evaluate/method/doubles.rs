@@ -2,9 +2,9 @@
 //! that they are.
 
 use super::MethodError;
-use crate::ball::Ball;
+use crate::ball::{Ball, at_or_after, at_or_before, rational};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::cells::{Cell, at_or_after, rational};
+use crate::evaluate::cell::Cell;
 use crate::expression::Fraction;
 use std::cmp::Ordering;
 use wavestep_kernels::Piece;
@@ -33,7 +33,7 @@ pub(super) fn near(numbers: &Numbers, value: &Fraction) -> Result<(f64, f64), En
 
 /// Refuses times that are not all in a window, its ends included.
 pub(super) fn inside(at: &[f64], [from, to]: [&Rational; 2]) -> Result<(), MethodError> {
-    let window = at_or_after(from)..=-at_or_after(&-to);
+    let window = at_or_after(from)..=at_or_before(to);
     if at.iter().all(|time| window.contains(time)) { Ok(()) } else { Err(MethodError::Outside) }
 }
 

@@ -3,11 +3,10 @@
 
 use super::MethodError;
 use super::doubles::{three, three_of};
+use crate::ball::rational;
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::rational;
-use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::Limit;
+use crate::evaluate::signal::{Limit, Signal};
 use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
 use crate::limits::MAX_SUMMED_ECHOES;
@@ -123,12 +122,9 @@ pub(super) struct EchoSums {
 }
 
 impl EchoSums {
-    /// The echoes of a signal up to a time.
-    pub(super) fn new(
-        signal: &ClosedForm,
-        from: &Rational,
-        to: &Rational,
-    ) -> Result<EchoSums, MethodError> {
+    /// The echoes of a signal up to the end of its window.
+    pub(super) fn new(signal: &dyn Signal) -> Result<EchoSums, MethodError> {
+        let ([from, to], signal) = (signal.window(), signal.closed_form()?);
         if !signal.is_on_grid() {
             return Err(NoTaps::NoGrid.into());
         }

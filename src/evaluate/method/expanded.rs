@@ -7,10 +7,8 @@
 use super::echo_sums::EchoSums;
 use super::printed::PrintedEchoes;
 use super::{Method, MethodError};
-use crate::ball::Ball;
-use crate::evaluate::cells::rational;
-use crate::evaluate::closed::ClosedForm;
-use crate::evaluate::signal::Limit;
+use crate::ball::{Ball, rational};
+use crate::evaluate::signal::{Limit, Signal};
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
@@ -33,13 +31,9 @@ impl Expanded {
     ///
     /// # Cost
     /// O(n) for n echoes in closed form, O(n³) for others; for each value O(n²).
-    pub fn new(
-        signal: &ClosedForm,
-        from: &Rational,
-        to: &Rational,
-    ) -> Result<Expanded, MethodError> {
-        let sums = match EchoSums::new(signal, from, to) {
-            Err(MethodError::NoTaps(_)) => Sums::Derived(PrintedEchoes::new(signal, to)?),
+    pub fn new(signal: &dyn Signal) -> Result<Expanded, MethodError> {
+        let sums = match EchoSums::new(signal) {
+            Err(MethodError::NoTaps(_)) => Sums::Derived(PrintedEchoes::new(signal)?),
             sums => Sums::Closed(Box::new(sums?)),
         };
         Ok(Expanded { sums })

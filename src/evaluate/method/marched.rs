@@ -8,12 +8,11 @@ use super::doubles::{exactly, inside};
 use super::marched_response::{Response, reflection, weights};
 use super::marched_waves::Waves;
 use super::{Method, MethodError};
-use crate::ball::{Attempt, Ball, ComplexBall, Magnitude, Precisions};
+use crate::ball::{Attempt, Ball, ComplexBall, Magnitude, Precisions, rational};
 use crate::enclosure::Numbers;
-use crate::evaluate::cells::rational;
 use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::Limit;
+use crate::evaluate::signal::{Limit, Signal};
 use crate::evaluate::taps::{Extra, NoTaps, Taps};
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Root, Transform};
@@ -66,21 +65,17 @@ impl Marched {
     /// # Cost
     /// With one pole and one lag some hundred operations a coefficient for each period, of which there
     /// are about `√(2nD)`; two or three times as many with a bound. Otherwise that for each term of each step.
-    pub fn new(
-        signal: &ClosedForm,
-        from: &Rational,
-        to: &Rational,
-        proven: bool,
-    ) -> Result<Marched, MethodError> {
-        let taps = match Taps::of(signal) {
+    pub fn new(signal: &dyn Signal, proven: bool) -> Result<Marched, MethodError> {
+        let (form, window) = (signal.closed_form()?, signal.window());
+        let taps = match Taps::of(form) {
             Ok(taps) => taps,
             Err(NoTaps::NoGrid) => return Err(NoTaps::NoGrid.into()),
-            Err(_) => return Marched::of_waves(signal, from, to),
+            Err(_) => return Marched::of_waves(form, window),
         };
-        match Marched::of_response(taps, signal, from, to, proven) {
+        match Marched::of_response(taps, form, window, proven) {
             // Growing reflections have no certificate; their waves have values as others have.
             Err(error @ (MethodError::Reflection(_) | MethodError::March(_))) => {
-                Marched::of_waves(signal, from, to).map_err(|_| error)
+                Marched::of_waves(form, window).map_err(|_| error)
             }
             marched => marched,
         }
@@ -90,8 +85,7 @@ impl Marched {
     fn of_response(
         taps: Taps,
         signal: &ClosedForm,
-        from: &Rational,
-        to: &Rational,
+        [from, to]: [&Rational; 2],
         proven: bool,
     ) -> Result<Marched, MethodError> {
         let numbers = Numbers::new(signal.recurrence().constants());
@@ -110,11 +104,7 @@ impl Marched {
     }
 
     /// By all waves.
-    fn of_waves(
-        signal: &ClosedForm,
-        from: &Rational,
-        to: &Rational,
-    ) -> Result<Marched, MethodError> {
+    fn of_waves(signal: &ClosedForm, [from, to]: [&Rational; 2]) -> Result<Marched, MethodError> {
         if !signal.is_on_grid() {
             return Err(NoTaps::NoGrid.into());
         }

@@ -25,7 +25,7 @@ mod plain;
 mod printed;
 mod stable;
 
-pub use certified::{Certified, Recogniser};
+pub use certified::Certified;
 pub use compiled::Compiled;
 pub use error::MethodError;
 pub use expanded::Expanded;

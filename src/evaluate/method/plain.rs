@@ -6,10 +6,8 @@
 
 use super::echo_sums::EchoSums;
 use super::{Method, MethodError};
-use crate::ball::Ball;
-use crate::evaluate::cells::rational;
-use crate::evaluate::closed::ClosedForm;
-use crate::evaluate::signal::Limit;
+use crate::ball::{Ball, rational};
+use crate::evaluate::signal::{Limit, Signal};
 use wavestep_kernels::echoes;
 use wavestep_polynomial::Rational;
 
@@ -26,8 +24,8 @@ impl Plain {
     ///
     /// # Cost
     /// O(n) for n echoes; for each value O(n²).
-    pub fn new(signal: &ClosedForm, from: &Rational, to: &Rational) -> Result<Plain, MethodError> {
-        Ok(Plain { sums: EchoSums::new(signal, from, to)? })
+    pub fn new(signal: &dyn Signal) -> Result<Plain, MethodError> {
+        Ok(Plain { sums: EchoSums::new(signal)? })
     }
 }
 

@@ -2,11 +2,9 @@
 
 use super::MethodError;
 use crate::ball::Ball;
-use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::Limit;
+use crate::evaluate::signal::{Limit, Signal};
 use crate::expression::{Expression, Field as _, Transform};
-use wavestep_polynomial::Rational;
 
 /// The most echoes that are worked out.
 const MAX_ECHOES: usize = 300;
@@ -36,7 +34,8 @@ pub(super) struct PrintedEchoes {
 }
 
 impl PrintedEchoes {
-    pub(super) fn new(signal: &ClosedForm, to: &Rational) -> Result<PrintedEchoes, MethodError> {
+    pub(super) fn new(signal: &dyn Signal) -> Result<PrintedEchoes, MethodError> {
+        let ([_, to], signal) = (signal.window(), signal.closed_form()?);
         let numbers = signal.numbers();
         let field = numbers.field(BITS);
         let number = |value: &Expression| -> Result<Complex, EvaluateError> {

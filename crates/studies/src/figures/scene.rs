@@ -3,11 +3,12 @@
 use super::FigureError;
 use crate::picture::{Sampled, sampled};
 use std::collections::BTreeMap;
-use wavestep::evaluate::{ClosedForm, ClosedSignal, EvaluateError};
+use wavestep::evaluate::{ClosedSignal, EvaluateError};
 use wavestep::history::FollowedSignal;
 use wavestep::language::{self, Source};
 use wavestep::network::Network;
 use wavestep::recurrence::Recurrence;
+use wavestep::solution::Solution;
 use wavestep_draw::Caption;
 use wavestep_polynomial::Rational;
 
@@ -36,19 +37,16 @@ pub(super) fn recurrence(name: &str, given: &[(&str, Rational)]) -> Recurrence {
     language::read_recurrence(&source(name), &values(given)).expect("a built-in recurrence")
 }
 
-/// An observable of a recurrence as a signal.
-pub(super) fn signal(recurrence: &Recurrence, name: &str) -> Result<ClosedForm, EvaluateError> {
-    let observation = recurrence.observation(name).expect("a built-in observable");
-    ClosedForm::of_recurrence(recurrence, &observation)
-}
-
-/// Its values on a window from 0.
+/// The values of an observable of a recurrence on a window from 0.
 pub(super) fn course(
     recurrence: &Recurrence,
     name: &str,
     last: &Rational,
 ) -> Result<Sampled, EvaluateError> {
-    sampled(&ClosedSignal::of_form(signal(recurrence, name)?, [&Rational::default(), last])?)
+    let observation = recurrence.observation(name).expect("a built-in observable");
+    let solution = Solution::new(recurrence.clone());
+    let window = [&Rational::default(), last];
+    sampled(&ClosedSignal::of_recurrence(&solution, &observation, window)?)
 }
 
 /// An observable of a scene whose contacts open, on a window from 0.

@@ -1,7 +1,7 @@
 //! All charts of one quantity, with what is to be seen on each.
 
 use super::curves::DOUBLES;
-use super::harness::Settings;
+use super::harness::{Settings, Subject};
 use super::loss::{Loss, first_losses, losses};
 use super::map::{errors_by_order, order_law, order_map};
 use super::reference::{Reference, Sampling};
@@ -116,15 +116,19 @@ pub fn usual_end(problem: &Problem) -> Result<Rational, PictureError> {
 /// [`PictureError`] where nothing can be measured.
 pub fn charts(
     problem: &Problem,
-    question: &answer::Question<'_>,
+    window: [Rational; 2],
     asked: &ToChart<'_>,
     tick: &dyn Fn(&str),
 ) -> Result<Charts, PictureError> {
-    let ends = [&question.from, &question.to].map(|end| end.to_f64().unwrap_or(f64::NAN));
+    let subject = Subject { problem, quantity: asked.quantity };
+    let question = &problem.question(asked.quantity, window)?;
+    let window = question.signal.window();
+    let ends = window.map(|end| end.to_f64().unwrap_or(f64::NAN));
     let reference = Reference::new(question, &asked.sampling.times(ends[0], ends[1]))?;
     let effort = asked.effort;
     let settings = (effort.settings(), effort == Effort::Quick);
-    let outcomes = ladder(question, &reference, settings, |kind| tick(&kind.to_string()));
+    let asked_for = (subject, window);
+    let outcomes = ladder(asked_for, &reference, settings, |kind| tick(&kind.to_string()));
     let caption = caption(asked, asked.sampling.law());
     let (work, table) =
         work_precision("Work against precision", &outcomes, &reference, caption.clone())?;
@@ -139,19 +143,24 @@ pub fn charts(
     }];
     let (all, left_out) = (all, Vec::new());
     let mut study =
-        Study { question, asked, caption, tick, unit: problem.time_unit(), all, left_out };
+        Study { subject, question, asked, caption, tick, unit: problem.time_unit(), all, left_out };
     study.over_the_window(&reference);
     if question.scene.is_some() {
         study.models(&reference);
     }
-    if let Some(period) = question.signal.period() {
-        study.by_order(problem, period);
+    if let Some(period) = period_of(question) {
+        study.by_order(period);
     }
     study.near_equal_poles();
     if let Some(symbol) = asked.symbol {
         study.maps(problem, symbol);
     }
     Ok(Charts { all: study.all, table, left_out: study.left_out })
+}
+
+/// The length of a period, where there is one.
+fn period_of(question: &answer::Question<'_>) -> Option<f64> {
+    question.signal.closed_form().ok()?.period()
 }
 
 fn caption(asked: &ToChart<'_>, sampling: String) -> Caption {
@@ -170,6 +179,7 @@ fn caption(asked: &ToChart<'_>, sampling: String) -> Caption {
 
 /// The charts that are drawn so far.
 struct Study<'s> {
+    subject: Subject<'s>,
     question: &'s answer::Question<'s>,
     asked: &'s ToChart<'s>,
     caption: Caption,
@@ -257,15 +267,16 @@ impl Study<'_> {
     }
 
     /// Errors and costs by order.
-    fn by_order(&mut self, problem: &Problem, period: f64) {
-        let (question, effort) = (self.question, self.asked.effort);
+    fn by_order(&mut self, period: f64) {
+        let (subject, effort) = (self.subject, self.asked.effort);
+        let problem = subject.problem;
         (self.tick)("costs");
         let caption = self.other(NORM, &order_law());
         self.add(
             "error-at-high-orders",
             "At n = 400 the exponential of an echo is below all doubles long before the echo is: methods \
              that carry its exponent apart do not notice.",
-            over_order(question, period, effort.high_orders(), caption),
+            over_order(subject, period, effort.high_orders(), caption),
         );
         let with_symbols = match problem.values().is_empty() {
             true => None,
@@ -276,7 +287,7 @@ impl Study<'_> {
             Some((problem.recurrence().ok()?, observation))
         });
         let costs = cost_over_order(
-            question,
+            subject,
             symbolic.as_ref().map(|(recurrence, observation)| (*recurrence, observation)),
             period,
             effort.orders(),
@@ -378,14 +389,14 @@ impl Study<'_> {
         let problem = problem.substituted(symbol, parameter).ok()?;
         let end = problem.some_periods(PERIODS_OF_MAPS).ok()?;
         let value = number("a parameter", parameter).ok()?.to_f64()?;
-        let on_window = problem.on_window(self.asked.quantity, [Rational::default(), end]).ok()?;
-        let question = on_window.question().ok()?;
-        let period = question.signal.period()?;
+        let subject = Subject { problem: &problem, quantity: self.asked.quantity };
+        let period =
+            period_of(&problem.question(subject.quantity, [Rational::default(), end]).ok()?)?;
         let is_seen = |order: &&usize| value <= HUGE || **order <= LAST_OF_HUGE;
         let orders = self.asked.effort.orders();
         let seen: Vec<usize> = orders.iter().take_while(is_seen).copied().collect();
-        let found = errors_by_order(&question, period, &seen, &MAPPED);
+        let found = errors_by_order(subject, period, &seen, &MAPPED);
         let known = (&seen[..], &found[0].errors[..]);
-        Some((value, first_losses(&question, MAPPED[0], (value, period), known), found))
+        Some((value, first_losses(subject, MAPPED[0], (value, period), known), found))
     }
 }

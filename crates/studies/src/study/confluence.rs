@@ -1,11 +1,9 @@
 //! Near equal poles: formulas with powers of `1/(a − b)` against methods that never divide by it.
 
-use crate::study::harness::{errors, worst};
+use crate::study::harness::{Subject, errors, worst};
 use crate::study::reference::{Reference, Sampling};
-use std::collections::BTreeMap;
-use wavestep::answer::{Kind, Question};
-use wavestep::evaluate::ClosedForm;
-use wavestep::language::{Source, read_recurrence};
+use wavestep::answer::Kind;
+use wavestep::problem::Problem;
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
 
@@ -20,7 +18,7 @@ const TEXT: &str = "recurrence \"Two poles\"\n\
     continuous f[n] starts at 0\n";
 
 /// The last time: five periods.
-const LAST: i64 = 10;
+const LAST: f64 = 10.0;
 
 /// The error of values by the distance of two poles, which is `10^−j`.
 ///
@@ -49,12 +47,10 @@ pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, Plo
 }
 
 fn at_distance(distance: Rational, kinds: &[Kind]) -> Option<Vec<f64>> {
-    let values = BTreeMap::from([("d".to_owned(), distance)]);
-    let recurrence = read_recurrence(&Source::new("two poles", TEXT).ok()?, &values).ok()?;
-    let signal = ClosedForm::of_recurrence(&recurrence, &recurrence.observation("f")?).ok()?;
-    let (from, to) = (Rational::default(), Rational::from_integer(LAST.into()));
-    let question = Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
-    let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST as f64);
+    let values = [("d".to_owned(), distance)].into();
+    let problem = Problem::read("two poles", TEXT, &values).ok()?;
+    let question = Subject { problem: &problem, quantity: "f" }.between(0.0, LAST).ok()?;
+    let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST);
     let reference = Reference::new(&question, &times).ok()?;
     let error = |kind: &Kind| errors(&question, *kind, &reference).ok().map(|e| worst(&e));
     kinds.iter().map(error).collect()

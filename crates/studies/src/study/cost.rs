@@ -1,14 +1,14 @@
 //! What things cost by the order: exact derivation, preparation, and values.
 
 use crate::study::curves::DOUBLES;
-use crate::study::harness::{Measured, Settings, measure};
+use crate::study::harness::{Measured, Settings, Subject, measure};
 use crate::study::reference::{Reference, Sampling};
 use std::time::{Duration, Instant};
-use wavestep::answer::{Kind, Question, WayError};
+use wavestep::answer::Kind;
+use wavestep::problem::ProblemError;
 use wavestep::recurrence::{Observation, Recurrence};
 use wavestep::solution::{ObserveError, Solution};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
-use wavestep_polynomial::Rational;
 
 /// A derivation that takes longer is the last one: the next order may take all memory.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -60,7 +60,7 @@ pub fn derivation_cost(
 /// # Errors
 /// [`PlotError`], where nothing was measured.
 pub fn cost_over_order(
-    question: &Question<'_>,
+    subject: Subject<'_>,
     symbolic: Option<(&Recurrence, &Observation)>,
     period: f64,
     orders: &[usize],
@@ -69,8 +69,8 @@ pub fn cost_over_order(
 ) -> Result<[Curves; 2], PlotError> {
     let (mut of_values, mut of_preparation) = (caption.clone(), caption);
     let (mut values, mut preparations) = (Vec::new(), Vec::new());
-    let signal = question.signal;
-    let numeric = Some((signal.recurrence(), signal.observation()));
+    let numeric = numeric(subject, period);
+    let numeric = numeric.as_ref().map(|(recurrence, observation)| (recurrence, observation));
     for (what, derived) in [("symbols kept", symbolic), ("numbers set", numeric)] {
         let Some((recurrence, observation)) = derived else { continue };
         let name = format!("derivation of 0 to n, {what}");
@@ -82,7 +82,7 @@ pub fn cost_over_order(
     for kind in DOUBLES.into_iter().chain([Kind::Certified]) {
         let mut measured = Vec::new();
         for &order in orders {
-            match on_period(question, kind, (order, period), settings) {
+            match on_period(subject, kind, (order, period), settings) {
                 Ok(costs) => measured.push((order as f64, costs.seconds, costs.preparation)),
                 Err(reason) => {
                     let remark = format!("{kind} is left out from n = {order} on: {reason}.");
@@ -109,17 +109,22 @@ pub fn cost_over_order(
     ])
 }
 
+/// The recurrence with numbers, and what is seen of it.
+fn numeric(subject: Subject<'_>, period: f64) -> Option<(Recurrence, Observation)> {
+    let question = subject.between(0.0, period).ok()?;
+    let form = question.signal.closed_form().ok()?;
+    Some((form.recurrence().clone(), form.observation().clone()))
+}
+
 /// One way on the period that begins after so many.
 fn on_period(
-    question: &Question<'_>,
+    subject: Subject<'_>,
     kind: Kind,
     (order, period): (usize, f64),
     settings: Settings,
-) -> Result<Measured, WayError> {
-    let ends = [order as f64 * period, (order as f64 + 1.0) * period];
-    let [from, to] = ends.map(|end| Rational::from_float(end).unwrap_or_default());
-    let part = Question { from, to, ..*question };
-    let times = Sampling { points: 64, seed: 1 }.times(ends[0], ends[1]);
-    let reference = Reference::new(&part, &times)?;
-    measure(&part, (kind, None), &reference, settings)
+) -> Result<Measured, ProblemError> {
+    let [from, to] = [order as f64 * period, (order as f64 + 1.0) * period];
+    let question = subject.between(from, to)?;
+    let reference = Reference::new(&question, &Sampling { points: 64, seed: 1 }.times(from, to))?;
+    measure((subject, question.signal.window()), (kind, None), &reference, settings)
 }

@@ -1,9 +1,9 @@
 //! Errors along one axis: time, order, distance from a jump, Courant's number.
 
-use crate::study::harness::errors;
+use crate::study::harness::{Subject, errors};
 use crate::study::reference::Reference;
 use wavestep::answer::{Kind, Question, WayError};
-use wavestep::evaluate::StablePrecision;
+use wavestep::evaluate::{StablePrecision, first_doubles};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
 
@@ -88,10 +88,10 @@ pub fn at_arrivals(
 ) -> Result<Curves, PlotError> {
     let empty = |title: &str| PlotError::Empty { title: title.to_owned() };
     let title = "Error just after arrivals";
-    let mut arrivals =
-        question.signal.arrivals(&question.from, &question.to).map_err(|_| empty(title))?;
+    let mut arrivals = first_doubles(&*question.signal).map_err(|_| empty(title))?.split_off(1);
     // One at the very end has no time after it.
-    arrivals.retain(|at| Rational::from_float(at.next_up()).is_some_and(|at| at <= question.to));
+    let [_, to] = question.signal.window();
+    arrivals.retain(|at| Rational::from_float(at.next_up()).is_some_and(|at| at <= *to));
     let stride = arrivals.len().div_ceil(most).max(1);
     let chosen: Vec<(usize, f64)> = arrivals.iter().copied().enumerate().step_by(stride).collect();
     let times: Vec<f64> = chosen.iter().flat_map(|(_, at)| [*at, at.next_up()]).collect();
@@ -113,13 +113,13 @@ pub fn at_arrivals(
 /// # Errors
 /// [`PlotError`], where no method has values.
 pub fn over_order(
-    question: &Question<'_>,
+    subject: Subject<'_>,
     period: f64,
     orders: &[usize],
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     let kinds = &DOUBLES[..5];
-    let rows = super::errors_by_order(question, period, orders, kinds);
+    let rows = super::errors_by_order(subject, period, orders, kinds);
     let mut curves = Vec::new();
     for (kind, row) in kinds.iter().zip(rows) {
         caption.remarks.extend(row.refusal.map(|refusal| format!("{kind}: {refusal}.")));
@@ -143,7 +143,7 @@ pub fn near_jump(
     const PLACES: usize = 60;
     let title = "Modes near a jump";
     let empty = || PlotError::Empty { title: title.to_owned() };
-    let arrivals = question.signal.arrivals(&question.from, &question.to).map_err(|_| empty())?;
+    let arrivals = first_doubles(&*question.signal).map_err(|_| empty())?.split_off(1);
     let middle = arrivals.len() / 2;
     let (Some(at), Some(next)) = (arrivals.get(middle), arrivals.get(middle + 1)) else {
         return Err(empty());

@@ -3,6 +3,28 @@
 use crate::study::reference::Reference;
 use std::time::{Duration, Instant};
 use wavestep::answer::{Kind, Question, Way, WayError};
+use wavestep::problem::{Problem, ProblemError};
+use wavestep_polynomial::Rational;
+
+/// What is studied: a quantity of a problem, on any window.
+#[derive(Clone, Copy)]
+pub struct Subject<'p> {
+    /// The problem.
+    pub problem: &'p Problem,
+    /// The wave or observable.
+    pub quantity: &'p str,
+}
+
+impl<'p> Subject<'p> {
+    /// The question on the window between two times.
+    ///
+    /// # Errors
+    /// As [`Problem::question`].
+    pub fn between(self, from: f64, to: f64) -> Result<Question<'p>, ProblemError> {
+        let window = [from, to].map(|time| Rational::from_float(time).unwrap_or_default());
+        self.problem.question(self.quantity, window)
+    }
+}
 
 /// How long is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -62,11 +84,10 @@ fn from_scratch(
     (kind, tolerance): (Kind, Option<f64>),
     reference: &Reference,
 ) -> Result<Duration, WayError> {
-    let signal = question.signal.clone();
-    let (from, to) = (question.from.clone(), question.to.clone());
-    let question = Question { signal: &signal, from, to, ..*question };
+    // Whether there is a closed form is part of the question.
+    let _ = question.signal.closed_form();
     let begin = Instant::now();
-    let way = Way::new(kind, &question, tolerance)?;
+    let way = Way::new(kind, question, tolerance)?;
     std::hint::black_box(way.values(std::hint::black_box(reference.times()))?);
     Ok(begin.elapsed())
 }
@@ -76,22 +97,24 @@ fn from_scratch(
 /// Each preparation begins with a signal of which nothing is computed; the least of some counts.
 ///
 /// # Errors
-/// [`WayError`], where the question is none for this way.
+/// [`ProblemError`], where the question is none for this way.
 pub fn measure(
-    question: &Question<'_>,
+    (subject, window): (Subject<'_>, [&Rational; 2]),
     (kind, tolerance): (Kind, Option<f64>),
     reference: &Reference,
     settings: Settings,
-) -> Result<Measured, WayError> {
+) -> Result<Measured, ProblemError> {
+    let anew = || subject.problem.question(subject.quantity, window.map(Clone::clone));
     let mut first = Duration::MAX;
     let begin = Instant::now();
     for _ in 0..settings.runs.max(1) {
-        first = first.min(from_scratch(question, (kind, tolerance), reference)?);
+        first = first.min(from_scratch(&anew()?, (kind, tolerance), reference)?);
         if begin.elapsed() > 10 * settings.time {
             break;
         }
     }
-    let way = Way::new(kind, question, tolerance)?;
+    let question = anew()?;
+    let way = Way::new(kind, &question, tolerance)?;
     let values = way.values(reference.times())?;
     let mut least = Duration::MAX;
     let begin = Instant::now();

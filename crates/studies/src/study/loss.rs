@@ -1,8 +1,9 @@
 //! From which order on digits are lost: every order measured where the loss begins.
 
 use crate::study::curves::HALF;
+use crate::study::harness::Subject;
 use crate::study::map::errors_by_order;
-use wavestep::answer::{Kind, Question};
+use wavestep::answer::Kind;
 use wavestep_draw::{Axis, Caption, Curve, Curves, Listing, PlotError};
 
 /// The first orders at which a way has lost digits, for one value of a parameter.
@@ -21,7 +22,7 @@ pub struct Loss {
 /// `known` are errors at ascending orders. Between the last order below a level and the first one that is
 /// not, each order is measured.
 pub fn first_losses(
-    question: &Question<'_>,
+    subject: Subject<'_>,
     kind: Kind,
     (parameter, period): (f64, f64),
     (orders, known): (&[usize], &[Option<f64>]),
@@ -31,7 +32,7 @@ pub fn first_losses(
         let place = known.iter().position(is_lost)?;
         let before = place.checked_sub(1).map_or(0, |place| orders[place]);
         let between: Vec<usize> = (before + 1..orders[place]).collect();
-        let row = errors_by_order(question, period, &between, &[kind]).swap_remove(0);
+        let row = errors_by_order(subject, period, &between, &[kind]).swap_remove(0);
         let found = row.errors.iter().position(is_lost).map(|place| between[place]);
         Some(found.unwrap_or(orders[place]))
     };

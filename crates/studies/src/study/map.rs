@@ -1,11 +1,11 @@
 //! Maps of the error over the order and a parameter of the scene.
 
 use crate::study::curves::{HALF, USELESS};
-use crate::study::harness::worst;
+use crate::study::harness::{Subject, worst};
 use crate::study::reference::{Reference, Sampling};
-use wavestep::answer::{Kind, Question, Way, WayError};
+use wavestep::answer::{Kind, Way};
+use wavestep::problem::ProblemError;
 use wavestep_draw::{Axis, Caption, Level, Map, PlotError};
-use wavestep_polynomial::Rational;
 
 /// How many times a period are drawn uniformly, and as many near its arrival.
 const TIMES: usize = 8;
@@ -14,12 +14,12 @@ const TIMES: usize = 8;
 const NEAREST: f64 = 6.0;
 
 /// What is known of one way for one value of the parameter.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Debug)]
 pub struct OrderRow {
     /// The largest error on each period; `None` where the way has no values.
     pub errors: Vec<Option<f64>>,
     /// Why it has none.
-    pub refusal: Option<WayError>,
+    pub refusal: Option<ProblemError>,
 }
 
 /// The law by which [`errors_by_order`] draws times.
@@ -47,28 +47,29 @@ fn times_on(order: usize, period: f64) -> Vec<f64> {
 /// The largest error on each of some periods, ascending, for each of some ways. Where a way refuses, it
 /// is asked again without the last period, until it does not.
 pub fn errors_by_order(
-    question: &Question<'_>,
+    subject: Subject<'_>,
     period: f64,
     orders: &[usize],
     kinds: &[Kind],
 ) -> Vec<OrderRow> {
-    let part = |orders: &[usize]| {
-        let end = Rational::from_float((orders.last().copied().unwrap_or(0) as f64 + 1.0) * period);
-        Question { to: end.unwrap_or_default(), from: Rational::default(), ..*question }
+    let until = |orders: &[usize]| {
+        subject.between(0.0, (orders.last().copied().unwrap_or(0) as f64 + 1.0) * period)
     };
     let times: Vec<f64> = orders.iter().flat_map(|order| times_on(*order, period)).collect();
-    let refused =
-        |refusal: WayError| OrderRow { errors: vec![None; orders.len()], refusal: Some(refusal) };
-    let reference = match Reference::new(&part(orders), &times) {
+    let reference = until(orders).and_then(|question| Ok(Reference::new(&question, &times)?));
+    let reference = match reference {
         Ok(reference) => reference,
-        Err(error) => return vec![refused(error.into()); kinds.len()],
+        Err(refusal) => {
+            let refused = OrderRow { errors: vec![None; orders.len()], refusal: Some(refusal) };
+            return vec![refused; kinds.len()];
+        }
     };
     let row = |kind: &Kind| {
         let mut refusal = None;
         for known in (1..=orders.len()).rev() {
             let known_times = &times[..known * 2 * TIMES];
-            let values = Way::new(*kind, &part(&orders[..known]), None)
-                .and_then(|way| way.values(known_times));
+            let values = until(&orders[..known])
+                .and_then(|question| Ok(Way::new(*kind, &question, None)?.values(known_times)?));
             match values {
                 Ok(values) => {
                     let errors = reference.first_errors(&values);

@@ -20,7 +20,7 @@ pub use cost::{cost_over_order, derivation_cost};
 pub use curves::{
     DOUBLES, HALF, USELESS, at_arrivals, near_jump, over_courant, over_order, over_time,
 };
-pub use harness::{Measured, Settings, errors, measure, worst};
+pub use harness::{Measured, Settings, Subject, errors, measure, worst};
 pub use loss::{Loss, first_losses, losses};
 pub use map::{OrderRow, errors_by_order, order_law, order_map};
 pub use reference::{Reference, Sampling};

@@ -3,7 +3,7 @@
 use num_traits::ToPrimitive as _;
 use wavestep::answer::Question;
 use wavestep::ball::{Attempt, Precisions};
-use wavestep::evaluate::{EvaluateError, Limit};
+use wavestep::evaluate::{At, EvaluateError, Limit};
 use wavestep_polynomial::Rational;
 
 /// The bits of balls tried first, and the most.
@@ -69,8 +69,7 @@ impl Reference {
     /// # Errors
     /// [`EvaluateError`], where the question cannot be enclosed, and for times that are no numbers.
     pub fn new(question: &Question<'_>, times: &[f64]) -> Result<Reference, EvaluateError> {
-        let signal = question.signal;
-        let stretches = signal.stretches(&question.from, &question.to)?;
+        let signal = &*question.signal;
         let scale = question.scale()?;
         let mut values = Vec::with_capacity(times.len());
         let mut radius = 0.0_f64;
@@ -78,12 +77,11 @@ impl Reference {
         let mut bits = FIRST_BITS;
         for time in times {
             let at = Rational::from_float(*time).ok_or(EvaluateError::AfterLast)?;
-            let stretch = &stretches[signal.stretch_at(&stretches, &at, Limit::Right)?];
-            let scaled = signal.slowness().scale(&at);
+            let stretch = signal.stretch_at(&at, Limit::Right)?.ok_or(EvaluateError::AfterLast)?;
             let precisions = Precisions::doubling(bits, MAX_BITS);
             let attempt = |more| {
                 bits = more;
-                let told = signal.enclose(stretch, 0, &scaled, bits)?.two_doubles();
+                let told = signal.enclose(stretch, 0, At::Time(&at), bits)?.two_doubles();
                 Ok::<_, EvaluateError>(Attempt::of(told, told.2 <= FINENESS * scale))
             };
             let (high, low, distance) = precisions.raise(attempt)?.best();

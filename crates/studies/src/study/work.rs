@@ -1,10 +1,12 @@
 //! Work against precision: all ways with their settings on one question.
 
-use crate::study::harness::{Measured, Settings, measure};
+use crate::study::harness::{Measured, Settings, Subject, measure};
 use crate::study::reference::Reference;
-use wavestep::answer::{Kind, Question, WayError};
+use wavestep::answer::Kind;
 use wavestep::evaluate::StablePrecision;
+use wavestep::problem::ProblemError;
 use wavestep_draw::{Caption, Method, PlotError, Point, Row, Table, WorkPrecision};
+use wavestep_polynomial::Rational;
 
 /// One step of the ladder: a way, and the tolerance it is given in parts of the largest value.
 pub type Step = (Kind, Option<f64>);
@@ -47,12 +49,12 @@ pub const LADDER: [Step; 33] = [
 ];
 
 /// What came of one step.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Outcome {
     /// The step.
     pub step: Step,
     /// What was measured, or why the way refused.
-    pub result: Result<Measured, WayError>,
+    pub result: Result<Measured, ProblemError>,
 }
 
 impl Outcome {
@@ -91,7 +93,7 @@ fn is_heavy(kind: Kind) -> bool {
 
 /// Measures all steps, or those that do not take long; `tick` is called before each.
 pub fn ladder(
-    question: &Question<'_>,
+    asked: (Subject<'_>, [&Rational; 2]),
     reference: &Reference,
     (settings, quick): (Settings, bool),
     tick: impl Fn(&Kind),
@@ -100,7 +102,7 @@ pub fn ladder(
         let (kind, tolerance) = step;
         tick(&kind);
         let absolute = tolerance.map(|tolerance| tolerance * reference.scale());
-        let result = measure(question, (kind, absolute), reference, settings);
+        let result = measure(asked, (kind, absolute), reference, settings);
         Outcome { step, result }
     };
     LADDER.into_iter().filter(|(kind, _)| !(quick && is_heavy(*kind))).map(outcome).collect()

@@ -4,7 +4,7 @@ use crate::study::curves::{DOUBLES, curve};
 use crate::study::harness::errors;
 use crate::study::reference::Reference;
 use wavestep::answer::Question;
-use wavestep::evaluate::{ClosedSignal, Root, Search};
+use wavestep::evaluate::{ClosedForm, Root, Search};
 use wavestep_draw::{Axis, Caption, Curves, PlotError};
 use wavestep_polynomial::Rational;
 
@@ -20,9 +20,8 @@ const LIMIT_BITS: u64 = 1 << 13;
 /// Certified simple roots in the window of a question, rounded to doubles: at most so many, from all over
 /// the window. None where there are none, or they cannot be told.
 pub fn simple_roots(question: &Question<'_>, most: usize) -> Vec<f64> {
-    let window = [&question.from, &question.to];
-    let roots = ClosedSignal::of_form(question.signal.clone(), window)
-        .and_then(|signal| Search::new(&signal)?.roots(&Rational::default(), DIGITS, LIMIT_BITS));
+    let roots = Search::new(&*question.signal)
+        .and_then(|search| search.roots(&Rational::default(), DIGITS, LIMIT_BITS));
     let Ok(roots) = roots else { return Vec::new() };
     let simple = roots.all.iter().filter_map(|root| match root {
         Root::Simple { time, .. } => Some(time.to_f64()),
@@ -46,9 +45,10 @@ pub fn near_zeros(
 ) -> Result<Curves, PlotError> {
     let title = "Error relative to the value, near zeros";
     let empty = || PlotError::Empty { title: title.to_owned() };
-    let [from, to] = [&question.from, &question.to].map(crate::study::reference::nearest);
+    let [from, to] = question.signal.window().map(crate::study::reference::nearest);
     let roots = simple_roots(question, most);
-    let unit = question.signal.period().unwrap_or(to - from);
+    let period = question.signal.closed_form().ok().and_then(ClosedForm::period);
+    let unit = period.unwrap_or(to - from);
     // Each time with the decade it belongs to.
     let mut times = Vec::new();
     for decade in DECADES {
@@ -75,7 +75,7 @@ pub fn near_zeros(
         });
         curves.extend(curve(kind, points, &mut caption));
     }
-    let of = if question.signal.period().is_some() { "periods" } else { "parts of the window" };
+    let of = if period.is_some() { "periods" } else { "parts of the window" };
     let axis = Axis::logarithmic(&format!("distance from the nearest certified root, in {of}"));
     caption.remarks.push(format!("{} roots.", roots.len()));
     Curves::new(title, axis, Axis::logarithmic("relative error"), curves, caption)
