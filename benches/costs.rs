@@ -53,13 +53,16 @@ fn print(name: &str, what: &str, seconds: f64) {
 }
 
 fn main() {
-    let (from, to) = (Rational::default(), Rational::from_integer((2 * ORDER).into()));
-    let late = &to - &parse_number("1/3").unwrap();
+    let to = (2 * ORDER).to_string();
+    let late = parse_number(&to).unwrap() - &parse_number("1/3").unwrap();
     let value = |method: &dyn Method| seconds(|| method.value(&late, Limit::Right).unwrap());
-    with_signal(rigid_mass(), Some("1"), |signal| {
-        assert!(Taps::of(signal).is_ok(), "the march in integers is measured");
+    with_signal(rigid_mass(), Some("1"), &to, |signal| {
+        assert!(
+            signal.closed_form().is_ok_and(|form| Taps::of(form).is_ok()),
+            "the march in integers is measured"
+        );
         let certified = |times: &[Rational]| {
-            let method = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();
+            let method = Certified::new(signal).unwrap();
             method.exact_values(times, Limit::Right).unwrap()
         };
         let many: Vec<Rational> =
@@ -68,35 +71,37 @@ fn main() {
         let point = (seconds(|| certified(&many)) - one) / many.len() as f64;
         print("FIXED_PERIOD", "a period of a march in integers", one / f64::from(ORDER + 1));
         print("FIXED_POINT", "a value of it, at an exact time", point);
-        let pieces = seconds(|| Compiled::new(signal, &from, &to, None).unwrap());
+        let pieces = seconds(|| Compiled::new(signal, None).unwrap());
         print("MOVED", "a polynomial of a march", pieces / (PIECES * f64::from(ORDER + 1)));
-        let compiled = Compiled::new(signal, &from, &to, None).unwrap();
+        let compiled = Compiled::new(signal, None).unwrap();
         let lookup = value(&compiled);
         print("LOOKUP", "the piece of an exact time, and its value", lookup);
         for (name, what, precision) in [
             ("STEP", "a step of a recurrence in doubles", StablePrecision::Double),
             ("PAIR_STEP", "the same in pairs", StablePrecision::DoubleDouble),
         ] {
-            let stable = Stable::new(signal, &from, &to, precision).unwrap();
+            let stable = Stable::new(signal, precision).unwrap();
             print(name, what, value(&stable) / ECHOES);
         }
-        let march = |proven| seconds(|| Marched::new(signal, &from, &to, proven).unwrap());
+        let march = |proven| seconds(|| Marched::new(signal, proven).unwrap());
         let (plain, proven) = (march(false), march(true));
-        let march = Marched::new(signal, &from, &to, false).unwrap();
+        let march = Marched::new(signal, false).unwrap();
         print("COEFFICIENT", "a coefficient of a march", value(&march) / COEFFICIENTS);
         print("PROVEN_COEFFICIENT", "the same with its bound", (proven - plain) / COEFFICIENTS);
     });
-    with_signal(TWO_POLES, None, |signal| {
+    with_signal(TWO_POLES, None, "20", |signal| {
         let end = parse_number("20").unwrap();
         let n = 11.0;
         let certified = seconds(|| {
-            let method = Certified::new(signal, &from, &end, &|_, _| Ok(None)).unwrap();
+            let method = Certified::new(signal).unwrap();
             method.value(&(&end - &parse_number("1/3").unwrap()), Limit::Right).unwrap()
         });
         print("BALL", "an operation in balls", certified / (3.0 * n * n / 2.0));
-        let made = seconds(|| Compiled::new(signal, &from, &end, None).unwrap());
+        let made = seconds(|| Compiled::new(signal, None).unwrap());
         print("TERM", "a term of a piece without a march", made / (PIECES * n * TERMS * n));
-        let march = Marched::new(signal, &from, &to, false).unwrap();
+    });
+    with_signal(TWO_POLES, None, &to, |signal| {
+        let march = Marched::new(signal, false).unwrap();
         print("WAVE", "a wave on a period", value(&march) / (2.0 * f64::from(ORDER + 1)));
     });
 }

@@ -1,16 +1,17 @@
 //! What several benchmarks share.
 
-use wavestep::evaluate::ClosedForm;
-use wavestep::language::{Source, parse_number, read_recurrence};
+use wavestep::evaluate::Signal;
+use wavestep::language::parse_number;
+use wavestep::problem::Problem;
 
-/// Calls `work` with the wave f of a recurrence, with a value for its symbol `mu` where one is given.
-pub fn with_signal(text: &str, mu: Option<&str>, work: impl FnOnce(&ClosedForm)) {
+/// Calls `work` with the wave f of a recurrence on a window from 0, with a value for its symbol `mu` where
+/// one is given.
+pub fn with_signal(text: &str, mu: Option<&str>, to: &str, work: impl FnOnce(&dyn Signal)) {
     let number = |text| parse_number(text).expect("a number");
     let values = mu.into_iter().map(|mu| ("mu".to_owned(), number(mu))).collect();
-    let source = Source::new("bench", text).expect("a text");
-    let recurrence = read_recurrence(&source, &values).expect("a recurrence");
-    let observation = recurrence.observation("f").expect("the wave f");
-    work(&ClosedForm::of_recurrence(&recurrence, &observation).expect("a signal"));
+    let problem = Problem::of_text("bench", text, &values).expect("a recurrence");
+    let question = problem.question("f", [number("0"), number(to)]).expect("the wave f");
+    work(&*question.signal);
 }
 
 /// The scene of the rigid mass.

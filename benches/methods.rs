@@ -6,10 +6,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::cell::LazyCell;
 use std::hint::black_box;
-use wavestep::evaluate::{
-    Certified, ClosedForm, Compiled, Marched, Method, Stable, StablePrecision,
-};
-use wavestep::language::parse_number;
+use wavestep::evaluate::{Certified, Compiled, Marched, Method, Signal, Stable, StablePrecision};
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_kernels::{Level, Piece, Table};
 use wavestep_studies::study::Sampling;
@@ -19,11 +16,9 @@ const POINTS: usize = 10_000_000;
 const UNSORTED: usize = 1_000_000;
 const MASSES: [&str; 2] = ["1", "1/4"];
 
-/// Calls `work` with the wave f, and the end of the window.
-fn with_wave(mass: &str, work: impl FnOnce(&ClosedForm, &str)) {
-    with_signal(rigid_mass(), Some(mass), |signal| {
-        work(signal, &format!("{}*2*{mass}", ORDER + 1))
-    });
+/// Calls `work` with the wave f.
+fn with_wave(mass: &str, work: impl FnOnce(&dyn Signal)) {
+    with_signal(rigid_mass(), Some(mass), &format!("{}*2*{mass}", ORDER + 1), work);
 }
 
 /// Times in an order that no cache knows.
@@ -48,10 +43,9 @@ struct Prepared<'a> {
 }
 
 impl Prepared<'_> {
-    fn new<'a>(signal: &'a ClosedForm, last: &str) -> Prepared<'a> {
-        let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
-        let compiled = Compiled::new(signal, &from, &to, None).unwrap();
-        let certified = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();
+    fn new(signal: &dyn Signal) -> Prepared<'_> {
+        let compiled = Compiled::new(signal, None).unwrap();
+        let certified = Certified::new(signal).unwrap();
         let times = shuffled(compiled.table().end());
         Prepared { compiled, certified, times }
     }
@@ -59,8 +53,8 @@ impl Prepared<'_> {
 
 fn polynomials(criterion: &mut Criterion) {
     for mass in MASSES {
-        with_wave(mass, |signal, last| {
-            let prepared = LazyCell::new(|| Prepared::new(signal, last));
+        with_wave(mass, |signal| {
+            let prepared = LazyCell::new(|| Prepared::new(signal));
             let mut values = vec![0.0; POINTS];
             let mut group = criterion.benchmark_group(format!("rigid-mass mu={mass} n≤{ORDER}"));
             group.sample_size(10);
@@ -103,21 +97,20 @@ fn polynomials(criterion: &mut Criterion) {
 
 /// A thousand values from scratch: nothing is prepared.
 fn from_scratch(criterion: &mut Criterion) {
-    with_wave("1", |signal, last| {
-        let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
+    with_wave("1", |signal| {
         let times = Sampling { points: 1000, seed: 1 }.times(0.0, 402.0);
         let mut values = vec![0.0; 1000];
         let mut group = criterion.benchmark_group("1000 values to n = 200, from scratch");
         group.bench_function("certified", |b| {
             b.iter(|| {
-                let method = Certified::new(signal, &from, &to, &|_, _| Ok(None)).unwrap();
+                let method = Certified::new(signal).unwrap();
                 method.values(&times, black_box(&mut values)).unwrap();
             });
         });
         for (name, proven) in [("marched", true), ("marched, no bound", false)] {
             group.bench_function(name, |b| {
                 b.iter(|| {
-                    let method = Marched::new(signal, &from, &to, proven).unwrap();
+                    let method = Marched::new(signal, proven).unwrap();
                     method.values(&times, black_box(&mut values)).unwrap();
                 });
             });
@@ -125,7 +118,7 @@ fn from_scratch(criterion: &mut Criterion) {
         group.sample_size(10);
         group.bench_function("compiled", |b| {
             b.iter(|| {
-                let method = Compiled::new(signal, &from, &to, None).unwrap();
+                let method = Compiled::new(signal, None).unwrap();
                 method.values(&times, black_box(&mut values)).unwrap();
             });
         });
@@ -135,15 +128,14 @@ fn from_scratch(criterion: &mut Criterion) {
 
 /// Sums of echoes, on one period.
 fn sums(criterion: &mut Criterion) {
-    with_wave("1", |signal, last| {
-        let (from, to) = (parse_number("0").unwrap(), parse_number(last).unwrap());
+    with_wave("1", |signal| {
         let mut group = criterion.benchmark_group("sums of echoes");
         for order in [10_u32, 50, 200] {
             let start = f64::from(2 * order);
             let times = Sampling { points: 4096, seed: 1 }.times(start, start + 2.0);
             let mut values = vec![0.0; times.len()];
             group.throughput(Throughput::Elements(times.len() as u64));
-            let stable = Stable::new(signal, &from, &to, StablePrecision::Double).unwrap();
+            let stable = Stable::new(signal, StablePrecision::Double).unwrap();
             group.bench_function(BenchmarkId::new("stable", order), |b| {
                 b.iter(|| stable.values(&times, black_box(&mut values)).unwrap());
             });

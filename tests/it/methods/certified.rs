@@ -49,7 +49,7 @@ impl Tallies {
             let mut ball = subject.enclose(&rational, Limit::Right, REFERENCE_BITS);
             if ball.rounded().is_none() {
                 // Zero, or half-way between two doubles; or next to one of these.
-                match (subject.recognise)(&rational, Limit::Right).expect("an answer") {
+                match subject.rational(&rational, Limit::Right) {
                     Some(number) => {
                         self.rounded.nearest(*value, &number, place);
                         continue;
@@ -97,8 +97,7 @@ fn many_times(subject: &Subject<'_>, random: &mut TestRng, count: usize) -> Vec<
 }
 
 fn check(subject: &Subject<'_>, random: &mut TestRng, count: usize, tallies: &mut Tallies) {
-    let certified =
-        Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise).unwrap();
+    let certified = Certified::new(subject.signal()).unwrap();
     let at = many_times(subject, random, count);
     let mut values = vec![f64::NAN; at.len()];
     certified.values(&at, &mut values).unwrap_or_else(|error| panic!("{}: {error}", subject.name));
@@ -220,9 +219,7 @@ fn ties_go_to_the_even_double() {
     let mut tally = Tally::new("rational values");
     for quantity in ["even", "small", "third", "above", "below"] {
         with(TIES, &[], quantity, ("0", "24"), |subject| {
-            let certified =
-                Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise)
-                    .unwrap();
+            let certified = Certified::new(subject.signal()).unwrap();
             let mut random = random(16);
             for count in [200, MANY] {
                 let at = many_times(subject, &mut random, count);
@@ -260,9 +257,7 @@ fn nothing_comes_before_the_front() {
         ("mass-on-fixed-bar", &[("mu", "3")], "strain_fixed"),
     ] {
         with(scene, values, quantity, ("-2", "4"), |subject| {
-            let certified =
-                Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise)
-                    .unwrap();
+            let certified = Certified::new(subject.signal()).unwrap();
             let front: f64 = if quantity == "f" { 0.0 } else { 3.0 };
             for count in [100, MANY] {
                 let mut at = times::anywhere(subject, &mut random(17), count);
@@ -281,8 +276,7 @@ fn nothing_comes_before_the_front() {
 #[test]
 fn values_are_no_neighbours() {
     with("rigid-mass", &[("mu", "1")], "f", ("0", "9"), |subject| {
-        let certified =
-            Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise).unwrap();
+        let certified = Certified::new(subject.signal()).unwrap();
         for time in times::anywhere(subject, &mut random(18), 100) {
             let value = certified.value(&exact(time), Limit::Right).unwrap();
             let (low, high) = ends(&subject.exact(&exact(time), Limit::Right));
@@ -314,9 +308,7 @@ fn exact_times_are_correctly_rounded() {
                 )
             }));
             at.retain(|time| (&subject.from..=&subject.to).contains(&time));
-            let certified =
-                Certified::new(subject.signal, &subject.from, &subject.to, subject.recognise)
-                    .unwrap();
+            let certified = Certified::new(subject.signal()).unwrap();
             for side in [Limit::Left, Limit::Right] {
                 let together = certified.exact_values(&at, side).unwrap();
                 for (time, value) in at.iter().zip(together) {

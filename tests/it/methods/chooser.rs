@@ -47,20 +47,20 @@ fn what_is_picked_is_the_cheapest_that_is_proven() {
     let mut many = Vec::new();
     for (scene, values, quantity, last) in PROBLEMS {
         with(scene, values, quantity, ("0", last), |subject| {
-            let (problem, scale) = (subject.problem(), subject.scale());
+            let (problem, scale) = (&subject.question, subject.scale());
             for _ in 0..60 {
                 let tolerance = scale * 10f64.powf(random.random_range(-19.0..0.0));
                 let points = 10f64.powf(random.random_range(0.0..6.0)) as usize;
-                let weighed = consider(&problem, points, tolerance, scale).unwrap();
-                is_cheapest(&problem, &weighed, points, tolerance);
+                let weighed = consider(problem, points, tolerance, scale).unwrap();
+                is_cheapest(problem, &weighed, points, tolerance);
                 weighed_problems += 1;
             }
             // Nothing is nearer than half a unit in the last place.
             let unit = unit_in_the_last_place(scale);
-            let met = |tolerance: f64| consider(&problem, 10, tolerance, scale).unwrap().met;
+            let met = |tolerance: f64| consider(problem, 10, tolerance, scale).unwrap().met;
             assert!(met(0.5 * unit) && met(unit) && !met(0.49 * unit));
             let first = |points, tolerance: f64| {
-                consider(&problem, points, tolerance, scale).unwrap().candidates[0].kind
+                consider(problem, points, tolerance, scale).unwrap().candidates[0].kind
             };
             assert_eq!(first(1_000_000, 0.6 * unit), Kind::Certified);
             many.push(first(1_000_000, 4.0 * unit));
@@ -81,14 +81,14 @@ fn tolerances_are_kept() {
     let mut kinds = std::collections::BTreeSet::new();
     for (scene, values, quantity, last) in PROBLEMS {
         with(scene, values, quantity, ("0", last), |subject| {
-            let (problem, scale) = (subject.problem(), subject.scale());
+            let (problem, scale) = (&subject.question, subject.scale());
             for _ in 0..6 {
                 let tolerance = scale * 10f64.powf(random.random_range(-15.0..-1.0));
                 let points = 10f64.powf(random.random_range(0.0..6.0)) as usize;
-                let weighed = consider(&problem, points, tolerance, scale).unwrap();
+                let weighed = consider(problem, points, tolerance, scale).unwrap();
                 assert!(weighed.met);
                 let kind = weighed.candidates[0].kind;
-                let way = Way::new(kind, &problem, Some(tolerance)).unwrap();
+                let way = Way::new(kind, problem, Some(tolerance)).unwrap();
                 kinds.insert(way.kind().to_string());
                 let bound = way.bound().expect("what is picked is proven");
                 // The bound of certified values is beyond the rounding of the result.
@@ -157,17 +157,17 @@ fn every_method_is_named_as_it_is_read() {
 #[test]
 fn models_have_their_limits() {
     with("rigid-mass", &[("mu", "1")], "f", ("0", "4"), |subject| {
-        let refused = Way::new(Kind::Modes { count: 10 }, &subject.problem(), None).err();
+        let refused = Way::new(Kind::Modes { count: 10 }, &subject.question, None).err();
         assert_eq!(refused, Some(WayError::NeedsScene("modes")));
     });
     with("mass-on-fixed-bar", &[("mu", "1")], "velocity", ("0", "4"), |subject| {
-        let way = Way::new(Kind::Modes { count: 10 }, &subject.problem(), None).unwrap();
+        let way = Way::new(Kind::Modes { count: 10 }, &subject.question, None).unwrap();
         assert_eq!(way.bound(), None);
         let left = way.value(&exact(2.0), Limit::Left);
         assert_eq!(left, Err(WayError::LeftLimit("modes")));
         assert!(way.value(&exact(2.0), Limit::Right).is_ok());
         for precision in [StablePrecision::Double, StablePrecision::DoubleDouble] {
-            let way = Way::new(Kind::Stable(precision), &subject.problem(), None).unwrap();
+            let way = Way::new(Kind::Stable(precision), &subject.question, None).unwrap();
             assert!(way.bound().is_none() && way.law().contains("measured"));
         }
     });

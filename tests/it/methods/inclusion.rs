@@ -70,14 +70,12 @@ fn all_methods(subject: &Subject<'_>, random: &mut TestRng, tallies: &mut Tallie
     let name = &subject.name;
     let mut at = times::special(subject);
     at.extend(times::anywhere(subject, random, 30));
-    let (from, to) = (&subject.from, &subject.to);
-
-    let certified = Certified::new(subject.signal, from, to, subject.recognise).expect(name);
+    let certified = Certified::new(subject.signal()).expect(name);
     let mut values = vec![0.0; at.len()];
     certified.values(&at, &mut values).expect(name);
     let rounded = |tally: &mut Tally, value: f64, time: &BigRational, side| {
         let place = || format!("{time} on the {side:?} in {name}");
-        match (subject.recognise)(time, side).expect(name) {
+        match subject.rational(time, side) {
             Some(number) => tally.nearest(value, &number, place),
             None => tally.rounded(
                 value,
@@ -117,7 +115,7 @@ fn all_methods(subject: &Subject<'_>, random: &mut TestRng, tallies: &mut Tallie
         (StablePrecision::Double, 64.0, &mut tallies.stable),
         (StablePrecision::DoubleDouble, 2.0, &mut tallies.pairs),
     ] {
-        if let Ok(stable) = Stable::new(subject.signal, from, to, precision) {
+        if let Ok(stable) = Stable::new(subject.signal(), precision) {
             assert_eq!(stable.bound(), None);
             compare(&stable, units * unit, subject, &at, tally);
         }
@@ -209,11 +207,10 @@ fn windows_end_where_they_end() {
     let values: Values<'_> = &[("mu", "2/3")];
     with("rigid-mass", values, "velocity", ("10/3", "13/2"), |subject| {
         let (first, last) = times::ends(subject);
-        let (from, to) = (&subject.from, &subject.to);
-        let certified = Certified::new(subject.signal, from, to, subject.recognise).unwrap();
+        let certified = Certified::new(subject.signal()).unwrap();
         let compiled = subject.compiled(None).unwrap();
         let marched = subject.marched(true).unwrap();
-        let stable = Stable::new(subject.signal, from, to, StablePrecision::Double).unwrap();
+        let stable = Stable::new(subject.signal(), StablePrecision::Double).unwrap();
         let methods: [&dyn Method; 4] = [&certified, &compiled, &marched, &stable];
         for method in methods {
             let name = method.name();

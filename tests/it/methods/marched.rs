@@ -6,7 +6,8 @@ use crate::methods::subject::{Subject, with};
 use crate::methods::tally::{Tally, ends};
 use crate::methods::{Values, exact, random, times, unit_in_the_last_place};
 use num_rational::BigRational;
-use wavestep::evaluate::{Limit, Method as _, MethodError, Taps};
+use wavestep::evaluate::{Limit, Marched, Method as _, MethodError, Taps};
+use wavestep::problem::Problem;
 
 /// A rigid mass whose bar ends in a dashpot: all but a part of each wave is lost; and what is seen
 /// beside large functions of time.
@@ -59,7 +60,7 @@ fn many_taps_are_within_the_bound() {
             for quantity in ["f", "velocity", "many"] {
                 let values: Values<'_> = &[("mu", mu), ("r", r)];
                 let units = with(DAMPED, values, quantity, ("0", last), |subject| {
-                    let taps = Taps::of(subject.signal).unwrap().taps.len();
+                    let taps = Taps::of(subject.form).unwrap().taps.len();
                     assert_eq!(
                         taps,
                         match quantity {
@@ -145,10 +146,9 @@ fn what_is_not_proven_is_not_claimed() {
 /// The marched windows are limited, and refused by name beyond.
 #[test]
 fn too_many_periods_are_refused() {
-    let refused = with("rigid-mass", &[("mu", "1")], "f", ("0", "100"), |subject| {
-        let far = BigRational::from_integer(100_000_000_i64.into());
-        let window = wavestep::evaluate::Marched::new(subject.signal, &exact(0.0), &far, false);
-        window.err().expect("a refusal")
-    });
+    let problem = Problem::builtin("rigid-mass").unwrap().with("mu", "1").unwrap();
+    let far = BigRational::from_integer(100_000_000_i64.into());
+    let question = problem.question("f", [exact(0.0), far]).unwrap();
+    let refused = Marched::new(&*question.signal, false).err().expect("a refusal");
     assert!(matches!(refused, MethodError::TooManyPeriods { limit: 10_000_000, .. }), "{refused}");
 }

@@ -6,7 +6,7 @@ use crate::methods::tally::{Tally, ends};
 use crate::methods::{Values, exact, random, times};
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{EvaluateError, Limit, Marched, Method as _, MethodError, NoTaps, Taps};
+use wavestep::evaluate::{EvaluateError, Limit, Method as _, MethodError, NoTaps, Taps};
 
 /// The largest error, relative to the largest value.
 const ALLOWED: f64 = 1e-13;
@@ -72,7 +72,7 @@ fn compare(subject: &Subject<'_>, random: &mut TestRng, bits: u64, tally: &mut T
         let place = || format!("{time} on the {side:?} in {name}");
         tally.within(*value, enclosed, &exact(ALLOWED * scale), place);
     }
-    if Taps::of(subject.signal).is_err() {
+    if Taps::of(subject.form).is_err() {
         assert_eq!(marched.bound(), None, "{name}");
         assert!(marched.law().contains("no bound"), "{}", marched.law());
     }
@@ -86,7 +86,7 @@ fn scenes_are_as_enclosed() {
     let mut without_taps = 0;
     for (scene, values, quantity, last) in SUBJECTS {
         with(scene, values, quantity, ("0", last), |subject| {
-            without_taps += usize::from(Taps::of(subject.signal).is_err());
+            without_taps += usize::from(Taps::of(subject.form).is_err());
             assert!(compare(subject, &mut random, crate::methods::BITS, &mut tally) > 0.0);
         });
     }
@@ -156,7 +156,7 @@ fn scenes_at_random_are_as_enclosed() {
         let text = scene(&mut random);
         for quantity in ["force", "velocity"] {
             with(&text, &[], quantity, ("0", "8"), |subject| {
-                without_taps += usize::from(Taps::of(subject.signal).is_err());
+                without_taps += usize::from(Taps::of(subject.form).is_err());
                 compare(subject, &mut random, crate::methods::BITS, &mut tally);
             });
         }
@@ -195,7 +195,7 @@ fn errors_stay_small_through_many_periods() {
 #[test]
 fn lattices_are_refused() {
     with("incommensurate", &[], "wall_force", ("0", "1/4000"), |subject| {
-        let refused = Marched::new(subject.signal, &subject.from, &subject.to, false);
+        let refused = subject.marched(false);
         assert_eq!(refused.err(), Some(MethodError::NoTaps(NoTaps::NoGrid)));
     });
 }

@@ -8,6 +8,7 @@ mod c_export;
 mod certified;
 mod chooser;
 mod compiled;
+mod contacts;
 mod inclusion;
 mod marched;
 mod marched_waves;

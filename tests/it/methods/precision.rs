@@ -142,7 +142,7 @@ fn rational_values_lie_in_their_enclosures() {
                 if let Value::Exact(number) = subject.by_form(&time, Limit::Right, 30) {
                     let ball = subject.enclose(&time, Limit::Right, 128);
                     assert!(ball.contains(&number), "{time} in {}", subject.name);
-                    let told = (subject.recognise)(&time, Limit::Right).unwrap();
+                    let told = subject.rational(&time, Limit::Right);
                     assert_eq!(told, Some(number), "{time} in {}", subject.name);
                     compared += 1;
                 }

@@ -6,12 +6,10 @@ use std::collections::BTreeMap;
 use wavestep::answer::Question;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{
-    ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Recogniser, Stretch, Value,
-    digits,
+    ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Signal, Stretch, Value, digits,
 };
-use wavestep::language::{self, Source, Stated, parse_number};
-use wavestep::network::Network;
-use wavestep::solution::Solution;
+use wavestep::language::parse_number;
+use wavestep::problem::Problem;
 
 /// Precision that the exact forms may use.
 const LIMIT_BITS: u64 = 1 << 14;
@@ -19,21 +17,25 @@ const LIMIT_BITS: u64 = 1 << 14;
 /// An observable on a window.
 pub struct Subject<'a> {
     pub name: String,
-    pub signal: &'a ClosedForm,
-    pub recognise: &'a Recogniser<'a>,
+    pub question: Question<'a>,
+    pub form: &'a ClosedForm,
     pub from: BigRational,
     pub to: BigRational,
     pub stretches: Vec<Stretch>,
-    scene: Option<(&'a Network, usize)>,
-    by_form: &'a dyn Fn(&BigRational, Limit, usize) -> Value,
+    exact: &'a ClosedSignal<'a>,
 }
 
-impl<'a> Subject<'a> {
+impl Subject<'_> {
+    /// What methods are asked for.
+    pub fn signal(&self) -> &dyn Signal {
+        &*self.question.signal
+    }
+
     /// An enclosure from the pieces in balls.
     pub fn enclose(&self, at: &BigRational, side: Limit, bits: u64) -> Ball {
-        let stretch = self.signal.stretch_at(&self.stretches, at, side).expect("an order");
-        let scaled = self.signal.slowness().scale(at);
-        let value = self.signal.enclose(&self.stretches[stretch], 0, &scaled, bits);
+        let stretch = self.form.stretch_at(&self.stretches, at, side).expect("an order");
+        let scaled = self.form.slowness().scale(at);
+        let value = self.form.enclose(&self.stretches[stretch], 0, &scaled, bits);
         value.unwrap_or_else(|error| panic!("{} at {at}: {error}", self.name))
     }
 
@@ -43,26 +45,29 @@ impl<'a> Subject<'a> {
     }
 
     /// The value from the symbolic echoes, to so many digits.
-    pub fn by_form(&self, at: &BigRational, side: Limit, digits: usize) -> Value {
-        (self.by_form)(at, side, digits)
+    pub fn by_form(&self, at: &BigRational, side: Limit, count: usize) -> Value {
+        digits(self.exact, at, side, count, LIMIT_BITS).expect("a value")
     }
 
-    pub fn problem(&self) -> Question<'a> {
-        let (from, to) = (self.from.clone(), self.to.clone());
-        Question { signal: self.signal, scene: self.scene, recognise: self.recognise, from, to }
+    /// The value where it is known to be a rational number.
+    pub fn rational(&self, at: &BigRational, side: Limit) -> Option<BigRational> {
+        match self.by_form(at, side, 6) {
+            Value::Exact(value) => Some(value),
+            _ => None,
+        }
     }
 
     /// About the largest absolute value.
     pub fn scale(&self) -> f64 {
-        self.problem().scale().expect("a scale")
+        self.question.scale().expect("a scale")
     }
 
-    pub fn compiled(&self, tolerance: Option<f64>) -> Result<Compiled<'a>, MethodError> {
-        Compiled::new(self.signal, &self.from, &self.to, tolerance)
+    pub fn compiled(&self, tolerance: Option<f64>) -> Result<Compiled<'_>, MethodError> {
+        Compiled::new(self.signal(), tolerance)
     }
 
     pub fn marched(&self, proven: bool) -> Result<Marched, MethodError> {
-        Marched::new(self.signal, &self.from, &self.to, proven)
+        Marched::new(self.signal(), proven)
     }
 
     fn title(text: &str, quantity: &str, values: Values<'_>) -> String {
@@ -96,59 +101,24 @@ pub fn with<T>(
 ) -> T {
     let text = text_of(scene);
     let name = Subject::title(text, quantity, values);
-    let source = Source::new("scene", text).expect("a text");
     let values: BTreeMap<String, BigRational> =
         values.iter().map(|(name, value)| ((*name).to_owned(), number(value))).collect();
     let (from, to) = (number(from), number(to));
-    let stated = language::read(&source, &values).unwrap_or_else(|errors| {
-        let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
-        panic!("{}", texts.join("\n"))
-    });
-    match stated {
-        Stated::Recurrence(recurrence) => {
-            let solution = Solution::new(*recurrence);
+    let problem = Problem::of_text("scene", text, &values).unwrap_or_else(|error| panic!("{error}"));
+    let exact = match problem.network() {
+        Ok(network) => {
+            let observed = network.observables().iter().find(|known| known.name == quantity);
+            let exact = ClosedSignal::of_scene(network, observed.expect(quantity), [&from, &to]);
+            exact.expect("one").echo_by_echo()
+        }
+        Err(_) => {
+            let solution = problem.solution().expect("equations");
             let observation = solution.recurrence().observation(quantity).expect(quantity);
-            let exact = ClosedSignal::of_recurrence(&solution, &observation, [&from, &to]);
-            let exact = exact.expect("numbers");
-            let signal =
-                ClosedForm::of_recurrence(solution.recurrence(), &observation).expect(&name);
-            let stretches = stretches(&signal, &from, &to);
-            let by_form = |at: &BigRational, side, count| {
-                digits(&exact, at, side, count, LIMIT_BITS).expect("a value")
-            };
-            work(&Subject {
-                name,
-                signal: &signal,
-                recognise: &|at, side| exact.rational(at, side),
-                from,
-                to,
-                stretches,
-                scene: None,
-                by_form: &by_form,
-            })
+            ClosedSignal::of_recurrence(solution, &observation, [&from, &to]).expect("numbers")
         }
-        Stated::Scene(scene) => {
-            let network = Network::new(&scene).expect("a network");
-            let place = network.observables().iter().position(|known| known.name == quantity);
-            let place = place.expect(quantity);
-            let observed = &network.observables()[place];
-            let signal = ClosedForm::of_scene(&network, observed, &to).expect(&name);
-            let stretches = stretches(&signal, &from, &to);
-            let exact = ClosedSignal::of_scene(&network, observed, [&from, &to]).expect("one");
-            let exact = exact.echo_by_echo();
-            let by_form = |at: &BigRational, side, count| {
-                digits(&exact, at, side, count, LIMIT_BITS).expect("a value")
-            };
-            work(&Subject {
-                name,
-                signal: &signal,
-                recognise: &|at, side| exact.rational(at, side),
-                from,
-                to,
-                stretches,
-                scene: Some((&network, place)),
-                by_form: &by_form,
-            })
-        }
-    }
+    };
+    let question = problem.question(quantity, [from.clone(), to.clone()]).expect(&name);
+    let form = exact.form().expect(&name);
+    let stretches = stretches(form, &from, &to);
+    work(&Subject { name, question, form, from, to, stretches, exact: &exact })
 }

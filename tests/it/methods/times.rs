@@ -31,7 +31,7 @@ pub fn anywhere(subject: &Subject<'_>, random: &mut TestRng, count: usize) -> Ve
 pub fn first_doubles(subject: &Subject<'_>) -> Vec<f64> {
     let (first, last) = ends(subject);
     let stretch =
-        |time: f64| subject.signal.stretch_at(&subject.stretches, &exact(time), Limit::Right);
+        |time: f64| subject.form.stretch_at(&subject.stretches, &exact(time), Limit::Right);
     let arrived = |time: f64, arrival: usize| stretch(time).expect("an order") >= arrival;
     let mut found = Vec::new();
     for arrival in 1..subject.stretches.len() {
@@ -70,7 +70,7 @@ pub fn special(subject: &Subject<'_>) -> Vec<f64> {
 
 /// The arrivals within the window that are rational numbers, that at its first time included.
 pub fn arrivals(subject: &Subject<'_>) -> Vec<BigRational> {
-    let slowness = subject.signal.slowness().as_constant();
+    let slowness = subject.form.slowness().as_constant();
     let arrival = |stretch: &wavestep::evaluate::Stretch| {
         Some(stretch.from().as_constant()? / slowness.as_ref()?)
     };

@@ -48,7 +48,7 @@ pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, Plo
 
 fn at_distance(distance: Rational, kinds: &[Kind]) -> Option<Vec<f64>> {
     let values = [("d".to_owned(), distance)].into();
-    let problem = Problem::read("two poles", TEXT, &values).ok()?;
+    let problem = Problem::of_text("two poles", TEXT, &values).ok()?;
     let question = Subject { problem: &problem, quantity: "f" }.between(0.0, LAST).ok()?;
     let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST);
     let reference = Reference::new(&question, &times).ok()?;

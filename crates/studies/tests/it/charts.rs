@@ -3,41 +3,36 @@
 use std::cell::Cell;
 use std::time::Duration;
 use wavestep::answer::{Kind, Question};
-use wavestep::evaluate::ClosedForm;
-use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
-use wavestep::network::Network;
+use wavestep::problem::Problem;
 use wavestep_draw::{Axis, Caption, Curves};
 use wavestep_studies::study::{
-    LADDER, Loss, Measured, Outcome, Reference, Sampling, Settings, at_arrivals, cost_over_order,
-    derivation_cost, errors_by_order, ladder, losses, near_confluence, near_jump, order_map,
-    over_courant, over_order, over_time, work_precision,
+    LADDER, Loss, Measured, Outcome, Reference, Sampling, Settings, Subject, at_arrivals,
+    cost_over_order, derivation_cost, errors_by_order, ladder, losses, near_confluence, near_jump,
+    order_map, over_courant, over_order, over_time, work_precision,
 };
 
 const ONCE: Settings = Settings { runs: 1, time: Duration::ZERO };
 
-fn text(name: &str) -> Source {
-    Source::new(name, wavestep::scenes::find(name).unwrap().text).unwrap()
+/// Calls `work` with a quantity of a built-in scene, μ = 1, and the question until a time.
+fn with_subject(
+    scene: &str,
+    quantity: &str,
+    to: f64,
+    work: impl FnOnce(Subject<'_>, &Question<'_>),
+) {
+    let problem = Problem::builtin(scene).unwrap().with("mu", "1").unwrap();
+    let subject = Subject { problem: &problem, quantity };
+    work(subject, &subject.between(0.0, to).unwrap());
 }
 
-/// The wave f of the rigid mass, μ = 1, until a time.
-fn with_wave(to: &str, work: impl FnOnce(&Question<'_>)) {
-    let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
-    let recurrence = read_recurrence(&text("rigid-mass"), &values).unwrap();
-    let f = recurrence.observation("f").unwrap();
-    let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
-    let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
-    work(&Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to });
+/// The wave f of the rigid mass.
+fn with_wave(to: f64, work: impl FnOnce(Subject<'_>, &Question<'_>)) {
+    with_subject("rigid-mass", "f", to, work);
 }
 
 /// The same as a scene, which models take: the strain under the mass.
-fn with_scene(to: &str, work: impl FnOnce(&Question<'_>)) {
-    let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
-    let scene = read_scene(&text("mass-on-fixed-bar"), &values).unwrap();
-    let network = Network::new(&scene).unwrap();
-    let (from, to) = (parse_number("0").unwrap(), parse_number(to).unwrap());
-    let signal = ClosedForm::of_scene(&network, &network.observables()[1], &to).unwrap();
-    let scene = Some((&network, 1));
-    work(&Question { signal: &signal, scene, recognise: &|_, _| Ok(None), from, to });
+fn with_scene(to: f64, work: impl FnOnce(&Question<'_>)) {
+    with_subject("mass-on-fixed-bar", "strain_impact", to, |_, question| work(question));
 }
 
 fn reference(question: &Question<'_>, to: f64) -> Reference {
@@ -52,16 +47,16 @@ fn last(chart: &Curves, name: &str) -> f64 {
 /// The formula as printed loses what sums in pairs keep.
 #[test]
 fn expanded_formulas_lose_digits_with_time_and_order() {
-    with_wave("60", |question| {
+    with_wave(60.0, |_, question| {
         let (reference, axis) = (reference(question, 60.0), Axis::linear("time t"));
         let chart = over_time(&reference, question, axis, 10, Caption::default()).unwrap();
         assert!(last(&chart, "expanded") > 1e-8 && last(&chart, "stable") < 1e-13);
     });
-    with_wave("8", |question| {
-        let chart = over_order(question, 2.0, &[5, 40], Caption::default()).unwrap();
+    with_wave(8.0, |subject, _| {
+        let chart = over_order(subject, 2.0, &[5, 40], Caption::default()).unwrap();
         assert!(last(&chart, "expanded") > 1e-3 && last(&chart, "double-double") < 1e-15);
         let kinds = [Kind::Expanded, Kind::Compiled, Kind::Rigid];
-        let rows = errors_by_order(question, 2.0, &[1, 30], &kinds);
+        let rows = errors_by_order(subject, 2.0, &[1, 30], &kinds);
         let [expanded, compiled, rigid] = &rows[..] else { panic!("a row for each") };
         assert!(expanded.errors[0].unwrap() < 1e-14 && expanded.errors[1].unwrap() > 1e-8);
         assert!(compiled.errors.iter().all(|error| error.unwrap() < 1e-15));
@@ -78,7 +73,7 @@ fn expanded_formulas_lose_digits_with_time_and_order() {
 
 #[test]
 fn arrivals_are_all_there() {
-    with_wave("9", |question| {
+    with_wave(9.0, |_, question| {
         let chart = at_arrivals(question, 100, Caption::default()).unwrap();
         let compiled = chart.curves().iter().find(|curve| curve.name == "compiled").unwrap();
         assert!(compiled.points.iter().map(|(n, _)| *n).eq([1.0, 2.0, 3.0, 4.0]));
@@ -88,13 +83,13 @@ fn arrivals_are_all_there() {
 
 #[test]
 fn models_miss_jumps_and_keep_to_the_courant_number() {
-    with_scene("9", |question| {
+    with_scene(9.0, |question| {
         // Thirty modes miss part of the jump that three thousand follow at a distance.
         let chart = near_jump(question, "", Caption::default()).unwrap();
         let [few, _, many] = chart.curves() else { panic!("three sums") };
         assert!(few.points.first().unwrap().1 > many.points.last().unwrap().1);
     });
-    with_scene("8", |question| {
+    with_scene(8.0, |question| {
         let reference = reference(question, 8.0);
         let chart = over_courant(question, (&reference, 50), Caption::default()).unwrap();
         let mean = &chart.curves()[0];
@@ -111,10 +106,13 @@ fn the_ladder_keeps_its_bounds() {
     let compiled = LADDER.iter().filter(|(kind, _)| *kind == Kind::Compiled);
     let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| *tolerance).collect();
     assert!(tolerances.is_sorted_by(|a, b| a > b) && tolerances.len() > 5);
-    with_wave("8", |question| {
+    with_wave(8.0, |subject, question| {
         let reference = reference(question, 8.0);
         let ticks = Cell::new(0);
-        let outcomes = ladder(question, &reference, (ONCE, true), |_| ticks.set(ticks.get() + 1));
+        let outcomes =
+            ladder((subject, question.signal.window()), &reference, (ONCE, true), |_| {
+                ticks.set(ticks.get() + 1)
+            });
         assert_eq!(ticks.get(), outcomes.len());
         // Models refuse a recurrence; every bound of the others is kept.
         assert!(outcomes[0].result.is_err());
@@ -137,14 +135,15 @@ fn the_ladder_keeps_its_bounds() {
 
 #[test]
 fn costs_are_told_for_every_order() {
-    let recurrence = read_recurrence(&text("rigid-mass"), &Default::default()).unwrap();
+    let problem = Problem::builtin("rigid-mass").unwrap();
+    let recurrence = problem.recurrence().unwrap();
     let f = recurrence.observation("f").unwrap();
-    let cost = derivation_cost(&recurrence, &f, &[2, 20], ONCE).unwrap();
+    let cost = derivation_cost(recurrence, &f, &[2, 20], ONCE).unwrap();
     let [(2.0, few), (20.0, many)] = cost[..] else { panic!("two orders") };
     assert!(few > 0.0 && many > 0.0);
-    with_wave("8", |question| {
+    with_wave(8.0, |subject, _| {
         let [_, preparation] =
-            cost_over_order(question, None, 2.0, &[1, 4], ONCE, Caption::default()).unwrap();
+            cost_over_order(subject, None, 2.0, &[1, 4], ONCE, Caption::default()).unwrap();
         let curve = |name: &str| preparation.curves().iter().find(|curve| curve.name == name);
         assert!(curve("compiled, period n").is_some());
         assert_eq!(curve("derivation of 0 to n, numbers set").unwrap().points.len(), 2);

@@ -1,33 +1,26 @@
 //! The harness of the charts, measured itself: a known error in is a known error out.
 
 use wavestep::answer::{Kind, Question};
-use wavestep::evaluate::{ClosedForm, ClosedSignal, StablePrecision};
-use wavestep::language::{Source, parse_number, read_recurrence};
-use wavestep::solution::Solution;
+use wavestep::evaluate::StablePrecision;
+use wavestep::problem::Problem;
 use wavestep_draw::Caption;
 use wavestep_studies::study::{
-    Loss, Reference, Sampling, Settings, errors, errors_by_order, first_losses, measure,
+    Loss, Reference, Sampling, Settings, Subject, errors, errors_by_order, first_losses, measure,
     near_zeros, simple_roots, worst,
 };
 
-fn with_question(work: impl FnOnce(&Question<'_>)) {
-    let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    let values = [("mu".to_owned(), parse_number("1/3").unwrap())].into();
-    let source = Source::new("rigid-mass", text).unwrap();
-    let solution = Solution::new(read_recurrence(&source, &values).unwrap());
-    let f = solution.recurrence().observation("f").unwrap();
-    let signal = ClosedForm::of_recurrence(solution.recurrence(), &f).unwrap();
-    let (from, to) = (parse_number("0").unwrap(), parse_number("12").unwrap());
-    let exact = ClosedSignal::of_recurrence(&solution, &f, [&from, &to]).unwrap();
-    let recognise = |at: &_, side| exact.rational(at, side);
-    work(&Question { signal: &signal, scene: None, recognise: &recognise, from, to });
+/// Calls `work` with the wave f of the rigid mass, μ = 1/3, and the question until 12.
+fn with_question(work: impl FnOnce(Subject<'_>, &Question<'_>)) {
+    let problem = Problem::builtin("rigid-mass").unwrap().with("mu", "1/3").unwrap();
+    let subject = Subject { problem: &problem, quantity: "f" };
+    work(subject, &subject.between(0.0, 12.0).unwrap());
 }
 
 /// The reference's own values are off by half a unit in the last place at most, and an error that is
 /// put in comes out, on each value alone.
 #[test]
 fn known_errors_are_measured() {
-    with_question(|question| {
+    with_question(|_, question| {
         let times = Sampling { points: 100, seed: 3 }.times(0.0, 12.0);
         let reference = Reference::new(question, &times).unwrap();
         assert!(reference.radius() < 1e-29, "{:e}", reference.radius());
@@ -54,7 +47,7 @@ fn known_errors_are_measured() {
 /// The reference agrees with certified digits, which come another way.
 #[test]
 fn references_agree_with_certified_digits() {
-    with_question(|question| {
+    with_question(|_, question| {
         let times = [0.0, 0.5, 2.0 / 3.0, 5.25, 11.999];
         let reference = Reference::new(question, &times).unwrap();
         let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();
@@ -68,7 +61,7 @@ fn references_agree_with_certified_digits() {
 /// Every proven bound holds where it is measured, and the harness sees the formula as printed fail.
 #[test]
 fn proven_bounds_hold_where_they_are_measured() {
-    with_question(|question| {
+    with_question(|subject, question| {
         let times = Sampling { points: 300, seed: 4 }.times(0.0, 12.0);
         let reference = Reference::new(question, &times).unwrap();
         let settings = Settings { runs: 1, time: std::time::Duration::ZERO };
@@ -80,7 +73,8 @@ fn proven_bounds_hold_where_they_are_measured() {
             (Kind::Marched { proven: true }, None),
         ];
         for step in kinds {
-            let measured = measure(question, step, &reference, settings).unwrap();
+            let measured =
+                measure((subject, question.signal.window()), step, &reference, settings).unwrap();
             let bound = measured.bound.unwrap();
             assert!(measured.error <= bound, "{step:?}: {:e} > {bound:e}", measured.error);
             assert!(measured.seconds > 0.0 && measured.preparation >= 0.0);
@@ -92,20 +86,14 @@ fn proven_bounds_hold_where_they_are_measured() {
 /// Orders of loss are those that are found when every order is measured.
 #[test]
 fn orders_of_loss_are_the_first_ones() {
-    let text = wavestep::scenes::find("rigid-mass").unwrap().text;
-    let values = [("mu".to_owned(), parse_number("1").unwrap())].into();
-    let source = Source::new("rigid-mass", text).unwrap();
-    let recurrence = read_recurrence(&source, &values).unwrap();
-    let f = recurrence.observation("f").unwrap();
-    let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
-    let (from, to) = (parse_number("0").unwrap(), parse_number("8").unwrap());
-    let question = Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+    let problem = Problem::builtin("rigid-mass").unwrap().with("mu", "1").unwrap();
+    let subject = Subject { problem: &problem, quantity: "f" };
     let all: Vec<usize> = (1..=60).collect();
     let few = [1, 5, 10, 15, 20, 30, 40, 60];
     let kind = Kind::Expanded;
-    let row = |orders: &[usize]| errors_by_order(&question, 2.0, orders, &[kind]).swap_remove(0);
+    let row = |orders: &[usize]| errors_by_order(subject, 2.0, orders, &[kind]).swap_remove(0);
     let every = row(&all).errors;
-    let loss = first_losses(&question, kind, (1.0, 2.0), (&few, &row(&few).errors));
+    let loss = first_losses(subject, kind, (1.0, 2.0), (&few, &row(&few).errors));
     let first = |level: f64| every.iter().position(|error| error.unwrap() >= level).map(|i| all[i]);
     assert_eq!(loss, Loss { parameter: 1.0, half: first(1e-8), all: first(1.0) });
     // Naive Horner in s, μ and E, measured by other means, loses them at 24 and 46.
@@ -119,15 +107,11 @@ fn refused_periods_leave_the_others() {
     let text = "recurrence \"two poles\"\nperiod 2, local s, time t\nwave h, f\n\
         equation h[n]' + h[n] = h[n-1]' - h[n-1]\nequation f[n]' + 2*f[n] = h[n]\n\
         continuous h[n] - h[n-1] starts at 1\ncontinuous f[n] starts at 0\n";
-    let recurrence = read_recurrence(&Source::new("two poles", text).unwrap(), &Default::default());
-    let recurrence = recurrence.unwrap();
-    let f = recurrence.observation("f").unwrap();
-    let signal = ClosedForm::of_recurrence(&recurrence, &f).unwrap();
-    let (from, to) = (parse_number("0").unwrap(), parse_number("8").unwrap());
-    let question = Question { signal: &signal, scene: None, recognise: &|_, _| Ok(None), from, to };
+    let problem = Problem::of_text("two poles", text, &Default::default()).unwrap();
+    let subject = Subject { problem: &problem, quantity: "f" };
     // With two poles `expanded` sums 300 echoes at most, and `stable` none.
     let kinds = [Kind::Stable(StablePrecision::Double), Kind::Expanded];
-    let [stable, expanded] = &errors_by_order(&question, 2.0, &[1, 5, 310], &kinds)[..] else {
+    let [stable, expanded] = &errors_by_order(subject, 2.0, &[1, 5, 310], &kinds)[..] else {
         panic!("two rows")
     };
     assert_eq!(stable.errors, [None; 3]);
@@ -141,7 +125,7 @@ fn refused_periods_leave_the_others() {
 /// error grows by a power of ten with each power of ten of the distance.
 #[test]
 fn relative_errors_grow_towards_zeros() {
-    with_question(|question| {
+    with_question(|_, question| {
         let roots = simple_roots(question, 100);
         assert!(roots.len() > 3 && roots.is_sorted(), "{roots:?}");
         let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();

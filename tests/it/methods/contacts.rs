@@ -1,0 +1,190 @@
+//! Doubles where contacts open: certified values are the nearest to proven digits, compiled ones keep their
+//! bound, on every shipped scene of this kind.
+
+use crate::methods::{Values, exact, random, unit_in_the_last_place};
+use num_rational::BigRational;
+use num_traits::{ToPrimitive as _, Zero as _};
+use proptest::prelude::RngExt as _;
+use wavestep::answer::{Accuracy, Kind, Question, Tolerance, Way, WayError};
+use wavestep::evaluate::{EvaluateError, Limit, MethodError, Value, digits};
+use wavestep::problem::{Problem, ProblemError};
+
+/// Scenes whose contacts open, with their linear observables and the end of a window in which they do.
+const SCENES: &[(&str, Values<'static>, &[&str], &str)] = &[
+    ("bars-of-equal-length", &[], &["force", "left", "right"], "5"),
+    ("bars-of-unequal-length", &[], &["force", "left", "momentum"], "7"),
+    ("bars-that-part", &[("r", "2/3")], &["force", "left", "right", "momentum"], "7"),
+    ("cushion-with-release", &[("mu", "3")], &["force", "compression"], "12"),
+    ("hopkinson-with-release", &[], &["force", "gauge"], "1/500"),
+    ("mass-on-free-bar", &[("mu", "1")], &["velocity"], "9"),
+    ("mass-that-bounces", &[], &["velocity", "displacement", "strain_fixed"], "30"),
+    ("saint-venant", &[("mu", "1")], &["velocity", "strain_impact", "strain_fixed"], "8"),
+];
+
+/// Digits that tell the nearest double, but for ties.
+const DIGITS: usize = 25;
+const LIMIT_BITS: u64 = 1 << 12;
+
+fn problem(scene: &str, values: Values<'_>) -> Problem {
+    let problem = Problem::builtin(scene).unwrap();
+    values.iter().fold(problem, |problem, (name, value)| problem.with(name, *value).unwrap())
+}
+
+fn number(text: &str) -> BigRational {
+    wavestep::language::parse_number(text).unwrap()
+}
+
+/// Calls `work` with each quantity on a window from 0.
+fn each(mut work: impl FnMut(&str, &Question<'_>)) {
+    for (scene, values, quantities, last) in SCENES {
+        let problem = problem(scene, values);
+        for quantity in *quantities {
+            let name = format!("{quantity} of {scene}");
+            let question = problem.question(quantity, [BigRational::zero(), number(last)]);
+            work(&name, &question.unwrap_or_else(|error| panic!("{name}: {error}")));
+        }
+    }
+}
+
+/// Times without pattern.
+fn doubles(question: &Question<'_>, seed: u8, count: usize) -> Vec<f64> {
+    let last = question.signal.window()[1].to_f64().unwrap().next_down();
+    let mut random = random(seed);
+    (0..count).map(|_| random.random_range(0.0..=last)).collect()
+}
+
+/// The ends of stretches that are known exactly.
+fn breaks(question: &Question<'_>) -> Vec<BigRational> {
+    let count = question.signal.count().unwrap();
+    (0..count).filter_map(|stretch| question.signal.exact_time(stretch, Limit::Right)).collect()
+}
+
+fn told(question: &Question<'_>, at: &BigRational, side: Limit) -> Value {
+    digits(&*question.signal, at, side, DIGITS, LIMIT_BITS).unwrap()
+}
+
+/// The double nearest to a value.
+fn nearest(value: &Value) -> f64 {
+    match value {
+        Value::Exact(value) => value.to_f64().unwrap(),
+        value if value.ball(200).contains_zero() => 0.0,
+        value => value.ball(200).rounded().expect("digits that decide"),
+    }
+}
+
+#[test]
+fn certified_values_are_nearest_to_digits() {
+    let mut zeros = 0;
+    each(|name, question| {
+        let way = Way::new(Kind::Certified, question, None).unwrap();
+        let times = doubles(question, 91, 200);
+        let values = way.values(&times).unwrap_or_else(|error| panic!("{name}: {error}"));
+        for (time, value) in times.iter().zip(values) {
+            let known = nearest(&told(question, &exact(*time), Limit::Right));
+            assert_eq!(value, known, "{name} at {time}");
+            zeros += usize::from(known == 0.0);
+        }
+        for time in breaks(question) {
+            for side in [Limit::Left, Limit::Right] {
+                let known = nearest(&told(question, &time, side));
+                assert_eq!(way.value(&time, side), Ok(known), "{name} at {time}, {side:?}");
+            }
+        }
+    });
+    println!("{zeros} values are zero");
+    assert!(zeros > 100);
+}
+
+/// Many values come from polynomials.
+#[test]
+fn many_certified_values_are_those_that_come_one_by_one() {
+    for (scene, values, quantity, last) in [
+        ("saint-venant", &[("mu", "1")][..], "velocity", "8"),
+        ("mass-that-bounces", &[], "strain_fixed", "30"),
+    ] {
+        let problem = problem(scene, values);
+        let question = problem.question(quantity, [BigRational::zero(), number(last)]).unwrap();
+        let way = Way::new(Kind::Certified, &question, None).unwrap();
+        let times = doubles(&question, 92, 3000);
+        let values = way.values(&times).unwrap();
+        for (time, value) in times.iter().zip(values).step_by(20) {
+            assert_eq!(way.value(&exact(*time), Limit::Right), Ok(value), "{scene} at {time}");
+        }
+    }
+}
+
+#[test]
+fn compiled_values_keep_their_bound() {
+    each(|name, question| {
+        let scale = question.scale().unwrap();
+        let coarse = 1e-9 * scale;
+        for tolerance in [None, Some(coarse)] {
+            let way = Way::new(Kind::Compiled, question, tolerance);
+            let way = way.unwrap_or_else(|error| panic!("{name}: {error}"));
+            let bound = way.bound().unwrap();
+            let most = tolerance.unwrap_or(4.0 * unit_in_the_last_place(scale));
+            assert!(bound <= most, "{name}: {bound:e} beyond {most:e}");
+            let times = doubles(question, 93, 200);
+            let values = way.values(&times).unwrap();
+            let off = |value: f64, at: &BigRational, side| {
+                let known = told(question, at, side).ball(200);
+                let bound = exact(bound) + exact(unit_in_the_last_place(value) / 2.0);
+                let difference = exact(value) - BigRational::from(known.midpoint());
+                let distance =
+                    if difference < BigRational::zero() { -difference } else { difference };
+                assert!(distance <= bound, "{name} at {at}: off by {distance}");
+            };
+            for (time, value) in times.iter().zip(values) {
+                off(value, &exact(*time), Limit::Right);
+            }
+            for time in breaks(question) {
+                for side in [Limit::Left, Limit::Right] {
+                    off(way.value(&time, side).unwrap(), &time, side);
+                }
+            }
+        }
+    });
+}
+
+/// The chooser weighs what needs no closed form, and says of the others why not.
+#[test]
+fn a_tolerance_is_met_without_a_closed_form() {
+    let problem = problem("saint-venant", &[("mu", "1")]);
+    let times: Vec<BigRational> = (0..40).map(|i| number(&format!("{i}/5"))).collect();
+    let within = Accuracy::Within(Tolerance::Relative(1e-9));
+    let found = problem.doubles("strain_impact", &times, Limit::Right, within).unwrap();
+    assert!(matches!(found.kind, Kind::Certified | Kind::Compiled));
+    assert_eq!(found.values[39], 0.0, "after the mass has left");
+    let refused = |kind| match problem.question("velocity", [times[0].clone(), times[30].clone()]) {
+        Ok(question) => Way::new(kind, &question, None).err(),
+        Err(error) => panic!("{error}"),
+    };
+    let reason = || WayError::Method(MethodError::Evaluate(EvaluateError::NoClosedForm));
+    for name in ["stable", "double-double", "marched", "plain", "expanded", "modes", "rigid"] {
+        assert_eq!(refused(name.parse().unwrap()), Some(reason()), "{name}");
+    }
+    // Energies are no sums of waves.
+    let energy = problem.question("energy", [times[0].clone(), times[1].clone()]);
+    assert!(matches!(energy, Err(ProblemError::History(_))));
+}
+
+/// A single time, also one before which and after which all is zero.
+#[test]
+fn single_times_have_values() {
+    let problem = problem("saint-venant", &[("mu", "1")]);
+    for at in ["0", "1/3", "1", "31/10", "7"] {
+        let at = number(at);
+        for quantity in ["velocity", "strain_impact", "strain_fixed"] {
+            let question = problem.question(quantity, [at.clone(), at.clone()]).unwrap();
+            for side in [Limit::Left, Limit::Right] {
+                let known = nearest(&told(&question, &at, side));
+                for kind in [Kind::Certified, Kind::Compiled] {
+                    let way = Way::new(kind, &question, None).unwrap();
+                    let value = way.value(&at, side).unwrap();
+                    let most = way.bound().unwrap() + unit_in_the_last_place(known);
+                    assert!((value - known).abs() <= most, "{quantity} at {at} by {kind}");
+                }
+            }
+        }
+    }
+}
