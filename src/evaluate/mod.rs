@@ -25,7 +25,7 @@ pub use arrivals::{Arrival, arrivals};
 pub(crate) use cells::scale;
 pub use cells::{first_doubles, reaching_a_double};
 pub(crate) use closed::Waves;
-pub use closed::{ClosedForm, ClosedSignal, Stretch};
+pub use closed::{ClosedForm, ClosedSignal};
 pub use digits::{digits, value};
 pub use error::EvaluateError;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};

@@ -29,10 +29,6 @@ const MAX_ORDER: usize = 1_000_000_000;
 const MAX_PRECISIONS: usize = 3;
 
 /// An observable with numbers in place of all symbols, as a function of the user's time.
-///
-/// The observables of a scene are signals too:
-///
-/// A clone begins with nothing computed.
 pub struct ClosedForm {
     pub(super) recurrence: Recurrence,
     pub(super) observation: Observation,
@@ -48,7 +44,6 @@ pub struct ClosedForm {
 }
 
 /// Echoes on a lattice of several periods.
-#[derive(Clone)]
 pub(super) struct Scattered {
     pub(super) unfolded: Unfolded,
     /// By number, with their delays.
@@ -61,20 +56,6 @@ pub(super) struct Scattered {
 pub(super) enum Solved {
     Periods(Box<Periods>),
     Echoes(Rc<Echoes>),
-}
-
-impl Clone for ClosedForm {
-    fn clone(&self) -> ClosedForm {
-        ClosedForm {
-            recurrence: self.recurrence.clone(),
-            observation: self.observation.clone(),
-            unit: self.unit.clone(),
-            slowness: self.slowness.clone(),
-            numbers: Rc::new(Numbers::new(self.recurrence.constants())),
-            lattice: self.lattice.clone(),
-            solved: RefCell::default(),
-        }
-    }
 }
 
 impl ClosedForm {

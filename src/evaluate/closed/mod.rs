@@ -20,5 +20,4 @@ mod waves;
 
 pub use form::ClosedForm;
 pub use signal::ClosedSignal;
-pub use stretch::Stretch;
 pub(crate) use waves::Waves;

@@ -4,7 +4,6 @@ use super::form::{ClosedForm, MAX_STRETCHES};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::evaluate::closed::scene::whole_periods;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;
 use crate::limits::MAX_ECHOES;
 use std::cmp::Ordering;
@@ -23,7 +22,7 @@ pub(super) struct Part {
 
 /// A time between arrivals, on which a signal is one exponential polynomial.
 #[derive(Clone, Debug)]
-pub struct Stretch {
+pub(super) struct Stretch {
     /// Its first time, in the scale of the waves.
     pub(super) from: Fraction,
     /// Its end: the next arrival, or the end of the window.
@@ -94,7 +93,11 @@ impl ClosedForm {
     ///
     /// # Errors
     /// [`EvaluateError`] where the order of two arrivals cannot be told, or there are too many.
-    pub fn stretches(&self, from: &Rational, to: &Rational) -> Result<Vec<Stretch>, EvaluateError> {
+    pub(super) fn stretches(
+        &self,
+        from: &Rational,
+        to: &Rational,
+    ) -> Result<Vec<Stretch>, EvaluateError> {
         let (from, to) = (self.slowness.scale(from), self.slowness.scale(to));
         if let Some(lattice) = &self.lattice
             && self.numbers.compare(&to, &lattice.last)? == Ordering::Greater
@@ -128,45 +131,21 @@ impl ClosedForm {
             None => stretch.parts.push(part),
         }
     }
-
-    /// The last of the stretches whose first time is at or before a time; on the left side, before it.
-    /// The first of them where there is none such.
-    ///
-    /// # Errors
-    /// [`EvaluateError`] where two times cannot be told apart.
-    pub fn stretch_at(
-        &self,
-        stretches: &[Stretch],
-        at: &Rational,
-        side: Limit,
-    ) -> Result<usize, EvaluateError> {
-        let at = self.slowness.scale(at);
-        let (mut low, mut high) = (0, stretches.len());
-        while high - low > 1 {
-            let middle = low.midpoint(high);
-            let order = self.numbers.compare(&stretches[middle].from, &at)?;
-            match order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right) {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
-        Ok(low)
-    }
 }
 
 impl Stretch {
     /// Its first time, in the scale of the waves.
-    pub fn from(&self) -> &Fraction {
+    pub(super) fn from(&self) -> &Fraction {
         &self.from
     }
 
     /// Its end, in the scale of the waves: the next arrival, or the end of the window.
-    pub fn to(&self) -> &Fraction {
+    pub(super) fn to(&self) -> &Fraction {
         &self.to
     }
 
     /// Whether nothing is seen on it.
-    pub fn is_silent(&self) -> bool {
+    pub(super) fn is_silent(&self) -> bool {
         self.parts.is_empty() && !self.begun
     }
 }

@@ -96,7 +96,7 @@ impl ClosedForm {
     ///
     /// # Errors
     /// [`EvaluateError`] where a constant cannot be enclosed.
-    pub fn enclose(
+    pub(super) fn enclose(
         &self,
         stretch: &Stretch,
         derivative: usize,
@@ -130,7 +130,7 @@ impl ClosedForm {
     /// The signal, or a derivative with respect to the user's time, about `centre`, in
     /// `u = (t − centre)/half`: what it is on the stretch, and beyond that what it would be without
     /// further arrivals.
-    pub(crate) fn taylor(
+    pub(super) fn taylor(
         &self,
         stretch: &Stretch,
         derivative: usize,
@@ -159,7 +159,7 @@ impl ClosedForm {
     }
 
     /// Stretches joined where all that arrives is identically zero, so that nothing changes.
-    pub(crate) fn audible(
+    pub(super) fn audible(
         &self,
         stretches: Vec<Stretch>,
         bits: u64,
@@ -185,7 +185,7 @@ impl ClosedForm {
 
     /// About the sum of the absolute values of all that a derivative consists of at a time, in the
     /// scale of the waves, and the sum of the radii of their enclosures.
-    pub(crate) fn size(
+    pub(super) fn size(
         &self,
         stretch: &Stretch,
         derivative: usize,
@@ -208,7 +208,7 @@ impl ClosedForm {
 
     /// The rates λ of a stretch, in the scale of the waves, each with a bound on how many
     /// coefficients `c_j` of `Σ_λ e^{λx} Σ_j c_j x^j/j!` the signal has there.
-    pub(crate) fn rates(
+    pub(super) fn rates(
         &self,
         stretch: &Stretch,
         bits: u64,

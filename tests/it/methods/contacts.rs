@@ -16,7 +16,7 @@ const SCENES: &[(&str, Values<'static>, &[&str], &str)] = &[
     ("bars-that-part", &[("r", "2/3")], &["force", "left", "right", "momentum"], "7"),
     ("cushion-with-release", &[("mu", "3")], &["force", "compression"], "12"),
     ("hopkinson-with-release", &[], &["force", "gauge"], "1/500"),
-    ("mass-on-free-bar", &[("mu", "1")], &["velocity"], "9"),
+    ("mass-on-free-bar", &[("m", "1")], &["velocity", "force", "far"], "9"),
     ("mass-that-bounces", &[], &["velocity", "displacement", "strain_fixed"], "30"),
     ("saint-venant", &[("mu", "1")], &["velocity", "strain_impact", "strain_fixed"], "8"),
 ];

@@ -60,7 +60,7 @@ fn many_taps_are_within_the_bound() {
             for quantity in ["f", "velocity", "many"] {
                 let values: Values<'_> = &[("mu", mu), ("r", r)];
                 let units = with(DAMPED, values, quantity, ("0", last), |subject| {
-                    let taps = Taps::of(subject.form).unwrap().taps.len();
+                    let taps = Taps::of(subject.form()).unwrap().taps.len();
                     assert_eq!(
                         taps,
                         match quantity {

@@ -72,7 +72,7 @@ fn compare(subject: &Subject<'_>, random: &mut TestRng, bits: u64, tally: &mut T
         let place = || format!("{time} on the {side:?} in {name}");
         tally.within(*value, enclosed, &exact(ALLOWED * scale), place);
     }
-    if Taps::of(subject.form).is_err() {
+    if Taps::of(subject.form()).is_err() {
         assert_eq!(marched.bound(), None, "{name}");
         assert!(marched.law().contains("no bound"), "{}", marched.law());
     }
@@ -86,7 +86,7 @@ fn scenes_are_as_enclosed() {
     let mut without_taps = 0;
     for (scene, values, quantity, last) in SUBJECTS {
         with(scene, values, quantity, ("0", last), |subject| {
-            without_taps += usize::from(Taps::of(subject.form).is_err());
+            without_taps += usize::from(Taps::of(subject.form()).is_err());
             assert!(compare(subject, &mut random, crate::methods::BITS, &mut tally) > 0.0);
         });
     }
@@ -156,7 +156,7 @@ fn scenes_at_random_are_as_enclosed() {
         let text = scene(&mut random);
         for quantity in ["force", "velocity"] {
             with(&text, &[], quantity, ("0", "8"), |subject| {
-                without_taps += usize::from(Taps::of(subject.form).is_err());
+                without_taps += usize::from(Taps::of(subject.form()).is_err());
                 compare(subject, &mut random, crate::methods::BITS, &mut tally);
             });
         }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use wavestep::answer::Question;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{
-    ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Signal, Stretch, Value, digits,
+    At, ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Signal, Value, digits,
 };
 use wavestep::language::parse_number;
 use wavestep::problem::Problem;
@@ -18,11 +18,10 @@ const LIMIT_BITS: u64 = 1 << 14;
 pub struct Subject<'a> {
     pub name: String,
     pub question: Question<'a>,
-    pub form: &'a ClosedForm,
+    /// The same, begun earlier: what is seen just before its first time is known as well.
+    pub earlier: &'a ClosedSignal<'a>,
     pub from: BigRational,
     pub to: BigRational,
-    pub stretches: Vec<Stretch>,
-    exact: &'a ClosedSignal<'a>,
 }
 
 impl Subject<'_> {
@@ -31,11 +30,15 @@ impl Subject<'_> {
         &*self.question.signal
     }
 
+    /// Its closed form.
+    pub fn form(&self) -> &ClosedForm {
+        self.earlier.form().expect(&self.name)
+    }
+
     /// An enclosure from the pieces in balls.
     pub fn enclose(&self, at: &BigRational, side: Limit, bits: u64) -> Ball {
-        let stretch = self.form.stretch_at(&self.stretches, at, side).expect("an order");
-        let scaled = self.form.slowness().scale(at);
-        let value = self.form.enclose(&self.stretches[stretch], 0, &scaled, bits);
+        let stretch = self.earlier.stretch_at(at, side).expect("an order").expect("a stretch");
+        let value = self.earlier.enclose(stretch, 0, At::Time(at), bits);
         value.unwrap_or_else(|error| panic!("{} at {at}: {error}", self.name))
     }
 
@@ -46,7 +49,7 @@ impl Subject<'_> {
 
     /// The value from the symbolic echoes, to so many digits.
     pub fn by_form(&self, at: &BigRational, side: Limit, count: usize) -> Value {
-        digits(self.exact, at, side, count, LIMIT_BITS).expect("a value")
+        digits(self.earlier, at, side, count, LIMIT_BITS).expect("a value")
     }
 
     /// The value where it is known to be a rational number.
@@ -81,12 +84,6 @@ fn text_of(scene: &str) -> &str {
     wavestep::scenes::find(scene).map_or(scene, |scene| scene.text)
 }
 
-/// The stretches of a window, begun earlier: what is seen just before its first time is known as well.
-fn stretches(signal: &ClosedForm, from: &BigRational, to: &BigRational) -> Vec<Stretch> {
-    let earlier = from - (to - from) / BigRational::from_integer(8.into());
-    signal.stretches(&earlier, to).expect("stretches")
-}
-
 fn number(text: &str) -> BigRational {
     parse_number(text).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
@@ -105,20 +102,20 @@ pub fn with<T>(
         values.iter().map(|(name, value)| ((*name).to_owned(), number(value))).collect();
     let (from, to) = (number(from), number(to));
     let problem = Problem::of_text("scene", text, &values).unwrap_or_else(|error| panic!("{error}"));
-    let exact = match problem.network() {
+    let begun = &from - (&to - &from) / BigRational::from_integer(8.into());
+    let earlier = match problem.network() {
         Ok(network) => {
             let observed = network.observables().iter().find(|known| known.name == quantity);
-            let exact = ClosedSignal::of_scene(network, observed.expect(quantity), [&from, &to]);
-            exact.expect("one").echo_by_echo()
+            let earlier = ClosedSignal::of_scene(network, observed.expect(quantity), [&begun, &to]);
+            earlier.expect("one").echo_by_echo()
         }
         Err(_) => {
             let solution = problem.solution().expect("equations");
             let observation = solution.recurrence().observation(quantity).expect(quantity);
-            ClosedSignal::of_recurrence(solution, &observation, [&from, &to]).expect("numbers")
+            ClosedSignal::of_recurrence(solution, &observation, [&begun, &to]).expect("numbers")
         }
     };
+    earlier.count().expect(&name);
     let question = problem.question(quantity, [from.clone(), to.clone()]).expect(&name);
-    let form = exact.form().expect(&name);
-    let stretches = stretches(form, &from, &to);
-    work(&Subject { name, question, form, from, to, stretches, exact: &exact })
+    work(&Subject { name, question, earlier: &earlier, from, to })
 }

@@ -6,7 +6,7 @@ use crate::methods::{exact, near};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::Limit;
+use wavestep::evaluate::{Limit, Signal as _};
 
 /// The smallest double of the window, and the largest.
 pub fn ends(subject: &Subject<'_>) -> (f64, f64) {
@@ -30,11 +30,10 @@ pub fn anywhere(subject: &Subject<'_>, random: &mut TestRng, count: usize) -> Ve
 /// with the order that is decided exactly.
 pub fn first_doubles(subject: &Subject<'_>) -> Vec<f64> {
     let (first, last) = ends(subject);
-    let stretch =
-        |time: f64| subject.form.stretch_at(&subject.stretches, &exact(time), Limit::Right);
-    let arrived = |time: f64, arrival: usize| stretch(time).expect("an order") >= arrival;
+    let stretch = |time: f64| subject.earlier.stretch_at(&exact(time), Limit::Right);
+    let arrived = |time: f64, arrival: usize| stretch(time).expect("an order") >= Some(arrival);
     let mut found = Vec::new();
-    for arrival in 1..subject.stretches.len() {
+    for arrival in 1..subject.earlier.count().unwrap() {
         if !arrived(last, arrival) {
             continue;
         }
@@ -70,10 +69,8 @@ pub fn special(subject: &Subject<'_>) -> Vec<f64> {
 
 /// The arrivals within the window that are rational numbers, that at its first time included.
 pub fn arrivals(subject: &Subject<'_>) -> Vec<BigRational> {
-    let slowness = subject.form.slowness().as_constant();
-    let arrival = |stretch: &wavestep::evaluate::Stretch| {
-        Some(stretch.from().as_constant()? / slowness.as_ref()?)
-    };
-    let arrivals = subject.stretches.iter().skip(1).filter_map(arrival);
+    let stretches = 1..subject.earlier.count().unwrap();
+    let arrivals =
+        stretches.filter_map(|stretch| subject.earlier.exact_time(stretch, Limit::Right));
     arrivals.filter(|time| *time >= subject.from).collect()
 }
