@@ -153,7 +153,7 @@ fn a_tolerance_is_met_without_a_closed_form() {
     let times: Vec<BigRational> = (0..40).map(|i| number(&format!("{i}/5"))).collect();
     let within = Accuracy::Within(Tolerance::Relative(1e-9));
     let found = problem.doubles("strain_impact", &times, Limit::Right, within).unwrap();
-    assert!(matches!(found.kind, Kind::Certified | Kind::Compiled));
+    assert!(matches!(found.method, Kind::Certified | Kind::Compiled));
     assert_eq!(found.values[39], 0.0, "after the mass has left");
     let refused = |kind| match problem.question("velocity", [times[0].clone(), times[30].clone()]) {
         Ok(question) => Way::new(kind, &question, None).err(),

@@ -101,7 +101,8 @@ pub fn with<T>(
     let values: BTreeMap<String, BigRational> =
         values.iter().map(|(name, value)| ((*name).to_owned(), number(value))).collect();
     let (from, to) = (number(from), number(to));
-    let problem = Problem::of_text("scene", text, &values).unwrap_or_else(|error| panic!("{error}"));
+    let problem =
+        Problem::of_text("scene", text, &values).unwrap_or_else(|error| panic!("{error}"));
     let begun = &from - (&to - &from) / BigRational::from_integer(8.into());
     let earlier = match problem.network() {
         Ok(network) => {
