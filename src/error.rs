@@ -337,6 +337,7 @@ fn remedy_of_evaluate(error: &EvaluateError) -> String {
     let usual = match error {
         EvaluateError::MissingValue(symbol) => return format!("give {symbol} a value"),
         EvaluateError::NotLinear(_) => "ask for a force or a velocity, or for digits",
+        EvaluateError::NoClosedForm => "use the method compiled or certified",
         EvaluateError::EmptyWindow => "let the window end after it begins",
         EvaluateError::TooManyRoots { .. } | EvaluateError::TooManyCells { .. } => {
             "ask for a shorter window"
@@ -365,9 +366,7 @@ fn remedy_of_history(error: &HistoryError) -> String {
 
 fn remedy_of_way(error: &WayError) -> String {
     let usual = match error {
-        WayError::Method(
-            MethodError::NoTaps(_) | MethodError::Evaluate(EvaluateError::NoClosedForm),
-        ) => "use the method compiled or certified",
+        WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
         WayError::Method(_) => "ask for a shorter window, or use the method certified",
         WayError::Model(ModelError::MissingValue(symbol)) => {
             return format!("give {symbol} a value");

@@ -56,7 +56,7 @@ fn eval_goes_on_across_phases() {
 fn doubles_go_on_across_phases() {
     let asked = "eval saint-venant --set mu=1 --quantity strain_impact --from 1 --to 5 --points 2 ";
     let proven = "strain_impact(1) = -0.36787944117144233\nstrain_impact(5) = 0\n";
-    for how in ["--method certified", "--tol abs:1e-17"] {
+    for how in ["--method certified", "--tol ulp:0.5"] {
         assert_eq!(output(&words(&(asked.to_owned() + how))), proven, "{how}");
     }
     for how in ["--method compiled", "--tol 1e-9"] {
@@ -72,7 +72,7 @@ fn what_does_not_follow_contacts_says_so() {
     let asked = "eval saint-venant --set mu=1 --quantity velocity --at 1 --method ";
     for method in ["stable", "marched", "expanded", "modes"] {
         let (code, told) = refusal(&words(&(asked.to_owned() + method)));
-        assert!(code == 4 && told.contains("there is no closed form of the waves"), "{told}");
+        assert!(code == 1 && told.contains("there is no closed form of the waves"), "{told}");
         assert!(told.contains("use the method compiled or certified"), "{told}");
     }
     let (code, told) = refusal(&["events", "rigid-mass"]);
