@@ -11,7 +11,7 @@ use wavestep_polynomial::Rational;
 
 /// A scene with its model in scales of its own: what models in doubles are made of.
 ///
-/// A [`Network`] holds one, and more: the delays and the laws of waves, which need every law to be
+/// A [`Network`](crate::network::Network) holds one, and more: the delays and the laws of waves, which need every law to be
 /// linear. A scene with a local contact has no network, and this alone.
 ///
 /// # Invariants

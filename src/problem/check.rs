@@ -1,6 +1,6 @@
 //! What can be said of a problem after it was read: it is ordered, and derived in two ways that must agree.
 
-use super::rates::rates;
+use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
 use crate::evaluate::arrivals;
 use crate::expression::Condition;
@@ -82,10 +82,6 @@ pub enum General {
 #[doc(hidden)]
 impl Problem {
     /// Checks the problem: its laws are solved and the first periods derived in two ways.
-    ///
-    /// # Errors
-    /// [`ProblemError::Disagreement`] where the two differ, which is a fault of this library;
-    /// [`ProblemError`] where nothing can be derived.
     pub fn check(&self) -> Result<Checked, ProblemError> {
         match &self.kind {
             Kind::LocalContact(_) => Ok(Checked::LocalContact(self.local_contact())),

@@ -1,21 +1,22 @@
-//! What formulas of scenes are in: units, and constants with names.
+//! What formulas of scenes are in: units, constants with names, and rates in decimals.
 
-use super::{Problem, ProblemError};
-use crate::enclosure::Numbers;
-use crate::expression::{Constant, Definition, Root};
+use super::{Kind, Problem, ProblemError};
+use crate::ball::Ball;
+use crate::enclosure::{Numbers, enclose_expression};
+use crate::expression::{Constant, Definition, Fraction, Root};
 use crate::language;
+use crate::recurrence::{Coupled, Recurrence};
 use std::collections::BTreeSet;
+use wavestep_polynomial::Symbol;
 
-/// Significant digits of constants in remarks.
+/// Significant digits of constants and rates in remarks, and bits enough for them.
 const DIGITS: usize = 6;
+const BITS: u64 = 64;
 
 #[doc(hidden)]
 impl Problem {
     /// In which units the formulas of a scene are, and what the constants in them are, a line each; all
     /// constants where no text is given to look for them.
-    ///
-    /// # Errors
-    /// As [`Problem::network`].
     pub fn constants(&self, text: Option<&str>) -> Result<Vec<String>, ProblemError> {
         let Ok(network) = self.network() else { return Ok(Vec::new()) };
         let (model, scene) = (network.model(), network.scene());
@@ -54,11 +55,49 @@ impl Problem {
         let unit = observed.dimension.unit();
         Some(format!("{name} in {number} {unit}").trim_end().to_owned())
     }
+
+    /// What is told where the exact form needs rates that formulas cannot hold, instead of what was found
+    /// wrong.
+    pub(super) fn explained(&self, error: ProblemError) -> ProblemError {
+        let (Kind::Line { network, .. }, Ok(recurrence)) = (&self.kind, self.recurrence()) else {
+            return error;
+        };
+        let named =
+            |rate: &Fraction| recurrence.constants().iter().any(|c| rate.contains(&c.symbol));
+        let mut systems = recurrence.coupled().iter();
+        let Some(system) = systems.find(|system| system.rates.iter().any(named)) else {
+            return error;
+        };
+        let waves: Vec<String> = system.waves.iter().map(|w| recurrence.wave_name(*w)).collect();
+        let (place, rates) = (network.place_of_waves(&waves), rates(recurrence, system));
+        ProblemError::Rates { place, waves, rates }
+    }
 }
 
 /// A definition as a decimal number, where all in it is known.
 pub(super) fn decimal(constants: &[Constant], value: &Definition) -> Option<String> {
     let numbers = Numbers::new(constants);
-    let ball = numbers.enclose_definition(value, 64).ok()?;
+    let ball = numbers.enclose_definition(value, BITS).ok()?;
     Some(ball.to_decimal(DIGITS).midpoint().to_string())
+}
+
+/// The rates of a system: exactly, or as decimals where they are named or complex.
+pub(super) fn rates(recurrence: &Recurrence, coupled: &Coupled) -> Vec<String> {
+    let numbers = Numbers::new(recurrence.constants());
+    let decimal = |rate: &Fraction| {
+        let values = |symbol: &Symbol, bits: u64| numbers.value(symbol, bits);
+        let ball = enclose_expression(&rate.clone().into(), &values, BITS).ok()?;
+        let part = |ball: &Ball| ball.to_decimal(DIGITS).midpoint().to_string();
+        let imaginary = part(ball.imaginary());
+        Some(match imaginary.trim_start_matches('-') {
+            zero if zero.trim_matches(['0', '.']).is_empty() => part(ball.real()),
+            size if imaginary.starts_with('-') => format!("{} - {size}i", part(ball.real())),
+            size => format!("{} + {size}i", part(ball.real())),
+        })
+    };
+    let told = |rate: &Fraction| match rate.as_constant() {
+        Some(number) => number.to_string(),
+        None => decimal(rate).unwrap_or_else(|| rate.to_string()),
+    };
+    coupled.rates.iter().map(told).collect()
 }

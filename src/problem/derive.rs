@@ -100,9 +100,6 @@ pub enum Symbols {
 #[doc(hidden)]
 impl Problem {
     /// Exact functions of waves, or of an observable.
-    ///
-    /// # Errors
-    /// [`ProblemError`]: what is unknown, would be too long, or has no formula.
     pub fn functions(
         &self,
         what: ToDerive<'_>,
@@ -146,9 +143,6 @@ impl Problem {
     }
 
     /// Pieces of waves in the symbols of the text's source.
-    ///
-    /// # Errors
-    /// As [`Problem::functions`]; [`ProblemError::NoSourceForm`].
     pub fn source_form(
         &self,
         what: ToDerive<'_>,
@@ -165,9 +159,6 @@ impl Problem {
     }
 
     /// The forms of waves for every period.
-    ///
-    /// # Errors
-    /// As [`Problem::functions`]; [`ProblemError::NoGeneralForm`], [`ProblemError::NoSourceForm`].
     pub fn general_formulas(
         &self,
         what: ToDerive<'_>,
@@ -185,9 +176,6 @@ impl Problem {
     }
 
     /// How the recurrence follows from the bars and elements of a scene, with the first pieces.
-    ///
-    /// # Errors
-    /// [`ProblemError::NothingToExplain`], [`ProblemError::NoPeriodsToExplain`].
     pub fn explanation(&self) -> Result<Derivation, ProblemError> {
         if let Kind::Equations(_) = &self.kind {
             return Err(ProblemError::NothingToExplain);
@@ -217,9 +205,6 @@ impl Problem {
     }
 
     /// The formulas of what was derived, of one wave or observable after the other.
-    ///
-    /// # Errors
-    /// As [`Problem::recurrence`].
     pub fn formulas(
         &self,
         derived: &Derived,

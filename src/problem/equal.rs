@@ -50,7 +50,6 @@ pub struct Crossing {
 /// Why no value is found.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum EqualError {
-    /// That many digits cost too much.
     #[error("{digits} digits of a symbol are too many")]
     TooManyDigits {
         /// Those asked for.
@@ -58,13 +57,10 @@ pub enum EqualError {
         /// The most.
         limit: usize,
     },
-    /// The extrema cannot be told apart at an end of the range.
     #[error("the extrema cannot be told apart at an end of the range")]
     EqualAtEnd,
-    /// The same one is larger at both ends of the range: the first, or else the second.
     #[error("the extremum in the {} window is the larger one at both ends of the range", larger(*.0))]
     NoChange(Ordering),
-    /// The times of this name do not ascend at a value of the symbol.
     #[error("the times of {times} do not ascend at {symbol} = {value}")]
     NotAscending {
         /// What errors call the times.
@@ -74,7 +70,6 @@ pub enum EqualError {
         /// Its value.
         value: Rational,
     },
-    /// A text is no time from 0 on at a value of the symbol.
     #[error("the time `{text}` is no number from 0 on at {value}")]
     NoTime {
         /// The text.
@@ -93,10 +88,6 @@ fn larger(sign: Ordering) -> &'static str {
 #[doc(hidden)]
 impl Problem {
     /// Finds a value of a symbol by halving its range.
-    ///
-    /// # Errors
-    /// [`ProblemError::Equal`]; [`ProblemError`] where a value of the symbol is impossible, or extrema
-    /// are not known.
     pub fn equal_extrema(&self, asked: &EqualExtrema<'_>) -> Result<Crossing, ProblemError> {
         if asked.digits > MAX_DIGITS_OF_SYMBOL {
             let (digits, limit) = (asked.digits, MAX_DIGITS_OF_SYMBOL);

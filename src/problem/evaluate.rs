@@ -38,9 +38,6 @@ pub struct Proven {
 #[doc(hidden)]
 impl Problem {
     /// Values with proven digits; `tick` is called after each.
-    ///
-    /// # Errors
-    /// [`ProblemError`]: what stays undecided, has no value, or is known by models only.
     pub fn proven(
         &self,
         wanted: &Wanted,
@@ -86,9 +83,6 @@ impl Problem {
     }
 
     /// Values in doubles, by a method or within a tolerance.
-    ///
-    /// # Errors
-    /// [`ProblemError`]: no method is good enough, or the one that is named has no values here.
     pub fn doubles(
         &self,
         name: &str,
@@ -107,9 +101,6 @@ impl Problem {
 
     /// A wave or an observable on a window, for methods and models in doubles; where no double lies in the
     /// window, it is begun at the one before.
-    ///
-    /// # Errors
-    /// [`ProblemError`] where it is unknown or has no values.
     pub fn question(
         &self,
         name: &str,
@@ -122,9 +113,6 @@ impl Problem {
     }
 
     /// A wave or an observable as a function of time on a window.
-    ///
-    /// # Errors
-    /// [`ProblemError`] where it is known by models alone, or symbols have no values.
     pub fn signal_on(
         &self,
         wanted: &Wanted,
@@ -158,9 +146,6 @@ impl Problem {
     }
 
     /// The time at which so many periods of a quantity are over, and a local time has passed on the next.
-    ///
-    /// # Errors
-    /// [`ProblemError::NoPeriods`]; [`ProblemError::OutsidePeriod`].
     pub fn time_on_period(
         &self,
         wanted: &Wanted,

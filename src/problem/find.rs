@@ -10,9 +10,6 @@ use wavestep_polynomial::Rational;
 #[doc(hidden)]
 impl Problem {
     /// That every symbol of stated equations has a value.
-    ///
-    /// # Errors
-    /// [`EvaluateError::MissingValue`].
     pub(super) fn has_numbers(&self) -> Result<(), ProblemError> {
         let Kind::Equations(solution) = &self.kind else { return Ok(()) };
         match solution.recurrence().symbols().next() {
@@ -23,9 +20,6 @@ impl Problem {
 
     /// What contacts do until a time; without one until nothing can meet again, at most for a hundred of
     /// the longest travel times.
-    ///
-    /// # Errors
-    /// [`ProblemError::EquationsHaveNoContacts`], [`ProblemError::NoContact`], [`ProblemError::History`].
     pub fn history(
         &self,
         until: Option<&Rational>,
@@ -42,9 +36,6 @@ impl Problem {
     }
 
     /// Velocity, strain, displacement and force along the bars until a time.
-    ///
-    /// # Errors
-    /// [`ProblemError::Equations`], [`ProblemError::LocalContact`], [`ProblemError::Field`].
     pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
         let network = self.network()?;
         Ok(match self.contacts_open() {

@@ -29,9 +29,6 @@ pub enum Given {
 #[doc(hidden)]
 impl Given {
     /// The number, which errors call by this name.
-    ///
-    /// # Errors
-    /// [`ProblemError::Text`], [`ProblemError::NoNumber`], [`ProblemError::NotFinite`].
     pub fn number(self, name: &str) -> Result<Rational, ProblemError> {
         match self {
             Given::Text(text) => number(name, &text),
@@ -42,9 +39,6 @@ impl Given {
 }
 
 /// Reads an exact number, which errors call by this name.
-///
-/// # Errors
-/// [`ProblemError::Text`]; [`ProblemError::NoNumber`] where there is nothing.
 pub fn number(name: &str, text: &str) -> Result<Rational, ProblemError> {
     match text.trim().is_empty() {
         true => Err(ProblemError::NoNumber(name.to_owned())),

@@ -21,25 +21,18 @@ pub struct ToLock {
 /// Why a problem is not locked as asked for.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum LockRefusal {
-    /// Periods were asked for where contacts open.
     #[error("where contacts open there are no periods of which pieces could be locked")]
     PeriodsWhereContactsOpen,
-    /// Events were asked for where no contacts open.
     #[error("there are no events here: no contacts open")]
     NoEvents,
-    /// Values were asked for in a scene with units.
     #[error("values are not locked in scenes with units")]
     ValuesWithUnits,
-    /// Values were asked for in a scene with this named constant.
     #[error("values are not locked in scenes with constants such as {0}")]
     ValuesWithConstants(Symbol),
-    /// The last period is not given.
     #[error("it is not said through which period the pieces are to be locked")]
     NoLastPeriod,
-    /// The lock holds pieces, and contacts open now.
     #[error("pieces are locked, and contacts open now")]
     PiecesLocked,
-    /// The lock holds events, and no contacts open now.
     #[error("events are locked, and no contacts open now")]
     EventsLocked,
 }
@@ -47,10 +40,6 @@ pub enum LockRefusal {
 #[doc(hidden)]
 impl Problem {
     /// What is locked: derived now.
-    ///
-    /// # Errors
-    /// [`ProblemError::Lock`] where there is no such thing to lock; [`ProblemError`] where it cannot be
-    /// derived.
     pub fn lock(&self, asked: &ToLock) -> Result<Lock, ProblemError> {
         let ToLock { through, until, times, digits } = asked.clone();
         let request = Request { times, digits, set: self.values.clone() };
@@ -75,9 +64,6 @@ impl Problem {
     }
 
     /// How the problem, derived now, differs from a lock.
-    ///
-    /// # Errors
-    /// As [`Problem::lock`].
     pub fn differences(&self, locked: &Lock) -> Result<Vec<Difference>, ProblemError> {
         let now = match (locked.extent(), self.contacts_open()) {
             (Extent::Pieces { through }, false) => {

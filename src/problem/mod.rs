@@ -14,7 +14,6 @@ mod evaluate;
 mod find;
 mod given;
 mod lock;
-mod rates;
 mod times;
 mod validity;
 mod wanted;
@@ -98,9 +97,6 @@ fn symbols_of(scene: &Scene) -> Vec<&Symbol> {
 #[doc(hidden)]
 impl Problem {
     /// Reads a text that errors call by this name.
-    ///
-    /// # Errors
-    /// [`ProblemError::Text`] with all mistakes found, or why the scene cannot be laid out.
     pub fn of_text(
         name: &str,
         text: impl AsRef<[u8]>,
@@ -116,9 +112,6 @@ impl Problem {
     }
 
     /// The same text with one more value in place of a symbol, before anything is derived.
-    ///
-    /// # Errors
-    /// As [`Problem::of_text`]; also a value that is no number.
     pub fn substituted(
         &self,
         name: &str,
@@ -130,9 +123,6 @@ impl Problem {
     }
 
     /// The same text with its symbols, and no values.
-    ///
-    /// # Errors
-    /// As [`Problem::of_text`].
     pub fn without_values(&self) -> Result<Problem, ProblemError> {
         Problem::of(self.source.clone(), Values::new())
     }
@@ -160,9 +150,6 @@ impl Problem {
     }
 
     /// The scene in its own scales.
-    ///
-    /// # Errors
-    /// [`ProblemError::Equations`] where the text states equations.
     pub fn scaled(&self) -> Result<&ScaledScene, ProblemError> {
         match &self.kind {
             Kind::Equations(_) => Err(ProblemError::Equations(self.title().to_owned())),
@@ -172,10 +159,6 @@ impl Problem {
     }
 
     /// The scene as a network of waves.
-    ///
-    /// # Errors
-    /// [`ProblemError::Equations`] where the text states equations, [`ProblemError::LocalContact`] where
-    /// a law is not linear.
     pub fn network(&self) -> Result<&Network, ProblemError> {
         match &self.kind {
             Kind::Line { network, .. } => Ok(network),
@@ -185,9 +168,6 @@ impl Problem {
     }
 
     /// The recurrence, stated or derived, with its solution.
-    ///
-    /// # Errors
-    /// [`ProblemError::LocalContact`]; [`ProblemError::Network`] where no period suits all bars.
     pub fn solution(&self) -> Result<&Solution, ProblemError> {
         match &self.kind {
             Kind::Equations(solution) => Ok(solution),
@@ -201,9 +181,6 @@ impl Problem {
     }
 
     /// The recurrence, stated or derived.
-    ///
-    /// # Errors
-    /// As [`Problem::solution`].
     pub fn recurrence(&self) -> Result<&Recurrence, ProblemError> {
         Ok(self.solution()?.recurrence())
     }

@@ -23,9 +23,6 @@ impl Problem {
     }
 
     /// A time from 0 on, in seconds for scenes with units; errors call it by this name.
-    ///
-    /// # Errors
-    /// [`ProblemError::Text`], [`ProblemError::NoNumber`], [`ProblemError::BeforeStart`].
     pub fn time(&self, name: &str, time: impl Into<Given>) -> Result<Rational, ProblemError> {
         let time = self.quantity(name, time, Dimension::TIME)?;
         match time.is_negative() {
@@ -35,9 +32,6 @@ impl Problem {
     }
 
     /// Two times, the first before the last.
-    ///
-    /// # Errors
-    /// As [`Problem::time`]; [`ProblemError::EmptyWindow`].
     pub fn window(
         &self,
         (from, from_text): (&str, &str),
@@ -47,9 +41,6 @@ impl Problem {
     }
 
     /// A number with a unit of this dimension, where the scene has units and this one has a dimension.
-    ///
-    /// # Errors
-    /// [`ProblemError::Text`], [`ProblemError::NoNumber`].
     pub fn quantity(
         &self,
         name: &str,
@@ -79,9 +70,6 @@ impl Problem {
 }
 
 /// Two times, the first before the last.
-///
-/// # Errors
-/// [`ProblemError::EmptyWindow`].
 pub fn window(from: Rational, to: Rational) -> Result<[Rational; 2], ProblemError> {
     match from < to {
         true => Ok([from, to]),
@@ -105,9 +93,6 @@ const PASSAGES: i64 = 2;
 impl Problem {
     /// The usual length of a window: some periods, exactly where a period is rational, else a round number
     /// near them.
-    ///
-    /// # Errors
-    /// [`ProblemError::NoEnd`] where there is no period; [`EvaluateError::MissingValue`].
     pub fn usual_length(&self) -> Result<Rational, ProblemError> {
         self.has_numbers()?;
         let periods = Rational::from_integer(PERIODS.into());
@@ -130,9 +115,6 @@ impl Problem {
     }
 
     /// So many of the shortest period.
-    ///
-    /// # Errors
-    /// [`ProblemError::NoEnd`] where it is not known exactly; [`EvaluateError::MissingValue`].
     pub fn some_periods(&self, count: i64) -> Result<Rational, ProblemError> {
         if let Some(period) = self.shortest_period() {
             return Ok(period * Rational::from_integer(count.into()));
@@ -147,9 +129,6 @@ impl Problem {
 }
 
 /// A length with two figures, and not less.
-///
-/// # Errors
-/// [`ProblemError::NoEnd`] where the length is no number.
 pub fn two_figures(length: f64) -> Result<Rational, ProblemError> {
     let step = 10_f64.powi(length.log10().floor() as i32 - 1);
     let steps = (length / step).ceil().to_i64().ok_or(ProblemError::NoEnd)?;

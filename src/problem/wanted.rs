@@ -99,10 +99,6 @@ impl Problem {
 #[doc(hidden)]
 impl Problem {
     /// The wave or observable of this name.
-    ///
-    /// # Errors
-    /// [`ProblemError::Unknown`]; [`ProblemError::WaveOfClosedContacts`] for a wave of a scene whose
-    /// contacts open.
     pub fn wanted(&self, name: &str) -> Result<Wanted, ProblemError> {
         let known = language::normalise_name(name);
         let found = match &self.kind {
