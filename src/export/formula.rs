@@ -41,6 +41,24 @@ pub enum Head {
     Written(String, String),
 }
 
+/// An exact value in one line.
+fn flat(value: &Fraction, notation: Notation) -> String {
+    write_flat(&arrange(&value.into(), None), notation)
+}
+
+/// When a formula holds, and its local time since `start`.
+fn remark(
+    holds: impl Fn(Notation, &str) -> String,
+    start: &Fraction,
+    [local, time]: [&Symbol; 2],
+) -> (String, String) {
+    both(|n| {
+        let start = flat(start, n);
+        let since = since(&n.symbol(time), &start);
+        format!("{}{}{} = {since}", holds(n, &start), n.choose(", ", ",\\ "), n.symbol(local))
+    })
+}
+
 /// `t - start`, with brackets around a sum.
 fn since(t: &str, start: &str) -> String {
     match start {
@@ -140,17 +158,11 @@ impl Formula {
     /// The formula with the interval on which it holds as its remark: `from <= t < to, s = t - from`.
     pub fn between(mut self, from: &Fraction, to: &Fraction, statement: &Statement) -> Formula {
         let Statement { local, time, .. } = statement;
-        let written = |notation: Notation, at_most: &str| {
-            let bound =
-                |bound: &Fraction| write_flat(&arrange(&bound.clone().into(), None), notation);
-            let (t, s, start) = (notation.symbol(time), notation.symbol(local), bound(from));
-            let interval = format!("{start} {at_most} {t} < {}", bound(to));
-            (interval, format!("{s} = {}", since(&t, &start)))
+        let holds = |n: Notation, start: &str| {
+            let (at_most, t) = (n.choose("<=", "\\le"), n.symbol(time));
+            format!("{start} {at_most} {t} < {}", flat(to, n))
         };
-        let (interval, local) = written(Text, "<=");
-        let text = format!("{interval}, {local}");
-        let (interval, local) = written(Latex, "\\le");
-        self.remark = Some((text, format!("{interval},\\ {local}")));
+        self.remark = Some(remark(holds, from, [local, time]));
         self
     }
 
@@ -170,13 +182,10 @@ impl Formula {
     ) -> Formula {
         let (wave, counts) = (wave.to_owned(), counts.to_vec());
         let head = Head::Arrival { wave, counts, local: local.clone() };
-        let told = |notation: Notation, from: &str| {
-            let delay = write_flat(&arrange(&delay.clone().into(), None), notation);
-            let (t, s) = (notation.symbol(time), notation.symbol(local));
-            (format!("{t} {from} {delay}"), format!("{s} = {}", since(&t, &delay)))
+        let holds = |n: Notation, start: &str| {
+            format!("{} {} {start}", n.symbol(time), n.choose(">=", "\\ge"))
         };
-        let ((text, shift), (latex, latex_shift)) = (told(Text, ">="), told(Latex, "\\ge"));
-        let remark = Some((format!("{text}, {shift}"), format!("{latex},\\ {latex_shift}")));
+        let remark = Some(remark(holds, delay, [local, time]));
         Formula { remark, ..Formula::new(head, echo, local) }
     }
 

@@ -165,16 +165,16 @@ fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> 
         let index = &Polynomial::symbol(k) - &Polynomial::integer(*lag);
         let index = Tree::sum(arrange(&index.into(), Some(k))).1;
         let function = match template.family() {
-            Family::Laguerre(c) => {
-                let argument = Expression::from(c * &Fraction::symbol(x));
-                vec![laguerre(index, &argument, x)]
+            Family::Laguerre(c) => laguerre(index, &Expression::from(c * &Fraction::symbol(x)), x),
+            Family::Power => {
+                let power = Tree::Power(Box::new(Tree::Symbol(x.clone())), Box::new(index.clone()));
+                Tree::Quotient(Box::new(power), Box::new(Tree::Factorial(Box::new(index))))
             }
-            Family::Power => vec![
-                Tree::Power(Box::new(Tree::Symbol(x.clone())), Box::new(index.clone())),
-                Tree::Factorial(Box::new(index)),
-            ],
         };
-        sum.push(scaled(coefficient, function, template.family()));
+        let (sign, factor) = Tree::sum(arrange(&coefficient.into(), None));
+        let mut factors = factor.into_factors();
+        factors.push(function);
+        sum.push((sign, Tree::product(factors)));
     }
     let mut front = Vec::new();
     if !template.ratio().is_one() {
@@ -204,19 +204,6 @@ fn laguerre(index: Tree, argument: &Expression, x: &Symbol) -> Tree {
         terms => Tree::Sum(terms.to_vec()),
     };
     Tree::Laguerre(Box::new(index), Box::new(argument))
-}
-
-/// `coefficient · function`, where the function's last factor divides for powers (`x^k/k!`).
-fn scaled(coefficient: &Fraction, mut function: Vec<Tree>, family: &Family) -> Term {
-    let (sign, factor) = Tree::sum(arrange(&coefficient.clone().into(), None));
-    let mut factors = factor.into_factors();
-    if *family == Family::Power {
-        let bottom = function.pop().expect("a power over a factorial");
-        let top = function.pop().expect("a power over a factorial");
-        function.push(Tree::Quotient(Box::new(top), Box::new(bottom)));
-    }
-    factors.extend(function);
-    (sign, Tree::product(factors))
 }
 
 /// Names for the derivative and for the delay by one period, in [`operator_of`].

@@ -3,8 +3,9 @@
 //! [`Expression`] is a sum `Σ_j p_j e^{λ_j}` whose coefficients and exponents are [`Fraction`]s:
 //! polynomials in named symbols, localised at factors known to be non-zero. A wave function on one
 //! period is an `Expression` in the local time; its coefficients, such as `1 + e^{−2μ}`, are
-//! expressions too. Poles of second order bring square roots into both. [`Assumptions`] says what may be divided by. [`Transform`] is the same kind of
-//! function in the Laplace domain. [`EchoSum`] is a function of all time.
+//! expressions too. Poles of second order bring square roots into both. [`Assumptions`] says what may be
+//! divided by. [`Transform`] is the same kind of function in the Laplace domain. [`EchoSum`] is a function
+//! of all time.
 //!
 //! Nothing here knows of bars or of text.
 

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
 
 use super::diagnostic::Diagnostic;
+use super::linear::{Linear, Place, Reference};
 use super::parameters;
-use super::scope::{Linear, Place, Reference, Scope, symbol};
+use super::scope::{Scope, symbol};
 use super::source::Source;
 use super::syntax::{self, Name, Span, Spanned, StatementKind};
 use super::written;

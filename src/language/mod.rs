@@ -3,7 +3,7 @@
 //! wave functions themselves. Every error says where it is and what to do.
 //!
 //! The way of a text: [`Source`] checks bytes, `layout` finds statements, `parser` builds the tree
-//! in [`syntax`], `lowering` gives names their meaning, and [`Diagnostic`] is the one error of all.
+//! in [`syntax`], `lowering` and `scene` give names their meaning, and [`Diagnostic`] is the one error of all.
 //! The grammar is `grammar/wavestep.ebnf`, with accepted and rejected texts beside it.
 //!
 //! Parsing is linear in the length of the text. The parser does not recurse, and nothing that walks
@@ -12,6 +12,7 @@
 mod constant;
 mod diagnostic;
 mod layout;
+mod linear;
 mod lowering;
 mod name;
 mod number;
@@ -35,7 +36,7 @@ use crate::scene as physics;
 pub use constant::constant;
 pub use diagnostic::{Diagnostic, Label, closest};
 pub use lowering::ExactFormula;
-pub use name::RESERVED;
+pub use name::{RESERVED, normalise as normalise_name};
 pub use source::Source;
 pub use syntax::Span;
 
@@ -94,12 +95,6 @@ pub fn read_quantity(
             )
             .with_remedy(format!("give it in {}", needed.unit()))),
     }
-}
-
-/// The name as it is kept: Greek letters spelt out, `μ` as `mu`.
-#[must_use]
-pub fn normalise_name(written: &str) -> String {
-    name::normalise(written)
 }
 
 /// Reads a recurrence and gives its names their meaning, with `values` in place of symbols from the

@@ -4,28 +4,23 @@
 /// Words with a meaning of their own in expressions, which cannot name anything else.
 pub const RESERVED: [&str; 5] = ["cos", "exp", "sin", "sqrt", "sum"];
 
-const LOWER: [&str; 25] = [
+/// The English names of the letters from α to ω, both forms of sigma among them.
+const GREEK: [&str; 25] = [
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
     "lambda", "mu", "nu", "xi", "omicron", "pi", "rho", "sigma", "sigma", "tau", "upsilon", "phi",
     "chi", "psi", "omega",
 ];
 
-const UPPER: [&str; 25] = [
-    "Alpha", "Beta", "Gamma", "Delta", "Epsilon", "Zeta", "Eta", "Theta", "Iota", "Kappa",
-    "Lambda", "Mu", "Nu", "Xi", "Omicron", "Pi", "Rho", "Sigma", "Sigma", "Tau", "Upsilon", "Phi",
-    "Chi", "Psi", "Omega",
-];
-
-/// The English name of a Greek letter, including the variants and the micro and ohm signs that
-/// keyboards and word processors put in its place.
-fn greek(letter: char) -> Option<&'static str> {
-    Some(match letter {
-        'α'..='ω' => LOWER[letter as usize - 'α' as usize],
+/// The English name of a Greek letter and whether it is a capital, including the variants and the micro
+/// and ohm signs that keyboards and word processors put in its place.
+fn greek(letter: char) -> Option<(&'static str, bool)> {
+    let name = match letter {
+        'α'..='ω' => GREEK[letter as usize - 'α' as usize],
         // U+03A2, where a capital final sigma would be, is not assigned.
         '\u{3A2}' => return None,
-        'Α'..='Ω' => UPPER[letter as usize - 'Α' as usize],
+        'Α'..='Ω' => return Some((GREEK[letter as usize - 'Α' as usize], true)),
         '\u{B5}' => "mu",
-        '\u{2126}' => "Omega",
+        '\u{2126}' => return Some(("omega", true)),
         'ϑ' => "theta",
         'ϕ' => "phi",
         'ϖ' => "pi",
@@ -33,7 +28,8 @@ fn greek(letter: char) -> Option<&'static str> {
         'ϱ' => "rho",
         'ϵ' => "epsilon",
         _ => return None,
-    })
+    };
+    Some((name, false))
 }
 
 /// Whether a name can start with this character.
@@ -46,12 +42,16 @@ pub(super) fn continues(character: char) -> bool {
     is_letter(character) || character.is_ascii_digit() || character == '_'
 }
 
-/// The name with its Greek letters spelt out.
-pub(super) fn normalise(written: &str) -> String {
+/// The name with its Greek letters spelt out, `μ` as `mu`.
+pub fn normalise(written: &str) -> String {
     let mut name = String::with_capacity(written.len());
     for character in written.chars() {
         match greek(character) {
-            Some(english) => name.push_str(english),
+            Some((english, false)) => name.push_str(english),
+            Some((english, true)) => {
+                name.push_str(&english[..1].to_ascii_uppercase());
+                name.push_str(&english[1..]);
+            }
             None => name.push(character),
         }
     }

@@ -88,17 +88,23 @@ impl Display for Function {
     }
 }
 
-fn sum(terms: &[Term], f: &mut Formatter<'_>) -> fmt::Result {
-    for (position, Term { sign, value }) in terms.iter().enumerate() {
-        f.write_str(match (position, sign) {
-            (0, Sign::Plus) => "",
-            (0, Sign::Minus) => "-",
-            (_, Sign::Plus) => " + ",
-            (_, Sign::Minus) => " - ",
-        })?;
-        Within(value, Tightness::Product).fmt(f)?;
+/// Parts with their signs between them; the first sign stands alone.
+fn joined<'a>(
+    parts: impl Iterator<Item = ([&'static str; 2], &'a Expression)>,
+    place: Tightness,
+    f: &mut Formatter<'_>,
+) -> fmt::Result {
+    for (position, ([first, later], value)) in parts.enumerate() {
+        f.write_str(if position == 0 { first } else { later })?;
+        Within(value, place).fmt(f)?;
     }
     Ok(())
+}
+
+fn sum(terms: &[Term], f: &mut Formatter<'_>) -> fmt::Result {
+    let signs = |sign| if sign == Sign::Plus { ["", " + "] } else { ["-", " - "] };
+    let parts = terms.iter().map(|term| (signs(term.sign), &term.value));
+    joined(parts, Tightness::Product, f)
 }
 
 /// A product; one that begins with a divisor is written `1/a`.
@@ -106,16 +112,12 @@ struct Factors<'a>(&'a [Factor]);
 
 impl Display for Factors<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        for (position, Factor { operator, value }) in self.0.iter().enumerate() {
-            f.write_str(match (position, operator) {
-                (0, Operator::Multiply) => "",
-                (0, Operator::Divide) => "1/",
-                (_, Operator::Multiply) => "*",
-                (_, Operator::Divide) => "/",
-            })?;
-            Within(value, Tightness::Sign).fmt(f)?;
-        }
-        Ok(())
+        let signs = |operator| match operator {
+            Operator::Multiply => ["", "*"],
+            Operator::Divide => ["1/", "/"],
+        };
+        let parts = self.0.iter().map(|factor| (signs(factor.operator), &factor.value));
+        joined(parts, Tightness::Sign, f)
     }
 }
 

@@ -5,7 +5,7 @@
 //! through 1                                          until 100
 //! digits 20                                          digits 20
 //! set mu = 1/4                                       set mu = 1
-//! stated observable velocity = (1)*f(t) + (1)*g(t)   stated line = free - hammer | rod - fixed
+//! stated observable velocity = f(t) + g(t)           stated line = free - hammer | rod - fixed
 //! …                                                  …
 //! holds 3 statements, 4 pieces, 1 values             holds 3 statements, 4 events, 1 contacts, 1 values
 //!

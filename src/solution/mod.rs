@@ -3,8 +3,8 @@
 //! [`PeriodByPeriod`] works in time with the integrating factor and constants by continuity;
 //! [`EchoByEcho`] works in the Laplace domain and expands in the shift `q = e^{−pD}`. From
 //! the ordered steps on they share nothing but the ring arithmetic, so that their agreement
-//! is evidence for both. [`GeneralForm`]
-//! holds a wave for every n at once. [`Solution`] puts them together.
+//! is evidence for both. [`GeneralForm`] holds a wave for every n at once. [`Solution`] puts
+//! them together.
 
 mod consequence;
 mod demand;

@@ -1,4 +1,4 @@
-//! Texts that state scenes: their tree, how it is printed, and what it means.
+//! From syntax tree to scene.
 //!
 //! Mistakes are gathered, not thrown: what depends on a part that is wrong is left out, so that one
 //! mistake is reported once.
@@ -8,6 +8,7 @@ mod hertz;
 mod observe;
 mod refusal;
 pub(super) mod units;
+mod value;
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -15,22 +16,16 @@ use std::collections::btree_map::Entry;
 use wavestep_polynomial::Rational;
 
 use super::diagnostic::Diagnostic;
-use super::name;
 use super::parameters;
-use super::scope::{FUNCTIONS, Place, Scope, symbol, with_likely};
-use super::syntax::{
-    self, Declaration, Declared, Expression as Tree, Name, Node, SceneStatementKind, Section, Span,
-    Unit,
-};
-use crate::expression::{Assumptions, Expression, Fraction};
+use super::scope::{Scope, symbol, with_likely};
+use super::syntax::{self, Declaration, Declared, Name, SceneStatementKind, Section, Span};
+use crate::expression::Assumptions;
 use crate::limits::MAX_MISTAKES;
-use crate::scene::{self, Dimension, ElementIndex, Kind, PI};
+use crate::scene::{self, ElementIndex, Kind, PI};
 use element::Material;
+use value::NEEDS_UNIT;
 
 type Outcome<T> = Result<T, Diagnostic>;
-
-/// What is said of a value without unit, once in a scene.
-const NEEDS_UNIT: &str = "needs a unit in this scene";
 
 /// The name of time in loads.
 const TIME: &str = "t";
@@ -296,173 +291,30 @@ impl<'a> Lowering<'a> {
         if let Some((_, Meaning::Element(element))) = found {
             return Ok(*element);
         }
-        let what = match found {
-            Some((_, Meaning::Material)) => "material",
-            Some((_, Meaning::Symbol)) => "symbol",
-            Some((_, Meaning::Observable)) => "observable",
-            _ => {
-                let error = self.error(
-                    format!("unknown element `{}`", name.value),
-                    name.span,
-                    "not declared",
-                );
-                let names: Vec<&str> = self
-                    .elements
-                    .iter()
-                    .map(|known| known.declaration.name.value.as_str())
-                    .collect();
-                return Err(with_likely(error, &name.value, names.into_iter()).or_remedy(format!(
-                    "declare it, as in `bar {} {{ impedance = 1, travel = 1 }}`",
-                    name.value
-                )));
-            }
+        let Some((first, meaning)) = found else {
+            let Name { value: name, span } = name;
+            let error = self.error(format!("unknown element `{name}`"), *span, "not declared");
+            let names = self.elements.iter().map(|known| known.declaration.name.value.as_str());
+            return Err(with_likely(error, name, names).or_remedy(format!(
+                "declare it, as in `bar {name} {{ impedance = 1, travel = 1 }}`"
+            )));
         };
-        let article = if what == "observable" { "an" } else { "a" };
+        let message = format!("`{}` is {}", name.value, self.described(*meaning));
         Err(self
-            .error(format!("`{}` is {article} {what}", name.value), name.span, "not an element")
-            .with_secondary(found.map_or(name.span, |(span, _)| *span), "declared here")
+            .error(message, name.span, "not an element")
+            .with_secondary(*first, "declared here")
             .with_remedy("name a bar, a mass, a spring, a local contact, a support or a load"))
     }
 
-    /// An exact value of a dimension; `what` names it in errors.
-    fn quantity(
-        &self,
-        tree: &Tree,
-        unit: Option<&Unit>,
-        needed: Dimension,
-        what: &'static str,
-    ) -> Outcome<Fraction> {
-        self.refuse_strangers(tree)?;
-        let value = self.scope.lower_fraction(tree, what)?;
-        let factor = self.unit_factor(tree, unit, needed, what, value.is_zero())?;
-        Ok(value.scale(&factor))
-    }
-
-    /// The course of a load.
-    fn course(
-        &self,
-        tree: &Tree,
-        unit: Option<&Unit>,
-        needed: Dimension,
-        what: &'static str,
-    ) -> Outcome<Expression> {
-        self.refuse_strangers(tree)?;
-        let value = self.scope.lower(tree, Place::Equation)?.rest;
-        let factor = self.unit_factor(tree, unit, needed, what, value.is_zero())?;
-        Ok(value.scale(&factor))
-    }
-
-    /// What the unit of a value is worth, if it measures what is needed.
-    fn unit_factor(
-        &self,
-        tree: &Tree,
-        unit: Option<&Unit>,
-        needed: Dimension,
-        what: &str,
-        is_zero: bool,
-    ) -> Outcome<Rational> {
-        let one = Rational::from_integer(1.into());
-        let symbol = needed.unit();
-        match (unit, self.unit) {
-            (Some(unit), _) => {
-                let units::Worth { value, dimension } = units::worth(&self.scope, unit)?;
-                if dimension == needed {
-                    return Ok(value);
-                }
-                let found = dimension.described();
-                let (message, remedy) = match needed {
-                    Dimension::NONE => (
-                        format!("{what} is needed, a plain number; this is {found}"),
-                        "leave out the unit".to_owned(),
-                    ),
-                    _ => (
-                        format!("{what} is needed, {}; this is {found}", needed.units()),
-                        format!("give it in {symbol}"),
-                    ),
-                };
-                Err(self.error(message, unit.span, format!("not {what}")).with_remedy(remedy))
+    /// What a name stands for, with an article.
+    fn described(&self, meaning: Meaning) -> String {
+        match meaning {
+            Meaning::Symbol => "a symbol".to_owned(),
+            Meaning::Material => "a material".to_owned(),
+            Meaning::Element(element) => {
+                format!("a {}", self.elements[element].declaration.kind.noun())
             }
-            (None, Some(first)) if needed != Dimension::NONE && !is_zero => Err(self
-                .error(format!("{what} {NEEDS_UNIT}"), tree.span, "a plain number")
-                .with_secondary(first, "this scene has units")
-                .with_remedy(format!(
-                    "write `{} {symbol}`, or leave out all units",
-                    self.shown(tree)
-                ))),
-            _ => Ok(one),
-        }
-    }
-
-    /// An expression as it stands in the text, cut if it is long.
-    fn shown(&self, tree: &Tree) -> &str {
-        match self.scope.source.slice(tree.span) {
-            text if text.len() <= 20 && !text.contains('\n') => text,
-            _ => "…",
-        }
-    }
-
-    /// Refuses what belongs to recurrences only, and names that are no values.
-    fn refuse_strangers(&self, tree: &Tree) -> Outcome<()> {
-        let error = |message: String, span, label| Err(self.error(message, span, label));
-        match &tree.value {
-            Node::Name(name) if !self.scope.symbols.contains_key(name) && name != TIME => {
-                let stands_for = match self.declared.get(name) {
-                    Some((_, Meaning::Symbol)) => None,
-                    Some((first, meaning)) => Some((*first, meaning)),
-                    None if units::is_unit(name) => {
-                        return error(format!("unknown name `{name}`"), tree.span, "not declared")
-                            .map_err(|error: Diagnostic| {
-                                error.with_remedy(format!(
-                                    "a unit stands behind the whole value, without a sign: \
-                                     `3/2 {name}`"
-                                ))
-                            });
-                    }
-                    None => None,
-                };
-                let Some((first, meaning)) = stands_for else { return Ok(()) };
-                let what = match meaning {
-                    Meaning::Element(element) => {
-                        let kind = self.elements[*element].declaration.kind;
-                        format!("a {}", kind.noun())
-                    }
-                    Meaning::Material => "a material".to_owned(),
-                    _ => "an observable".to_owned(),
-                };
-                Err(self
-                    .error(format!("`{name}` is {what}, not a value"), tree.span, "not a value")
-                    .with_secondary(first, "declared here")
-                    .with_remedy("use numbers and declared symbols"))
-            }
-            Node::Wave(_) | Node::Summation { .. } => {
-                error("there are no waves by period in a scene".to_owned(), tree.span, "not here")
-                    .map_err(|error: Diagnostic| {
-                        error.with_remedy("use numbers and declared symbols")
-                    })
-            }
-            Node::Call { name, argument } => {
-                let word = name.value.as_str();
-                if FUNCTIONS.contains(&word) || name::RESERVED.contains(&word) {
-                    return self.refuse_strangers(argument);
-                }
-                let shown = self.shown(tree);
-                let remedy = match self.scope.symbols.contains_key(word) {
-                    true => format!("write `{word}*(…)` for a product"),
-                    false => "use numbers, declared symbols, and `exp`".to_owned(),
-                };
-                Err(self
-                    .error(format!("`{word}` is no function"), name.span, format!("in `{shown}`"))
-                    .with_remedy(remedy))
-            }
-            Node::Exponential(operand) | Node::Negate(operand) => self.refuse_strangers(operand),
-            Node::Sum(terms) => {
-                terms.iter().try_for_each(|term| self.refuse_strangers(&term.value))
-            }
-            Node::Product(factors) => {
-                factors.iter().try_for_each(|factor| self.refuse_strangers(&factor.value))
-            }
-            Node::Power { base, .. } => self.refuse_strangers(base),
-            _ => Ok(()),
+            Meaning::Observable => "an observable".to_owned(),
         }
     }
 }
