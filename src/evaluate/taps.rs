@@ -179,7 +179,7 @@ impl Taps {
             let mut formula = Fraction::zero();
             for (lag, coefficient) in template.terms() {
                 if let Some(order) = k.checked_add_signed(-lag) {
-                    formula = &formula + &(coefficient * &template.function(order, local));
+                    formula = &formula + &(coefficient * &template.family().function(order, local));
                 }
             }
             let formula = &formula * &self.ratio.pow(u32::try_from(k).ok()?);

@@ -68,11 +68,6 @@ impl EchoTemplate {
         &self.terms
     }
 
-    /// `T_k(x)`.
-    pub(crate) fn function(&self, k: usize, x: &Symbol) -> Fraction {
-        self.family.function(k, x)
-    }
-
     /// The echoes before the sum holds, in the local variable.
     pub fn first(&self) -> &[Expression] {
         &self.first
@@ -146,7 +141,7 @@ fn index(k: usize, lag: isize) -> usize {
 
 impl Family {
     /// `T_k(x)`.
-    fn function(&self, k: usize, x: &Symbol) -> Fraction {
+    pub fn function(&self, k: usize, x: &Symbol) -> Fraction {
         let k = u32::try_from(k).expect("orders fit 32 bits");
         match self {
             Family::Power => {
@@ -348,34 +343,4 @@ pub(crate) fn multiplier(form: &LinearForm, wave: WaveIndex) -> Option<Vec<Expre
     let operator = form.operator(wave);
     let alone = form.operators().all(|(other, _)| other == wave);
     (alone && operator.slope().is_empty()).then(|| operator.value().to_vec())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// `L_k(cx) = Σ_j C(k,j) (−c)^j x^j/j!`, with numbers and with a symbol.
-    #[test]
-    fn laguerre_rows_are_binomials() {
-        let x = Symbol::new("x").unwrap();
-        for c in ["2", "-1/3", "a", "a + 1/2"] {
-            let c = Fraction::from(c.parse::<Polynomial>().unwrap());
-            let template = EchoTemplate {
-                family: Family::Laguerre(c.clone()),
-                rate: Fraction::zero(),
-                ratio: Fraction::one(),
-                terms: vec![(0, Fraction::one())],
-                first: Vec::new(),
-            };
-            for k in 0..=12u32 {
-                let mut expected = Expression::zero();
-                for j in 0..=k {
-                    let weight = Rational::new(binomial(k, j), factorial(j));
-                    let power = Polynomial::monomial(&weight, &[(&x, j)]);
-                    expected += &(&Expression::from(-&c).pow(j) * &power.into());
-                }
-                assert_eq!(template.echo(k as usize, &x), expected, "L_{k}({c} x)");
-            }
-        }
-    }
 }

@@ -8,9 +8,10 @@ use wavestep::language::{Source, read_expression, read_recurrence};
 use wavestep::recurrence::{Clause, Fault, LinearForm, Recurrence, WaveIndex};
 use wavestep::scenes;
 use wavestep::solution::{
-    EchoByEcho, EchoTable, EchoTemplate, GeneralForm, Geometric, PeriodByPeriod, Proof, Solution,
+    EchoByEcho, EchoTable, EchoTemplate, Family, GeneralForm, Geometric, PeriodByPeriod, Proof,
+    Solution,
 };
-use wavestep_polynomial::{Integer, Rational, binomial, factorial};
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol, binomial, factorial};
 
 fn read(text: &str) -> Recurrence {
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
@@ -206,6 +207,25 @@ fn claims_about_intricate_recurrences_hold() {
                 let values: Vec<Expression> = (0..=7).map(|n| form.value(n)).collect();
                 assert_eq!(&values, expected, "wave {wave} of\n{text}");
             }
+        }
+    }
+}
+
+/// `L_k(cx) = Σ_j C(k,j) (−c)^j x^j/j!`, with numbers and with a symbol.
+#[test]
+fn laguerre_polynomials_are_sums_of_binomials() {
+    let x = Symbol::new("x").unwrap();
+    for c in ["2", "-1/3", "a", "a + 1/2"] {
+        let c = Fraction::from(c.parse::<Polynomial>().unwrap());
+        for k in 0..=12u32 {
+            let mut expected = Fraction::zero();
+            for j in 0..=k {
+                let weight = Rational::new(binomial(k, j), factorial(j));
+                let power = Polynomial::monomial(&weight, &[(&x, j)]);
+                expected = &expected + &(&(-&c).pow(j) * &power.into());
+            }
+            let found = Family::Laguerre(c.clone()).function(k as usize, &x);
+            assert_eq!(found, expected, "L_{k}({c} x)");
         }
     }
 }
