@@ -270,7 +270,7 @@ pub fn latex(formulas: &[Formula], width: usize) -> String {
 
 /// Formulas with remarks as the cases of one function, `name(variable) = …`.
 pub fn latex_cases(name: &str, variable: &Symbol, formulas: &[Formula], width: usize) -> String {
-    let head = format!("{}({})", latex_name(name), Latex.symbol(variable));
+    let head = format!("{}({})", latex_name(name, None), Latex.symbol(variable));
     let left = width.saturating_sub(Latex.width(&head) + 3);
     let cases: Vec<String> = formulas.iter().map(|formula| formula.latex_case(left)).collect();
     let cases = cases.join(" \\\\\n");

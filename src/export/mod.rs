@@ -7,6 +7,7 @@
 mod arrangement;
 mod c;
 mod explain;
+mod forms;
 mod formula;
 mod general;
 mod lines;
@@ -19,9 +20,11 @@ mod tree;
 mod writer;
 
 pub use c::{CHeading, to_c};
-pub use explain::{Derivation, form_text, latex_name, solved_equations};
+pub use explain::Derivation;
+pub use forms::{form_text, solved_equations};
 pub use formula::{
     Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,
 };
 pub use general::{assumed_factors, general_form, operator_names, operator_of};
+pub use names::latex_name;
 pub use source::SourceForm;

@@ -35,18 +35,17 @@ const GREEK: [&str; 34] = [
 /// Endings of names that are accents in LaTeX.
 const ACCENTS: [&str; 5] = ["tilde", "bar", "hat", "dot", "prime"];
 
-/// A name: Greek letters as such, one letter in italics, a word upright, `a_1` as subscript,
-/// `a_tilde` with an accent, `a_prime` with a prime.
-pub(crate) fn latex_name(name: &str) -> String {
+/// A name as LaTeX: Greek letters as such, one letter in italics, a word upright, `a_1` with a
+/// subscript, `a_tilde` with an accent, `a_prime` with a prime; with an index beside the subscript where
+/// one is given, `f_{1,2}`.
+#[must_use]
+pub fn latex_name(name: &str, index: Option<&str>) -> String {
     let (letter, subscript) = parts(name);
-    subscript.map_or_else(|| letter.clone(), |subscript| format!("{letter}_{{{subscript}}}"))
-}
-
-/// A name with an index, which joins a subscript that is there already: `f_{1,2}`.
-pub(crate) fn latex_indexed(name: &str, index: &str) -> String {
-    let (letter, subscript) = parts(name);
-    let before = subscript.map_or_else(String::new, |subscript| format!("{subscript},"));
-    format!("{letter}_{{{before}{index}}}")
+    let below: Vec<&str> = subscript.as_deref().into_iter().chain(index).collect();
+    match below.is_empty() {
+        true => letter,
+        false => format!("{letter}_{{{}}}", below.join(",")),
+    }
 }
 
 /// The letter with its accent, and the subscript.
@@ -71,7 +70,7 @@ fn parts(name: &str) -> (String, Option<String>) {
         && !subscript.is_empty()
     {
         let subscript = match GREEK.contains(&subscript) || subscript.len() == 1 {
-            true => latex_name(subscript),
+            true => latex_name(subscript, None),
             false => format!("\\mathrm{{{}}}", subscript.replace('_', "\\_")),
         };
         let (letter, digits) = parts(base);
@@ -80,7 +79,7 @@ fn parts(name: &str) -> (String, Option<String>) {
     }
     let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
     if letters.len() < name.len() && !letters.is_empty() {
-        return (latex_name(letters), Some(name[letters.len()..].to_owned()));
+        return (latex_name(letters, None), Some(name[letters.len()..].to_owned()));
     }
     match name.chars().count() {
         1 => (name.to_owned(), None),

@@ -1,6 +1,6 @@
 //! The two notations of a formula: how its parts are written.
 
-use crate::export::names::{latex_indexed, latex_name};
+use crate::export::names::latex_name;
 use crate::export::tree::Tree;
 use num_traits::One;
 use wavestep_polynomial::{Integer, Rational, Symbol, decimal};
@@ -40,7 +40,7 @@ impl Notation {
     pub fn symbol(self, symbol: &Symbol) -> String {
         match (self, symbol.square()) {
             (Text, _) => symbol.to_string(),
-            (Latex, None) => latex_name(symbol.name()),
+            (Latex, None) => latex_name(symbol.name(), None),
             (Latex, Some(-1)) => self.root(&Integer::one(), true),
             (Latex, Some(square)) => self.root(&square.into(), false),
         }
@@ -48,12 +48,12 @@ impl Notation {
 
     /// The name of a wave.
     pub fn name(self, name: &str) -> String {
-        if self == Text { name.to_owned() } else { latex_name(name) }
+        if self == Text { name.to_owned() } else { latex_name(name, None) }
     }
 
     /// A wave on a period: `f[2]`.
     pub fn indexed(self, name: &str, index: &str) -> String {
-        if self == Text { format!("{name}[{index}]") } else { latex_indexed(name, index) }
+        if self == Text { format!("{name}[{index}]") } else { latex_name(name, Some(index)) }
     }
 
     /// An echo of a wave: `phi_f[2](s)`.
@@ -61,7 +61,7 @@ impl Notation {
         match self {
             Text => format!("phi_{wave}[{index}]({argument})"),
             Latex => {
-                let wave = latex_name(wave);
+                let wave = latex_name(wave, None);
                 format!("\\varphi^{{{wave}}}_{{{index}}}({argument})")
             }
         }
