@@ -1,6 +1,8 @@
 //! What people use: the same answers as the layers beneath, in fewer words, and errors where there are none.
 
-use wavestep::{Error, Goal, Method, Place, Problem, Rational, Root, Tolerance, Value, scenes};
+use wavestep::{
+    Error, EventKind, Goal, Method, Place, Problem, Rational, Root, Tolerance, Value, scenes,
+};
 
 fn mass() -> Problem {
     Problem::builtin("rigid-mass").and_then(|mass| mass.with("mu", 1)).unwrap()
@@ -105,6 +107,25 @@ fn roots_extrema_and_doubles_agree_with_digits() -> Result<(), Error> {
         assert_eq!(certified.values[i], exact, "correctly rounded at {time}");
         assert!((found.values[i] - exact).abs() <= 1e-12, "at {time}");
     }
+    Ok(())
+}
+
+/// Where contacts open the same is asked in the same way.
+#[test]
+fn contacts_that_open_have_the_same_surface() -> Result<(), Error> {
+    let problem = Problem::builtin("saint-venant")?.with("mu", 1)?;
+    let history = problem.events(12)?;
+    let [impact, opening, ..] = &history.events[..] else { panic!("two events") };
+    assert_eq!((impact.kind, opening.kind), (EventKind::Impact, EventKind::Opening));
+    let force = problem.signal(problem.observables()[0])?;
+    let breaks = force.breaks(0..=4, 9)?;
+    assert!(breaks.iter().any(|time| (time.to_f64() - opening.time.to_f64()).abs() < 1e-8));
+    let times = [0.5, 1.5, 3.0, 3.5];
+    let found = force.values(&times, Tolerance::Absolute(1e-9))?;
+    for (time, value) in times.iter().zip(&found.values) {
+        assert!((force.at(*time, 20)?.to_f64() - value).abs() <= 1e-9, "at {time}");
+    }
+    assert!(problem.signal(problem.waves()[0]).is_err());
     Ok(())
 }
 
