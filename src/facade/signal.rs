@@ -50,6 +50,12 @@ impl Signal<'_> {
     /// The value at a time: exactly where it is rational, else correctly rounded to so many significant
     /// digits; the limit from later times where it jumps.
     ///
+    /// ```
+    /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+    /// assert_eq!(mass.signal("velocity")?.at("3/2", 20)?.to_string(), "0.22313016014842982893"); // exp(-3/2)
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// A time before the start; zero digits, or more than [`MAX_DIGITS`](crate::limits::MAX_DIGITS); a symbol
     /// without a value; a local contact, whose values are [tested](Signal::values_by), not proven.
@@ -62,6 +68,13 @@ impl Signal<'_> {
     }
 
     /// The limit from earlier times; zero at the start.
+    ///
+    /// ```
+    /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+    /// let strain = mass.signal("strain_fixed")?; // a front arrives at 1
+    /// assert_eq!((strain.before(1, 9)?.to_f64(), strain.at(1, 9)?.to_f64()), (0.0, -2.0));
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`at`](Signal::at).
@@ -88,6 +101,14 @@ impl Signal<'_> {
 
     /// Values in doubles at many times, by the cheapest method that is proven to keep a tolerance.
     ///
+    /// ```
+    /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+    /// let times: Vec<f64> = (0..1000).map(|i| f64::from(i) / 100.0).collect();
+    /// let found = mass.signal("velocity")?.values(&times, "1e-12".parse()?)?;
+    /// assert!((found.values[150] - (-1.5_f64).exp()).abs() < 1e-12);
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`at`](Signal::at); also where no double is near enough.
     ///
@@ -102,6 +123,16 @@ impl Signal<'_> {
     }
 
     /// Values in doubles by a method or a model of one's choice.
+    ///
+    /// ```
+    /// use wavestep::{Method, Problem};
+    ///
+    /// let contact = Problem::builtin("local-contact")?;
+    /// let name = contact.observables()[0];
+    /// let found = contact.signal(name)?.values_by(&[1, 2], Method::Steps { tolerance: 1e-10 })?;
+    /// assert_eq!((found.values.len(), found.bound), (2, None)); // tested, not proven
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`at`](Signal::at); also where the method does not suit the problem.
@@ -126,6 +157,13 @@ impl Signal<'_> {
     /// All times of a window at which the signal is zero, or jumps over zero, with proof that there are no
     /// others; those with so many digits.
     ///
+    /// ```
+    /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+    /// let found = mass.signal("strain_impact")?.roots(2..=4, 12)?;
+    /// assert_eq!(found.all.len(), 2); // the mass leaves the bar, and a front strikes it again
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`at`](Signal::at); an empty window; more than [`MAX_ROOTS`](crate::limits::MAX_ROOTS).
     ///
@@ -141,6 +179,14 @@ impl Signal<'_> {
 
     /// The same for a level instead of zero.
     ///
+    /// ```
+    /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+    /// let found = mass.signal("velocity")?.crossings("1/2", 0..=2, 12)?;
+    /// let wavestep::Root::Simple { time, rises: false } = &found.all[0] else { panic!() };
+    /// assert_eq!(time.to_string(), "0.693147180560"); // ln 2
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`roots`](Signal::roots).
     pub fn crossings<T: Into<Given>>(
@@ -155,6 +201,13 @@ impl Signal<'_> {
     }
 
     /// The largest or smallest value on a window, both ends included, with all places where it is taken.
+    ///
+    /// ```
+    /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+    /// let least = mass.signal("strain_fixed")?.extremum(wavestep::Goal::Smallest, 0..=4, 9)?;
+    /// assert_eq!((least.value.to_string(), least.places.len()), ("-2.27067057".into(), 1));
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`roots`](Signal::roots).
@@ -172,6 +225,14 @@ impl Signal<'_> {
     }
 
     /// The times within a window at which the signal may jump or bend, in order: it is analytic between.
+    ///
+    /// ```
+    /// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+    /// let breaks = mass.signal("strain_fixed")?.breaks(0..=6, 9)?;
+    /// let times: Vec<f64> = breaks.iter().map(|time| time.to_f64()).collect();
+    /// assert_eq!(times, [1.0, 3.0, 5.0]);
+    /// # Ok::<(), wavestep::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`roots`](Signal::roots).
