@@ -6,8 +6,9 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use wavestep::evaluate::{Certified, Compiled, Limit, Marched, Method, Stable};
-use wavestep::evaluate::{StablePrecision, Taps};
+use wavestep::evaluate::{
+    Certified, Compiled, Limit, Marched, Method, StablePrecision, Summation, Summed, Taps,
+};
 use wavestep::language::parse_number;
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_polynomial::Rational;
@@ -80,7 +81,7 @@ fn main() {
             ("STEP", "a step of a recurrence in doubles", StablePrecision::Double),
             ("PAIR_STEP", "the same in pairs", StablePrecision::DoubleDouble),
         ] {
-            let stable = Stable::new(signal, precision).unwrap();
+            let stable = Summed::new(signal, Summation::Stable(precision)).unwrap();
             print(name, what, value(&stable) / ECHOES);
         }
         let march = |proven| seconds(|| Marched::new(signal, proven).unwrap());

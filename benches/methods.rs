@@ -6,7 +6,9 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::cell::LazyCell;
 use std::hint::black_box;
-use wavestep::evaluate::{Certified, Compiled, Marched, Method, Signal, Stable, StablePrecision};
+use wavestep::evaluate::{
+    Certified, Compiled, Marched, Method, Signal, StablePrecision, Summation, Summed,
+};
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_kernels::{Level, Piece, Table};
 use wavestep_studies::study::Sampling;
@@ -135,7 +137,7 @@ fn sums(criterion: &mut Criterion) {
             let times = Sampling { points: 4096, seed: 1 }.times(start, start + 2.0);
             let mut values = vec![0.0; times.len()];
             group.throughput(Throughput::Elements(times.len() as u64));
-            let stable = Stable::new(signal, StablePrecision::Double).unwrap();
+            let stable = Summed::new(signal, Summation::Stable(StablePrecision::Double)).unwrap();
             group.bench_function(BenchmarkId::new("stable", order), |b| {
                 b.iter(|| stable.values(&times, black_box(&mut values)).unwrap());
             });

@@ -8,16 +8,6 @@ use crate::answer::kind::Kind;
 use crate::evaluate::StablePrecision;
 
 /// How large a problem is.
-///
-/// ```
-/// use wavestep::answer::{Cost, Kind, Size};
-///
-/// let size = |points| Size { order: 200, points, marches: false };
-/// let cost = |kind, points| Cost::of(kind, size(points)).unwrap().seconds(points);
-/// // A few values come cheapest without preparation, many with it.
-/// assert!(cost(Kind::Certified, 1) < cost(Kind::Compiled, 1));
-/// assert!(cost(Kind::Compiled, 1_000_000) < cost(Kind::Certified, 1_000_000));
-/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Size {
     /// How many reflections the window sees.
@@ -30,19 +20,6 @@ pub struct Size {
 }
 
 /// What a way costs, in seconds.
-///
-/// ```
-/// use wavestep::answer::{Cost, Kind, Size};
-///
-/// let size = Size { order: 10, points: 1000, marches: true };
-/// let stable = Cost::of("stable".parse().unwrap(), size).unwrap();
-/// let pairs = Cost::of("double-double".parse().unwrap(), size).unwrap();
-/// // Pairs of doubles cost more a value, and neither needs preparation.
-/// assert!(pairs.point > stable.point && stable.setup == 0.0 && pairs.setup == 0.0);
-/// assert_eq!(Cost { setup: 1.0, point: 0.5 }.seconds(4), 3.0);
-/// // A model is never picked by its cost.
-/// assert_eq!(Cost::of(Kind::Rigid, size), None);
-/// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Cost {
     /// Before the first value.
@@ -97,13 +74,6 @@ impl Cost {
     }
 
     /// The cost of a march of so many waves without a bound.
-    ///
-    /// ```
-    /// use wavestep::answer::{Cost, Size};
-    ///
-    /// let size = Size { order: 100, points: 1, marches: false };
-    /// assert!(Cost::of_waves(size, 2).setup < Cost::of_waves(size, 20).setup);
-    /// ```
     pub fn of_waves(size: Size, waves: usize) -> Cost {
         let one = (size.order as f64 + 1.0) * WAVE;
         Cost { setup: one * waves as f64, point: LOOKUP }

@@ -6,8 +6,7 @@ use crate::answer::tolerance::Tolerance;
 use crate::answer::weigh::Weighed;
 use crate::ball::in_decimals;
 use crate::evaluate::{
-    Certified, Compiled, EvaluateError, Expanded, Limit, Marched, Method, MethodError, Plain,
-    Stable,
+    Certified, Compiled, EvaluateError, Limit, Marched, Method, MethodError, Summation, Summed,
 };
 use crate::model::{
     Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
@@ -85,9 +84,9 @@ impl<'a> Way<'a> {
             Kind::Certified => Box::new(Certified::new(signal)?),
             Kind::Compiled => Box::new(Compiled::new(signal, tolerance)?),
             Kind::Marched { proven } => Box::new(Marched::new(signal, proven)?),
-            Kind::Stable(precision) => Box::new(Stable::new(signal, precision)?),
-            Kind::Plain => Box::new(Plain::new(signal)?),
-            Kind::Expanded => Box::new(Expanded::new(signal)?),
+            Kind::Stable(precision) => Box::new(Summed::new(signal, Summation::Stable(precision))?),
+            Kind::Plain => Box::new(Summed::new(signal, Summation::Plain)?),
+            Kind::Expanded => Box::new(Summed::new(signal, Summation::Expanded)?),
             Kind::Rigid
             | Kind::Third
             | Kind::Modes { .. }

@@ -30,7 +30,7 @@ pub use digits::{digits, value};
 pub use error::EvaluateError;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub use method::{
-    Certified, Compiled, Expanded, Marched, Method, MethodError, Plain, Stable, StablePrecision,
+    Certified, Compiled, Marched, Method, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
 pub(crate) use signal::Known;

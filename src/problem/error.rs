@@ -210,6 +210,7 @@ impl From<SignalError> for ProblemError {
         match error {
             SignalError::Closed(error) => error.into(),
             SignalError::Followed(error) => error.into(),
+            SignalError::Field(error) => error.into(),
         }
     }
 }

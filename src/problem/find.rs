@@ -3,8 +3,9 @@
 use super::{Kind, Problem, ProblemError, Wanted};
 use crate::evaluate::EvaluateError;
 use crate::field::FieldEvaluator;
-use crate::history::{History, field_evaluator};
+use crate::history::History;
 use crate::scene::{Joint, Measure};
+use crate::signal::fields_of_scene;
 use wavestep_polynomial::Rational;
 
 #[doc(hidden)]
@@ -37,11 +38,7 @@ impl Problem {
 
     /// Velocity, strain, displacement and force along the bars until a time.
     pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
-        let network = self.network()?;
-        Ok(match self.contacts_open() {
-            true => field_evaluator(network, last)?,
-            false => FieldEvaluator::new(network, last)?,
-        })
+        Ok(fields_of_scene(self.network()?, last)?)
     }
 }
 

@@ -4,7 +4,8 @@
 //! is cheap and exact; where they open, the scene is followed from cell to cell.
 
 use crate::evaluate::{ClosedSignal, EvaluateError, Signal};
-use crate::history::{FollowedSignal, HistoryError};
+use crate::field::{FieldError, FieldEvaluator};
+use crate::history::{FollowedSignal, HistoryError, field_evaluator};
 use crate::network::{Network, Observed};
 use wavestep_polynomial::Rational;
 
@@ -17,6 +18,9 @@ pub enum SignalError {
     /// The scene cannot be followed.
     #[error(transparent)]
     Followed(#[from] HistoryError),
+    /// There are no fields along its bars.
+    #[error(transparent)]
+    Field(#[from] FieldError),
 }
 
 /// What is asked of a signal, which decides what is prepared.
@@ -45,5 +49,16 @@ pub fn of_scene<'a>(
     Ok(match purpose {
         Purpose::Values => Box::new(followed),
         Purpose::Stretches => Box::new(followed.cut_at_breaks()?),
+    })
+}
+
+/// Velocity, strain, displacement and force along the bars of a scene until a time.
+///
+/// # Errors
+/// [`SignalError`], where the scene cannot be followed, and for a time before the start.
+pub fn fields_of_scene(network: &Network, last: &Rational) -> Result<FieldEvaluator, SignalError> {
+    Ok(match network.scene().contacts_open {
+        true => field_evaluator(network, last)?,
+        false => FieldEvaluator::new(network, last)?,
     })
 }

@@ -29,7 +29,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
         "history",
         &["ball", "enclosure", "evaluate", "expression", "field", "network", "scene", "solution"],
     ),
-    ("signal", &["evaluate", "history", "network"]),
+    ("signal", &["evaluate", "field", "history", "network"]),
     ("answer", &["ball", "evaluate", "model", "network"]),
     ("export", &["evaluate", "expression", "network", "recurrence", "scene", "solution"]),
     ("language", &["expression", "recurrence", "scene"]),

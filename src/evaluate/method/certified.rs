@@ -140,10 +140,6 @@ fn rounds_to_zero(ball: &Ball) -> bool {
 }
 
 impl Method for Certified<'_> {
-    fn name(&self) -> &'static str {
-        "certified"
-    }
-
     fn law(&self) -> String {
         "correctly rounded, proven".to_owned()
     }

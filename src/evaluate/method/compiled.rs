@@ -79,10 +79,6 @@ impl<'a> Compiled<'a> {
 }
 
 impl Method for Compiled<'_> {
-    fn name(&self) -> &'static str {
-        "compiled"
-    }
-
     fn law(&self) -> String {
         format!(
             "at most {:.1e} everywhere on the window, proven: {} polynomials of degree {}",

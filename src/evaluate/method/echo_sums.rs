@@ -1,5 +1,4 @@
-//! Observables as weighted sums of echoes in doubles: what [`Stable`](super::Stable) and
-//! [`Expanded`](super::Expanded) share.
+//! Observables as weighted sums of echoes in doubles, whose closed form has one pole.
 
 use super::MethodError;
 use super::doubles::{three, three_of};

@@ -160,10 +160,6 @@ impl Marched {
 }
 
 impl Method for Marched {
-    fn name(&self) -> &'static str {
-        "marched"
-    }
-
     fn law(&self) -> String {
         self.march.law()
     }

@@ -5,9 +5,11 @@
 //! | [`Certified`] | correctly rounded | every observable that is linear in the waves |
 //! | [`Compiled`] | proven bound, the same on the whole window | the same |
 //! | [`Marched`] | proven bound for passive reflections with one pole and one lag; else measured, without a bound | every observable that is linear in the waves, on a grid |
-//! | [`Stable`] | measured: some units in the last place of the largest value | waves with one pole and one lag |
-//! | [`Plain`] | measured: some thousand units by n = 200 | the same |
-//! | [`Expanded`] | measured: grows without bound | every observable that is linear in the waves |
+//! | [`Summed`], stable | measured: some units in the last place of the largest value | waves with one pole and one lag |
+//! | [`Summed`], plain | measured: some thousand units by n = 200 | the same |
+//! | [`Summed`], expanded | measured: grows without bound | every observable that is linear in the waves |
+//!
+//! The first two need no closed form, and serve contacts that open as well.
 
 mod certified;
 mod clock;
@@ -15,32 +17,25 @@ mod compiled;
 mod doubles;
 mod echo_sums;
 mod error;
-mod expanded;
 mod held_waves;
 mod march_system;
 mod marched;
 mod marched_response;
 mod marched_waves;
-mod plain;
 mod printed;
-mod stable;
+mod summed;
 
 pub use certified::Certified;
 pub use compiled::Compiled;
 pub use error::MethodError;
-pub use expanded::Expanded;
 pub use marched::Marched;
-pub use plain::Plain;
-pub use stable::{Stable, StablePrecision};
+pub use summed::{StablePrecision, Summation, Summed};
 
 use crate::evaluate::signal::Limit;
 use wavestep_polynomial::Rational;
 
 /// One way to values of an observable in doubles, on a window of time.
 pub trait Method {
-    /// What it is called on the command line.
-    fn name(&self) -> &'static str;
-
     /// How far values can be off, in words.
     fn law(&self) -> String;
 

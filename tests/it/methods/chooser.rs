@@ -118,6 +118,21 @@ fn tolerances_are_kept() {
     tally.report(1_000);
 }
 
+/// Few values come cheapest without preparation, many with it; pairs of doubles cost more a value; a march of
+/// more waves costs more.
+#[test]
+fn costs_follow_what_is_done() {
+    let size = Size { order: 200, points: 1, marches: false };
+    let cost = |name: &str| Cost::of(name.parse().unwrap(), size).unwrap();
+    let (certified, compiled) = (cost("certified"), cost("compiled"));
+    assert!(certified.seconds(1) < compiled.seconds(1));
+    assert!(compiled.seconds(1_000_000) < certified.seconds(1_000_000));
+    let (stable, pairs) = (cost("stable"), cost("double-double"));
+    assert!(pairs.point > stable.point && stable.setup == 0.0 && pairs.setup == 0.0);
+    assert!(Cost::of_waves(size, 2).setup < Cost::of_waves(size, 20).setup);
+    assert_eq!(Cost { setup: 1.0, point: 0.5 }.seconds(4), 3.0);
+}
+
 #[test]
 fn tolerances_are_read_as_they_are_documented() {
     let mut random = random(73);

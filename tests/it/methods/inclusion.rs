@@ -8,7 +8,7 @@ use crate::methods::{
 };
 use num_rational::BigRational;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Certified, Limit, Method, Stable, StablePrecision};
+use wavestep::evaluate::{Certified, Limit, Method, StablePrecision, Summation, Summed};
 
 /// Comparisons by method.
 struct Tallies {
@@ -115,7 +115,7 @@ fn all_methods(subject: &Subject<'_>, random: &mut TestRng, tallies: &mut Tallie
         (StablePrecision::Double, 64.0, &mut tallies.stable),
         (StablePrecision::DoubleDouble, 2.0, &mut tallies.pairs),
     ] {
-        if let Ok(stable) = Stable::new(subject.signal(), precision) {
+        if let Ok(stable) = Summed::new(subject.signal(), Summation::Stable(precision)) {
             assert_eq!(stable.bound(), None);
             compare(&stable, units * unit, subject, &at, tally);
         }
@@ -210,10 +210,15 @@ fn windows_end_where_they_end() {
         let certified = Certified::new(subject.signal()).unwrap();
         let compiled = subject.compiled(None).unwrap();
         let marched = subject.marched(true).unwrap();
-        let stable = Stable::new(subject.signal(), StablePrecision::Double).unwrap();
-        let methods: [&dyn Method; 4] = [&certified, &compiled, &marched, &stable];
-        for method in methods {
-            let name = method.name();
+        let stable =
+            Summed::new(subject.signal(), Summation::Stable(StablePrecision::Double)).unwrap();
+        let methods: [(&str, &dyn Method); 4] = [
+            ("certified", &certified),
+            ("compiled", &compiled),
+            ("marched", &marched),
+            ("stable", &stable),
+        ];
+        for (name, method) in methods {
             for outside in [first.next_down(), last.next_up(), f64::NAN, f64::INFINITY, -1.0] {
                 let mut values = [0.0; 3];
                 let refused = method.values(&[first, outside, last], &mut values);
