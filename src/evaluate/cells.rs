@@ -1,10 +1,10 @@
-//! A window of time cut into cells on which an observable is a short Taylor polynomial.
+//! A window of time cut into cells on which a signal is a short Taylor polynomial.
 //!
-//! A stretch between arrivals is halved until a polynomial of the degree asked for follows the
-//! observable on each part. Where a march knows the pieces of a stretch, and polynomials are meant for
-//! doubles, cells are instead as wide as such polynomials can be, one after the other: see `fitted_cells`.
-//! Cells begin and end at doubles. Their middles are doubles and their scales
-//! powers of two, so that `u = (t − middle)/scale` is exact for doubles beside the middle.
+//! A stretch between breaks is halved until a polynomial of the degree asked for follows the signal on each
+//! part. Where a march knows the pieces of a stretch, and polynomials are meant for doubles, cells are instead
+//! as wide as such polynomials can be, one after the other: see `fitted_cells`. Cells begin and end at doubles.
+//! Their middles are doubles and their scales powers of two, so that `u = (t − middle)/scale` is exact for
+//! doubles beside the middle.
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions, at_or_after, at_or_before, rational};
 use crate::evaluate::cell::{Cell, Fit};
@@ -101,6 +101,7 @@ impl<'a> Window<'a> {
     /// About the largest absolute value at the beginning, in the middle and at the end of some of the
     /// stretches; the largest one on the window is not smaller by more than one part in 2^18.
     pub(crate) fn scale(&self) -> Result<Magnitude, EvaluateError> {
+        /// How many stretches are looked at.
         const SAMPLES: usize = 40;
         if let Some(found) = self.marched.as_ref().and_then(|marched| self.marched_scale(marched)) {
             return Ok(found);
@@ -123,6 +124,16 @@ impl<'a> Window<'a> {
             }
         }
         Ok(scale)
+    }
+
+    /// The same from a march: at the first, middle and last doubles of all stretches.
+    fn marched_scale(&self, marched: &MarchedPieces) -> Option<Magnitude> {
+        let stretches = (0..self.count()).filter_map(|stretch| self.doubles(stretch));
+        let times: Vec<f64> = stretches
+            .flat_map(|(first, last)| [first, first + (last - first) / 2.0, last])
+            .collect();
+        let (values, _) = marched.certified(&times, Limit::Right)?;
+        Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
     }
 
     /// What errors are compared with: the largest value, or where no value but zero was found, what the
@@ -151,22 +162,11 @@ impl<'a> Window<'a> {
     /// A time near the middle of a stretch.
     fn middle(&self, stretch: usize) -> Result<Rational, EvaluateError> {
         let time = |end| match self.signal.exact_time(stretch, end) {
-            Some(time) => Ok(time),
-            None => Ok(Rational::from(self.signal.time(stretch, end, 64)?.midpoint())),
+            Some(time) => Ok::<_, EvaluateError>(time),
+            None => Ok(Rational::from(self.signal.time(stretch, end, LOOK_BITS)?.midpoint())),
         };
-        let ends: [Result<Rational, EvaluateError>; 2] = [Limit::Right, Limit::Left].map(time);
-        let [from, to] = ends;
-        Ok((from? + to?) / Rational::from_integer(2.into()))
-    }
-
-    /// The same from a march: at the first, middle and last doubles of all stretches.
-    fn marched_scale(&self, marched: &MarchedPieces) -> Option<Magnitude> {
-        let stretches = (0..self.count()).filter_map(|stretch| self.doubles(stretch));
-        let times: Vec<f64> = stretches
-            .flat_map(|(first, last)| [first, first + (last - first) / 2.0, last])
-            .collect();
-        let (values, _) = marched.certified(&times, Limit::Right)?;
-        Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
+        let sum = time(Limit::Right)? + time(Limit::Left)?;
+        Ok(sum / Rational::from_integer(2.into()))
     }
 
     /// All cells, in order, polynomials fitting as they shall.

@@ -35,5 +35,5 @@ pub use method::{
 };
 pub(crate) use signal::Known;
 pub use signal::{At, Limit, Point, Signal};
-pub use taps::{Extra, NoTaps, Tap, Taps};
+pub use taps::{NoTaps, Taps};
 pub use taylor::Taylor;

@@ -116,30 +116,35 @@ fn many_certified_values_are_those_that_come_one_by_one() {
 #[test]
 fn compiled_values_keep_their_bound() {
     each(|name, question| {
+        let times = doubles(question, 93, 200);
+        let known = |at: &BigRational, side| {
+            BigRational::from(told(question, at, side).ball(200).midpoint())
+        };
+        let inside: Vec<BigRational> =
+            times.iter().map(|time| known(&exact(*time), Limit::Right)).collect();
+        let sides = [Limit::Left, Limit::Right];
+        let breaks = breaks(question).into_iter();
+        let ends = breaks.map(|time| (sides.map(|side| known(&time, side)), time));
+        let ends: Vec<([BigRational; 2], BigRational)> = ends.collect();
         let scale = question.scale().unwrap();
-        let coarse = 1e-9 * scale;
-        for tolerance in [None, Some(coarse)] {
+        for tolerance in [None, Some(1e-9 * scale)] {
             let way = Way::new(Kind::Compiled, question, tolerance);
             let way = way.unwrap_or_else(|error| panic!("{name}: {error}"));
             let bound = way.bound().unwrap();
             let most = tolerance.unwrap_or(4.0 * unit_in_the_last_place(scale));
             assert!(bound <= most, "{name}: {bound:e} beyond {most:e}");
-            let times = doubles(question, 93, 200);
-            let values = way.values(&times).unwrap();
-            let off = |value: f64, at: &BigRational, side| {
-                let known = told(question, at, side).ball(200);
+            let near = |value: f64, known: &BigRational, at: &dyn std::fmt::Display| {
                 let bound = exact(bound) + exact(unit_in_the_last_place(value) / 2.0);
-                let difference = exact(value) - BigRational::from(known.midpoint());
-                let distance =
-                    if difference < BigRational::zero() { -difference } else { difference };
-                assert!(distance <= bound, "{name} at {at}: off by {distance}");
+                let off = exact(value) - known;
+                assert!(off <= bound && -&off <= bound, "{name} at {at}: off by {off}");
             };
-            for (time, value) in times.iter().zip(values) {
-                off(value, &exact(*time), Limit::Right);
+            for ((time, value), known) in times.iter().zip(way.values(&times).unwrap()).zip(&inside)
+            {
+                near(value, known, time);
             }
-            for time in breaks(question) {
-                for side in [Limit::Left, Limit::Right] {
-                    off(way.value(&time, side).unwrap(), &time, side);
+            for (known, time) in &ends {
+                for (side, known) in sides.into_iter().zip(known) {
+                    near(way.value(time, side).unwrap(), known, time);
                 }
             }
         }
