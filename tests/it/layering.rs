@@ -109,7 +109,8 @@ const LAYERS: [(&str, &[&str]); 21] = [
 ];
 
 /// What may stand in one layer only, or in none.
-const CONFINED: [(&str, &str); 5] = [
+const CONFINED: [(&str, &str); 6] = [
+    ("nom::", "language"),
     ("wavestep_kernels", "evaluate"),
     ("bits *=", "ball"),
     ("println!", "no layer"),

@@ -7,6 +7,18 @@ use super::super::source::Source;
 use super::super::syntax::{Sign, Span, Spanned};
 use super::forms::{Form, SCENE};
 use crate::expression::Relation;
+use nom::branch::alt;
+use nom::bytes::complete::{tag, take_till, take_while, take_while1};
+use nom::character::complete::{char, digit1, one_of, satisfy};
+use nom::combinator::{opt, recognize, verify};
+use nom::multi::many0_count;
+use nom::sequence::preceded;
+use nom::{IResult, Parser};
+
+/// A parser that takes a piece of text.
+pub(super) trait Take<'a>: Parser<&'a str, Output = &'a str, Error = ()> {}
+
+impl<'a, P: Parser<&'a str, Output = &'a str, Error = ()>> Take<'a> for P {}
 
 /// What is still to be read. It starts right behind the last token that was read, before the blanks
 /// that follow.
@@ -65,12 +77,9 @@ impl<'a> Input<'a> {
 
     /// The input after spaces, line ends and comments.
     pub fn after_blanks(mut self) -> Input<'a> {
-        let mut rest = self.text.trim_start_matches(is_space);
-        while rest.starts_with('#') {
-            rest = &rest[rest.find('\n').unwrap_or(rest.len())..];
-            rest = rest.trim_start_matches(is_space);
-        }
-        self.take(self.text.len() - rest.len());
+        let comment = preceded(char('#'), take_till(|character| character == '\n'));
+        let blanks = recognize(many0_count(alt((take_while1(is_space), comment))));
+        self.take_if(blanks);
         self
     }
 
@@ -79,22 +88,24 @@ impl<'a> Input<'a> {
         self.after_blanks().text.starts_with(sign.as_ref())
     }
 
-    /// A token after blanks; `length` says how long it is.
-    fn token(&mut self, length: impl Fn(&str) -> usize) -> Option<Spanned<&'a str>> {
+    /// What a parser takes from the front; nothing where it fails.
+    pub fn take_if(&mut self, mut parser: impl Take<'a>) -> Option<&'a str> {
+        let (_, found) = parser.parse(self.text).ok()?;
+        Some(self.take(found.len()))
+    }
+
+    /// A token after blanks.
+    fn token(&mut self, parser: impl Take<'a>) -> Option<Spanned<&'a str>> {
         let mut input = self.after_blanks();
         let start = input.offset;
-        let text = input.take(length(input.text));
-        if text.is_empty() {
-            return None;
-        }
+        let text = input.take_if(parser)?;
         *self = input;
         Some(Spanned::new(text, Span::new(start, input.offset)))
     }
 
     /// A fixed sign.
     pub fn symbol(&mut self, sign: &str) -> Option<Span> {
-        let length = |text: &str| if text.starts_with(sign) { sign.len() } else { 0 };
-        self.token(length).map(|found| found.span)
+        self.token(tag(sign)).map(|found| found.span)
     }
 
     /// One of several signs, and what it stands for.
@@ -129,10 +140,7 @@ impl<'a> Input<'a> {
 
     /// A word as it is written: a letter, then letters, digits and `_`.
     pub fn word(&mut self) -> Option<Spanned<&'a str>> {
-        self.token(|text| match text.starts_with(name::is_letter) {
-            true => text.len() - text.trim_start_matches(name::continues).len(),
-            false => 0,
-        })
+        self.token(recognize((satisfy(name::is_letter), take_while(name::continues))))
     }
 
     /// The word that follows, left where it is.
@@ -142,11 +150,20 @@ impl<'a> Input<'a> {
 
     /// Digits alone, as they are written.
     pub fn digits(&mut self) -> Option<Spanned<&'a str>> {
-        self.token(count_digits)
+        self.token(digit1)
+    }
+
+    /// Digits with a decimal point among them or none, and a power of ten, as they are written.
+    pub fn number(&mut self) -> Option<Spanned<&'a str>> {
+        self.token(number)
     }
 }
 
-/// How many digits a text begins with.
-pub(super) fn count_digits(text: &str) -> usize {
-    text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len()
+fn number(text: &str) -> IResult<&str, &str, ()> {
+    let is_digit = |c: char| c.is_ascii_digit();
+    let whole = take_while(is_digit);
+    let mantissa = recognize((whole, opt((char('.'), take_while(is_digit)))));
+    let mantissa = verify(mantissa, |written: &str| written.contains(is_digit));
+    let exponent = (one_of("eE"), opt(one_of("+-−")), digit1);
+    recognize((mantissa, opt(exponent))).parse(text)
 }

@@ -1,5 +1,6 @@
 //! Tokens that the grammar demands, and such as may be wrong in themselves.
 
+use nom::bytes::complete::take_till;
 use num_rational::BigRational;
 
 use super::super::name;
@@ -7,7 +8,7 @@ use super::super::number;
 use super::super::syntax::{Name, Operator, Span, Spanned};
 use super::Outcome;
 use super::complaint;
-use super::input::{Input, count_digits};
+use super::input::Input;
 
 impl Input<'_> {
     /// A sign that the grammar demands here.
@@ -50,26 +51,10 @@ impl Input<'_> {
         Ok(self.one_of(&[("/", Operator::Divide)]))
     }
 
-    /// A number literal after blanks, where a digit or a point follows; `None` for a point alone.
+    /// A number literal after blanks, where a digit follows, or a point and a digit.
     pub fn literal(&mut self) -> Outcome<Option<Spanned<BigRational>>> {
-        let mut input = self.after_blanks();
-        let (text, start) = (input.text, input.offset);
-        let whole = count_digits(text);
-        let fraction = text[whole..].strip_prefix('.').map_or(0, |rest| 1 + count_digits(rest));
-        let mut length = whole + fraction;
-        if whole == 0 && fraction <= 1 {
-            return Ok(None);
-        }
-        if let Some(exponent) = text[length..].strip_prefix(['e', 'E']) {
-            let unsigned = exponent.strip_prefix(['+', '-', '−']).unwrap_or(exponent);
-            let digits = count_digits(unsigned);
-            if digits > 0 {
-                length = text.len() - unsigned.len() + digits;
-            }
-        }
-        let written = input.take(length);
-        *self = input;
-        let span = Span::new(start, input.offset);
+        let Some(Spanned { value: written, span }) = self.number() else { return Ok(None) };
+        let input = *self;
         let next = Span::new(input.offset, input.offset + 1);
         match input.text.chars().next() {
             Some('.') => Err(complaint::plain(input, next, complaint::TWO_POINTS)),
@@ -84,7 +69,7 @@ impl Input<'_> {
     /// A string between straight quotes on one line.
     pub fn string(&mut self) -> Outcome<Option<Spanned<String>>> {
         let Some(opener) = self.symbol("\"") else { return Ok(None) };
-        let text = self.take(self.text.find(['"', '\n']).unwrap_or(self.text.len()));
+        let text = self.take_if(take_till(|c| c == '"' || c == '\n')).unwrap_or_default();
         if !self.text.starts_with('"') {
             return Err(complaint::unclosed_string(*self, opener, self.here()));
         }

@@ -13,6 +13,7 @@ use super::statement::{listed, parameter};
 use super::{Input, Outcome};
 use crate::limits::MAX_UNIT_POWER;
 use crate::scene::{End, Joint, Measure};
+use nom::bytes::complete::take_while1;
 
 /// Whether a statement opens a brace that it does not close.
 pub(super) fn leaves_brace_open(input: Input<'_>) -> bool {
@@ -109,8 +110,7 @@ const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 fn unit_power(input: &mut Input<'_>) -> Outcome<i8> {
     let before = *input;
     let is_raised = |c: char| c == '⁻' || SUPERSCRIPTS.contains(c);
-    let raised = input.take(input.text.len() - input.text.trim_start_matches(is_raised).len());
-    let power: String = if !raised.is_empty() {
+    let power: String = if let Some(raised) = input.take_if(take_while1(is_raised)) {
         let plain = |c| SUPERSCRIPTS.chars().zip('0'..='9').find(|pair| pair.0 == c);
         raised.chars().map(|c| plain(c).map_or('-', |pair| pair.1)).collect()
     } else if input.symbol("^").is_some() {

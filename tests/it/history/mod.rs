@@ -10,6 +10,7 @@ mod refusals;
 mod springs;
 mod validity;
 
+use crate::support::mirror::mirrored;
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{Limit, Value, value};
@@ -265,5 +266,40 @@ fn the_first_opening_is_told_in_closed_form() {
             assert!(is_zero(&off), "{mu}: {off}");
         }
         assert!(history.events[2..].iter().all(|event| event.exact.is_none()));
+    }
+}
+
+/// Seen from behind, contacts open and close at the same instants, with the same forces, and what moved to
+/// the right moves to the left.
+#[test]
+fn mirrored_scenes_have_mirrored_histories() {
+    let walls = [
+        "scene \"A wall\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod | fixed",
+        "scene \"A mass on a wall\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\n\
+         mass m { mass = 5, velocity = 1 }\nline free - rod - m | fixed",
+    ];
+    let walls = walls.map(|text| network_of(text, &[]));
+    for network in SHIPPED.iter().map(|(name, values)| shipped(name, values)).chain(walls) {
+        let behind = Network::new(&mirrored(network.scene())).unwrap();
+        let [own, turned] =
+            [&network, &behind].map(|network| History::of(network, None, 12).unwrap());
+        let text = |value: &Value| value.to_text(12);
+        let title = &network.scene().title;
+        assert_eq!(own.events.len(), turned.events.len(), "{title}");
+        for (own, turned) in own.events.iter().zip(&turned.events) {
+            let [left, right] = &turned.between;
+            assert_eq!((own.kind, &own.between), (turned.kind, &[right.clone(), left.clone()]));
+            assert_eq!(text(&own.time), text(&turned.time), "{title}");
+            assert_eq!(
+                own.forces.each_ref().map(text),
+                turned.forces.each_ref().map(text),
+                "{title}"
+            );
+            for (own, turned) in own.velocities.iter().zip(&turned.velocities) {
+                for (own, turned) in own.iter().zip(turned.iter().rev()) {
+                    assert_eq!(own.to_f64(), -turned.to_f64(), "{title}");
+                }
+            }
+        }
     }
 }

@@ -5,13 +5,14 @@ use num_rational::BigRational;
 use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::network::{Network, NetworkError};
-use wavestep::scene::{Kind, Measure, Place, Position, Scene};
+use wavestep::scene::{Kind, Scene};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Symbol;
 
 use crate::scenes::numbers::assert_as_marched;
 use crate::scenes::proof::assert_laws_hold;
 use crate::scenes::{built_in, network_of, rational, scene_of, shipped, usual};
+use crate::support::mirror::mirrored;
 use crate::support::{by_echoes, by_periods, violation};
 
 /// What is declared, the line, and how many units of time it is followed; `0` where the times lie on no
@@ -350,57 +351,6 @@ fn extreme_steps_of_impedance_are_ends() {
 }
 
 // ---- Mirrored ------------------------------------------------------------------------------------
-
-/// The scene seen from behind: the line reversed, velocities and loads the other way.
-fn mirrored(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    std::mem::swap(&mut scene.line.left, &mut scene.line.right);
-    scene.line.elements.reverse();
-    scene.line.joints.reverse();
-    for element in &mut scene.elements {
-        match &mut element.kind {
-            Kind::Bar(bar) => bar.velocity = -&bar.velocity,
-            Kind::Mass(mass) => mass.velocity = -&mass.velocity,
-            Kind::Load(load) => load.course = -&load.course,
-            _ => {}
-        }
-    }
-    let finite: Vec<bool> = (scene.elements.iter())
-        .map(|element| matches!(&element.kind, Kind::Bar(bar) if !bar.is_endless()))
-        .collect();
-    let lengths: Vec<_> = (scene.elements.iter())
-        .map(|element| match &element.kind {
-            Kind::Bar(bar) => bar.extent().cloned(),
-            _ => None,
-        })
-        .collect();
-    let supports: Vec<bool> =
-        scene.elements.iter().map(|element| matches!(element.kind, Kind::Support(_))).collect();
-    for seen in scene.observables.iter_mut().flat_map(|observable| &mut observable.terms) {
-        let turns = match seen.measure {
-            Measure::Velocity | Measure::Displacement | Measure::Momentum => true,
-            Measure::Force => seen.place.element().is_some_and(|element| supports[element]),
-            _ => false,
-        };
-        if turns {
-            seen.coefficient = -&seen.coefficient;
-        }
-        let one = Fraction::one();
-        seen.place = match seen.place.clone() {
-            Place::Left(bar) => Place::Right(bar),
-            Place::Right(bar) => Place::Left(bar),
-            Place::At(bar, Position::Share(share)) => {
-                Place::At(bar, Position::Share(&one - &share))
-            }
-            Place::At(bar, Position::Distance(distance)) if finite[bar] => {
-                let length = lengths[bar].as_ref().expect("a length");
-                Place::At(bar, Position::Distance(length - &distance))
-            }
-            place => place,
-        };
-    }
-    scene
-}
 
 #[test]
 fn mirrored_scenes_give_mirrored_answers() {

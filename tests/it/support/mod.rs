@@ -1,6 +1,7 @@
 //! Derivations in both ways, and what was stated, computed once more straight from the statement.
 
 pub mod corpus;
+pub mod mirror;
 
 use wavestep::expression::{Expression, Fraction};
 use wavestep::recurrence::{LinearForm, Recurrence};
