@@ -9,7 +9,8 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use wavestep_kernels::Limit;
 use wavestep_kernels::fixed::{
-    DelayEquation, March, MarchOptions, Position, Reduction, Tap, certified,
+    DelayEquation, FRACTION_BITS, March, MarchOptions, Position, Reduction, Tap, certified,
+    round_to_double,
 };
 
 const PERIODS: u32 = 200;
@@ -54,7 +55,10 @@ fn values(criterion: &mut Criterion) {
     let positions: Vec<Position> = times.iter().filter_map(reduce).collect();
     group.bench_function("value and rounding", |bencher| {
         bencher.iter(|| {
-            let rounded = |position| march.value(position).ok()?.to_double();
+            let rounded = |position| {
+                let found = march.value(position).ok()?;
+                round_to_double(found.midpoint, found.radius, FRACTION_BITS.into())
+            };
             black_box(&positions).iter().filter_map(rounded).sum::<f64>()
         });
     });

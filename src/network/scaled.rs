@@ -7,7 +7,6 @@ use crate::network::measures::{Measured, measures};
 use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::scene::{ElementIndex, Kind, Scene};
-use wavestep_polynomial::Rational;
 
 /// A scene with its model in scales of its own: what models in doubles are made of.
 ///
@@ -50,11 +49,6 @@ impl ScaledScene {
     /// The observables of the scene, as sums of readings.
     pub(crate) fn measures(&self) -> &[Measured] {
         &self.measures
-    }
-
-    /// A time in seconds in the scale of the scene; a plain number as it is.
-    pub fn scaled_time(&self, time: &Rational) -> Fraction {
-        self.model.slowness.scale(time)
     }
 
     /// The velocities at the start of all that moves together.

@@ -180,11 +180,6 @@ impl IntegerRef<'_> {
         self.limbs.is_empty()
     }
 
-    /// Whether this is less than 0. O(1).
-    pub fn is_negative(self) -> bool {
-        self.negative
-    }
-
     /// The number of bits of the magnitude; 0 for 0. O(1).
     pub fn bits(self) -> u64 {
         let top = self.limbs.last().map_or(64, |limb| u64::from(limb.leading_zeros()));
@@ -294,7 +289,7 @@ mod tests {
             prop_assert_eq!(&plain(&row), &values);
             for (entry, value) in row.iter().zip(&values) {
                 prop_assert_eq!(entry.bits(), value.bits());
-                prop_assert_eq!(entry.is_negative(), value.sign() == Sign::Minus);
+                prop_assert_eq!(entry.negative, value.sign() == Sign::Minus);
                 let modulo = num_integer::Integer::mod_floor(value, &BigInt::from(word));
                 prop_assert_eq!(BigInt::from(entry.modulo(word)), modulo);
             }

@@ -19,18 +19,6 @@ pub struct FixedValue {
     pub radius: u128,
 }
 
-impl FixedValue {
-    /// The correctly rounded double, if the interval has only one: see [`round_to_double`].
-    pub fn to_double(&self) -> Option<f64> {
-        round_to_double(self.midpoint, self.radius, i64::from(FRACTION_BITS))
-    }
-
-    /// The double nearest to the midpoint.
-    pub fn to_f64(&self) -> f64 {
-        scaled(self.midpoint, i64::from(FRACTION_BITS))
-    }
-}
-
 /// `value·2^−fraction_bits` as a double: the nearest one, or one of the two nearest where doubles
 /// are subnormal.
 pub(super) fn scaled(value: i128, fraction_bits: i64) -> f64 {

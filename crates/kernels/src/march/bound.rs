@@ -175,11 +175,6 @@ impl Certificate {
         }
     }
 
-    /// The number of periods recorded. O(1).
-    pub fn periods(&self) -> usize {
-        self.periods
-    }
-
     /// Takes the next period: the Chebyshev coefficients on `[0, 1]` of `y_n − ρ y_{n−1}` and of
     /// `y_n`, as somebody computed them. More than 2²⁰ coefficients, infinities and not-a-numbers
     /// end the proof: from there on there is no bound. O(N).

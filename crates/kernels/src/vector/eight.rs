@@ -10,13 +10,26 @@ pub(crate) struct Eight<S: Simd, const N: usize>([S::Values; N]);
 
 /// Functions of lanes that are those of vectors, one after the other.
 macro_rules! vector_by_vector {
-    ($($name:ident($($other:ident),*);)*) => {$(
+    ($($name:ident($($other:ident),*) is $of_vectors:ident;)*) => {$(
         #[inline(always)]
         fn $name(mut self, $($other: Self),*) -> Self {
             for i in 0..N {
-                self.0[i] = S::HERE.$name(self.0[i], $($other.0[i]),*);
+                self.0[i] = S::HERE.$of_vectors(self.0[i], $($other.0[i]),*);
             }
             self
+        }
+    )*};
+}
+
+/// The same with two results.
+macro_rules! with_rest {
+    ($($name:ident is $of_vectors:ident;)*) => {$(
+        #[inline(always)]
+        fn $name(mut self, mut other: Self) -> (Self, Self) {
+            for i in 0..N {
+                (self.0[i], other.0[i]) = S::HERE.$of_vectors(self.0[i], other.0[i]);
+            }
+            (self, other)
         }
     )*};
 }
@@ -48,35 +61,17 @@ impl<S: Simd, const N: usize> Lanes for Eight<S, N> {
     }
 
     vector_by_vector! {
-        lesser(other);
-        greater(other);
-        abs();
-        rough_reciprocal();
-        times_power(shifted);
+        lesser(other) is lesser;
+        greater(other) is greater;
+        abs() is abs;
+        rough_reciprocal() is rough_reciprocal;
+        times_power(shifted) is times_power;
+        fused(factor, addend) is multiply_add;
     }
 
-    #[inline(always)]
-    fn fused(mut self, factor: Self, addend: Self) -> Self {
-        for i in 0..N {
-            self.0[i] = S::HERE.multiply_add(self.0[i], factor.0[i], addend.0[i]);
-        }
-        self
-    }
-
-    #[inline(always)]
-    fn product(mut self, mut factor: Self) -> (Self, Self) {
-        for i in 0..N {
-            (self.0[i], factor.0[i]) = S::HERE.two_product(self.0[i], factor.0[i]);
-        }
-        (self, factor)
-    }
-
-    #[inline(always)]
-    fn two_sum(mut self, mut other: Self) -> (Self, Self) {
-        for i in 0..N {
-            (self.0[i], other.0[i]) = S::HERE.two_sum(self.0[i], other.0[i]);
-        }
-        (self, other)
+    with_rest! {
+        product is two_product;
+        two_sum is two_sum;
     }
 
     #[inline(always)]
@@ -105,13 +100,7 @@ macro_rules! operator {
         impl<S: Simd, const N: usize> $operator for Eight<S, N> {
             type Output = Self;
 
-            #[inline(always)]
-            fn $name(mut self, other: Self) -> Self {
-                for i in 0..N {
-                    self.0[i] = S::HERE.$instruction(self.0[i], other.0[i]);
-                }
-                self
-            }
+            vector_by_vector! { $name(other) is $instruction; }
         }
     };
 }

@@ -165,10 +165,7 @@ mod x86 {
         ($multiply_add:ident, $multiply_subtract:ident, $truncate:ident) => {
             #[inline(always)]
             fn offsets(self, values: Self::Values, limit: usize) -> Self::Offsets {
-                assert!(limit >= 1 && limit <= i32::MAX as usize);
-                // The greater of NaN and a second operand is the second operand.
-                let low = self.greater(values, self.splat(0.0));
-                let clamped = self.lesser(low, self.splat((limit - 1) as f64));
+                let clamped = self.clamped(values, limit);
                 Offsets { lanes: instruction!($truncate(clamped)), limit }
             }
 
@@ -276,10 +273,7 @@ mod x86 {
 
         #[inline(always)]
         fn offsets(self, values: __m128d, limit: usize) -> [usize; 2] {
-            assert!(limit >= 1 && limit <= i32::MAX as usize);
-            // The greater of NaN and a second operand is the second operand.
-            let low = self.greater(values, self.splat(0.0));
-            let clamped = self.lesser(low, self.splat((limit - 1) as f64));
+            let clamped = self.clamped(values, limit);
             let both = instruction!(_mm_cvtsi128_si64(_mm_cvttpd_epi32(clamped))).cast_unsigned();
             [both & u64::from(u32::MAX), both >> 32].map(|lane| lane as usize)
         }

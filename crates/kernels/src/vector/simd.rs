@@ -105,6 +105,15 @@ pub(crate) trait Simd: Copy {
         indices
     }
 
+    /// Clamped to `0 … limit − 1`; NaN becomes 0.
+    #[inline(always)]
+    fn clamped(self, values: Self::Values, limit: usize) -> Self::Values {
+        assert!(limit >= 1 && limit <= i32::MAX as usize);
+        // The greater of NaN and a second operand is the second operand.
+        let low = self.greater(values, self.splat(0.0));
+        self.lesser(low, self.splat((limit - 1) as f64))
+    }
+
     /// Whether the mask is set in all lanes.
     #[inline(always)]
     fn all(self, mask: Self::Mask) -> bool {
