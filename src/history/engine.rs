@@ -15,9 +15,7 @@ use crate::history::motion::Motion;
 use crate::history::series::{LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
 use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS};
-use crate::network::{
-    Contacts, ElementLaw, Layout, ModelLump, Network, Node, Side, System, Unresisted,
-};
+use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
 use crate::scene::{Drive, ElementIndex};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -100,14 +98,14 @@ fn before(network: &Network, layout: &Layout, clock: &Clock, bar: usize) -> Outc
 fn loads(network: &Network, clock: &Clock) -> Outcome<BTreeMap<ElementIndex, Load>> {
     let scene = network.scene();
     let mut loads = BTreeMap::new();
-    for (element, lump) in &network.model().lumps {
-        let ModelLump::Load(drive, course, from, until) = lump else { continue };
-        if *drive == Drive::Velocity {
+    for (element, load) in &network.model().loads {
+        if network.model().lumps[element] == ElementLaw::Load(Drive::Velocity) {
             let name = scene.elements[*element].name.clone();
             return Err(NotFollowed::ImposedVelocity(name).into());
         }
-        let course = Course::of(&clock.numbers, course, &scene.time, clock.bits)?;
-        loads.insert(*element, Load { course, from: from.clone(), until: until.clone() });
+        let course = Course::of(&clock.numbers, &load.course, &scene.time, clock.bits)?;
+        let (from, until) = (load.from.clone(), load.until.clone());
+        loads.insert(*element, Load { course, from, until });
     }
     Ok(loads)
 }

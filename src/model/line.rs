@@ -5,9 +5,7 @@ use crate::enclosure::Numbers;
 use crate::expression::Fraction;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::network::{
-    ElementLaw, Measured, MeasuredValue, ModelLump, Node, Reading, ScaledScene, Term, unit,
-};
+use crate::network::{ElementLaw, Measured, MeasuredValue, Node, Reading, ScaledScene, Term, unit};
 use crate::scene::{ElementIndex, Kind, Measure};
 use num_traits::ToPrimitive as _;
 use std::collections::BTreeMap;
@@ -194,12 +192,10 @@ impl Line {
         }
         let nodes = layout.nodes.iter().map(|node| node.map(double));
         let mut loads = BTreeMap::new();
-        for (element, lump) in &model.lumps {
-            if let ModelLump::Load(_, course, from, until) = lump {
-                let course = Course::of(&numbers, course, &scene.time)?;
-                let until = until.as_ref().map(double).transpose()?.unwrap_or(f64::INFINITY);
-                loads.insert(*element, Load { course, from: double(from)?, until });
-            }
+        for (element, load) in &model.loads {
+            let course = Course::of(&numbers, &load.course, &scene.time)?;
+            let until = load.until.as_ref().map(double).transpose()?.unwrap_or(f64::INFINITY);
+            loads.insert(*element, Load { course, from: double(&load.from)?, until });
         }
         let observables = scaled.measures().iter().map(|own| Observable::of(own, &numbers));
         Ok(Line {

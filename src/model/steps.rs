@@ -26,7 +26,7 @@ use crate::model::error::{BadSetting, ModelError, NotRepresented, SolverFailure}
 use crate::model::line::{Bar, Line, LocalContact};
 use crate::model::track::{DEGREE, POINTS, Track, Values, points, series};
 use crate::network::{
-    Face, Field, Lump, ModelLump, Reading, ScaledScene, Section, Side, System, Unresisted,
+    Face, Field, Lump, ModelLoad, Reading, ScaledScene, Section, Side, System, Unresisted,
 };
 use crate::scene::ElementIndex;
 use num_integer::Integer as _;
@@ -118,7 +118,7 @@ impl Steps {
                 .map(|bar| named(bar.element, &scaled.model().bars[&bar.element].travel)),
         );
         for element in &scaled.scene().line.elements {
-            if let Some(ModelLump::Load(_, _, from, until)) = scaled.model().lumps.get(element) {
+            if let Some(ModelLoad { from, until, .. }) = scaled.model().loads.get(element) {
                 times.extend([named(*element, &Some(from.clone())), named(*element, until)]);
                 loads.push((*element, until.is_some()));
             }

@@ -3,7 +3,7 @@
 use crate::expression::Fraction;
 use crate::network::delay::Lattice;
 use crate::network::layout::Layout;
-use crate::network::model::{Model, ModelLump};
+use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::scaled::ScaledScene;
 use crate::scene::ElementIndex;
@@ -144,8 +144,8 @@ fn loads<'a>(layout: &Layout, model: &'a Model) -> Vec<Moment<'a>> {
     let mut loads = Vec::new();
     for (node, data) in layout.nodes.iter().enumerate() {
         for own in &data.elements {
-            if let ModelLump::Load(_, _, from, until) = &model.lumps[&own.element] {
-                loads.push((own.element, node, from, until.as_ref()));
+            if let Some(load) = model.loads.get(&own.element) {
+                loads.push((own.element, node, &load.from, load.until.as_ref()));
             }
         }
     }

@@ -3,7 +3,7 @@
 use crate::expression::{Expression, Fraction};
 use crate::network::equations::{Network, Role, lag};
 use crate::network::error::NetworkError;
-use crate::network::model::ModelLump;
+use crate::network::model::ModelLoad;
 use crate::network::node::{Acting, ElementLaw, Lumped, Node, Side};
 use crate::network::observed::{Observed, ObservedValue};
 use crate::recurrence::{
@@ -151,9 +151,7 @@ impl Network {
 
     /// A load by the clock of its node: its course from its beginning, taken away again at its end.
     pub(crate) fn load(&self, element: ElementIndex, strides: &[usize]) -> LinearForm {
-        let ModelLump::Load(_, course, from, until) = &self.scaled.model.lumps[&element] else {
-            unreachable!("asked for loads only");
-        };
+        let ModelLoad { course, from, until } = &self.scaled.model.loads[&element];
         let moments = self.clocks.loads.iter().find(|(load, ..)| *load == element);
         let (_, begins, ends) = moments.expect("every load has its moments");
         let time = &self.scaled.scene.time;

@@ -1,7 +1,7 @@
 //! A line cut into nodes and the bars between them.
 
 use crate::expression::Fraction;
-use crate::network::model::{Model, ModelLump};
+use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Link, Lumped, Node, Side};
 use crate::scene::{ElementIndex, End, Joint, Kind, Scene};
 
@@ -57,7 +57,7 @@ impl Layout {
             }
             if !matches!(scene.elements[*element].kind, Kind::Bar(_)) {
                 let node = open.as_mut().expect("an endless line begins with a bar");
-                node.attach(*element, &model.lumps[element]);
+                node.attach(*element, model.lumps[element].clone());
                 continue;
             }
             let (bar, impedance) = (layout.bars.len(), &model.bars[element].impedance);
@@ -118,17 +118,8 @@ impl Node<Fraction> {
     }
 
     /// Adds an element at the right.
-    fn attach(&mut self, element: ElementIndex, lump: &ModelLump) {
+    fn attach(&mut self, element: ElementIndex, law: ElementLaw<Fraction>) {
         let run = self.links.len();
-        let law = match lump.clone() {
-            ModelLump::Mass(mass, velocity) => ElementLaw::Mass { mass, velocity },
-            ModelLump::Spring(stiffness, damping) => ElementLaw::Spring { stiffness, damping },
-            ModelLump::Hertz(force, compression, exponent) => {
-                ElementLaw::LocalContact { force, compression, exponent }
-            }
-            ModelLump::Support(stiffness, damping) => ElementLaw::Support { stiffness, damping },
-            ModelLump::Load(drive, ..) => ElementLaw::Load(drive),
-        };
         if law.is_link() {
             self.links.push(Link::Element(self.elements.len()));
         }

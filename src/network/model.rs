@@ -9,6 +9,7 @@ use crate::expression::{
     Assumptions, Condition, Constant, Definition, Expression, Fraction, NotAUnit, Relation, Root,
 };
 use crate::network::error::NetworkError;
+use crate::network::node::ElementLaw;
 use crate::scene::{Body, Dimension, Drive, ElementIndex, Kind, PI, Scene};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
@@ -42,20 +43,15 @@ pub struct ModelBar {
     pub force: Fraction,
 }
 
-/// A lumped element without units.
+/// What a load does without units, in the unit of a force or a velocity.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum ModelLump {
-    /// A mass with its velocity at the start.
-    Mass(Fraction, Fraction),
-    /// Stiffness and damping of a spring.
-    Spring(Fraction, Fraction),
-    /// A local contact: the force at a compression, that compression, and the exponent. No
-    /// [`Network`](crate::network::Network) holds one.
-    Hertz(Fraction, Fraction, Rational),
-    /// Stiffness and damping of a support.
-    Support(Fraction, Fraction),
-    /// A load: whether a force or a velocity is given, its course, when it begins, and when it ends.
-    Load(Drive, Expression, Fraction, Option<Fraction>),
+pub struct ModelLoad {
+    /// Its course in time.
+    pub course: Expression,
+    /// When it begins.
+    pub from: Fraction,
+    /// When it ends.
+    pub until: Option<Fraction>,
 }
 
 /// A scene in scales of its own.
@@ -70,8 +66,10 @@ pub struct Model {
     /// One second in the unit of time.
     pub slowness: Fraction,
     pub bars: BTreeMap<ElementIndex, ModelBar>,
-    /// The lumped elements.
-    pub lumps: BTreeMap<ElementIndex, ModelLump>,
+    /// The lumped elements. No [`Network`](crate::network::Network) holds a local contact.
+    pub lumps: BTreeMap<ElementIndex, ElementLaw<Fraction>>,
+    /// What those of them do that are loads.
+    pub loads: BTreeMap<ElementIndex, ModelLoad>,
 }
 
 type Outcome<T> = Result<T, NetworkError>;
@@ -114,6 +112,7 @@ impl Model {
             slowness: Fraction::one(),
             bars: BTreeMap::new(),
             lumps: BTreeMap::new(),
+            loads: BTreeMap::new(),
         };
         let second = one().over(&model.scale.time)?;
         model.slowness = model.number("nu", second);
@@ -128,7 +127,7 @@ impl Model {
         let element = &scene.elements[index];
         let named = |symbol: &str| format!("{symbol}_{}", element.name);
         let scale = self.scale.clone();
-        let lump = match &element.kind {
+        let law = match &element.kind {
             Kind::Bar(bar) => {
                 let (impedance, travel, stiffness) = bar_roots(&bar.body)?;
                 let force = stiffness.times(&Root::from(-&bar.strain));
@@ -145,26 +144,28 @@ impl Model {
             }
             Kind::Mass(mass) => {
                 let unit = scale.unit(Dimension::MASS)?;
-                ModelLump::Mass(
-                    self.in_unit(&named("m"), &mass.mass, &unit)?,
-                    self.in_unit(&named("V"), &mass.velocity, &scale.velocity)?,
-                )
+                ElementLaw::Mass {
+                    mass: self.in_unit(&named("m"), &mass.mass, &unit)?,
+                    velocity: self.in_unit(&named("V"), &mass.velocity, &scale.velocity)?,
+                }
             }
             Kind::Spring(spring) => {
-                let (k, d) = self.yielding(&element.name, &spring.stiffness, &spring.damping)?;
-                ModelLump::Spring(k, d)
+                let [stiffness, damping] =
+                    self.yielding(&element.name, &spring.stiffness, &spring.damping)?;
+                ElementLaw::Spring { stiffness, damping }
             }
             Kind::Hertz(hertz) => {
                 let length = scale.unit(Dimension::LENGTH)?;
-                ModelLump::Hertz(
-                    self.in_unit(&named("F"), &hertz.force, &scale.force())?,
-                    self.in_unit(&named("alpha"), &hertz.compression, &length)?,
-                    hertz.exponent.clone(),
-                )
+                ElementLaw::LocalContact {
+                    force: self.in_unit(&named("F"), &hertz.force, &scale.force())?,
+                    compression: self.in_unit(&named("alpha"), &hertz.compression, &length)?,
+                    exponent: hertz.exponent.clone(),
+                }
             }
             Kind::Support(support) => {
-                let (k, d) = self.yielding(&element.name, &support.stiffness, &support.damping)?;
-                ModelLump::Support(k, d)
+                let [stiffness, damping] =
+                    self.yielding(&element.name, &support.stiffness, &support.damping)?;
+                ElementLaw::Support { stiffness, damping }
             }
             Kind::Load(load) => {
                 let unit = match load.drive {
@@ -180,10 +181,11 @@ impl Model {
                 let from = self.in_unit(&named("from"), &load.from, &scale.time)?;
                 let until = load.until.as_ref();
                 let until = until.map(|until| self.in_unit(&named("until"), until, &scale.time));
-                ModelLump::Load(load.drive, course, from, until.transpose()?)
+                self.loads.insert(index, ModelLoad { course, from, until: until.transpose()? });
+                ElementLaw::Load(load.drive)
             }
         };
-        self.lumps.insert(index, lump);
+        self.lumps.insert(index, law);
         Ok(())
     }
 
@@ -199,13 +201,13 @@ impl Model {
         name: &str,
         stiffness: &Fraction,
         damping: &Fraction,
-    ) -> Outcome<(Fraction, Fraction)> {
+    ) -> Outcome<[Fraction; 2]> {
         let unit = self.scale.unit(Dimension::STIFFNESS)?;
         let impedance = self.scale.impedance.clone();
-        Ok((
+        Ok([
             self.in_unit(&format!("kappa_{name}"), stiffness, &unit)?,
             self.in_unit(&format!("delta_{name}"), damping, &impedance)?,
-        ))
+        ])
     }
 
     /// The value as a number where it is one, or a fraction of symbols; else as a constant, which is

@@ -20,7 +20,7 @@ pub(crate) enum Side {
 
 /// A lumped element.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum ElementLaw<V> {
+pub enum ElementLaw<V> {
     /// A mass with its velocity at the start.
     Mass { mass: V, velocity: V },
     /// Presses on the runs at both sides with `k α + d α'`.

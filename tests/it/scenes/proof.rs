@@ -9,7 +9,7 @@
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use wavestep::expression::{Expression, Fraction};
-use wavestep::network::{Lattice, ModelBar, ModelLump, Network, ObservedValue, Role};
+use wavestep::network::{ElementLaw, Lattice, ModelBar, ModelLoad, Network, ObservedValue, Role};
 use wavestep::recurrence::{Observation, WaveIndex};
 use wavestep::scene::{Drive, ElementIndex, End, Kind};
 use wavestep::solution::PeriodByPeriod;
@@ -65,12 +65,9 @@ impl<'a> Proof<'a> {
         });
         let delays = delays.flat_map(|seen| seen.waves.iter().map(|wave| wave.delay.clone()));
         let travels = network.model().bars.values().filter_map(|bar| bar.travel.clone());
-        let moments = network.model().lumps.values().flat_map(|lump| match lump {
-            ModelLump::Load(_, _, from, until) => {
-                std::iter::once(from.clone()).chain(until.clone()).collect()
-            }
-            _ => Vec::new(),
-        });
+        let loads = network.model().loads.values();
+        let moments =
+            loads.flat_map(|load| std::iter::once(load.from.clone()).chain(load.until.clone()));
         let mut times = vec![statement.period.clone()];
         times.extend(network.leads().cloned().chain(delays).chain(travels).chain(moments));
         times.retain(|time| !time.is_zero());
@@ -163,9 +160,7 @@ impl<'a> Proof<'a> {
     }
 
     fn load(&self, element: ElementIndex) -> Cells {
-        let ModelLump::Load(_, course, from, until) = &self.network.model().lumps[&element] else {
-            panic!("a load");
-        };
+        let ModelLoad { course, from, until } = &self.network.model().loads[&element];
         let from = Proof::count(&self.length, from);
         let until = until.as_ref().map(|until| Proof::count(&self.length, until));
         let cell = |n: usize| {
@@ -253,7 +248,7 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
     }
     // Velocity and force on both sides of every joint between what moves as one.
     let lump = |place: usize| model.lumps.get(&scene.line.elements[place]);
-    let is_spring = |place: usize| matches!(lump(place), Some(ModelLump::Spring(..)));
+    let is_spring = |place: usize| matches!(lump(place), Some(ElementLaw::Spring { .. }));
     let mut joints: Vec<Option<Cells>> = vec![None; count + 1];
     let mut outside = zeros(proof.count); // what acts on the line from outside
     let mut momentum_rate = zeros(proof.count);
@@ -292,13 +287,13 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
             known.push(zeros(proof.count));
         }
         for place in from..to {
-            if let Some(ModelLump::Load(Drive::Velocity, ..)) = lump(place) {
+            if let Some(ElementLaw::Load(Drive::Velocity)) = lump(place) {
                 known.push(proof.load(scene.line.elements[place]));
             }
         }
         let masses: Vec<_> = (from..to)
             .filter_map(|place| match lump(place) {
-                Some(ModelLump::Mass(mass, velocity)) => Some((mass, velocity)),
+                Some(ElementLaw::Mass { mass, velocity }) => Some((mass, velocity)),
                 _ => None,
             })
             .collect();
@@ -328,8 +323,8 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
             proof.assert_zero(&difference, "what is joined moves apart");
         }
         (from..=to).for_each(|joint| joints[joint] = Some(velocity.clone()));
-        let driven = (from..to)
-            .any(|place| matches!(lump(place), Some(ModelLump::Load(Drive::Velocity, ..))));
+        let driven =
+            (from..to).any(|place| matches!(lump(place), Some(ElementLaw::Load(Drive::Velocity))));
         if !total.is_zero() && !driven && !held {
             let mut momenta = zeros(proof.count);
             add(&mut momenta, &velocity, &expression(&total));
@@ -341,7 +336,7 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
     let mut spring_forces: Vec<Option<Cells>> = vec![None; count];
     for place in (0..count).filter(|place| is_spring(*place)) {
         let element = scene.line.elements[place];
-        let Some(ModelLump::Spring(stiffness, damping)) = lump(place) else { unreachable!() };
+        let Some(ElementLaw::Spring { stiffness, damping }) = lump(place) else { unreachable!() };
         let mut closing = velocity_at(place);
         add(&mut closing, &velocity_at(place + 1), &-&one);
         let mut force = zeros(proof.count);
@@ -388,13 +383,13 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
         for place in from..to {
             let element = scene.line.elements[place];
             match lump(place).expect("a lump") {
-                ModelLump::Mass(mass, _) => {
+                ElementLaw::Mass { mass, .. } => {
                     let slope = proof.derivative(&velocity);
                     add(&mut rest, &slope, &-&expression(mass));
                     add(&mut momentum_rate, &slope, &expression(mass));
                     add(&mut energy_rate, &product(&velocity, &slope), &expression(mass));
                 }
-                ModelLump::Support(stiffness, damping) => {
+                ElementLaw::Support { stiffness, damping } => {
                     add(&mut acting, &velocity, &-&expression(damping));
                     let power = product(&velocity, &velocity);
                     add(&mut energy_rate, &power, &expression(damping));
@@ -411,13 +406,13 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
                         assert!(stiffness.is_zero());
                     }
                 }
-                ModelLump::Load(Drive::Force, ..) => {
+                ElementLaw::Load(Drive::Force) => {
                     let load = proof.load(element);
                     add(&mut energy_rate, &product(&load, &velocity), &-&one);
                     add(&mut acting, &load, &one);
                 }
-                ModelLump::Load(Drive::Velocity, ..) => {}
-                ModelLump::Spring(..) | ModelLump::Hertz(..) => unreachable!(),
+                ElementLaw::Load(Drive::Velocity) => {}
+                ElementLaw::Spring { .. } | ElementLaw::LocalContact { .. } => unreachable!(),
             }
         }
         add(&mut rest, &acting, &one);
@@ -431,8 +426,8 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
             (Some(left), None) => rest = left.clone(),
             (None, None) => unreachable!("a line between two walls has a bar or a spring"),
         }
-        let driven = (from..to)
-            .any(|place| matches!(lump(place), Some(ModelLump::Load(Drive::Velocity, ..))));
+        let driven =
+            (from..to).any(|place| matches!(lump(place), Some(ElementLaw::Load(Drive::Velocity))));
         if driven || left.is_none() || right.is_none() {
             // What gives the motion acts as is wanted, and works.
             add(&mut energy_rate, &product(&rest, &velocity), &one);
@@ -470,7 +465,7 @@ pub fn assert_laws_hold(network: &Network, cells: usize) {
                 None => Fraction::zero(),
             });
             let lumps = model.lumps.values().map(|lump| match lump {
-                ModelLump::Mass(mass, velocity) => mass * velocity,
+                ElementLaw::Mass { mass, velocity } => mass * velocity,
                 _ => Fraction::zero(),
             });
             let start = bars.chain(lumps).fold(Fraction::zero(), |sum, part| &sum + &part);

@@ -5,7 +5,7 @@ use super::impact::LongBars;
 use super::law::PowerLaw;
 use wavestep::ball::Ball;
 use wavestep::enclosure::Numbers;
-use wavestep::network::{ModelLump, ScaledScene};
+use wavestep::network::{ElementLaw, ScaledScene};
 use wavestep::scene::{ElementIndex, End, Kind};
 
 /// A local contact between two bars, and until when waves that return are not felt there.
@@ -43,7 +43,8 @@ impl ContactOfScene {
         let [Some(left), Some(right)] = beside.map(bar) else {
             return Err(NoContact::NotBetweenBars.into());
         };
-        let ModelLump::Hertz(force, compression, exponent) = &model.lumps[&element] else {
+        let ElementLaw::LocalContact { force, compression, exponent } = &model.lumps[&element]
+        else {
             unreachable!("the lump of a local contact");
         };
         let bits = precision + 32;
