@@ -43,7 +43,7 @@ pub struct WaveRole {
 }
 
 /// A scene as nodes, bars and waves, with the delays between them.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Debug)]
 pub struct Network {
     pub(crate) scaled: ScaledScene,
     pub(crate) waves: Vec<WaveRole>,
@@ -51,20 +51,9 @@ pub struct Network {
     /// Waves whose integrals are observed; these follow after `waves`.
     pub(crate) integrals: Vec<WaveIndex>,
     pub(crate) observables: Vec<Observed>,
-    pub(super) derived: Derived,
+    /// The recurrence, once it was asked for.
+    pub(super) derived: OnceLock<Result<Recurrence, NetworkError>>,
 }
-
-/// The recurrence of a network, once it was asked for; networks are the same with and without it.
-#[derive(Clone, Default, Debug)]
-pub(super) struct Derived(pub OnceLock<Result<Recurrence, NetworkError>>);
-
-impl PartialEq for Derived {
-    fn eq(&self, _: &Derived) -> bool {
-        true
-    }
-}
-
-impl Eq for Derived {}
 
 impl ScaledScene {
     /// The network of the scene, which every law has to be linear for.
@@ -78,7 +67,7 @@ impl ScaledScene {
             waves: Vec::new(),
             integrals: Vec::new(),
             observables: Vec::new(),
-            derived: Derived::default(),
+            derived: OnceLock::new(),
         };
         network.name_waves();
         network.set_observables()?;

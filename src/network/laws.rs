@@ -80,7 +80,7 @@ impl Network {
             1 => Recurrence::new(self.statement(&[1])).map_err(|invalid| self.refused(invalid)),
             _ => Err(NetworkError::Incommensurate),
         };
-        self.derived.0.get_or_init(derive).clone()
+        self.derived.get_or_init(derive).clone()
     }
 
     /// The recurrence of the scene as a statement; `strides` turn counts on the lattice into lags.

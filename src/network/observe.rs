@@ -5,7 +5,7 @@
 //! the start.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::equations::{Derived, Network, Role};
+use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
@@ -13,6 +13,7 @@ use crate::network::observed::{EnergyTerm, Observed, ObservedValue, Window};
 use crate::network::reading::{Elements, Energy, Face, Field, Lump, Reading, Section, section};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
 use crate::scene::ElementIndex;
+use std::sync::OnceLock;
 use wavestep_polynomial::Rational;
 
 impl Network {
@@ -121,7 +122,7 @@ impl Network {
         self.waves.len()
             + place.unwrap_or_else(|| {
                 self.integrals.push(wave);
-                self.derived = Derived::default();
+                self.derived = OnceLock::new();
                 self.integrals.len() - 1
             })
     }

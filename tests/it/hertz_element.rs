@@ -437,7 +437,7 @@ fn the_equivalent_spring_gives_about_the_same_pulse() {
 fn a_contact_has_no_recurrence_and_one_model() {
     let scene = two_bars("3/2", "free");
     let refused = Network::new(scene.scene());
-    assert_eq!(refused, Err(NetworkError::NotLinear("tip".to_owned())));
+    assert_eq!(refused.err(), Some(NetworkError::NotLinear("tip".to_owned())));
     let refusals = [
         RigidBody::new(&scene).err(),
         ThirdOfMass::new(&scene, StartingVelocity::Kept).err(),

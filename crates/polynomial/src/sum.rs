@@ -86,11 +86,6 @@ fn merge(
     Polynomial::from_parts(aligned.symbols, terms, common)
 }
 
-/// [`merge`] into a copy of `left`.
-fn merge_copied(left: &Polynomial, right: &Polynomial, sign: Sign) -> Polynomial {
-    merge((&left.symbols, &left.denominator, left.terms.iter().cloned()), right, sign)
-}
-
 /// [`merge`] into `left` itself.
 fn merge_owned(left: Polynomial, right: &Polynomial, sign: Sign) -> Polynomial {
     if right.is_zero() {
@@ -99,35 +94,26 @@ fn merge_owned(left: Polynomial, right: &Polynomial, sign: Sign) -> Polynomial {
     merge((&left.symbols, &left.denominator, left.terms.into_iter()), right, sign)
 }
 
-impl Add for &Polynomial {
-    type Output = Polynomial;
-    /// O(terms of both).
-    fn add(self, other: &Polynomial) -> Polynomial {
-        merge_copied(self, other, Sign::Plus)
-    }
-}
+macro_rules! operators {
+    ($operator:ident $name:ident, $in_place:ident $name_in_place:ident, $sign:expr) => {
+        impl $operator for &Polynomial {
+            type Output = Polynomial;
+            /// O(terms of both).
+            fn $name(self, other: &Polynomial) -> Polynomial {
+                merge((&self.symbols, &self.denominator, self.terms.iter().cloned()), other, $sign)
+            }
+        }
 
-impl Sub for &Polynomial {
-    type Output = Polynomial;
-    /// O(terms of both).
-    fn sub(self, other: &Polynomial) -> Polynomial {
-        merge_copied(self, other, Sign::Minus)
-    }
+        impl $in_place<&Polynomial> for Polynomial {
+            /// O(terms of both); the numerators of `self` are not copied.
+            fn $name_in_place(&mut self, other: &Polynomial) {
+                *self = merge_owned(std::mem::take(self), other, $sign);
+            }
+        }
+    };
 }
-
-impl AddAssign<&Polynomial> for Polynomial {
-    /// O(terms of both); the numerators of `self` are not copied.
-    fn add_assign(&mut self, other: &Polynomial) {
-        *self = merge_owned(std::mem::take(self), other, Sign::Plus);
-    }
-}
-
-impl SubAssign<&Polynomial> for Polynomial {
-    /// O(terms of both); the numerators of `self` are not copied.
-    fn sub_assign(&mut self, other: &Polynomial) {
-        *self = merge_owned(std::mem::take(self), other, Sign::Minus);
-    }
-}
+operators!(Add add, AddAssign add_assign, Sign::Plus);
+operators!(Sub sub, SubAssign sub_assign, Sign::Minus);
 
 impl Sum for Polynomial {
     /// Neighbours are added first, so that `n` polynomials of one term each take
