@@ -67,11 +67,6 @@ impl Binary {
         self.mantissa.is_negative()
     }
 
-    /// The odd mantissa and the exponent.
-    pub(crate) fn parts(&self) -> (&BigInt, i64) {
-        (&self.mantissa, self.exponent)
-    }
-
     /// The `t` with `2^(t−1) ≤ |self| < 2^t`, or `None` for zero.
     pub fn top(&self) -> Option<i64> {
         (!self.is_zero()).then(|| shifted(self.exponent, self.mantissa.bits() as i64))

@@ -53,8 +53,7 @@ impl Binary {
         if top < last {
             return if self.is_negative() { -0.0 } else { 0.0 };
         }
-        let (mantissa, exponent) = self.parts();
-        let magnitude = mantissa.magnitude();
+        let (magnitude, exponent) = (self.mantissa().magnitude(), self.exponent());
         let units = match u64::try_from(last - exponent) {
             // All bits fit.
             Err(_) | Ok(0) => (magnitude << (exponent - last) as u64).to_u64(),
