@@ -36,7 +36,6 @@ pub struct EquivalentSpring {
 
 impl EquivalentSpring {
     /// `k₁`.
-    #[must_use]
     pub fn stiffness(&self) -> &Ball {
         &self.stiffness
     }
@@ -87,19 +86,16 @@ impl LongBars {
     }
 
     /// `X_max` (6.52).
-    #[must_use]
     pub fn largest_force(&self) -> &Ball {
         &self.largest_force
     }
 
     /// `α_max`, where the contact carries `X_max`.
-    #[must_use]
     pub fn largest_compression(&self) -> &Ball {
         &self.largest_compression
     }
 
     /// `k = F₀/α₀^m` of `X = k α^m` (6.49), in units of force by the m-th power of those of length.
-    #[must_use]
     pub fn stiffness(&self) -> &Ball {
         &self.stiffness
     }
@@ -111,7 +107,6 @@ impl LongBars {
     }
 
     /// `t/t̄ = α_max/V`.
-    #[must_use]
     pub fn time_unit(&self) -> &Ball {
         &self.time_unit
     }

@@ -53,19 +53,16 @@ pub struct Share {
 
 impl Share {
     /// `X/X_max = φ`.
-    #[must_use]
     pub fn force(&self) -> &Ball {
         &self.force
     }
 
     /// `1 − X/X_max`, with a small relative error however close the force is to its limit.
-    #[must_use]
     pub fn deficit(&self) -> &Ball {
         &self.deficit
     }
 
     /// `α/α_max = φ^{1/m}`.
-    #[must_use]
     pub fn compression(&self) -> &Ball {
         &self.compression
     }
