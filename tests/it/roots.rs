@@ -2,9 +2,13 @@
 //! that are roots of quadratics.
 
 use proptest::prelude::*;
+use std::collections::BTreeMap;
+use wavestep::enclosure::{Numbers, enclose_expression};
 use wavestep::expression::{
     Assumptions, Condition, Exact, Expression, Fraction, Relation, Transform,
 };
+use wavestep::language::{Source, read_recurrence};
+use wavestep::recurrence::Recurrence;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 fn polynomial(text: &str) -> Polynomial {
@@ -176,6 +180,89 @@ fn poles_solve_their_quadratics() {
     );
     let sixth = ["-1/2 + 1/2*sqrt(-1)*sqrt(3)", "-1/2 - 1/2*sqrt(-1)*sqrt(3)"].map(fraction);
     assert_eq!(poles(&rational(1, 1), &rational(1, 1)), sixth);
+}
+
+// ---- Rates of coupled equations ---------------------------------------------------------------
+
+/// A recurrence `x_i' = x_{i+1}`, `x_m' = −Σ c_k x_{m+1−k}` whose rates are the zeros of the monic
+/// polynomial `λ^m + p_1 λ^{m−1} + …`: with `x' = −A x` they are the eigenvalues of `A`, so that
+/// `c_k = (−1)^k p_k`.
+fn companion(p: &[Rational]) -> Recurrence {
+    let m = p.len();
+    let waves: Vec<String> = (1..=m).map(|i| format!("x{i}")).collect();
+    let mut text =
+        format!("recurrence \"Rates\"\nperiod 1, local s, time t\nwave {}\n", waves.join(", "));
+    for pair in waves.windows(2) {
+        text += &format!("equation {}[n]' = {}[n]\n", pair[0], pair[1]);
+    }
+    let term = |(k, c): (usize, &Rational)| {
+        let c = if k % 2 == 0 { -c } else { c.clone() };
+        format!(" + ({c})*{}[n]", waves[m - 1 - k])
+    };
+    let terms: String = p.iter().enumerate().map(term).collect();
+    text += &format!("equation {}[n]'{terms} = 0\n", waves[m - 1]);
+    for wave in &waves {
+        text += &format!("continuous {wave}[n] starts at 1\n");
+    }
+    let source = Source::new("rates", text).unwrap();
+    read_recurrence(&source, &BTreeMap::new()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The value of a monic polynomial, which must be zero at a rate.
+fn value(p: &[Rational], rate: &Fraction) -> Fraction {
+    p.iter().fold(Fraction::one(), |sum, c| &(&sum * rate) + &Fraction::constant(c))
+}
+
+#[test]
+fn rates_are_roots() {
+    for coefficients in [
+        &[(3, 1), (2, 1)][..],
+        &[(1, 1), (1, 1)],
+        &[(4, 1), (1, 1)],
+        &[(0, 1), (0, 1), (-8, 1)],
+        &[(7, 6), (1, 6), (0, 1), (0, 1)],
+        &[(2, 1), (3, 1), (2, 1), (1, 1)],
+    ] {
+        let p: Vec<Rational> = coefficients.iter().map(|(a, b)| rational(*a, *b)).collect();
+        let recurrence = companion(&p);
+        let rates = &recurrence.coupled()[0].rates;
+        assert_eq!(rates.len(), p.len());
+        assert!(rates.iter().all(|rate| value(&p, rate).is_zero()), "{coefficients:?}");
+        // All of them, with their multiplicities: the product of the factors is p.
+        let product = rates.iter().fold(vec![Fraction::one()], |product, root| {
+            let mut next = product.clone();
+            next.push(Fraction::zero());
+            for (i, c) in product.iter().enumerate() {
+                next[i + 1] = &next[i + 1] - &(c * root);
+            }
+            next
+        });
+        assert_eq!(product[1..], p.iter().map(Fraction::constant).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn a_cubic_has_a_named_root_and_a_pair() {
+    // λ³ − 2: the real root r, and −r/2 ± i√3 r/2, since the discriminant is a square of r.
+    let p = [rational(0, 1), rational(0, 1), rational(-2, 1)];
+    let recurrence = companion(&p);
+    let constants = recurrence.constants();
+    let names: Vec<&str> = constants.iter().map(|constant| constant.symbol.name()).collect();
+    let rates = &recurrence.coupled()[0].rates;
+    assert_eq!((rates.len(), &names[..]), (3, &["rho"][..]));
+    // Each of them is a zero, in numbers.
+    let numbers = Numbers::new(constants);
+    for root in rates {
+        let zero = Expression::from(value(&p, root));
+        let at = |symbol: &Symbol, bits| numbers.value(symbol, bits);
+        let found = enclose_expression(&zero, &at, 200).unwrap();
+        for part in [found.real(), found.imaginary()] {
+            assert!(part.contains(&rational(0, 1)));
+            // To about fifty digits and no more.
+            let far = rational(10, 1).pow(-50);
+            assert!(!part.contains(&far) && !part.contains(&-far));
+        }
+    }
 }
 
 /// Transforms divided by `(p − λ₁)(p − λ₂)`, and two equations of first order one after the other,

@@ -70,6 +70,28 @@ pub(super) const GROUPED_MEASURES: Plain = [
     "multiply out: `force(a.left)/2 - force(b.left)/2`",
 ];
 
+/// What is needed where something else stands, and the remedy.
+type Lack = [&'static str; 2];
+
+/// `sum(a[i])`
+pub(super) const RANGE: Lack =
+    ["`,` and the range of the sum", "a sum says over what it runs: `sum(f[i], i < n)`"];
+
+/// `f[2*n]`, `f[]`
+pub(super) const INDEX: Lack = ["a wave index", INDEX_REMEDY];
+
+/// A property directly after another.
+pub(super) const COMMA: Lack = ["`,` or a unit", COMMAS];
+
+/// `N/2`
+pub(super) const UNIT: Lack =
+    ["the name of a unit", "numbers stand before the unit: `3/2 m`, `7850 kg/m^3`"];
+
+/// Something is needed, and the remedy is always the same, unless the text suggests a better one.
+pub(super) fn lacking(input: Input<'_>, [what, remedy]: Lack) -> Diagnostic {
+    expected_with(input, what, remedy.to_owned())
+}
+
 /// A mistake whose texts are always the same.
 pub(super) fn plain(input: Input<'_>, span: Span, [message, label, remedy]: Plain) -> Diagnostic {
     at(input, message, span, label).with_remedy(remedy)
@@ -406,13 +428,6 @@ pub(super) fn function_alone(input: Input<'_>, name: &str, span: Span) -> Diagno
         .with_remedy(format!("write it like `{form}`"))
 }
 
-/// `sum(a[i])`
-pub(super) fn sum_without_range(input: Input<'_>, opener: Span) -> Diagnostic {
-    let remedy = "a sum says over what it runs: `sum(f[i], i < n)`".to_owned();
-    expected_with(input, "`,` and the range of the sum", remedy)
-        .with_secondary(opener, "the sum opens here")
-}
-
 /// `sum(a[i], i = 0..n)`
 pub(super) fn sum_range(input: Input<'_>, index: &Name) -> Diagnostic {
     let index = &index.value;
@@ -423,17 +438,11 @@ pub(super) fn sum_range(input: Input<'_>, index: &Name) -> Diagnostic {
 
 const INDEX_REMEDY: &str = "an index is written `n`, `n-1`, `n+1`, or as a whole number";
 
-/// `f[2*n]`, `f[]`
-pub(super) fn index_form(input: Input<'_>) -> Diagnostic {
-    expected_with(input, "a wave index", INDEX_REMEDY.to_owned())
-}
-
 /// `f[n-1-1]`, `f[n`
 pub(super) fn index_end(input: Input<'_>, opener: Span) -> Diagnostic {
     match found(input).kind {
         FoundKind::End => unclosed(input, opener, "]"),
-        _ => expected_with(input, "`]`", INDEX_REMEDY.to_owned())
-            .with_secondary(opener, "the index opens here"),
+        _ => lacking(input, ["`]`", INDEX_REMEDY]).with_secondary(opener, "the index opens here"),
     }
 }
 
@@ -553,17 +562,6 @@ pub(super) fn open_brace(input: Input<'_>, opener: Span, what: &str) -> Diagnost
 
 const COMMAS: &str = "separate properties by commas, also at the ends of lines";
 
-/// A property directly after another.
-pub(super) fn missing_comma(input: Input<'_>) -> Diagnostic {
-    expected_with(input, "`,` or a unit", COMMAS.to_owned())
-}
-
-/// `N/2`
-pub(super) fn expected_unit(input: Input<'_>) -> Diagnostic {
-    let remedy = "numbers stand before the unit: `3/2 m`, `7850 kg/m^3`".to_owned();
-    expected_with(input, "the name of a unit", remedy)
-}
-
 /// A power of a unit that is no small whole number.
 pub(super) fn unit_power(from: Input<'_>, to: Input<'_>) -> Diagnostic {
     let start = from.after_blanks().offset;
@@ -617,7 +615,7 @@ pub(super) fn unclosed_place(input: Input<'_>, opener: Span) -> Diagnostic {
     }
     let form =
         "a place is an element or a section of a bar: `ram`, `rod.left`, `rod.at(1/2)`, `line`";
-    expected_with(input, "`)`", form.to_owned()).with_secondary(opener, "opened here")
+    lacking(input, ["`)`", form]).with_secondary(opener, "opened here")
 }
 
 /// `rod.middle`

@@ -227,7 +227,8 @@ fn close(input: &mut Input<'_>, opening: Opening, inner: Expression) -> Outcome<
 /// `, i < n`
 fn range(input: &mut Input<'_>, parenthesis: Span, term: Expression) -> Outcome<Node> {
     if input.symbol(",").is_none() {
-        return Err(complaint::sum_without_range(*input, parenthesis));
+        return Err(complaint::lacking(*input, complaint::RANGE)
+            .with_secondary(parenthesis, "the sum opens here"));
     }
     let index = input.name("the index of the sum")?;
     let before = *input;
@@ -324,7 +325,9 @@ fn index(input: &mut Input<'_>) -> Outcome<Spanned<Index>> {
     let offset = match (&base, sign) {
         (Some(_), None) => 0,
         (_, sign) => {
-            let Some(digits) = input.digits() else { return Err(complaint::index_form(*input)) };
+            let Some(digits) = input.digits() else {
+                return Err(complaint::lacking(*input, complaint::INDEX));
+            };
             let value = i64::from(index_value(digits, *input)?);
             if sign.is_some_and(|sign| sign.value == Sign::Minus) { -value } else { value }
         }

@@ -84,8 +84,8 @@ impl<'a> Input<'a> {
     }
 
     /// Whether the next token starts with this.
-    pub fn next_is(self, sign: impl AsRef<str>) -> bool {
-        self.after_blanks().text.starts_with(sign.as_ref())
+    pub fn next_is(self, sign: &str) -> bool {
+        self.after_blanks().text.starts_with(sign)
     }
 
     /// What a parser takes from the front; nothing where it fails.

@@ -74,7 +74,7 @@ pub(super) fn with_unit(input: &mut Input<'_>) -> Outcome<(Expression, Option<Un
     let value = expression_to(input, Extent::Unit)?;
     let Some(next) = input.next_word() else { return Ok((value, None)) };
     if after(input, next).starts_with('=') {
-        return Err(complaint::missing_comma(*input));
+        return Err(complaint::lacking(*input, complaint::COMMA));
     }
     let unit = unit(input)?;
     match input.additive() {
@@ -96,7 +96,9 @@ fn unit(input: &mut Input<'_>) -> Outcome<Unit> {
 
 /// `m`, `m^3`, `s^-1`, `m³`
 fn unit_factor(input: &mut Input<'_>, operator: Operator) -> Outcome<UnitFactor> {
-    let Some(written) = input.word() else { return Err(complaint::expected_unit(*input)) };
+    let Some(written) = input.word() else {
+        return Err(complaint::lacking(*input, complaint::UNIT));
+    };
     let spelt = written.value.replace(['\u{B5}', 'μ'], "u");
     let name = Spanned::new(name::normalise(&spelt), written.span);
     let power = unit_power(input)?;

@@ -10,6 +10,13 @@ use crate::language::syntax::{Declaration, Declared, Node, Property, SceneStatem
 use crate::scene::{Bar, Body, Dimension, Drive, Kind, Load, Mass, PI, Spring, Support};
 use wavestep_polynomial::Rational;
 
+/// What a value has to be at least.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Least {
+    Zero,
+    Positive,
+}
+
 /// What a bar can be made of.
 #[derive(Clone)]
 pub(super) struct Material {
@@ -211,8 +218,12 @@ impl<'a> Lowering<'a> {
             return Some(());
         }
         let span = property.map_or(self.tree.title.span, |property| property.value.span);
-        let error =
-            self.not_positive(format!("{what} is not certainly positive"), span, value, false);
+        let error = self.not_positive(
+            format!("{what} is not certainly positive"),
+            span,
+            value,
+            Least::Positive,
+        );
         self.refuse(error)
     }
 
@@ -222,8 +233,9 @@ impl<'a> Lowering<'a> {
         message: String,
         span: Span,
         value: &Fraction,
-        or_zero: bool,
+        least: Least,
     ) -> Diagnostic {
+        let or_zero = least == Least::Zero;
         let has_symbols = value.symbols().iter().any(|symbol| symbol.name() != PI);
         let label = match value.as_constant() {
             Some(_) if value.is_zero() => "this is zero",

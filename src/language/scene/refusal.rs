@@ -1,6 +1,7 @@
 //! What is impossible about a scene, at its places in the text.
 
 use super::Lowering;
+use super::element::Least;
 use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
 use crate::language::syntax::{Declaration, Line, ObservedTerm, SceneStatementKind, Span, Spanned};
@@ -16,8 +17,11 @@ impl Lowering<'_> {
             (fault.mistake, fault.parts.first())
             && let Some(value) = value(scene, *element, *property)
         {
-            let or_zero = fault.mistake == Mistake::Negative;
-            return self.not_positive(fault.to_string(), spans[0], value, or_zero);
+            let least = match fault.mistake {
+                Mistake::Negative => Least::Zero,
+                _ => Least::Positive,
+            };
+            return self.not_positive(fault.to_string(), spans[0], value, least);
         }
         let (message, labels, remedy) = self.explained(scene, fault);
         let mut labels = labels.into_iter();
