@@ -186,21 +186,25 @@ fn poles_solve_their_quadratics() {
 
 /// A recurrence `x_i' = x_{i+1}`, `x_m' = −Σ c_k x_{m+1−k}` whose rates are the zeros of the monic
 /// polynomial `λ^m + p_1 λ^{m−1} + …`: with `x' = −A x` they are the eigenvalues of `A`, so that
-/// `c_k = (−1)^k p_k`.
+/// `c_k = (−1)^k p_k`. The last wave is `x_m + x_1`, which couples all of them where a `c_k` is zero too.
 fn companion(p: &[Rational]) -> Recurrence {
     let m = p.len();
     let waves: Vec<String> = (1..=m).map(|i| format!("x{i}")).collect();
-    let mut text =
-        format!("recurrence \"Rates\"\nperiod 1, local s, time t\nwave {}\n", waves.join(", "));
-    for pair in waves.windows(2) {
-        text += &format!("equation {}[n]' = {}[n]\n", pair[0], pair[1]);
+    let x = |i: usize| match i == m {
+        true => format!("(x{m}[n] - x1[n])"),
+        false => format!("x{i}[n]"),
+    };
+    let names = waves.join(", ");
+    let mut text = format!("recurrence \"Rates\"\nperiod 1, local s, time t\nwave {names}\n");
+    for i in 1..m {
+        text += &format!("equation x{i}[n]' = {}\n", x(i + 1));
     }
     let term = |(k, c): (usize, &Rational)| {
         let c = if k % 2 == 0 { -c } else { c.clone() };
-        format!(" + ({c})*{}[n]", waves[m - 1 - k])
+        format!(" - ({c})*{}", x(m - k))
     };
     let terms: String = p.iter().enumerate().map(term).collect();
-    text += &format!("equation {}[n]'{terms} = 0\n", waves[m - 1]);
+    text += &format!("equation x{m}[n]' = {}{terms}\n", x(2));
     for wave in &waves {
         text += &format!("continuous {wave}[n] starts at 1\n");
     }
