@@ -50,7 +50,7 @@ pub enum EvaluateError {
     #[error("the time is after the last one that was prepared for")]
     AfterLast,
     /// Waves that are followed from event to event, where sums of echoes or steps of periods are asked for.
-    #[error("there is no closed form of the waves, as this method needs it")]
+    #[error("this method needs a closed form of the waves, and there is none")]
     NoClosedForm,
     /// A value that cannot be divided by.
     #[error(transparent)]
