@@ -58,10 +58,8 @@ impl Axis {
         json!({"name": self.name, "unit": self.unit, "scale": scale})
     }
 
-    /// Refuses a finite value that has no place on this axis.
-    ///
-    /// # Errors
-    /// Values at or below zero on a logarithmic axis, and magnitudes above 10³⁰⁰ on a linear one.
+    /// Refuses a finite value that has no place on this axis: values at or below zero on a logarithmic
+    /// axis, and magnitudes above 10³⁰⁰ on a linear one.
     pub(super) fn check(&self, value: f64) -> Result<(), PlotError> {
         let what = || format!("a value of \"{}\"", self.name);
         match self.scale {
@@ -72,6 +70,16 @@ impl Axis {
                 Err(PlotError::TooLarge { what: what(), value })
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Refuses a value that is not finite as well.
+    pub(super) fn check_finite(&self, value: f64) -> Result<(), PlotError> {
+        match value.is_finite() {
+            true => self.check(value),
+            false => {
+                Err(PlotError::TooLarge { what: format!("a value of \"{}\"", self.name), value })
+            }
         }
     }
 }

@@ -1,6 +1,5 @@
 //! What every chart can do.
 
-use super::Caption;
 use serde_json::Value;
 
 /// A chart: data that can be drawn, and written for other programs.
@@ -9,9 +8,6 @@ use serde_json::Value;
 pub trait Chart {
     /// The title.
     fn title(&self) -> &str;
-
-    /// What is said under the picture.
-    fn caption(&self) -> &Caption;
 
     /// The picture as SVG, 900 pixels wide, in a document of its own.
     fn svg(&self) -> String {

@@ -2,12 +2,13 @@
 //! which waves run.
 
 use super::axis::Mapping;
-use super::drawing::{Anchor, SMALL, coordinate, polyline};
+use super::drawing::{Anchor, SMALL, coordinate, polygon, polyline};
 use super::layout::{LEFT, Sheet, label_size};
 use super::marks::{draw_levels, placement_in};
 use super::number::rounded;
 use super::palette::diverging;
-use super::text::{csv_field, csv_number};
+use super::placement::part_inside;
+use super::text::{csv_field, csv_number, json_points};
 use super::{Axis, Caption, Chart, PlotError};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -108,18 +109,7 @@ pub struct Line {
 impl Line {
     /// The part of it in a window; `None` where there is none.
     pub fn clipped(self, window: Window) -> Option<Line> {
-        let (mut start, mut end) = (0.0f64, 1.0f64);
-        let ways = [(self.from.0, self.to.0), (self.from.1, self.to.1)];
-        for ((from, to), (low, high)) in ways.into_iter().zip(window) {
-            if from == to {
-                if from < low || from > high {
-                    return None;
-                }
-                continue;
-            }
-            let (a, b) = ((low - from) / (to - from), (high - from) / (to - from));
-            (start, end) = (start.max(a.min(b)), end.min(a.max(b)));
-        }
+        let (start, end) = part_inside([self.from, self.to], window)?;
         let at = |share: f64| {
             let between = |a: f64, b: f64| a + share * (b - a);
             (between(self.from.0, self.to.0), between(self.from.1, self.to.1))
@@ -159,7 +149,7 @@ pub enum Shape {
 /// grey.
 ///
 /// # Invariants
-/// There is a cell; the window and the scale of colours are not empty.
+/// There is a cell; the window and the scale of colours are not empty; the scale holds zero.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Diagram {
     title: String,
@@ -178,10 +168,7 @@ pub struct Diagram {
 impl Diagram {
     /// These cells in a window, with the axes of places, of times and of the quantity. The scale of
     /// colours spans the values and zero.
-    ///
-    /// # Errors
-    /// A window that is empty or not finite, axes that are not linear or values too large for them, or
-    /// no cell.
+    /// Refused are an empty window and values too large for a linear axis.
     pub fn new(
         title: &str,
         axes: [Axis; 3],
@@ -227,9 +214,6 @@ impl Diagram {
     }
 
     /// The same with a labelled line at a time.
-    ///
-    /// # Errors
-    /// A time outside of the window.
     pub fn level(mut self, time: f64, name: &str) -> Result<Diagram, PlotError> {
         let (first, last) = self.window[1];
         if !(first..=last).contains(&time) {
@@ -237,18 +221,6 @@ impl Diagram {
         }
         self.levels.push((time, name.to_owned()));
         Ok(self)
-    }
-
-    /// The same with a scale of colours from `low` to `high`, so that several diagrams can be compared;
-    /// values beyond take the colours of the ends.
-    ///
-    /// # Errors
-    /// Ends that do not ascend or are not finite.
-    pub fn coloured(self, low: f64, high: f64) -> Result<Diagram, PlotError> {
-        match low < high && (high - low).is_finite() {
-            true => Ok(Diagram { colours: (low, high), ..self }),
-            false => Err(PlotError::NotAnArea { what: "the scale of colours".to_owned() }),
-        }
     }
 
     /// The same with other names of places, of times and of the quantity, without units beside them.
@@ -263,17 +235,9 @@ impl Diagram {
         Diagram { title: title.to_owned(), ..self }
     }
 
-    /// The ends of the scale of colours.
-    pub fn colours(&self) -> (f64, f64) {
-        self.colours
-    }
-
-    /// How far a value is from zero, or from the end of the scale nearest to it: from −1 to 1, where the
-    /// farther end of the scale is, in steps.
+    /// How far a value is from zero: from −1 to 1, where the farther end of the scale is, in steps.
     fn share(&self, value: f64) -> f64 {
-        let (low, high) = self.colours;
-        let zero = 0.0f64.clamp(low, high);
-        let share = (value - zero) / (high - zero).max(zero - low);
+        let share = value / self.colours.1.max(-self.colours.0);
         (share * STEPS).round() / STEPS
     }
 
@@ -300,18 +264,13 @@ impl Diagram {
         let (top, bottom) = (sheet.top + 26.0, sheet.bottom() - 60.0);
         let places = Mapping::spanning(self.axes[2].scale, low, high).onto(bottom, top);
         sheet.drawing.text("", Anchor::Start, (left, sheet.top + 8.0), &self.axes[2].label());
-        for step in 0..PARTS {
-            let at = |step: f64| low + (high - low) * step / f64::from(PARTS);
-            let (from, to) = (at(f64::from(step)), at(f64::from(step + 1)));
-            let (from, to) = (places.position(from), places.position(to));
-            let corners = [(left, from), (right, from), (right, to), (left, to)];
-            let share = self.share(at(f64::from(step) + 0.5));
-            sheet.drawing.fill(&diverging(share), &format!("{}z", polyline(&corners)));
-        }
+        let at = |step: f64| low + (high - low) * step / f64::from(PARTS);
+        let height = |step: f64| places.position(at(step));
+        sheet.colour_bar((left, right), PARTS, height, |step| diverging(self.share(at(step))));
         if self.has_both_signs() {
             let (zero, end) = (places.position(0.0), bottom);
             let corners = [(left, zero), (right, zero), (right, end), (left, end)];
-            sheet.drawing.fill_with(hatch, &format!("{}z", polyline(&corners)));
+            sheet.drawing.fill_with(hatch, &polygon(&corners));
         }
         sheet.drawing.rectangle("frame", (left, top), (right, bottom));
         for tick in places.ticks(26.0) {
@@ -446,10 +405,6 @@ impl Chart for Diagram {
         &self.title
     }
 
-    fn caption(&self) -> &Caption {
-        &self.caption
-    }
-
     fn svg_named(&self, name: &str) -> String {
         let mut sheet = Sheet::open(name, &self.title, 0.0).reaching(RIGHT);
         sheet.drawing.style(RULES);
@@ -507,12 +462,10 @@ impl Chart for Diagram {
     }
 
     fn json(&self) -> Value {
-        let corners = |points: &[(f64, f64)]| -> Vec<Value> {
-            points.iter().map(|(x, y)| json!([x, y])).collect()
-        };
-        let cell = |cell: &Cell| json!({"value": cell.value, "outline": corners(&cell.outline)});
+        let cell =
+            |cell: &Cell| json!({"value": cell.value, "outline": json_points(&cell.outline)});
         let line =
-            |line: &Line| json!({"ends": corners(&[line.from, line.to]), "jumps": line.jumps});
+            |line: &Line| json!({"ends": json_points(&[line.from, line.to]), "jumps": line.jumps});
         let part = |part: &Part| json!({"name": part.name, "from": part.from, "to": part.to});
         json!({
             "kind": "diagram",
@@ -568,8 +521,6 @@ mod tests {
         ] {
             assert_eq!(diagram(values).share(value), share, "{values:?}");
         }
-        let beyond = diagram(&[1.0]).coloured(2.0, 6.0).expect("ends that ascend");
-        assert_eq!((beyond.share(2.0), beyond.share(4.0)), (0.0, 0.5));
     }
 
     #[test]

@@ -43,6 +43,16 @@ pub(super) fn coordinate(value: f64) -> String {
     format!("{}", hundredths + 0.0)
 }
 
+/// A class and the class of the colour of a line.
+pub(super) fn coloured(class: &str, line: usize) -> String {
+    format!("{class} c{}", line % COLOURS.len())
+}
+
+/// The outline through points, closed: "M x y L x y … z".
+pub(super) fn polygon(points: &[(f64, f64)]) -> String {
+    polyline(points) + "z"
+}
+
 /// The outline through points: "M x y L x y …".
 pub(super) fn polyline(points: &[(f64, f64)]) -> String {
     let mut path = String::new();
@@ -121,7 +131,7 @@ impl Drawing {
 
     /// The marker of a line; pointing at it shows `about`, if it says anything.
     pub fn marker(&mut self, line: usize, (x, y): (f64, f64), about: &str) {
-        let colour = line % COLOURS.len();
+        let class = coloured("marker", line);
         let outline = MARKERS[line % MARKERS.len()];
         let (x, y) = (coordinate(x), coordinate(y));
         let title = match about.is_empty() {
@@ -130,25 +140,23 @@ impl Drawing {
         };
         let _ = writeln!(
             self.body,
-            "<path class=\"marker c{colour}\" \
-             transform=\"translate({x} {y})\" d=\"{outline}\">{title}</path>"
+            "<path class=\"{class}\" transform=\"translate({x} {y})\" d=\"{outline}\">{title}</path>"
         );
     }
 
-    /// The stroke of a line through points.
-    pub fn stroke(&mut self, line: usize, points: &[(f64, f64)]) {
+    /// The stroke of a line through points, in the class of its width.
+    pub fn stroke(&mut self, class: &str, line: usize, points: &[(f64, f64)]) {
         if points.len() > 1 {
-            let (colour, dash) = (line % COLOURS.len(), line % DASHES.len());
-            self.path(&format!("line c{colour} d{dash}"), &polyline(points));
+            let dash = line % DASHES.len();
+            self.path(&format!("{} d{dash}", coloured(class, line)), &polyline(points));
         }
     }
 
-    /// The same, thin.
-    pub fn thin_stroke(&mut self, line: usize, points: &[(f64, f64)]) {
-        if points.len() > 1 {
-            let (colour, dash) = (line % COLOURS.len(), line % DASHES.len());
-            self.path(&format!("thin c{colour} d{dash}"), &polyline(points));
-        }
+    /// An outline about a point in the colour of a line: an arrow or a ring.
+    pub fn sign(&mut self, class: &str, line: usize, at: (f64, f64), path: &str) {
+        let mut sign = Drawing::default();
+        sign.path(&coloured(class, line), path);
+        self.moved(at, &sign);
     }
 
     /// What `other` draws, moved.

@@ -20,11 +20,9 @@ pub(super) fn draw_ends(
     sheet: &mut Sheet,
     placement: &mut Placement,
 ) -> usize {
-    let mut unlabelled = 0;
-    let is_beside = |end: &&((f64, f64), &str)| end.0.0 >= sheet.right - 2.0;
-    let mut beside: Vec<((f64, f64), &str)> = ends.iter().filter(is_beside).copied().collect();
-    let within: Vec<((f64, f64), &str)> =
-        ends.iter().filter(|end| !is_beside(end)).copied().collect();
+    type End<'a> = ((f64, f64), &'a str);
+    let (mut beside, within): (Vec<End<'_>>, Vec<End<'_>>) =
+        ends.iter().partition(|end| end.0.0 >= sheet.right - 2.0);
     beside.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
     let wanted: Vec<f64> = beside.iter().map(|(end, _)| end.1).collect();
     let rows = apart(&wanted, ROW, (sheet.top + ROW / 2.0, sheet.bottom() - ROW / 2.0));
@@ -35,15 +33,9 @@ pub(super) fn draw_ends(
         let base = (sheet.right + GAP, row + 0.35 * SMALL);
         sheet.drawing.text("label", Anchor::Start, base, name);
     }
+    let mut unlabelled = 0;
     for (end, name) in within {
-        let (wide, high) = label_size(name);
-        match placement.beside(end, wide, high) {
-            Some((left, top)) => {
-                let base = (left + 1.0, top + 0.85 * SMALL + 1.0);
-                sheet.drawing.text("label", Anchor::Start, base, name);
-            }
-            None => unlabelled += 1,
-        }
+        unlabelled += sheet.label(placement.beside(end, label_size(name)), name);
     }
     unlabelled
 }

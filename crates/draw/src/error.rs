@@ -66,12 +66,6 @@ pub enum PlotError {
         /// The exponent at the upper end.
         high: i32,
     },
-    /// A colour scale whose ends are not finite, or an outline with fewer than three corners.
-    #[error("{what} is no area: give three corners or more, and finite numbers")]
-    NotAnArea {
-        /// What it is.
-        what: String,
-    },
     /// A picture cannot be turned into pixels.
     #[error("the picture cannot be turned into pixels ({0}): write it as SVG")]
     NotDrawn(#[source] NotDrawn),

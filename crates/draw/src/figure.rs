@@ -1,12 +1,11 @@
 //! Figures of series: quantities against time or along a line, in panels over one axis.
 
 use super::axis::Mapping;
-use super::drawing::{Anchor, Drawing, SMALL};
+use super::drawing::{Drawing, coloured};
 use super::ends::{draw_ends, room_beside};
-use super::layout::{LEFT, Legend, Sheet, counted, fitted, label_size};
+use super::layout::{LEFT, Legend, SAMPLE, Sheet, counted, fitted};
 use super::marks::{draw_levels, draw_marks, placement_in, room_above};
-use super::palette::COLOURS;
-use super::text::{csv_field, csv_number, json_number};
+use super::text::{csv_field, csv_number, json_places, json_points};
 use super::{Axis, Caption, Chart, PlotError};
 use serde_json::{Value, json};
 
@@ -76,7 +75,6 @@ pub struct Panel {
     y: Axis,
     series: Vec<Series>,
     levels: Vec<(f64, String)>,
-    notes: Vec<((f64, f64), String)>,
     /// From where to where the axis reaches at least.
     range: Option<(f64, f64)>,
     /// Whether names stand where lines end, and not in a legend.
@@ -86,8 +84,7 @@ pub struct Panel {
 impl Panel {
     /// These series.
     pub fn new(y: Axis, series: Vec<Series>) -> Panel {
-        let (levels, notes) = (Vec::new(), Vec::new());
-        Panel { y, series, levels, notes, range: None, named_at_ends: false }
+        Panel { y, series, levels: Vec::new(), range: None, named_at_ends: false }
     }
 
     /// The same with an axis that reaches from one value to another at least, so that panels can be
@@ -110,13 +107,6 @@ impl Panel {
         self
     }
 
-    /// The same with a text beside a point.
-    #[must_use]
-    pub fn note(mut self, at: (f64, f64), text: &str) -> Panel {
-        self.notes.push((at, text.to_owned()));
-        self
-    }
-
     /// What is measured upwards.
     pub fn axis(&self) -> &Axis {
         &self.y
@@ -132,10 +122,14 @@ impl Panel {
         if series.name.is_empty() { &self.y.name } else { &series.name }
     }
 
+    /// All points that are finite.
+    fn points(&self) -> impl Iterator<Item = &(f64, f64)> {
+        self.series.iter().flat_map(|series| &series.points).filter(finite)
+    }
+
     /// All values upwards that are finite.
     fn heights(&self) -> impl Iterator<Item = f64> + '_ {
-        let points = self.series.iter().flat_map(|series| &series.points);
-        let points = points.filter(finite).map(|point| point.1);
+        let points = self.points().map(|point| point.1);
         let range = self.range.into_iter().flat_map(|(low, high)| [low, high]);
         points.chain(self.levels.iter().map(|level| level.0)).chain(range)
     }
@@ -172,40 +166,28 @@ pub struct Figure {
 
 impl Figure {
     /// A figure of these panels; the title may be empty.
-    ///
-    /// # Errors
-    /// A value that has no place on its axis, or nothing finite to draw.
     pub fn new(
         title: &str,
         x: Axis,
         panels: Vec<Panel>,
         caption: Caption,
     ) -> Result<Figure, PlotError> {
-        let mut anything = false;
         for panel in &panels {
-            let points = panel.series.iter().flat_map(|series| &series.points);
-            for point in points.filter(finite) {
+            for point in panel.points() {
                 x.check(point.0)?;
                 panel.y.check(point.1)?;
-                anything = true;
             }
-            for (level, _) in &panel.levels {
-                placed(&panel.y, *level)?;
-            }
-            for end in panel.range.iter().flat_map(|(low, high)| [low, high]) {
-                placed(&panel.y, *end)?;
-            }
-            for ((across, up), _) in &panel.notes {
-                placed(&x, *across)?;
-                placed(&panel.y, *up)?;
+            let range = panel.range.iter().flat_map(|(low, high)| [low, high]);
+            for height in panel.levels.iter().map(|(level, _)| level).chain(range) {
+                panel.y.check_finite(*height)?;
             }
             for (at, from, to) in panel.series.iter().flat_map(|series| &series.jumps) {
-                placed(&x, *at)?;
-                placed(&panel.y, *from)?;
-                placed(&panel.y, *to)?;
+                x.check_finite(*at)?;
+                panel.y.check_finite(*from)?;
+                panel.y.check_finite(*to)?;
             }
         }
-        if !anything {
+        if panels.iter().all(|panel| panel.points().next().is_none()) {
             return Err(PlotError::Empty { title: title.to_owned() });
         }
         let (title, marks) = (title.to_owned(), Vec::new());
@@ -213,12 +195,9 @@ impl Figure {
     }
 
     /// The same from edge to edge between two places across; what lies outside is not to be given.
-    ///
-    /// # Errors
-    /// Places that do not ascend, or without a place on the axis.
     pub fn window(mut self, from: f64, to: f64) -> Result<Figure, PlotError> {
-        placed(&self.x, from)?;
-        placed(&self.x, to)?;
+        self.x.check_finite(from)?;
+        self.x.check_finite(to)?;
         if from >= to {
             return Err(PlotError::NotAscending { axis: self.x.name.clone() });
         }
@@ -227,19 +206,10 @@ impl Figure {
     }
 
     /// The same with a vertical line through all panels, labelled above them.
-    ///
-    /// # Errors
-    /// A place that the axis does not have.
     pub fn mark(mut self, x: f64, name: &str) -> Result<Figure, PlotError> {
-        placed(&self.x, x)?;
+        self.x.check_finite(x)?;
         self.marks.push((x, name.to_owned()));
         Ok(self)
-    }
-
-    /// The same with another name and unit of what is measured across; the scale stays.
-    #[must_use]
-    pub fn across(self, axis: Axis) -> Figure {
-        Figure { x: Axis { scale: self.x.scale, ..axis }, ..self }
     }
 
     /// The same with another title; it may be empty.
@@ -250,12 +220,15 @@ impl Figure {
 
     /// From where to where it reaches across: its window, or its points.
     pub fn extent(&self) -> (f64, f64) {
-        let points = self.panels.iter().flat_map(|panel| &panel.series);
-        let points = points.flat_map(|series| &series.points).filter(finite);
-        let all = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, _)| {
+        let all = self.points().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, _)| {
             (low.min(*x), high.max(*x))
         });
         self.window.unwrap_or(all)
+    }
+
+    /// All points that are finite.
+    fn points(&self) -> impl Iterator<Item = &(f64, f64)> {
+        self.panels.iter().flat_map(Panel::points)
     }
 
     /// The panels, from above.
@@ -281,9 +254,7 @@ impl Figure {
                 Mapping::spanning(scale, on(from), on(to)).onto(LEFT, right)
             }
             None => {
-                let points = self.panels.iter().flat_map(|panel| &panel.series);
-                let points = points.flat_map(|series| &series.points);
-                let places = points.filter(finite).map(|point| point.0);
+                let places = self.points().map(|point| point.0);
                 let marks = self.marks.iter().map(|mark| mark.0);
                 fitted(self.x.scale, places.chain(marks), (LEFT, right), false)
             }
@@ -317,15 +288,9 @@ fn finite(point: &&(f64, f64)) -> bool {
     point.0.is_finite() && point.1.is_finite()
 }
 
-fn placed(axis: &Axis, value: f64) -> Result<(), PlotError> {
-    match value.is_finite() {
-        true => axis.check(value),
-        false => Err(PlotError::TooLarge { what: format!("a value of \"{}\"", axis.name), value }),
-    }
-}
-
 /// Draws what a panel shows, and adds its legend; how many texts found no place.
-fn draw_panel(figure: &Figure, panel: &Panel, sheet: &mut Sheet, x: &Mapping) -> usize {
+fn draw_panel(figure: &Figure, index: usize, sheet: &mut Sheet, x: &Mapping) -> usize {
+    let panel = &figure.panels[index];
     let y = fitted(panel.y.scale, panel.heights(), (sheet.bottom(), sheet.top), false);
     let on = |point: &(f64, f64)| (x.position(point.0), y.position(point.1));
     sheet.grid(x, &y);
@@ -339,14 +304,13 @@ fn draw_panel(figure: &Figure, panel: &Panel, sheet: &mut Sheet, x: &Mapping) ->
         let parts = series.points.split(|point| !finite(&point)).filter(|part| !part.is_empty());
         let parts: Vec<Vec<(f64, f64)>> = parts.map(|part| part.iter().map(on).collect()).collect();
         for (at, from, to) in &series.jumps {
-            let class = format!("jump c{}", style % COLOURS.len());
-            sheet.drawing.line(&class, on(&(*at, *from)), on(&(*at, *to)));
+            sheet.drawing.line(&coloured("jump", style), on(&(*at, *from)), on(&(*at, *to)));
         }
         for part in &parts {
             match series.look {
                 Look::Points => {}
-                Look::Thin => sheet.drawing.thin_stroke(style, part),
-                Look::Line | Look::Both => sheet.drawing.stroke(style, part),
+                Look::Thin => sheet.drawing.stroke("thin", style, part),
+                Look::Line | Look::Both => sheet.drawing.stroke("line", style, part),
             }
             if series.look != Look::Points {
                 placement.avoid(part);
@@ -364,29 +328,15 @@ fn draw_panel(figure: &Figure, panel: &Panel, sheet: &mut Sheet, x: &Mapping) ->
     }
     let mut unlabelled = draw_levels(&panel.levels, sheet, &y, &mut placement);
     unlabelled += draw_ends(&ends, sheet, &mut placement);
-    for (at, text) in &panel.notes {
-        let (wide, high) = label_size(text);
-        let at = on(at);
-        match placement.beside(at, wide, high) {
-            Some((left, top)) => {
-                let base = (left + 1.0, top + 0.85 * SMALL + 1.0);
-                sheet.drawing.text("label", Anchor::Start, base, text);
-            }
-            None => unlabelled += 1,
-        }
-    }
-    let is_last = std::ptr::eq(panel, &figure.panels[figure.panels.len() - 1]);
-    match is_last {
+    match index + 1 == figure.panels.len() {
         true => sheet.axes((&figure.x, x), (&panel.y, &y)),
         false => sheet.axes_above_others(x, (&panel.y, &y)),
     }
     let names = |panel: &Panel| -> Vec<String> {
         panel.series.iter().map(|series| series.name.clone()).collect()
     };
-    let place = figure.panels.iter().position(|other| std::ptr::eq(other, panel));
-    let above = place.and_then(|place| place.checked_sub(1)).map(|above| &figure.panels[above]);
     // What the panel above says need not be said again.
-    if above.is_none_or(|above| names(above) != names(panel)) {
+    if index == 0 || names(&figure.panels[index - 1]) != names(panel) {
         let top = sheet.top;
         sheet.legend(&panel.legend(), top);
     }
@@ -396,8 +346,8 @@ fn draw_panel(figure: &Figure, panel: &Panel, sheet: &mut Sheet, x: &Mapping) ->
 fn sample_of(sample: &mut Drawing, look: Look, style: usize) {
     match look {
         Look::Points => {}
-        Look::Thin => sample.thin_stroke(style, &[(0.0, 0.0), (30.0, 0.0)]),
-        Look::Line | Look::Both => sample.stroke(style, &[(0.0, 0.0), (30.0, 0.0)]),
+        Look::Thin => sample.stroke("thin", style, &SAMPLE),
+        Look::Line | Look::Both => sample.stroke("line", style, &SAMPLE),
     }
     if matches!(look, Look::Points | Look::Both) {
         sample.marker(style, (15.0, 0.0), "");
@@ -409,10 +359,6 @@ impl Chart for Figure {
         &self.title
     }
 
-    fn caption(&self) -> &Caption {
-        &self.caption
-    }
-
     fn svg_named(&self, name: &str) -> String {
         let x = self.mapping();
         let above = room_above(&self.marks, &x);
@@ -420,7 +366,7 @@ impl Chart for Figure {
         let mut sheet = sheet.resized(self.height()).reaching(self.right());
         sheet.drawing.style(RULES);
         let mut unlabelled = 0;
-        for (i, panel) in self.panels.iter().enumerate() {
+        for i in 0..self.panels.len() {
             match i {
                 0 => draw_marks(&self.marks, &mut sheet, &x),
                 _ => {
@@ -432,7 +378,7 @@ impl Chart for Figure {
                     }
                 }
             }
-            unlabelled += draw_panel(self, panel, &mut sheet, &x);
+            unlabelled += draw_panel(self, i, &mut sheet, &x);
         }
         let remarks = match unlabelled {
             0 => Vec::new(),
@@ -444,21 +390,16 @@ impl Chart for Figure {
     }
 
     fn json(&self) -> Value {
-        let number = |value: f64| json_number(Some(value));
-        let point = |&(x, y): &(f64, f64)| json!([number(x), number(y)]);
         let series = |panel: &Panel, series: &Series| {
-            let points: Vec<Value> = series.points.iter().map(point).collect();
+            let points = json_points(&series.points);
             let jumps: Vec<Value> = series.jumps.iter().map(|(x, a, b)| json!([x, a, b])).collect();
             json!({"name": panel.name_of(series), "points": points, "jumps": jumps})
-        };
-        let named = |key: &str, lines: &[(f64, String)]| -> Vec<Value> {
-            lines.iter().map(|(at, name)| json!({key: number(*at), "name": name})).collect()
         };
         let panel = |panel: &Panel| {
             json!({
                 "y": panel.y.json(),
                 "series": panel.series.iter().map(|own| series(panel, own)).collect::<Vec<_>>(),
-                "levels": named("y", &panel.levels),
+                "levels": json_places("y", &panel.levels),
             })
         };
         json!({
@@ -466,7 +407,7 @@ impl Chart for Figure {
             "title": self.title,
             "caption": self.caption.json(),
             "x": self.x.json(),
-            "marks": named("x", &self.marks),
+            "marks": json_places("x", &self.marks),
             "panels": self.panels.iter().map(panel).collect::<Vec<_>>(),
         })
     }

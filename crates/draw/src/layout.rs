@@ -2,7 +2,7 @@
 //! below.
 
 use super::axis::{Axis, Mapping, Tick};
-use super::drawing::{Anchor, Drawing, LARGE, MEDIUM, SMALL, WIDTH};
+use super::drawing::{Anchor, Drawing, LARGE, MEDIUM, SMALL, WIDTH, polygon};
 use super::text::{width, wrap};
 use super::{Caption, Scale};
 
@@ -27,6 +27,9 @@ const INDENT: f64 = 38.0;
 
 const MARGIN: f64 = 14.0;
 
+/// The line of a sample in a legend.
+pub(super) const SAMPLE: [(f64, f64); 2] = [(0.0, 0.0), (30.0, 0.0)];
+
 /// The entries beside the plotting area: a sample, drawn from 0 to 30 across about the height 0,
 /// and what it means.
 #[derive(Default)]
@@ -39,6 +42,14 @@ impl Legend {
         let mut sample = Drawing::default();
         draw(&mut sample);
         self.entries.push((sample, text.into()));
+    }
+
+    /// The entry of a line with markers.
+    pub fn line(&mut self, text: &str, line: usize) {
+        self.entry(text, |sample| {
+            sample.stroke("line", line, &SAMPLE);
+            sample.marker(line, (15.0, 0.0), "");
+        });
     }
 
     /// The entries of another legend after these.
@@ -197,6 +208,29 @@ impl Sheet {
         };
         self.drawing.line("tick", from, to);
         self.drawing.text("", anchor, end, label);
+    }
+
+    /// A label by its left upper corner; how many found no place, 0 or 1.
+    pub fn label(&mut self, corner: Option<(f64, f64)>, text: &str) -> usize {
+        let Some((left, top)) = corner else { return 1 };
+        let base = (left + 1.0, top + 0.85 * SMALL + 1.0);
+        self.drawing.text("label", Anchor::Start, base, text);
+        0
+    }
+
+    /// A bar of so many colours, its sides across and the heights between which each colour stands.
+    pub fn colour_bar(
+        &mut self,
+        (left, right): (f64, f64),
+        steps: u32,
+        height: impl Fn(f64) -> f64,
+        colour: impl Fn(f64) -> String,
+    ) {
+        for step in 0..steps {
+            let (low, high) = (height(f64::from(step)), height(f64::from(step + 1)));
+            let corners = [(left, low), (right, low), (right, high), (left, high)];
+            self.drawing.fill(&colour(f64::from(step) + 0.5), &polygon(&corners));
+        }
     }
 
     /// The legend, from the height `from` downwards.

@@ -36,7 +36,7 @@ mod work_precision;
 pub use axis::{Axis, Scale};
 pub use caption::Caption;
 pub use chart::Chart;
-pub use curves::{Curve, Curves, Region};
+pub use curves::{Curve, Curves};
 pub use diagram::{Cell, Diagram, Line, Part, Shape, Window};
 pub use error::{NotDrawn, PlotError};
 pub use figure::{Figure, Look, Panel, Series};

@@ -2,8 +2,8 @@
 
 use super::axis::{Mapping, on};
 use super::contour::step_lines;
-use super::drawing::{Anchor, Drawing, coordinate};
-use super::layout::{LEFT, Legend, RIGHT, Sheet, counted};
+use super::drawing::{Anchor, Drawing, coordinate, polyline};
+use super::layout::{LEFT, Legend, RIGHT, SAMPLE, Sheet, counted};
 use super::number::{power_of_ten, rounded};
 use super::palette::{DASHES, shade};
 use super::text::{csv_field, csv_number, json_number};
@@ -52,10 +52,7 @@ impl Map {
     /// A map with the places of its columns (`x`) and rows (`y`), and the errors row by row, the
     /// row of the lowest `y` first. The colour scale spans the whole powers of ten about the
     /// errors.
-    ///
-    /// # Errors
-    /// Places that do not ascend or have no place on their axis, a wrong number of cells, a
-    /// negative error, or no cell at all.
+    /// Refused are places that do not ascend or have no place on their axis, and negative errors.
     pub fn new(
         title: &str,
         x: (Axis, Vec<f64>),
@@ -94,9 +91,6 @@ impl Map {
 
     /// The same with a step line where the error crosses a level: cells below it on one side, cells
     /// at or above it on the other.
-    ///
-    /// # Errors
-    /// A level that is not above zero or not a number.
     pub fn level(mut self, level: Level) -> Result<Map, PlotError> {
         if level.value.is_nan() || level.value <= 0.0 {
             let what = format!("the level \"{}\"", level.name);
@@ -108,9 +102,6 @@ impl Map {
 
     /// The same with a colour scale from `10^low` to `10^high`, so that several maps can be
     /// compared; errors beyond take the colours of the ends.
-    ///
-    /// # Errors
-    /// A scale that is empty or reaches beyond `10^±400`.
     pub fn decades(mut self, low: i32, high: i32) -> Result<Map, PlotError> {
         if low >= high || !EXPONENTS.contains(&low) || !EXPONENTS.contains(&high) {
             return Err(PlotError::EmptyColourScale { low, high });
@@ -120,9 +111,6 @@ impl Map {
     }
 
     /// The error of a cell; `None` where it was refused.
-    ///
-    /// # Panics
-    /// If the map has no such column or row.
     pub fn cell(&self, column: usize, row: usize) -> Option<f64> {
         assert!(column < self.x.1.len(), "no column {column}");
         self.cells[row * self.x.1.len() + column]
@@ -194,7 +182,7 @@ fn edges(axis: &Axis, places: &[f64]) -> Vec<f64> {
 
 /// A sample of the line of a level: dark on a light casing, so that it shows on every colour.
 fn level_line(drawing: &mut Drawing, level: usize, points: &[(f64, f64)]) {
-    let path = super::drawing::polyline(points);
+    let path = polyline(points);
     drawing.path("casing", &path);
     drawing.path(&format!("level d{}", level % DASHES.len()), &path);
 }
@@ -205,14 +193,8 @@ fn colour_bar(map: &Map, sheet: &mut Sheet) -> f64 {
     const STEPS: u32 = 64;
     let (left, right, top) = (RIGHT + 22.0, RIGHT + 42.0, sheet.top + 20.0);
     sheet.drawing.text("", Anchor::Start, (left, sheet.top + 8.0), "error");
-    for step in 0..STEPS {
-        let (low, high) = (f64::from(step), f64::from(step + 1));
-        let place = |step: f64| top + HEIGHT * (1.0 - step / f64::from(STEPS));
-        let corners =
-            [(left, place(low)), (right, place(low)), (right, place(high)), (left, place(high))];
-        let colour = shade((low + 0.5) / f64::from(STEPS));
-        sheet.drawing.fill(&colour, &format!("{}z", super::drawing::polyline(&corners)));
-    }
+    let place = |step: f64| top + HEIGHT * (1.0 - step / f64::from(STEPS));
+    sheet.colour_bar((left, right), STEPS, place, |step| shade(step / f64::from(STEPS)));
     sheet.drawing.rectangle("frame", (left, top), (right, top + HEIGHT));
     let every = (1..).find(|every| {
         HEIGHT * f64::from(*every) >= 20.0 * f64::from(map.decades.1 - map.decades.0)
@@ -247,10 +229,6 @@ fn colour_bar(map: &Map, sheet: &mut Sheet) -> f64 {
 impl Chart for Map {
     fn title(&self) -> &str {
         &self.title
-    }
-
-    fn caption(&self) -> &Caption {
-        &self.caption
     }
 
     fn svg_named(&self, name: &str) -> String {
@@ -303,7 +281,7 @@ impl Chart for Map {
         let mut legend = Legend::default();
         for (i, level) in self.levels.iter().enumerate() {
             let text = format!("{}: {} or more", level.name, rounded(level.value));
-            legend.entry(text, |sample| level_line(sample, i, &[(0.0, 0.0), (30.0, 0.0)]));
+            legend.entry(text, |sample| level_line(sample, i, &SAMPLE));
         }
         let unknown = self.count(|cell| cell.is_some_and(|error| !error.is_finite()));
         let texts = [

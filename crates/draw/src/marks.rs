@@ -1,7 +1,7 @@
 //! Marked places: vertical lines with labels above the plotting area, horizontal ones with labels in it.
 
 use super::axis::Mapping;
-use super::drawing::{Anchor, SMALL, WIDTH};
+use super::drawing::{Anchor, WIDTH};
 use super::layout::{LEFT, Sheet, label_size};
 use super::placement::Placement;
 
@@ -61,18 +61,12 @@ pub(super) fn draw_levels(
     for (level, name) in levels {
         let y = y.position(*level);
         sheet.drawing.line("rule", (LEFT, y), (sheet.right, y));
-        let (wide, high) = label_size(name);
+        let size @ (wide, high) = label_size(name);
         let room = sheet.right - LEFT - 16.0 - wide;
         let along = (0..=12).map(|step| sheet.right - 8.0 - wide - room * f64::from(step) / 12.0);
         let tries: Vec<(f64, f64)> =
             along.flat_map(|x| [(x, y - 3.0 - high), (x, y + 3.0)]).collect();
-        match placement.first_free(&tries, wide, high) {
-            Some((x, top)) => {
-                let base = (x + 1.0, top + 0.85 * SMALL + 1.0);
-                sheet.drawing.text("label", Anchor::Start, base, name);
-            }
-            None => unlabelled += 1,
-        }
+        unlabelled += sheet.label(placement.first_free(&tries, size), name);
     }
     unlabelled
 }

@@ -76,13 +76,6 @@ pub struct Row {
     pub speed_up: Option<f64>,
 }
 
-impl Row {
-    /// Points in a second, `1/seconds`.
-    pub fn points_a_second(&self) -> f64 {
-        1.0 / self.seconds
-    }
-}
-
 /// The table of a page: rows in an order of the caller's choice.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Table {
@@ -129,7 +122,7 @@ fn table_markup(table: &Table) -> String {
             escape(&row.method),
             escape(&row.setting)
         );
-        let numbers = [Some(row.error), row.bound, Some(row.seconds), Some(row.points_a_second())];
+        let numbers = [Some(row.error), row.bound, Some(row.seconds), Some(1.0 / row.seconds)];
         numbers.into_iter().for_each(|number| markup.push_str(&cell(number)));
         let speed_up =
             row.speed_up.map_or_else(|| "–".to_owned(), |ratio| format!("{}×", ratio_text(ratio)));

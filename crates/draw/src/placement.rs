@@ -3,7 +3,10 @@
 /// A rectangle by its corners: left and top, right and bottom.
 pub(super) type Corners = [(f64, f64); 2];
 
-/// What is taken in a picture, and what had better not be covered.
+/// The size of a label: how wide and how high.
+type Size = (f64, f64);
+
+/// Areas of a picture that are occupied, and lines that labels should stay off.
 ///
 /// # Invariants
 /// No two labels placed overlap, and none overlaps a marker or leaves the area.
@@ -31,35 +34,30 @@ impl Placement {
 
     /// The left upper corner for a label of this size beside a point, and takes its place; `None`
     /// where all is full. Cost: O(places · (labels + segments)), with 24 places tried.
-    pub fn beside(&mut self, at: (f64, f64), wide: f64, high: f64) -> Option<(f64, f64)> {
-        self.first_free(&around(at, wide, high, &[7.0, 10.0, 15.0]), wide, high)
+    pub fn beside(&mut self, at: (f64, f64), size: Size) -> Option<(f64, f64)> {
+        self.first_free(&around(at, size, &[7.0, 10.0, 15.0]), size)
     }
 
     /// The same where no line is crossed, a little further away if need be; `None` where a label would
     /// lie on a line everywhere.
-    pub fn clear_beside(&mut self, at: (f64, f64), wide: f64, high: f64) -> Option<(f64, f64)> {
-        let places = around(at, wide, high, &[7.0, 10.0, 15.0, 20.0]);
+    pub fn clear_beside(&mut self, at: (f64, f64), size: Size) -> Option<(f64, f64)> {
+        let places = around(at, size, &[7.0, 10.0, 15.0, 20.0]);
         let clear = |place: &&(f64, f64)| {
-            let label = corners(**place, wide, high);
+            let label = corners(**place, size);
             self.is_free(label) && self.crossings(label) == 0
         };
         let place = *places.iter().find(clear)?;
-        self.taken.push(corners(place, wide, high));
+        self.taken.push(corners(place, size));
         Some(place)
     }
 
     /// The first of the places that is free and crosses the fewest lines, and takes it.
-    pub fn first_free(
-        &mut self,
-        places: &[(f64, f64)],
-        wide: f64,
-        high: f64,
-    ) -> Option<(f64, f64)> {
-        let free = |place: &&(f64, f64)| self.is_free(corners(**place, wide, high));
-        let crossings = |place: &&(f64, f64)| self.crossings(corners(**place, wide, high));
+    pub fn first_free(&mut self, places: &[(f64, f64)], size: Size) -> Option<(f64, f64)> {
+        let free = |place: &&(f64, f64)| self.is_free(corners(**place, size));
+        let crossings = |place: &&(f64, f64)| self.crossings(corners(**place, size));
         // The first of equals is taken: `min_by_key` keeps it.
         let place = *places.iter().filter(free).min_by_key(crossings)?;
-        self.taken.push(corners(place, wide, high));
+        self.taken.push(corners(place, size));
         Some(place)
     }
 
@@ -73,12 +71,12 @@ impl Placement {
     }
 }
 
-fn corners((left, top): (f64, f64), wide: f64, high: f64) -> Corners {
+fn corners((left, top): (f64, f64), (wide, high): Size) -> Corners {
     [(left, top), (left + wide, top + high)]
 }
 
 /// Left upper corners of labels about a point, the nearest first: eight for each gap.
-fn around((x, y): (f64, f64), wide: f64, high: f64, gaps: &[f64]) -> Vec<(f64, f64)> {
+fn around((x, y): (f64, f64), (wide, high): Size, gaps: &[f64]) -> Vec<(f64, f64)> {
     let mut places = Vec::new();
     for gap in gaps {
         let slant = 0.6 * gap;
@@ -107,24 +105,29 @@ fn overlap(a: Corners, b: Corners) -> bool {
     a[0].0 < b[1].0 && b[0].0 < a[1].0 && a[0].1 < b[1].1 && b[0].1 < a[1].1
 }
 
-/// Whether a segment meets a rectangle: the part of it inside both pairs of sides is not empty.
-fn crosses([from, to]: [(f64, f64); 2], label: Corners) -> bool {
+/// Whether a segment meets a rectangle.
+fn crosses(segment: [(f64, f64); 2], [(left, top), (right, bottom)]: Corners) -> bool {
+    part_inside(segment, [(left, right), (top, bottom)]).is_some()
+}
+
+/// The part of a segment between two sides across and two up, from and to which share of its length; `None`
+/// where it is empty.
+pub(super) fn part_inside(
+    [from, to]: [(f64, f64); 2],
+    [across, up]: [(f64, f64); 2],
+) -> Option<(f64, f64)> {
     let (mut start, mut end) = (0.0f64, 1.0f64);
-    for (from, to, low, high) in
-        [(from.0, to.0, label[0].0, label[1].0), (from.1, to.1, label[0].1, label[1].1)]
-    {
-        let along = to - from;
-        if along == 0.0 {
+    for ((from, to), (low, high)) in [((from.0, to.0), across), ((from.1, to.1), up)] {
+        if from == to {
             if from < low || from > high {
-                return false;
+                return None;
             }
             continue;
         }
-        let (a, b) = ((low - from) / along, (high - from) / along);
-        start = start.max(a.min(b));
-        end = end.min(a.max(b));
+        let (a, b) = ((low - from) / (to - from), (high - from) / (to - from));
+        (start, end) = (start.max(a.min(b)), end.min(a.max(b)));
     }
-    start <= end
+    (start <= end).then_some((start, end))
 }
 
 #[cfg(test)]
@@ -139,7 +142,7 @@ mod tests {
         let (mut placed, mut refused) = (Vec::new(), 0);
         for i in 0..40 {
             let point = (f64::from(i * 37 % 200), f64::from(i * 53 % 120));
-            match placement.beside(point, 40.0, 12.0) {
+            match placement.beside(point, (40.0, 12.0)) {
                 Some((x, y)) => placed.push([(x, y), (x + 40.0, y + 12.0)]),
                 None => refused += 1,
             }
@@ -161,12 +164,12 @@ mod tests {
         assert!(!crosses([(0.0, 12.0), (8.0, 40.0)], label));
         let mut placement = Placement::within([(0.0, 0.0), (200.0, 100.0)]);
         placement.avoid(&[(50.0, 50.0), (200.0, 50.0)]);
-        let (x, _) = placement.beside((50.0, 50.0), 20.0, 10.0).expect("room");
+        let (x, _) = placement.beside((50.0, 50.0), (20.0, 10.0)).expect("room");
         assert!(x < 50.0);
         // Between close lines a label is left out rather than laid on them.
         let lines = (0..20).map(|i| 5.0 * f64::from(i));
         lines.for_each(|y| placement.avoid(&[(0.0, y), (200.0, y)]));
-        assert_eq!(placement.clear_beside((120.0, 50.0), 20.0, 10.0), None);
-        assert!(placement.beside((120.0, 50.0), 20.0, 10.0).is_some());
+        assert_eq!(placement.clear_beside((120.0, 50.0), (20.0, 10.0)), None);
+        assert!(placement.beside((120.0, 50.0), (20.0, 10.0)).is_some());
     }
 }

@@ -11,12 +11,6 @@ const MAX_WIDTH: u32 = 10_000;
 ///
 /// Texts are set in DejaVu Sans, which is part of the program; no font of the machine is looked at.
 /// Colours are those for light paper.
-///
-/// # Errors
-/// [`PlotError::NotDrawn`] for what is no SVG, and for a width of 0 or above 10 000.
-///
-/// # Cost
-/// Linear in the number of pixels and shapes.
 pub fn png(svg: &str, width: u32) -> Result<Vec<u8>, PlotError> {
     if width == 0 || width > MAX_WIDTH {
         return Err(PlotError::NotDrawn(NotDrawn::Width { width, limit: MAX_WIDTH }));

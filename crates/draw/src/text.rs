@@ -1,7 +1,7 @@
 //! Text in pictures: escaped for markup, measured, and broken into lines; and the fields of data
 //! files.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Text with the characters of markup replaced by their entities.
 ///
@@ -102,6 +102,17 @@ pub(super) fn json_number(value: Option<f64>) -> Value {
         Some(value) if value.is_infinite() => if value > 0.0 { "inf" } else { "-inf" }.into(),
         Some(value) => value.into(),
     }
+}
+
+/// Points as pairs of numbers in JSON.
+pub(super) fn json_points(points: &[(f64, f64)]) -> Value {
+    let number = |value: f64| json_number(Some(value));
+    points.iter().map(|&(x, y)| json!([number(x), number(y)])).collect()
+}
+
+/// Places with names in JSON; `key` says along which axis they are.
+pub(super) fn json_places(key: &str, places: &[(f64, String)]) -> Value {
+    places.iter().map(|(at, name)| json!({key: json_number(Some(*at)), "name": name})).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Accuracy against speed: one line a method, one marker a setting.
 
 use super::axis::Mapping;
-use super::drawing::{Anchor, Drawing, SMALL};
+use super::drawing::{Drawing, coloured, polyline};
 use super::layout::{GUTTER, LEFT, Legend, RIGHT, Sheet, counted, fitted, label_size};
 use super::number::rounded;
 use super::placement::Placement;
@@ -53,9 +53,7 @@ pub struct WorkPrecision {
 
 impl WorkPrecision {
     /// A diagram of these methods.
-    ///
-    /// # Errors
-    /// A negative error or bound, a time that is not above zero, or nothing finite to draw.
+    /// Refused are negative errors and bounds, and times that are not above zero.
     pub fn new(title: &str, methods: Vec<Method>, caption: Caption) -> Result<Self, PlotError> {
         for (method, point) in pairs(&methods) {
             let what = |part: &str| format!("the {part} of {} ({})", method.name, point.setting);
@@ -79,9 +77,6 @@ impl WorkPrecision {
 
     /// The same with the error of the reference itself, as a share of the largest value: left of it
     /// no error is resolved, and the picture says so.
-    ///
-    /// # Errors
-    /// A radius that is not above zero, or not finite.
     pub fn reference_radius(mut self, radius: f64) -> Result<Self, PlotError> {
         if !(radius > 0.0 && radius.is_finite()) {
             let what = "the radius of the reference".to_owned();
@@ -222,43 +217,32 @@ impl Places {
     }
 }
 
-fn arrow_left(drawing: &mut Drawing, line: usize, (x, y): (f64, f64)) {
-    let mut arrow = Drawing::default();
-    let colour = line % super::palette::COLOURS.len();
-    arrow.path(&format!("arrow c{colour}"), "M-6 0H-14M-10.5 -3.5L-14 0L-10.5 3.5");
-    drawing.moved((x, y), &arrow);
-}
+/// An arrow from a marker to the left.
+const LEFTWARDS: &str = "M-6 0H-14M-10.5 -3.5L-14 0L-10.5 3.5";
 
 /// The line of a method's points that are finite, in pixels.
 fn trace(places: &Places, method: &Method) -> Vec<(f64, f64)> {
     method.points.iter().filter(|point| finite(point)).map(|point| places.of(point)).collect()
 }
 
-/// Half the width of a ring.
+/// Half the width of a ring, and its outline.
 const RING: f64 = 3.5;
+const RING_OUTLINE: &str = "M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0 -7 0z";
 
 /// How preparations look: fainter than what is measured without them.
 const PREPARED_STYLE: &str = "\
 .plot .prepared{fill:none;stroke:currentColor;stroke-width:1;stroke-dasharray:1.5 2.5;opacity:.55}\
 .plot .ring{fill:none;stroke:currentColor;stroke-width:1.2;opacity:.7}";
 
-fn ring(drawing: &mut Drawing, line: usize, at: (f64, f64)) {
-    let mut ring = Drawing::default();
-    let class = format!("ring c{}", line % super::palette::COLOURS.len());
-    ring.path(&class, "M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0 -7 0z");
-    drawing.moved(at, &ring);
-}
-
 /// The way from the time of a point to its time with preparation.
 fn draw_prepared(drawing: &mut Drawing, line: usize, point: &Point, places: &Places) {
     let Some(prepared) = prepared(point) else { return };
     let (x, y) = places.of(point);
     let top = places.y.position(prepared);
-    let class = format!("prepared c{}", line % super::palette::COLOURS.len());
     if y - top > RING {
-        drawing.line(&class, (x, y), (x, top + RING));
+        drawing.line(&coloured("prepared", line), (x, y), (x, top + RING));
     }
-    ring(drawing, line, (x, top));
+    drawing.sign("ring", line, (x, top), RING_OUTLINE);
 }
 
 fn draw_region(sheet: &mut Sheet, places: &Places, radius: Option<f64>, legend: &mut Legend) {
@@ -311,14 +295,8 @@ fn draw_labels(chart: &WorkPrecision, sheet: &mut Sheet, places: &Places) -> usi
     let mut unlabelled = 0;
     let labelled = ends.into_iter().chain(between).filter(|point| !point.setting.is_empty());
     for point in labelled {
-        let (wide, high) = label_size(&point.setting);
-        match placement.clear_beside(places.of(point), wide, high) {
-            Some((x, y)) => {
-                let base = (x + 1.0, y + 0.85 * SMALL + 1.0);
-                sheet.drawing.text("label", Anchor::Start, base, &point.setting);
-            }
-            None => unlabelled += 1,
-        }
+        let corner = placement.clear_beside(places.of(point), label_size(&point.setting));
+        unlabelled += sheet.label(corner, &point.setting);
     }
     unlabelled
 }
@@ -328,34 +306,27 @@ impl Chart for WorkPrecision {
         &self.title
     }
 
-    fn caption(&self) -> &Caption {
-        &self.caption
-    }
-
     fn svg_named(&self, name: &str) -> String {
         let mut sheet = Sheet::open(name, &self.title, 0.0);
         let places = Places::new(self, &sheet);
         let mut legend = Legend::default();
         for (i, method) in self.methods.iter().enumerate() {
-            legend.entry(method.name.clone(), |sample| {
-                sample.stroke(i, &[(0.0, 0.0), (30.0, 0.0)]);
-                sample.marker(i, (15.0, 0.0), "");
-            });
+            legend.line(&method.name, i);
         }
         let mut notes = Legend::default();
         draw_region(&mut sheet, &places, self.radius, &mut notes);
         sheet.grid(&places.x, &places.y);
         let steps = places.steps(&self.frontier(), sheet.top);
-        sheet.drawing.path("frontier", &super::drawing::polyline(&steps));
+        sheet.drawing.path("frontier", &polyline(&steps));
         for (i, method) in self.methods.iter().enumerate() {
-            sheet.drawing.stroke(i, &trace(&places, method));
+            sheet.drawing.stroke("line", i, &trace(&places, method));
         }
         for (i, method) in self.methods.iter().enumerate() {
             let finite = method.points.iter().filter(|point| finite(point));
             finite.for_each(|point| draw_prepared(&mut sheet.drawing, i, point, &places));
         }
         for (i, method) in self.methods.iter().enumerate() {
-            let class = format!("bound c{}", i % super::palette::COLOURS.len());
+            let class = coloured("bound", i);
             for point in method.points.iter().filter(|point| finite(point)) {
                 let (x, y) = places.of(point);
                 if let Some(bound) = bound(point).filter(|bound| *bound != point.error) {
@@ -364,7 +335,7 @@ impl Chart for WorkPrecision {
                     sheet.drawing.line(&class, (end, y - 4.5), (end, y + 4.5));
                 }
                 if point.error == 0.0 {
-                    arrow_left(&mut sheet.drawing, i, (x, y));
+                    sheet.drawing.sign("arrow", i, (x, y), LEFTWARDS);
                 }
                 sheet.drawing.marker(i, (x, y), &about(method, point));
             }
@@ -374,7 +345,7 @@ impl Chart for WorkPrecision {
             sheet.drawing.style(PREPARED_STYLE);
             legend.entry("up to the time with preparation, spread over the points", |sample| {
                 sample.line("prepared c3", (15.0, 8.0), (15.0, -4.0));
-                ring(sample, 3, (15.0, -8.0));
+                sample.sign("ring", 3, (15.0, -8.0), RING_OUTLINE);
                 sample.marker(3, (15.0, 8.0), "");
             });
         }
@@ -392,7 +363,7 @@ impl Chart for WorkPrecision {
         if places.zero {
             sheet.zero(true);
             legend.entry("exactly zero", |sample| {
-                arrow_left(sample, 3, (18.0, 0.0));
+                sample.sign("arrow", 3, (18.0, 0.0), LEFTWARDS);
                 sample.marker(3, (18.0, 0.0), "");
             });
         }

@@ -8,3 +8,10 @@ pub mod figures;
 pub mod hertz;
 pub mod picture;
 pub mod study;
+
+use wavestep_polynomial::Rational;
+
+/// A fraction of whole numbers.
+fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}

@@ -5,8 +5,7 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 use wavestep_draw::{
     Axis, Caption, Cell, Chart, Curve, Curves, Diagram, Figure, Level, Listing, Map, Method, Panel,
-    Part, PlotError, Point, Region, Row, Section, Series, Shape, Table, WorkPrecision, frontier,
-    page,
+    Part, PlotError, Point, Row, Section, Series, Shape, Table, WorkPrecision, frontier, page,
 };
 
 /// The plotting area from side to side, and the room for zeros in it.
@@ -85,13 +84,7 @@ fn curves() -> Curves {
     ];
     let (x, y) = (Axis::linear("time").unit("s"), Axis::logarithmic("error"));
     let chart = Curves::new("Error against time", x, y, curves, caption()).expect("finite data");
-    let region = Region { x: (Some(30.0), None), y: (None, None), name: "extrapolated".into() };
-    chart
-        .level(1e-2, "useful no longer")
-        .and_then(|chart| chart.mark(10.0, "first arrival"))
-        .and_then(|chart| chart.mark(12.0, "second arrival"))
-        .and_then(|chart| chart.region(region))
-        .expect("places on the axes")
+    chart.level(1e-2, "useful no longer").expect("a place on the axis")
 }
 
 fn table() -> Table {
@@ -278,7 +271,7 @@ fn pictures_are_well_formed_and_say_what_they_are() {
         assert!(text("desc").len() > 40);
         let coordinates = elements.iter().flat_map(|element| element.attribute("d"));
         assert!(!coordinates.into_iter().any(|path| path.contains("NaN") || path.contains("inf")));
-        for sentence in chart.caption().sentences() {
+        for sentence in caption().sentences() {
             assert!(small_print(&svg).contains(&sentence), "{sentence}");
         }
         for size in svg.split("font-size:").skip(1) {
@@ -313,14 +306,12 @@ fn texts_do_not_overlap_and_stay_inside() {
     assert!(compared > 1000, "{compared}");
 }
 
-/// A figure of two panels with notes, and a diagram with many names below.
+/// A figure of two panels with many levels, and a diagram with many names below.
 fn pictures() -> Vec<Box<dyn Chart>> {
     let line = |name: &str| Series::new(name, (0..50).map(|i| (f64::from(i), 1.0)).collect());
     let panel = |name: &str| {
         let panel = Panel::new(Axis::linear(name), vec![line("one"), line("two")]);
-        (1..9).fold(panel.level(1.02, "limit"), |panel, i| {
-            panel.note((5.0 * f64::from(i), 1.0), "note")
-        })
+        (1..9).fold(panel, |panel, i| panel.level(1.0 + 0.1 * f64::from(i), "limit"))
     };
     let panels = vec![panel("velocity"), panel("force")];
     let figure = Figure::new("Figure", Axis::linear("time"), panels, caption()).unwrap();
@@ -544,7 +535,7 @@ fn colours_beyond_the_scale_are_said_to_be_beyond() {
 }
 
 #[test]
-fn curves_have_gaps_levels_and_a_region() {
+fn curves_have_gaps_and_levels() {
     let svg = curves().svg();
     let elements = elements(&svg);
     // The second curve has one point on either side of its gap: no stroke, but two markers.
@@ -553,11 +544,6 @@ fn curves_have_gaps_levels_and_a_region() {
     };
     assert_eq!(["line c0 d0", "line c1 d1", "line c2 d2"].map(strokes), [1, 0, 1]);
     assert!(small_print(&svg).contains("1 point is not finite and left out."));
-    let region = elements.iter().find(|e| e.name == "rect" && e.class() == "region").unwrap();
-    assert!((region.number("x") + region.number("width") - RIGHT).abs() < 0.02);
-    let (thirty, forty) = (region.number("x"), marker(&elements, "expanded form: 1 at 40").0);
-    let twenty = marker(&elements, "expanded form: 10⁻⁸ at 20").0;
-    assert!((thirty - f64::midpoint(twenty, forty)).abs() < 0.02);
     let level = corners(paths(&elements, "rule")[0]);
     assert_eq!((level[0].0, level[1].0), (LEFT, RIGHT));
     let (high, low) =
@@ -631,9 +617,7 @@ fn odd_curves_are_drawn_or_refused() {
     assert!(matches!(refusal(&logarithmic, &[(0.0, 1.0)]), PlotError::NotPositive { .. }));
     assert!(matches!(refusal(&linear, &[(2e300, 1.0)]), PlotError::TooLarge { .. }));
     assert!(matches!(refusal(&linear, &[]), PlotError::Empty { .. }));
-    assert!(curves().level(0.0, "").is_err() && curves().mark(f64::NAN, "").is_err());
-    let reversed = Region { x: (Some(2.0), Some(1.0)), y: (None, None), name: String::new() };
-    assert!(matches!(curves().region(reversed), Err(PlotError::NotAscending { .. })));
+    assert!(curves().level(0.0, "").is_err() && curves().level(f64::NAN, "").is_err());
 }
 
 #[test]
@@ -682,8 +666,7 @@ fn texts_are_escaped_everywhere() {
     let map = map.level(Level { value: 0.1, name: bad() }).unwrap();
     let curve = Curve { name: bad(), points: vec![(1.0, 1.0)] };
     let curves = Curves::new(BAD, axis().0, axis().0, vec![curve], caption).unwrap();
-    let region = Region { x: (None, None), y: (None, None), name: bad() };
-    let curves = curves.level(1.0, BAD).unwrap().mark(1.0, BAD).unwrap().region(region).unwrap();
+    let curves = curves.level(1.0, BAD).unwrap();
     let charts: [&dyn Chart; 3] = [&work, &map, &curves];
     let listing = Listing { caption: bad(), heads: vec![bad()], rows: vec![vec![bad()]] };
     let section =
@@ -717,7 +700,7 @@ fn json_survives_being_written_and_read() {
         assert_eq!(value["title"], chart.title());
         assert_eq!(value["caption"]["versions"]["wavestep"], "0.1.0");
         assert_eq!(value["caption"]["seed"], 7);
-        assert_eq!(value["caption"]["command"], chart.caption().command.as_str());
+        assert_eq!(value["caption"]["command"], caption().command.as_str());
     }
     let work = work_precision().json();
     let point = &work["methods"][1]["points"][1];
@@ -727,7 +710,6 @@ fn json_survives_being_written_and_read() {
     assert_eq!(map().json()["rows"].to_string(), r#"[[1e-12,1e-9,null],[1e-6,1.0,"inf"]]"#);
     assert_eq!(map().json()["y"]["scale"], "logarithmic");
     assert_eq!(curves().json()["curves"][1]["points"][1][1], "not a number");
-    assert_eq!(curves().json()["region"]["x"].to_string(), "[30.0,null]");
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Numbered equations as data: what is read, how surely, and what it is about.
 
 use crate::book::refusal::Refusal;
-use crate::book::stage::Stage;
 use std::fmt;
 use wavestep::language::syntax::Expression as Tree;
 use wavestep::language::{Source, normalise_name, parse_expression};
@@ -19,10 +18,14 @@ pub enum Relation {
 /// An equation of the source, as trees of the language.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Equation {
-    left: Tree,
-    right: Tree,
-    relation: Relation,
-    condition: Option<(String, Tree)>,
+    /// The left side.
+    pub left: Tree,
+    /// The right side.
+    pub right: Tree,
+    /// How they are related.
+    pub relation: Relation,
+    /// The symbol that has a value, where the equation holds only then.
+    pub condition: Option<(String, Tree)>,
 }
 
 fn tree(text: &str) -> Result<Tree, Refusal> {
@@ -37,9 +40,6 @@ fn split<'a>(text: &'a str, mark: &str) -> Result<(&'a str, &'a str), Refusal> {
 
 impl Equation {
     /// Reads `left = right`, `left = right when name = value`, or `form starts at value`.
-    ///
-    /// # Errors
-    /// [`Refusal::Text`] where the language cannot read a part of it, [`Refusal::NoMark`] without `=`.
     pub fn read(text: &str) -> Result<Equation, Refusal> {
         if let Ok((form, start)) = split(text, " starts at ") {
             let (left, right) = (tree(form)?, tree(start)?);
@@ -55,36 +55,6 @@ impl Equation {
         let (left, right) = split(text, "=")?;
         let (left, right) = (tree(left)?, tree(right)?);
         Ok(Equation { left, right, relation: Relation::Equals, condition })
-    }
-
-    /// The left side.
-    #[must_use]
-    pub fn left(&self) -> &Tree {
-        &self.left
-    }
-
-    /// The right side.
-    #[must_use]
-    pub fn right(&self) -> &Tree {
-        &self.right
-    }
-
-    /// How they are related.
-    #[must_use]
-    pub fn relation(&self) -> Relation {
-        self.relation
-    }
-
-    /// The symbol that has a value, where the equation holds only then.
-    #[must_use]
-    pub fn condition(&self) -> Option<(&str, &Tree)> {
-        self.condition.as_ref().map(|(name, value)| (name.as_str(), value))
-    }
-
-    /// The same equation with another right side.
-    #[must_use]
-    pub fn with_right(&self, right: Tree) -> Equation {
-        Equation { right, ..self.clone() }
     }
 }
 
@@ -110,7 +80,7 @@ pub enum Content {
     Readings(Vec<Equation>),
     /// Names that are introduced, where the language has a formula for them.
     Definition(Vec<Equation>),
-    /// What has a check of its own, by its name in [`checks`](crate::book::CHECKS).
+    /// What has a check of its own, by its name.
     Check(String),
 }
 
@@ -151,47 +121,27 @@ pub struct Section {
     pub title: String,
     /// Its equations, in the order of the source.
     pub entries: Vec<Entry>,
-    setting: Setting,
+    pub(super) setting: Setting,
 }
 
 impl Section {
-    /// The scene of the section, derived from its parts; `None` where it has none.
-    ///
-    /// # Panics
-    /// Where the section names what is not there; a test opens all of them.
-    #[must_use]
-    pub fn stage(&self) -> Option<Stage> {
-        if self.setting.scene.is_empty() {
-            return None;
-        }
-        let stage = Stage::new(&self.setting);
-        Some(stage.unwrap_or_else(|error| panic!("section {}: {error}", self.number)))
-    }
-
     /// The name of the scene, where there is one.
-    #[must_use]
     pub fn scene(&self) -> Option<&str> {
         Some(self.setting.scene.as_str()).filter(|scene| !scene.is_empty())
     }
 
     /// How the source's names are tied to the scene, as lines of text.
-    #[must_use]
     pub fn dictionary(&self) -> Vec<String> {
-        let quantities = self.setting.quantities.iter();
-        let quantities = quantities.map(|(name, tree, _)| format!("{name} = {tree}"));
-        let definitions = self.setting.definitions.iter();
-        quantities.chain(definitions.map(|(name, tree)| format!("{name} = {tree}"))).collect()
+        let quantities = self.setting.quantities.iter().map(|(name, tree, _)| (name, tree));
+        let definitions = self.setting.definitions.iter().map(|(name, tree)| (name, tree));
+        quantities.chain(definitions).map(|(name, tree)| format!("{name} = {tree}")).collect()
     }
 
     /// The lines of the [`dictionary`](Section::dictionary) that an equation makes use of, itself or by
     /// other lines.
-    #[must_use]
     pub fn dictionary_of(&self, equations: &[Equation]) -> Vec<String> {
-        let mut words: Vec<String> = Vec::new();
-        for equation in equations {
-            words.extend(names(&equation.left().to_string()));
-            words.extend(names(&equation.right().to_string()));
-        }
+        let sides = equations.iter().flat_map(|equation| [&equation.left, &equation.right]);
+        let mut words: Vec<String> = sides.flat_map(|side| names(&side.to_string())).collect();
         let definitions = &self.setting.definitions;
         for (name, tree) in definitions.iter().rev().chain(definitions) {
             if words.contains(name) {
@@ -202,10 +152,7 @@ impl Section {
         self.dictionary().into_iter().filter(used).collect()
     }
 
-    /// Reads a section.
-    ///
-    /// # Errors
-    /// The first line that is not of the form of `sections/`.
+    /// Reads a section; the first line that is not of the form of `sections/` is refused.
     pub(super) fn read(text: &str) -> Result<Section, Refusal> {
         let mut section = Section {
             number: String::new(),

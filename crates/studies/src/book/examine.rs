@@ -26,16 +26,7 @@ pub struct Examination {
 }
 
 /// Examines the equation of this number.
-///
-/// # Errors
-/// [`UnknownNumber`] where there is none.
-///
-/// # Panics
-/// Where an equation of the book cannot be understood; a test examines all of them.
-///
-/// # Cost
-/// The first five periods of the scene of its section; for estimates a search of all extrema for each
-/// of the masses at which they are measured.
+/// Derives the first five periods of the scene; estimates take a search of all extrema for each mass.
 pub fn examine(number: &str) -> Result<Examination, UnknownNumber> {
     let (section, entry) = find(number)?;
     let stage = match entry.content {
@@ -46,13 +37,6 @@ pub fn examine(number: &str) -> Result<Examination, UnknownNumber> {
 }
 
 /// Examines every equation, in the order of the source.
-///
-/// # Panics
-/// As [`examine`].
-///
-/// # Cost
-/// As [`examine`], for each; scenes are derived once a section.
-#[must_use]
 pub fn examine_all() -> Vec<Examination> {
     let mut all = Vec::new();
     for section in sections() {
@@ -109,7 +93,7 @@ fn claim(stage: Option<&Stage>, equations: &[Equation]) -> Found {
             steps.push(format!("{equation}:"));
         }
         if let Some(difference) = stage.difference(equation) {
-            let what = match equation.relation() {
+            let what = match equation.relation {
                 Relation::Equals => "left minus right, in the waves of the scene",
                 Relation::Starts => "in the waves of the scene",
             };
@@ -163,7 +147,7 @@ fn derived_for(
     finding: &Finding,
 ) -> Result<Vec<Formula>, Refusal> {
     let mut waves = Vec::new();
-    waves_of(equation.left(), &mut waves);
+    waves_of(&equation.left, &mut waves);
     let fixed = waves.iter().all(|(_, n)| n.is_some());
     if waves.is_empty() {
         return named(stage, equation);
@@ -215,12 +199,12 @@ fn waves_of(tree: &Tree, waves: &mut Vec<(String, Option<usize>)>) {
 
 /// A name that the section defines by waves, such as a constant of integration.
 fn named(stage: &Stage, equation: &Equation) -> Result<Vec<Formula>, Refusal> {
-    let Node::Name(name) = &equation.left().value else { return Ok(Vec::new()) };
+    let Node::Name(name) = &equation.left.value else { return Ok(Vec::new()) };
     if stage.definition(name).is_none() {
         return Ok(Vec::new());
     }
     let head = Head::Written(name.clone(), latex_name(name, None));
-    Ok(vec![Formula::new(head, &stage.expression(equation.left())?, stage.local())])
+    Ok(vec![Formula::new(head, &stage.expression(&equation.left)?, stage.local())])
 }
 
 /// The unit that the source's notation gives a wave.

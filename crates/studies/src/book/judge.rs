@@ -1,10 +1,10 @@
 //! An equation of the source held against what is derived.
 
 use crate::book::entry::{Equation, Relation};
-use crate::book::meaning::{AHEAD, Meaning, inverse};
+use crate::book::meaning::{Meaning, inverse};
 use crate::book::refusal::Refusal;
 use crate::book::sequence::{Sequence, period_number};
-use crate::book::stage::Stage;
+use crate::book::stage::{AHEAD, Stage};
 use crate::book::verdict::{Finding, Ground, Witness};
 use wavestep::ball::Ball;
 use wavestep::enclosure::enclose_expression;
@@ -25,15 +25,9 @@ const ATTEMPTS: usize = 8;
 
 impl Stage {
     /// Holds an equation against the scene.
-    ///
-    /// # Errors
-    /// [`Refusal`] where the equation cannot be understood, or a witness cannot be computed.
-    ///
-    /// # Cost
-    /// The first pieces of all waves, once for a stage.
     pub fn judge(&self, equation: &Equation) -> Result<Finding, Refusal> {
         let [left, right] = self.sides(equation)?;
-        if equation.relation() == Relation::Starts {
+        if equation.relation == Relation::Starts {
             return self.start(&left, &right);
         }
         let difference = left.minus(&right);
@@ -53,7 +47,7 @@ impl Stage {
     /// or waves that the scene writes otherwise.
     pub(super) fn difference(&self, equation: &Equation) -> Option<String> {
         let [left, right] = self.sides(equation).ok()?;
-        let difference = match equation.relation() {
+        let difference = match equation.relation {
             Relation::Equals => left.minus(&right),
             Relation::Starts => left,
         };
@@ -85,7 +79,7 @@ impl Stage {
         mut left: Expression,
         mut right: Expression,
     ) -> Result<Finding, Refusal> {
-        if let Some((name, value)) = equation.condition() {
+        if let Some((name, value)) = &equation.condition {
             let symbol = Symbol::new(name).ok_or_else(|| Refusal::UnknownName(name.to_owned()))?;
             let value = self.expression(value)?.as_fraction().ok_or(Refusal::NotInvertible)?;
             for side in [&mut left, &mut right] {

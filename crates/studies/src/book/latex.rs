@@ -8,12 +8,12 @@ use wavestep::language::syntax::{
 
 /// An equation as LaTeX, in the order of what was read.
 pub(super) fn of_equation(equation: &Equation) -> String {
-    let (left, right) = (of(equation.left()), of(equation.right()));
-    let relation = match equation.relation() {
+    let (left, right) = (of(&equation.left), of(&equation.right));
+    let relation = match equation.relation {
         Relation::Equals => "=",
         Relation::Starts => "\\text{ continuous, starting at }",
     };
-    let condition = equation.condition().map(|(name, value)| {
+    let condition = equation.condition.as_ref().map(|(name, value)| {
         format!(" \\quad \\text{{for }} {} = {}", latex_name(name, None), of(value))
     });
     format!("{left} {relation} {right}{}", condition.unwrap_or_default())

@@ -1,21 +1,19 @@
 //! What a formula of the source says about a scene: its tree, with the source's names resolved.
 
+use crate::book::entry::{Equation, Section, Setting};
 use crate::book::refusal::Refusal;
 use crate::book::sequence::{Sequence, period_number};
-use crate::book::stage::Stage;
+use crate::book::stage::{Quantity, Stage};
 use num_traits::ToPrimitive as _;
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::syntax::{Expression as Tree, Factor, Index, Node, Operator, Sign, Wave};
 use wavestep::recurrence::LinearForm;
 use wavestep_polynomial::{Rational, Symbol};
 
-/// By how many periods forms in waves are delayed, so that `w[n+1]` has a lag that is no less than 0.
-pub(super) const AHEAD: usize = 2;
-
 /// Waves on the n-th period, linearly, and what holds no waves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Meaning {
-    /// Waves of the scene, [`AHEAD`] periods late.
+    /// Waves of the scene, [`AHEAD`](crate::book::stage::AHEAD) periods late.
     pub(super) waves: LinearForm,
     /// The rest.
     pub(super) rest: Sequence,
@@ -77,7 +75,7 @@ pub(super) fn inverse(value: &Expression) -> Result<Expression, Refusal> {
 
 /// Which names a formula may hold.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Names {
+enum Names {
     /// Those of the source.
     Source,
     /// Those of the scene: its waves and observables, by themselves.
@@ -85,7 +83,7 @@ pub(super) enum Names {
 }
 
 /// A formula in the course of being understood.
-pub(super) struct Interpreter<'a> {
+struct Interpreter<'a> {
     stage: &'a Stage,
     names: Names,
     summed: Option<&'a str>,
@@ -94,11 +92,11 @@ pub(super) struct Interpreter<'a> {
 type Outcome = Result<Meaning, Refusal>;
 
 impl<'a> Interpreter<'a> {
-    pub(super) fn new(stage: &'a Stage, names: Names) -> Interpreter<'a> {
+    fn new(stage: &'a Stage, names: Names) -> Interpreter<'a> {
         Interpreter { stage, names, summed: None }
     }
 
-    pub(super) fn meaning(&self, tree: &Tree) -> Outcome {
+    fn meaning(&self, tree: &Tree) -> Outcome {
         match &tree.value {
             Node::Number(value) => Ok(Expression::constant(value).into()),
             Node::Name(name) => self.name(name),
@@ -240,5 +238,39 @@ impl<'a> Interpreter<'a> {
             false => base.pow(count.unsigned_abs()),
         };
         Ok(Meaning { waves: LinearForm::zero(), rest: Sequence::term(ratio, factor) })
+    }
+}
+
+impl Section {
+    /// The scene of the section, derived from its parts; `None` where it has none. Panics where the section
+    /// names what is not there; a test opens all of them.
+    pub fn stage(&self) -> Option<Stage> {
+        self.scene()?;
+        let stage = Stage::new(&self.setting);
+        Some(stage.unwrap_or_else(|error| panic!("section {}: {error}", self.number)))
+    }
+}
+
+impl Stage {
+    fn new(setting: &Setting) -> Result<Stage, Refusal> {
+        let mut stage = Stage::derived(setting)?;
+        for (name, tree, rate) in &setting.quantities {
+            let form = Interpreter::new(&stage, Names::Scene).meaning(tree)?.waves;
+            let rate = rate.as_ref().map(|rate| stage.expression(rate)).transpose()?;
+            let rate = rate.unwrap_or_else(Expression::one);
+            stage.call(name, Quantity { form, rate });
+        }
+        Ok(stage)
+    }
+
+    /// An expression of the source in the symbols of the scene, without waves on a general period.
+    pub fn expression(&self, tree: &Tree) -> Result<Expression, Refusal> {
+        Interpreter::new(self, Names::Source).meaning(tree)?.as_expression()
+    }
+
+    /// What both sides of an equation mean.
+    pub(super) fn sides(&self, equation: &Equation) -> Result<[Meaning; 2], Refusal> {
+        let interpreter = Interpreter::new(self, Names::Source);
+        Ok([interpreter.meaning(&equation.left)?, interpreter.meaning(&equation.right)?])
     }
 }

@@ -23,7 +23,6 @@ use std::sync::LazyLock;
 
 use wavestep::language::closest;
 
-pub use checks::CHECKS;
 pub use entry::{Content, Entry, Equation, Relation, Section};
 pub use examine::{Examination, examine, examine_all};
 pub use refusal::Refusal;
@@ -47,7 +46,6 @@ static SECTIONS: LazyLock<Vec<Section>> = LazyLock::new(|| {
 });
 
 /// All sections with their equations, in the order of the source.
-#[must_use]
 pub fn sections() -> &'static [Section] {
     &SECTIONS
 }
@@ -69,7 +67,6 @@ fn place(number: &str) -> Option<u32> {
 
 impl UnknownNumber {
     /// Which numbers there are, and the nearest one.
-    #[must_use]
     pub fn remedy(&self) -> String {
         let all = || sections().iter().flat_map(|section| &section.entries);
         let plain = |number: &&str| !number.contains('-');
@@ -88,9 +85,6 @@ impl UnknownNumber {
 }
 
 /// The equation of this number, and its section.
-///
-/// # Errors
-/// [`UnknownNumber`] where there is none.
 pub fn find(number: &str) -> Result<(&'static Section, &'static Entry), UnknownNumber> {
     let wanted = number.trim();
     let all = sections().iter().flat_map(|s| s.entries.iter().map(move |entry| (s, entry)));

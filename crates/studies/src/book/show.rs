@@ -73,7 +73,6 @@ fn indented(text: &str) -> String {
 
 impl Examination {
     /// The verdict in a line: with the value that was found wrong, or the reading that is supported.
-    #[must_use]
     pub fn summary(&self) -> String {
         match &self.verdict {
             Verdict::Unsure(readings) => {
@@ -109,7 +108,6 @@ impl Examination {
     }
 
     /// For reading in a terminal: as read, derived, verdict with its steps.
-    #[must_use]
     pub fn to_text(&self, width: usize) -> String {
         let Examination { section, entry, derived, .. } = self;
         let mut out = wrapped(&format!("{}  {}", entry.number, entry.states), width, "");
@@ -165,7 +163,6 @@ impl Examination {
     }
 
     /// For a page of LaTeX with amsmath.
-    #[must_use]
     pub fn to_latex(&self) -> String {
         let Examination { section, entry, derived, .. } = self;
         let mut out = format!(
@@ -215,7 +212,6 @@ impl Examination {
     }
 
     /// For programs.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let Examination { section, entry, derived, .. } = self;
         let read: Vec<Value> = equations(entry)

@@ -1,7 +1,6 @@
 //! The scene of a section, derived from its parts, with the names of the source for what is in it.
 
-use crate::book::entry::{Equation, Setting};
-use crate::book::meaning::{AHEAD, Interpreter, Names};
+use crate::book::entry::Setting;
 use crate::book::refusal::Refusal;
 use num_traits::ToPrimitive as _;
 use std::cell::RefCell;
@@ -16,6 +15,9 @@ use wavestep::recurrence::{
 use wavestep::scenes;
 use wavestep::solution::{PeriodByPeriod, Solution};
 use wavestep_polynomial::{Rational, Symbol};
+
+/// By how many periods forms in waves are delayed, so that `w[n+1]` has a lag that is no less than 0.
+pub(super) const AHEAD: usize = 2;
 
 /// Scenes that only sections of the book need.
 const OWN_SCENES: [(&str, &str); 2] = [
@@ -36,7 +38,6 @@ pub(super) struct Quantity {
 /// The scene of a section of the book: the recurrence that the network of its parts gives, and what
 /// the source calls the waves in it. Nothing in it is taken from the source's derivation.
 pub struct Stage {
-    scene: String,
     solution: Solution,
     quantities: BTreeMap<String, Quantity>,
     definitions: BTreeMap<String, Tree>,
@@ -104,11 +105,8 @@ fn notation(
 }
 
 impl Stage {
-    /// The stage of a setting.
-    ///
-    /// # Errors
-    /// [`Refusal`] where the setting names what is not there.
-    pub(super) fn new(setting: &Setting) -> Result<Stage, Refusal> {
+    /// The scene of a setting, derived; its quantities are not yet understood.
+    pub(super) fn derived(setting: &Setting) -> Result<Stage, Refusal> {
         let observed: Vec<&str> = setting.observed.iter().map(String::as_str).collect();
         let mut recurrence = derived(&setting.scene, &observed, &BTreeMap::new())?;
         if let Some((like, waves)) = &setting.like {
@@ -116,32 +114,21 @@ impl Stage {
             let statement = Statement { notation, ..recurrence.statement().clone() };
             recurrence = Recurrence::new(statement)?;
         }
-        let mut stage = Stage {
-            scene: setting.scene.clone(),
+        Ok(Stage {
             solution: Solution::new(recurrence),
             quantities: BTreeMap::new(),
             definitions: setting.definitions.iter().cloned().collect(),
             values: setting.values.iter().cloned().collect(),
             pieces: RefCell::default(),
-        };
-        for (name, tree, rate) in &setting.quantities {
-            let form = Interpreter::new(&stage, Names::Scene).meaning(tree)?.waves;
-            let source = Interpreter::new(&stage, Names::Source);
-            let rate = rate.as_ref().map(|rate| source.meaning(rate)?.as_expression());
-            let rate = rate.transpose()?.unwrap_or_else(Expression::one);
-            stage.quantities.insert(name.clone(), Quantity { form, rate });
-        }
-        Ok(stage)
+        })
     }
 
-    /// The name of the scene.
-    #[must_use]
-    pub fn scene(&self) -> &str {
-        &self.scene
+    /// Names a quantity.
+    pub(super) fn call(&mut self, name: &str, quantity: Quantity) {
+        self.quantities.insert(name.to_owned(), quantity);
     }
 
     /// The recurrence that was derived from the scene, with its solution.
-    #[must_use]
     pub fn solution(&self) -> &Solution {
         &self.solution
     }
@@ -260,22 +247,5 @@ impl Stage {
             value += &value_now.map_err(|_| Refusal::NotInvertible)?;
         }
         Ok(value)
-    }
-
-    /// An expression of the source in the symbols of the scene.
-    ///
-    /// # Errors
-    /// [`Refusal`] where it holds waves on a general period, or names that are not known.
-    pub fn expression(&self, tree: &Tree) -> Result<Expression, Refusal> {
-        Interpreter::new(self, Names::Source).meaning(tree)?.as_expression()
-    }
-
-    /// What both sides of an equation mean.
-    pub(super) fn sides(
-        &self,
-        equation: &Equation,
-    ) -> Result<[crate::book::meaning::Meaning; 2], Refusal> {
-        let interpreter = Interpreter::new(self, Names::Source);
-        Ok([interpreter.meaning(equation.left())?, interpreter.meaning(equation.right())?])
     }
 }

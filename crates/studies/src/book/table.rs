@@ -32,7 +32,6 @@ fn of_section<'a>(
 }
 
 /// Number, statement and verdict, a line for each.
-#[must_use]
 pub fn table(all: &[Examination]) -> String {
     let width = all.iter().map(|found| found.entry.number.len()).max().unwrap_or_default();
     let mut out = String::new();
@@ -57,7 +56,6 @@ pub fn table(all: &[Examination]) -> String {
 }
 
 /// Number, statement and verdict as a table of LaTeX.
-#[must_use]
 pub fn table_latex(all: &[Examination]) -> String {
     let row = |found: &Examination| {
         let summary = escaped(&found.summary());
@@ -68,13 +66,11 @@ pub fn table_latex(all: &[Examination]) -> String {
 }
 
 /// All that [`Examination::to_json`] says of each.
-#[must_use]
 pub fn table_json(all: &[Examination]) -> Value {
     all.iter().map(Examination::to_json).collect()
 }
 
 /// The page `docs/equations.md`: a table for each section, with formulas.
-#[must_use]
 pub fn table_markdown(all: &[Examination]) -> String {
     let mut out = String::from(
         "# The equations of the source\n\n\

@@ -64,7 +64,6 @@ pub struct Witness {
 
 impl Witness {
     /// Whether the two enclosures have no number in common.
-    #[must_use]
     pub fn is_certain(&self) -> bool {
         !self.left.subtract(&self.right, 64).contains(&Rational::zero())
     }
@@ -95,7 +94,6 @@ pub enum Finding {
 
 impl Finding {
     /// Whether it holds.
-    #[must_use]
     pub fn holds(&self) -> bool {
         matches!(self, Finding::Holds(_))
     }

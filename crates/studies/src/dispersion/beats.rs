@@ -24,7 +24,6 @@ pub struct TwoWaves {
 
 impl TwoWaves {
     /// Whether both sides are the same function: whether their difference has no term.
-    #[must_use]
     pub fn holds(&self) -> bool {
         (&self.sum - &self.product).is_zero()
     }
@@ -44,7 +43,6 @@ fn cosine(angle: &Fraction) -> Expression {
 }
 
 /// The sum of two waves and its product form.
-#[must_use]
 pub fn two_waves() -> TwoWaves {
     let phase = |omega: &Fraction, k: &Fraction| &(omega * &symbol("t")) - &(k * &symbol("x"));
     let [omega, k] = ["omega", "k"].map(|name| [1, 2].map(|i| symbol(&format!("{name}_{i}"))));

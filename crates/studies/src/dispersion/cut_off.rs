@@ -87,10 +87,8 @@ impl Search<'_> {
 }
 
 /// The least positive root of `ω(k) τ = 2π`, with a radius of about `2^{−bits}` of it.
-///
-/// # Errors
-/// [`DispersionError::NoCutOff`] where there is none before ω is negative, or before the search ends;
-/// [`DispersionError::UndecidedCutOff`] where 64 bits do not tell.
+/// Refused where there is none before ω is negative or before the search ends, and where 64 bits do not
+/// tell.
 pub(super) fn cut_off_of_duration(
     relation: &Relation,
     duration: &Rational,

@@ -89,7 +89,6 @@ impl DispersionError {
     }
 
     /// What can be done about it.
-    #[must_use]
     pub fn remedy(&self) -> String {
         match self {
             Self::NoWaveNumber => "write ω as a formula in k, such as 2*sin(k/2)".to_owned(),

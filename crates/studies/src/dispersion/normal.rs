@@ -1,15 +1,22 @@
-//! The form that formulas are kept in: like terms collected, powers of one base joined, small
-//! products multiplied out, and what all terms of a sum are divided by written once.
+//! Arithmetic of formulas. Every operation leaves a formula in a form that a person would write: like terms
+//! collected, powers of one base joined, small products multiplied out, and what all terms of a sum are
+//! divided by written once.
 //!
 //! The last rule makes group velocities readable: the derivative of `k/sqrt(1 + k²)` is
 //! `1/(1 + k²)^(3/2)`, not the difference of two quotients.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use num_traits::{One, Signed, ToPrimitive as _, Zero};
-use wavestep_polynomial::Rational;
+use wavestep_polynomial::{Integer, Rational, Symbol};
 
-use super::formula::{Formula, Function, Node, rational_power};
+use super::formula::{Formula, FormulaError, Function, Node, wave_number};
+
+/// The largest exponent, in absolute value.
+const MAX_EXPONENT: i64 = 1 << 12;
+/// The most bits of a number that is raised to a power.
+const MAX_POWER_BITS: u64 = 1 << 15;
 
 /// The largest power of a sum that is multiplied out.
 const MAX_EXPANDED_POWER: u32 = 16;
@@ -20,11 +27,7 @@ const MAX_EXPANDED_TERMS: usize = 512;
 pub(super) fn sum(terms: impl IntoIterator<Item = Formula>) -> Formula {
     let mut collected: BTreeMap<Formula, Rational> = BTreeMap::new();
     for term in terms {
-        let parts = match term.node() {
-            Node::Sum(parts) => &parts[..],
-            _ => std::slice::from_ref(&term),
-        };
-        for part in parts {
+        for part in term.terms() {
             let (coefficient, rest) = split(part);
             *collected.entry(rest).or_insert_with(Rational::zero) += coefficient;
         }
@@ -78,21 +81,14 @@ fn base_and_exponent(factor: &Formula) -> (Formula, Rational) {
     }
 }
 
-fn factors_of(term: &Formula) -> &[Formula] {
-    match term.node() {
-        Node::Product(factors) => factors,
-        _ => std::slice::from_ref(term),
-    }
-}
-
 /// The terms as `B^e (…)`, where each of them holds a power of the sum `B`, the exponents differ by
 /// whole numbers, and not all are whole and positive.
 fn over_common_power(terms: &[Formula]) -> Option<Formula> {
     let exponent_in = |term: &Formula, base: &Formula| {
-        let mut pairs = factors_of(term).iter().map(base_and_exponent);
+        let mut pairs = term.factors().iter().map(base_and_exponent);
         pairs.find(|(other, _)| other == base).map(|(_, exponent)| exponent)
     };
-    for factor in factors_of(&terms[0]) {
+    for factor in terms[0].factors() {
         let (base, first) = base_and_exponent(factor);
         if !matches!(base.node(), Node::Sum(_)) {
             continue;
@@ -119,7 +115,7 @@ pub(super) fn product(factors: impl IntoIterator<Item = Formula>) -> Formula {
     let mut powers: BTreeMap<Formula, Rational> = BTreeMap::new();
     let mut exponents = Vec::new();
     for factor in factors {
-        for part in factors_of(&factor) {
+        for part in factor.factors() {
             match part.node() {
                 Node::Number(value) => coefficient *= value,
                 Node::Function(Function::Exponential, z) => exponents.push(z.clone()),
@@ -174,15 +170,12 @@ pub(super) fn product(factors: impl IntoIterator<Item = Formula>) -> Formula {
     }
     let monomial = joined(&coefficient, simple);
     if sums.is_empty() {
-        return joined(&Rational::one(), factors_of(&monomial).iter().cloned().chain(others));
+        return joined(&Rational::one(), monomial.factors().iter().cloned().chain(others));
     }
     let expanded = sums.iter().fold(monomial, |left, right| {
         let Node::Sum(right) = right.node() else { unreachable!("sums alone are expanded") };
-        let left = match left.node() {
-            Node::Sum(terms) => terms.clone(),
-            _ => vec![left],
-        };
-        let pairs = left.iter().flat_map(|a| right.iter().map(move |b| (a.clone(), b.clone())));
+        let pairs =
+            left.terms().iter().flat_map(|a| right.iter().map(move |b| (a.clone(), b.clone())));
         sum(pairs.map(|(a, b)| product([a, b])).collect::<Vec<_>>())
     });
     match expanded.node() {
@@ -280,7 +273,7 @@ pub(super) fn power(base: &Formula, exponent: &Rational) -> Formula {
 /// The powers of symbols, which are positive, that all terms hold: `k²` of `k² + k³`.
 fn common_monomial(terms: &[Formula]) -> Option<Formula> {
     let powers_of = |term: &Formula| -> BTreeMap<Formula, Rational> {
-        let pairs = factors_of(term).iter().map(base_and_exponent);
+        let pairs = term.factors().iter().map(base_and_exponent);
         pairs.filter(|(base, _)| matches!(base.node(), Node::Symbol(_))).collect()
     };
     let mut common = powers_of(&terms[0]);
@@ -297,4 +290,166 @@ fn common_monomial(terms: &[Formula]) -> Option<Formula> {
     let factors: Vec<Formula> =
         common.iter().map(|(base, exponent)| power(base, exponent)).collect();
     (!factors.is_empty()).then(|| product(factors))
+}
+
+/// The exact power of a number that is not zero, where it is rational.
+pub(super) fn rational_power(value: &Rational, exponent: &Rational) -> Option<Rational> {
+    let degree = exponent.denom().to_u32()?;
+    let root = match (degree, value.cmp(&Rational::zero())) {
+        (1, _) => value.clone(),
+        (_, Ordering::Greater) => {
+            let root =
+                |part: &Integer| Some(part.nth_root(degree)).filter(|r| &r.pow(degree) == part);
+            Rational::new(root(value.numer())?, root(value.denom())?)
+        }
+        _ => return None,
+    };
+    Some(root.pow(exponent.numer().to_i32()?))
+}
+
+impl Formula {
+    /// `self + other`.
+    pub fn add(&self, other: &Formula) -> Formula {
+        sum([self.clone(), other.clone()])
+    }
+
+    /// `self − other`.
+    pub fn subtract(&self, other: &Formula) -> Formula {
+        self.add(&other.negate())
+    }
+
+    /// `−self`.
+    pub fn negate(&self) -> Formula {
+        Formula::integer(-1).multiply(self)
+    }
+
+    /// `self · other`.
+    pub fn multiply(&self, other: &Formula) -> Formula {
+        product([self.clone(), other.clone()])
+    }
+
+    /// `self / other`.
+    pub fn divide(&self, other: &Formula) -> Result<Formula, FormulaError> {
+        Ok(self.multiply(&other.power(&-Rational::one())?))
+    }
+
+    /// `self^exponent`, the real one; refused are zero to a negative power and powers that are too large.
+    pub fn power(&self, exponent: &Rational) -> Result<Formula, FormulaError> {
+        let limit = Rational::from_integer(MAX_EXPONENT.into());
+        if exponent.abs() > limit || exponent.denom() > &MAX_EXPONENT.into() {
+            return Err(FormulaError::TooLarge);
+        }
+        if exponent.is_zero() {
+            return Ok(Formula::one());
+        }
+        if let Node::Number(value) = self.node() {
+            if value.is_zero() && exponent.is_negative() {
+                return Err(FormulaError::DivisionByZero);
+            }
+            let bits = value.numer().bits().max(value.denom().bits());
+            let power = exponent.to_integer().abs().to_u64().unwrap_or(u64::MAX);
+            if bits > 1 && bits.saturating_mul(power) > MAX_POWER_BITS {
+                return Err(FormulaError::TooLarge);
+            }
+        }
+        if let Node::Power(_, inner) = self.node()
+            && (inner * exponent).abs() > limit
+        {
+            return Err(FormulaError::TooLarge);
+        }
+        Ok(power(self, exponent))
+    }
+
+    /// The function of it.
+    pub fn apply(&self, function: Function) -> Formula {
+        if self.is_zero() {
+            let at_zero = match function {
+                Function::Sine | Function::HyperbolicTangent => 0,
+                Function::Cosine | Function::Exponential | Function::Sinc => 1,
+            };
+            return Formula::integer(at_zero);
+        }
+        let plain = |argument| Formula::new(Node::Function(function, argument));
+        match function {
+            Function::Exponential => plain(self.clone()),
+            _ if !self.leads_negative() => plain(self.clone()),
+            Function::Cosine | Function::Sinc => plain(self.negate()),
+            Function::Sine | Function::HyperbolicTangent => plain(self.negate()).negate(),
+        }
+    }
+
+    /// `d/dk`.
+    pub fn derivative(&self) -> Formula {
+        match self.node() {
+            Node::Number(_) => Formula::zero(),
+            Node::Symbol(symbol) if *symbol == wave_number() => Formula::one(),
+            Node::Symbol(_) => Formula::zero(),
+            Node::Power(base, exponent) => product([
+                Formula::number(exponent),
+                power(base, &(exponent - Rational::one())),
+                base.derivative(),
+            ]),
+            Node::Product(factors) => sum((0..factors.len()).map(|i| {
+                let part = |(j, factor): (usize, &Formula)| match i == j {
+                    true => factor.derivative(),
+                    false => factor.clone(),
+                };
+                product(factors.iter().enumerate().map(part).collect::<Vec<_>>())
+            })),
+            Node::Sum(terms) => sum(terms.iter().map(Formula::derivative)),
+            Node::Function(function, argument) => {
+                let z = argument;
+                let slope = match function {
+                    Function::Sine => z.apply(Function::Cosine),
+                    Function::Cosine => z.apply(Function::Sine).negate(),
+                    Function::Exponential => self.clone(),
+                    Function::HyperbolicTangent => Formula::one().subtract(&self.multiply(self)),
+                    Function::Sinc => {
+                        let numerator = z.apply(Function::Cosine).subtract(self);
+                        numerator.multiply(&power(z, &-Rational::one()))
+                    }
+                };
+                slope.multiply(&argument.derivative())
+            }
+        }
+    }
+
+    /// With formulas in place of symbols.
+    pub fn substitute(&self, values: &BTreeMap<Symbol, Formula>) -> Result<Formula, FormulaError> {
+        let all = |parts: &[Formula]| -> Result<Vec<Formula>, FormulaError> {
+            parts.iter().map(|part| part.substitute(values)).collect()
+        };
+        Ok(match self.node() {
+            Node::Number(_) => self.clone(),
+            Node::Symbol(symbol) => values.get(symbol).unwrap_or(self).clone(),
+            Node::Power(base, exponent) => base.substitute(values)?.power(exponent)?,
+            Node::Product(factors) => product(all(factors)?),
+            Node::Sum(terms) => sum(all(terms)?),
+            Node::Function(function, argument) => argument.substitute(values)?.apply(*function),
+        })
+    }
+
+    /// The coefficients `a_m` of `Σ a_m k^m`, by exponent, where it is a polynomial in `k` whose
+    /// coefficients may hold other symbols.
+    pub fn polynomial(&self) -> Option<BTreeMap<u32, Formula>> {
+        let k = wave_number();
+        let mut coefficients: BTreeMap<u32, Formula> = BTreeMap::new();
+        for term in self.terms() {
+            let (mut exponent, mut rest) = (0, Vec::new());
+            for factor in term.factors() {
+                match factor.node() {
+                    Node::Symbol(symbol) if *symbol == k => exponent = 1,
+                    Node::Power(base, power) if base.node() == &Node::Symbol(k.clone()) => {
+                        exponent = power.is_integer().then(|| power.to_integer().to_u32())??;
+                    }
+                    _ if factor.symbols().contains(&k) => return None,
+                    _ => rest.push(factor.clone()),
+                }
+            }
+            let sum = coefficients.entry(exponent).or_insert_with(Formula::zero);
+            *sum = sum.add(&product(rest));
+        }
+        coefficients.retain(|_, coefficient| !coefficient.is_zero());
+        Some(coefficients)
+    }
 }

@@ -105,25 +105,20 @@ impl Hand for Latex {
 
 /// A formula as text, which [`read_relation`](super::read_relation) and
 /// [`read_spectrum`](super::read_spectrum) read back.
-#[must_use]
 pub fn formula_text(formula: &Formula) -> String {
     sum(formula, &Text)
 }
 
 /// A formula as LaTeX, for math mode.
-#[must_use]
 pub fn formula_latex(formula: &Formula) -> String {
     sum(formula, &Latex)
 }
 
 fn sum(formula: &Formula, hand: &dyn Hand) -> String {
-    let terms = match formula.node() {
-        Node::Sum(terms) => &terms[..],
-        _ => std::slice::from_ref(formula),
-    };
     let mut text = String::new();
-    for (i, term) in terms.iter().enumerate() {
-        text.push_str(match (i, term_is_negative(term)) {
+    for (i, term) in formula.terms().iter().enumerate() {
+        let is_negative = term.factors()[0].as_number().is_some_and(Signed::is_negative);
+        text.push_str(match (i, is_negative) {
             (0, false) => "",
             (0, true) => "-",
             (_, false) => " + ",
@@ -134,20 +129,11 @@ fn sum(formula: &Formula, hand: &dyn Hand) -> String {
     text
 }
 
-/// Whether a term, which is no sum, has a minus in front.
-fn term_is_negative(term: &Formula) -> bool {
-    !matches!(term.node(), Node::Sum(_)) && leads_negative_number(term)
-}
-
 /// A term without its sign.
 fn unsigned_term(term: &Formula, hand: &dyn Hand) -> String {
-    let factors = match term.node() {
-        Node::Product(factors) => &factors[..],
-        _ => std::slice::from_ref(term),
-    };
     let mut number = Rational::one();
     let (mut upper, mut lower) = (Vec::new(), Vec::new());
-    for factor in factors {
+    for factor in term.factors() {
         match factor.node() {
             Node::Number(value) => number = value.abs(),
             Node::Power(base, exponent) if exponent.is_negative() => {
@@ -195,14 +181,5 @@ fn power(base: &Formula, exponent: &Rational, hand: &dyn Hand) -> String {
             hand.function(*function, &sum(argument, hand), exponent.as_deref())
         }
         _ => raised(hand.bracket(&sum(base, hand))),
-    }
-}
-
-/// Whether a negative number is its first factor.
-fn leads_negative_number(formula: &Formula) -> bool {
-    match formula.node() {
-        Node::Number(value) => value.is_negative(),
-        Node::Product(factors) => factors[0].as_number().is_some_and(Signed::is_negative),
-        _ => false,
     }
 }

@@ -60,7 +60,6 @@ fn power(base: &Formula, exponent: i64) -> Formula {
 ///
 /// For the triangle `sin²(θ/2) = (1 − cos θ)/2`, and `T_m = ½ ∫_0^π (1 − cos θ) θ^(m−1) dθ = ½(π^m/m +
 /// (m − 1) S_(m−2))` stands for `S_m`; `T_1 = π/2`.
-#[must_use]
 pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula> {
     // Where all waves are equally fast, so is every sum of them.
     if !relation.phase_velocity().symbols().contains(&wave_number()) {
@@ -101,14 +100,8 @@ pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula>
 
 /// The peak velocity of a pulse, `∫_0^{k_co} U k ω dk/∫_0^{k_co} U k² dk`: in closed form where there is
 /// one, else by certified quadrature; rounded correctly to so many digits.
-///
-/// # Errors
-/// - [`DispersionError::NegativeFrequency`] where ω is negative below the cut-off; a dip narrower than
-///   `2^{−12}` of the range may stay unseen;
-/// - [`DispersionError::NotReal`], [`DispersionError::NotDifferentiable`],
-///   [`DispersionError::DivisionByZero`] with the place;
-/// - [`DispersionError::NoPeak`] where the second integral may be zero;
-/// - those of [`Pulse::cut_off`], and of too few bits.
+/// Refused are a negative ω below the cut-off (a dip narrower than `2^{−12}` of the range may stay unseen),
+/// places where the formula is not real or not smooth, and a second integral that may be zero.
 pub fn peak_velocity(
     relation: &Relation,
     pulse: &Pulse,
@@ -150,9 +143,6 @@ pub fn peak_velocity(
 }
 
 /// The peak velocity by certified quadrature alone.
-///
-/// # Errors
-/// As [`peak_velocity`], without those of negative frequencies.
 pub fn peak_velocity_by_quadrature(
     relation: &Relation,
     pulse: &Pulse,
@@ -172,9 +162,6 @@ fn quotient(relation: &Relation, pulse: &Pulse, bits: u64) -> Result<Ball, Dispe
 }
 
 /// The peak velocity against its cut-off, as a double with a bound: the pulse has the length `2π/k_co`.
-///
-/// # Errors
-/// As [`peak_velocity`].
 pub fn peak_velocity_at(
     relation: &Relation,
     shape: Shape,
@@ -200,9 +187,6 @@ pub struct Component {
 }
 
 /// The peak velocity of a finite sum of waves, `Σ U_i k_i ω_i/Σ U_i k_i²`, enclosed.
-///
-/// # Errors
-/// [`DispersionError::NoPeak`] where the second sum is zero, and those of [`Relation::enclose`].
 pub fn peak_velocity_of_sum(
     relation: &Relation,
     components: &[Component],

@@ -11,7 +11,7 @@ use wavestep_polynomial::Rational;
 
 use super::error::{DispersionError, NoGrid};
 use super::pulse::Pulse;
-use super::relation::{Relation, value};
+use super::relation::{Quantity, Relation, value};
 use wavestep::ball::Ball;
 
 /// The precision in which frequencies and amplitudes are enclosed before they are rounded.
@@ -44,7 +44,6 @@ pub struct Travel {
 
 impl Travel {
     /// A journey until this time, on a grid that fits.
-    #[must_use]
     pub const fn until(time: f64) -> Travel {
         Travel { time, length: None, points: None }
     }
@@ -82,13 +81,7 @@ struct Wave {
 /// period; the step of wavenumbers is `2π/length`. Where the cut-off is a component of the grid, as it
 /// is without a length of one's own, the sum stands for the integral over wavenumbers, with Gregory's
 /// weights at both ends. Not proven: rank *tested*.
-///
-/// # Errors
-/// - [`DispersionError::Grid`] for times, lengths and counts that make no grid;
-/// - those of [`Pulse::cut_off`] and of [`Relation::enclose`].
-///
-/// # Cost
-/// A ball evaluation for each component, and a transform of `points` numbers.
+/// Takes a ball evaluation for each component, and a transform of `points` numbers.
 pub fn propagate(
     relation: &Relation,
     pulse: &Pulse,
@@ -158,7 +151,7 @@ pub fn propagate(
 fn fastest(relation: &Relation, cut_off: f64) -> Result<f64, DispersionError> {
     let mut largest: f64 = 0.0;
     for i in 1..=64 {
-        let sample = relation.group_velocity_at(cut_off * f64::from(i) / 64.0)?;
+        let sample = relation.sample(Quantity::GroupVelocity, cut_off * f64::from(i) / 64.0)?;
         largest = largest.max(sample.value.abs());
     }
     Ok(largest)

@@ -29,7 +29,6 @@ impl Shape {
     pub const ALL: [Shape; 3] = [Self::Square, Self::Triangle, Self::Gaussian];
 
     /// Its name.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Square => "square",
@@ -39,7 +38,6 @@ impl Shape {
     }
 
     /// The shape of this name.
-    #[must_use]
     pub fn find(name: &str) -> Option<Shape> {
         Self::ALL.into_iter().find(|shape| shape.name() == name)
     }
@@ -94,9 +92,6 @@ fn positive(what: &'static str, value: &Rational) -> Result<(), DispersionError>
 
 impl Pulse {
     /// A pulse of this length.
-    ///
-    /// # Errors
-    /// [`DispersionError::NotPositive`].
     pub fn in_space(shape: Shape, length: &Rational) -> Result<Pulse, DispersionError> {
         positive("the length of the pulse", length)?;
         let extent = Extent::Length(Formula::number(length));
@@ -104,9 +99,6 @@ impl Pulse {
     }
 
     /// The pulse whose length is `2π/k_co`, so that wavenumbers to `k_co` count.
-    ///
-    /// # Errors
-    /// [`DispersionError::NotPositive`].
     pub fn with_cut_off(shape: Shape, cut_off: &Rational) -> Result<Pulse, DispersionError> {
         positive("the cut-off", cut_off)?;
         let twice = Formula::number(&(Rational::from_integer(2.into()) / cut_off));
@@ -115,18 +107,13 @@ impl Pulse {
     }
 
     /// A pulse of this duration, seen at one place.
-    ///
-    /// # Errors
-    /// [`DispersionError::NotPositive`].
     pub fn in_time(shape: Shape, duration: &Rational) -> Result<Pulse, DispersionError> {
         positive("the duration of the pulse", duration)?;
         Ok(Pulse { content: Content::Shape(shape), extent: Extent::Duration(duration.clone()) })
     }
 
     /// The same extent with a spectrum `U(k)` of one's own.
-    ///
-    /// # Errors
-    /// [`DispersionError::MissingValue`] where it holds symbols other than `k` and `pi`.
+    /// Symbols other than `k` and `pi` are refused.
     pub fn with_spectrum(&self, spectrum: Formula) -> Result<Pulse, DispersionError> {
         let pi = super::formula::pi();
         let mut symbols = spectrum.symbols().into_iter();
@@ -137,7 +124,6 @@ impl Pulse {
     }
 
     /// `U(k)`; the relation matters for pulses given in time.
-    #[must_use]
     pub fn spectrum(&self, relation: &Relation) -> Formula {
         match (&self.content, &self.extent) {
             (Content::Spectrum(formula), _) => formula.clone(),
@@ -160,9 +146,6 @@ impl Pulse {
     }
 
     /// The cut-off `k_co`: `2π/b`, or the least root of `ω(k) τ = 2π`.
-    ///
-    /// # Errors
-    /// [`DispersionError::NoCutOff`] and [`DispersionError::UndecidedCutOff`] for pulses in time.
     pub fn cut_off(&self, relation: &Relation, bits: u64) -> Result<Ball, DispersionError> {
         match &self.extent {
             Extent::Length(b) => value(&cut_off_of_length(b)?, &Ball::zero(), bits),

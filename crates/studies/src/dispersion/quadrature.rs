@@ -51,13 +51,7 @@ impl Cell {
 }
 
 /// `∫_0^K f dk`, with a radius of about `2^{−bits}` of the largest value of `|f|` seen, times `K`.
-///
-/// # Errors
-/// Where `f` has no real value, or none that can be enclosed, with the place; and
-/// [`DispersionError::AccuracyNotReached`] after 20,000 cells.
-///
-/// # Cost
-/// A cell takes two Taylor series of about `bits/4` terms.
+/// A cell takes two Taylor series of about `bits/4` terms; after 20,000 cells it gives up.
 pub(super) fn integrate(
     formula: &Formula,
     upper: &Ball,

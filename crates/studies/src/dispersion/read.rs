@@ -17,10 +17,6 @@ const MORE_FUNCTIONS: [(&str, Function); 2] =
 
 /// Reads a dispersion relation `ω(k)`: numbers, `k`, `pi`, parameters, `+ - * /`, powers with rational
 /// exponents, `sqrt`, `sin`, `cos`, `exp`, `tanh` and `sinc`; with values in place of parameters.
-///
-/// # Errors
-/// The place where the text is no such formula, is divided by zero, or does not depend on `k`; values
-/// that are not positive, or for what is no parameter.
 pub fn read_relation(
     source: &Source,
     values: &BTreeMap<String, BigRational>,
@@ -35,9 +31,6 @@ pub fn read_relation(
 }
 
 /// Reads a spectrum `U(k)`, in the same notation, without parameters.
-///
-/// # Errors
-/// As [`read_relation`]; a constant is a spectrum.
 pub fn read_spectrum(source: &Source) -> Result<Formula, Diagnostic> {
     let tree = parse_expression(source)?;
     let spectrum = formula(&tree, source)?;

@@ -47,9 +47,6 @@ pub struct Relation {
 
 impl Relation {
     /// The relation `ω = frequency`.
-    ///
-    /// # Errors
-    /// [`DispersionError::NoWaveNumber`] where the formula does not depend on `k`.
     pub fn new(frequency: Formula) -> Result<Relation, DispersionError> {
         if !frequency.symbols().contains(&wave_number()) {
             return Err(DispersionError::NoWaveNumber);
@@ -60,25 +57,21 @@ impl Relation {
     }
 
     /// `ω`.
-    #[must_use]
     pub fn frequency(&self) -> &Formula {
         &self.frequency
     }
 
     /// `c_p = ω/k`.
-    #[must_use]
     pub fn phase_velocity(&self) -> &Formula {
         &self.phase_velocity
     }
 
     /// `c_g = dω/dk`.
-    #[must_use]
     pub fn group_velocity(&self) -> &Formula {
         &self.group_velocity
     }
 
     /// One of the three formulas.
-    #[must_use]
     pub fn formula(&self, quantity: Quantity) -> &Formula {
         match quantity {
             Quantity::Frequency => &self.frequency,
@@ -88,7 +81,6 @@ impl Relation {
     }
 
     /// The parameters that have no value yet.
-    #[must_use]
     pub fn parameters(&self) -> BTreeSet<Symbol> {
         let mut symbols = self.frequency.symbols();
         symbols.remove(&wave_number());
@@ -97,10 +89,6 @@ impl Relation {
     }
 
     /// The relation with values in place of parameters.
-    ///
-    /// # Errors
-    /// For names that are no parameters, values that are not positive, and values for which the
-    /// formula makes no sense.
     pub fn with_values(
         &self,
         values: &BTreeMap<String, Rational>,
@@ -120,9 +108,6 @@ impl Relation {
     }
 
     /// An enclosure for all `k` of a ball.
-    ///
-    /// # Errors
-    /// [`DispersionError`] where the formula has no real value, or a parameter none.
     pub fn enclose(&self, what: Quantity, k: &Ball, bits: u64) -> Result<Ball, DispersionError> {
         let formula = match what {
             // With ω(0) = 0, the limit of ω/k is the derivative.
@@ -140,9 +125,6 @@ impl Relation {
 
     /// The value at an exact wavenumber, rounded correctly to so many significant digits. A value that
     /// lies midway between two decimals is never decided: ask [`Relation::exact`] first.
-    ///
-    /// # Errors
-    /// As [`Relation::enclose`]; [`DispersionError::AccuracyNotReached`] where `limit_bits` do not do.
     pub fn digits(
         &self,
         what: Quantity,
@@ -155,43 +137,19 @@ impl Relation {
     }
 
     /// The value at an exact wavenumber where it is a rational number by the rules of formulas.
-    #[must_use]
     pub fn exact(&self, what: Quantity, k: &Rational) -> Option<Rational> {
         let at = [(wave_number(), Formula::number(k))].into();
         self.formula(what).substitute(&at).ok()?.as_number().cloned()
     }
 
-    fn sample(&self, what: Quantity, k: f64) -> Result<Sample, DispersionError> {
+    /// The value with a bound, for a double taken as it is.
+    pub fn sample(&self, what: Quantity, k: f64) -> Result<Sample, DispersionError> {
         let Some(exact) = Rational::from_f64(k) else {
             return Err(NoGrid::WaveNumber.into());
         };
         let ball = self.enclose(what, &Ball::from_rational(&exact, SAMPLE_BITS), SAMPLE_BITS)?;
         let (value, bound) = ball.to_double();
         Ok(Sample { value, bound: bound.to_double() })
-    }
-
-    /// `ω(k)` with a bound, for a double taken as it is.
-    ///
-    /// # Errors
-    /// As [`Relation::enclose`].
-    pub fn frequency_at(&self, k: f64) -> Result<Sample, DispersionError> {
-        self.sample(Quantity::Frequency, k)
-    }
-
-    /// `c_p(k)` with a bound.
-    ///
-    /// # Errors
-    /// As [`Relation::enclose`].
-    pub fn phase_velocity_at(&self, k: f64) -> Result<Sample, DispersionError> {
-        self.sample(Quantity::PhaseVelocity, k)
-    }
-
-    /// `c_g(k)` with a bound.
-    ///
-    /// # Errors
-    /// As [`Relation::enclose`].
-    pub fn group_velocity_at(&self, k: f64) -> Result<Sample, DispersionError> {
-        self.sample(Quantity::GroupVelocity, k)
     }
 }
 
@@ -242,7 +200,6 @@ impl Builtin {
         [Self::String, Self::Lattice, Self::Cubic, Self::StiffString, Self::Beam, Self::Love];
 
     /// Its name.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::String => "string",
@@ -255,7 +212,6 @@ impl Builtin {
     }
 
     /// What it describes.
-    #[must_use]
     pub const fn title(self) -> &'static str {
         match self {
             Self::String => "a string, or a bar of long waves: no dispersion",
@@ -270,13 +226,11 @@ impl Builtin {
     }
 
     /// The relation of this name.
-    #[must_use]
     pub fn find(name: &str) -> Option<Builtin> {
         Self::ALL.into_iter().find(|one| one.name() == name)
     }
 
     /// The relation.
-    #[must_use]
     pub fn relation(self) -> Relation {
         let k = Formula::wave_number();
         let number = |a: i64, b: i64| Formula::number(&Rational::new(a.into(), b.into()));

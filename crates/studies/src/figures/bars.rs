@@ -2,11 +2,12 @@
 
 use super::Listed;
 use super::error::FigureError;
-use super::scene::{caption, network, ratio};
-use crate::picture::{along_the_line, lagrange};
+use super::scene::network;
+use crate::picture::along_the_line;
+use crate::ratio;
 use wavestep::field::{FieldEvaluator, Quantity};
 use wavestep::history::field_evaluator;
-use wavestep_draw::{Axis, Caption, Chart, Figure, Panel, Series};
+use wavestep_draw::{Axis, Caption, Chart, Panel, Series};
 use wavestep_polynomial::Rational;
 
 /// How many lengths of the striker the long bar is looked at.
@@ -20,12 +21,11 @@ pub(super) fn diagram_of_impact(listed: &Listed) -> Result<Box<dyn Chart>, Figur
         "The striker is thrown back at 2L/c with V/3, and leaves a pulse of 2L; places are those at the \
          start, so that the gap is not seen.",
     ];
-    let window = [&ratio(0, 1), &ratio(5, 1)];
-    let evaluator = field_evaluator(&network, window[1])?.looking(&ratio(LONG.0, LONG.1))?;
-    let caption = caption(listed.number, &remarks);
-    let diagram = lagrange(&evaluator, Quantity::Velocity, window, caption)?;
-    let diagram = diagram.level(2.0, "the bars part")?.titled(listed.title);
-    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "v/V"])))
+    let last = ratio(5, 1);
+    let evaluator = field_evaluator(&network, &last)?.looking(&ratio(LONG.0, LONG.1))?;
+    let names = ["place x/L", "time ct/L", "v/V"];
+    let diagram = listed.diagram(&evaluator, Quantity::Velocity, &last, names, &remarks)?;
+    Ok(Box::new(diagram.level(2.0, "the bars part")?))
 }
 
 /// A panel for each time and each quantity, so that no line lies on another.
@@ -59,8 +59,7 @@ fn snapshots(
         }
     }
     let (left, right) = found[0].2;
-    let caption = caption(listed.number, remarks);
-    let figure = Figure::new(listed.title, Axis::linear("place x/L"), panels, caption)?;
+    let figure = listed.figure(Axis::linear("place x/L"), panels, remarks)?;
     Ok(Box::new(figure.window(left, right)?))
 }
 
@@ -96,11 +95,9 @@ pub(super) fn pushed_fields(listed: &Listed) -> Result<Box<dyn Chart>, FigureErr
 /// 6.13.
 pub(super) fn pushed_diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let network = network("pushed-bar", &[]);
-    let window = [&ratio(0, 1), &ratio(6, 1)];
+    let last = ratio(6, 1);
     let remarks = ["The force X acts at x = 0 from t = 0 on; the other end is free."];
-    let evaluator = FieldEvaluator::new(&network, window[1])?;
-    let caption = caption(listed.number, &remarks);
-    let diagram = lagrange(&evaluator, Quantity::Velocity, window, caption)?;
-    let diagram = diagram.titled(listed.title);
-    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "v EA/(cX)"])))
+    let evaluator = FieldEvaluator::new(&network, &last)?;
+    let names = ["place x/L", "time ct/L", "v EA/(cX)"];
+    Ok(Box::new(listed.diagram(&evaluator, Quantity::Velocity, &last, names, &remarks)?))
 }

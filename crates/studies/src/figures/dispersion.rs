@@ -2,8 +2,7 @@
 
 use super::Listed;
 use super::error::FigureError;
-use super::scene::caption;
-use crate::dispersion::{Builtin, Relation, Shape, peak_velocity_at};
+use crate::dispersion::{Builtin, Quantity, Relation, Shape, peak_velocity_at};
 use std::f64::consts::TAU;
 use wavestep_draw::{Axis, Chart, Figure, Look, Panel, Series};
 
@@ -22,6 +21,10 @@ fn curve(name: &str, last: f64, function: impl Fn(f64) -> f64) -> Series {
     Series::new(name, points.map(|x| (x, function(x))).collect())
 }
 
+fn of(relation: &Relation, quantity: Quantity, k: f64) -> Result<f64, FigureError> {
+    Ok(relation.sample(quantity, k)?.value)
+}
+
 fn one_panel(
     listed: &Listed,
     [x, y]: [&str; 2],
@@ -29,8 +32,7 @@ fn one_panel(
     remarks: &[&str],
 ) -> Result<Figure, FigureError> {
     let panel = Panel::new(Axis::linear(y), series);
-    let caption = caption(listed.number, remarks);
-    Ok(Figure::new(listed.title, Axis::linear(x), vec![panel], caption)?)
+    listed.figure(Axis::linear(x), vec![panel], remarks)
 }
 
 /// 6.23.
@@ -51,7 +53,7 @@ pub(super) fn against_place(listed: &Listed) -> Result<Box<dyn Chart>, FigureErr
 /// The two waves and their envelope at a time, against place.
 fn pair(time: f64) -> Result<[Series; 3], FigureError> {
     let relation = Builtin::Lattice.relation();
-    let omega = |k: f64| Ok::<f64, FigureError>(relation.frequency_at(k)?.value);
+    let omega = |k: f64| of(&relation, Quantity::Frequency, k);
     let [first, second] = TWO_WAVES;
     let (w1, w2) = (omega(first)?, omega(second)?);
     let last = 2.0 * TAU / (second - first);
@@ -79,11 +81,12 @@ pub(super) fn beats(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
 pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let relation = Builtin::Lattice.relation();
     let (k, last) = (2.0, std::f64::consts::PI);
-    let (omega, group) = (relation.frequency_at(k)?.value, relation.group_velocity_at(k)?.value);
+    let omega = of(&relation, Quantity::Frequency, k)?;
+    let group = of(&relation, Quantity::GroupVelocity, k)?;
     let mut points = Vec::new();
     for i in 0..=POINTS {
         let k = f64::from(i) / f64::from(POINTS) * last;
-        points.push((k, relation.frequency_at(k)?.value));
+        points.push((k, of(&relation, Quantity::Frequency, k)?));
     }
     let tangent = |x: f64| omega + group * (x - k);
     let series = vec![
@@ -100,7 +103,7 @@ pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
 pub(super) fn crests(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let relation = Builtin::Beam.relation();
     let [k, step] = [1.0, 0.12];
-    let omega = |k: f64| Ok::<f64, FigureError>(relation.frequency_at(k)?.value);
+    let omega = |k: f64| of(&relation, Quantity::Frequency, k);
     let (w1, w2) = (omega(k - step / 2.0)?, omega(k + step / 2.0)?);
     let (carrier, group_velocity) = ((w1 + w2) / 2.0, (w2 - w1) / step);
     let last = TAU / step * 1.2;
@@ -129,9 +132,8 @@ pub(super) fn crests(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
                     runs twice as fast as its crests: the crest that is marked is ahead of the middle at \
                     first, and behind it in the end.",
     ];
-    let caption = caption(listed.number, &remarks);
     let place = Axis::linear("place x, where 2π is a mean wavelength");
-    Ok(Box::new(Figure::new(listed.title, place, panels, caption)?.window(0.0, last)?))
+    Ok(Box::new(listed.figure(place, panels, &remarks)?.window(0.0, last)?))
 }
 
 /// `c_p`, `c_g`, and `c_pp` of a square and a triangular pulse.
@@ -145,8 +147,8 @@ fn velocities(
         |count: u32| (1..=count).map(move |i| f64::from(i) / f64::from(count) * last);
     let (mut phase, mut group) = (Vec::new(), Vec::new());
     for k in wave_numbers(120) {
-        phase.push((k, relation.phase_velocity_at(k)?.value));
-        group.push((k, relation.group_velocity_at(k)?.value));
+        phase.push((k, of(relation, Quantity::PhaseVelocity, k)?));
+        group.push((k, of(relation, Quantity::GroupVelocity, k)?));
     }
     let mut series = vec![Series::new("c_p = ω/k", phase), Series::new("c_g = dω/dk", group)];
     for (name, shape) in

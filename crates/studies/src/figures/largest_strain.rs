@@ -28,9 +28,6 @@ pub struct LargestStrain {
 
 impl LargestStrain {
     /// The strains of the periods 0 … `last`, from the derived wave functions.
-    ///
-    /// # Panics
-    /// Never: the scene is built in.
     pub fn new(last: usize) -> Option<LargestStrain> {
         if last > MAX_PERIODS {
             return None;
@@ -59,9 +56,6 @@ impl LargestStrain {
 
     /// `2 f_n(0)`, the strain over `V/c` at the beginning of a period, where the bar has a share μ of the
     /// striking mass.
-    ///
-    /// # Panics
-    /// If there is no such period.
     pub fn strain(&self, period: usize, mu: &Rational, bits: u64) -> Ball {
         self.enclose(&self.strains[period], mu, bits)
     }
@@ -69,9 +63,6 @@ impl LargestStrain {
     /// Whether the contact certainly pushes at the end of each period before this one. The force falls
     /// within a period, so that it then pushed all the time, and the front of this period is as in
     /// [`strain`](Self::strain).
-    ///
-    /// # Panics
-    /// If there is no such period.
     pub fn is_pushed(&self, period: usize, mu: &Rational) -> bool {
         let zero = Ball::from_rational(&Rational::default(), 8);
         self.forces[..period].iter().all(|force| zero.is_below(&self.enclose(force, mu, 64)))

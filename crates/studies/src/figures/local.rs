@@ -2,10 +2,10 @@
 
 use super::Listed;
 use super::error::FigureError;
-use super::scene::{caption, ratio};
 use crate::hertz::{PowerLaw, equal_bars_constant};
+use crate::ratio;
 use wavestep::ball::Ball;
-use wavestep_draw::{Axis, Chart, Figure, Panel, Series};
+use wavestep_draw::{Axis, Chart, Panel, Series};
 
 /// The precision of values that are drawn.
 const BITS: u64 = 64;
@@ -19,7 +19,7 @@ pub(super) fn rise(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let curve = |law: PowerLaw| -> Result<Vec<(f64, f64)>, FigureError> {
         let point = |i: i64| {
             let time = ratio(i, 40);
-            Ok((i as f64 / 40.0, double(law.share(&time, BITS)?.force())))
+            Ok((i as f64 / 40.0, double(&law.share(&time, BITS)?.force)))
         };
         (0..=200).map(point).collect()
     };
@@ -31,8 +31,7 @@ pub(super) fn rise(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
         "Two long bars; 6.51 and 6.55, values certified. h = k (1/Z1 + 1/Z2), the force is k times the \
          compression to the power 3/2; the spring is the equivalent one of 6.56, h1 = h^(2/3) V^(1/3).",
     ];
-    let caption = caption(listed.number, &remarks);
-    Ok(Box::new(Figure::new(listed.title, time, vec![panel], caption)?.window(0.0, 5.0)?))
+    Ok(Box::new(listed.figure(time, vec![panel], &remarks)?.window(0.0, 5.0)?))
 }
 
 /// 6.16.
@@ -54,6 +53,5 @@ pub(super) fn rise_times(listed: &Listed) -> Result<Box<dyn Chart>, FigureError>
         "By 6.54 c t/r falls as the cube root of V R/(c r).",
     ];
     let product = Axis::logarithmic("velocity × nose radius V R/(c r)");
-    let caption = caption(listed.number, &remarks);
-    Ok(Box::new(Figure::new(listed.title, product, vec![panel], caption)?))
+    Ok(Box::new(listed.figure(product, vec![panel], &remarks)?))
 }

@@ -3,12 +3,12 @@
 use super::Listed;
 use super::error::FigureError;
 use super::largest_strain::LargestStrain;
-use super::scene::{caption, followed, network, ratio};
-use crate::picture::lagrange;
+use super::scene::{followed, network};
+use crate::ratio;
 use wavestep::ball::Ball;
 use wavestep::field::Quantity;
 use wavestep::history::field_evaluator;
-use wavestep_draw::{Axis, Chart, Figure, Look, Panel, Series};
+use wavestep_draw::{Axis, Chart, Look, Panel, Series};
 
 /// The mass of the bar over the striking mass in 6.20 and 6.21.
 const MU: (i64, i64) = (1, 2);
@@ -29,17 +29,16 @@ fn release() -> f64 {
 /// 6.20.
 pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     let network = network("saint-venant", &[("mu", ratio(MU.0, MU.1))]);
-    let window = [&ratio(0, 1), &ratio(LAST, 1)];
+    let last = ratio(LAST, 1);
     let remarks = [
         "The mass of the bar is half the striking mass; x from the struck end. Compression is positive; \
                     hatched: tension. The mass leaves where the strain at x = 0 has come to zero.",
     ];
-    let evaluator = field_evaluator(&network, window[1])?;
-    let caption = caption(listed.number, &remarks);
+    let evaluator = field_evaluator(&network, &last)?;
     // With V = 1 and Z = 1 the compressive force is −ε c/V.
-    let diagram = lagrange(&evaluator, Quantity::Force, window, caption)?;
-    let diagram = diagram.level(release(), "the mass leaves")?.titled(listed.title);
-    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "−ε c/V"])))
+    let names = ["place x/L", "time ct/L", "−ε c/V"];
+    let diagram = listed.diagram(&evaluator, Quantity::Force, &last, names, &remarks)?;
+    Ok(Box::new(diagram.level(release(), "the mass leaves")?))
 }
 
 /// 6.21.
@@ -65,8 +64,7 @@ pub(super) fn courses(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
         "The mass of the bar is half the striking mass. Where the strain at the struck end has come to zero the \
                     mass leaves; from then on it moves evenly, and the bar is free there.",
     ];
-    let caption = caption(listed.number, &remarks);
-    let figure = Figure::new(listed.title, Axis::linear("time ct/L"), panels, caption)?;
+    let figure = listed.figure(Axis::linear("time ct/L"), panels, &remarks)?;
     let leaves = release();
     let figure = figure.mark(leaves, &format!("the mass leaves, {leaves:.3}"))?;
     Ok(Box::new(figure.window(0.0, LAST as f64)?))
@@ -99,8 +97,7 @@ pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureE
         ["2 f_n(0): the front of the n-th period, doubled at the fixed end, as long as the \
                     contact pushes. Marked: where the next period has the largest strain."];
     let mass = Axis::linear("1/μ, striking mass over mass of the bar");
-    let mut figure =
-        Figure::new(listed.title, mass, vec![panel], caption(listed.number, &remarks))?;
+    let mut figure = listed.figure(mass, vec![panel], &remarks)?;
     for period in 1..PERIODS - 1 {
         if let Some(ratio) = strains.overtaking(period, 60) {
             let at = double(&ratio);

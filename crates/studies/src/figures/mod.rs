@@ -17,7 +17,10 @@ pub use error::FigureError;
 pub use largest_strain::LargestStrain;
 pub use saint_venant::saint_venant;
 
-use wavestep_draw::Chart;
+use crate::picture::lagrange;
+use wavestep::field::{FieldEvaluator, Quantity};
+use wavestep_draw::{Axis, Caption, Chart, Diagram, Figure, Panel};
+use wavestep_polynomial::Rational;
 
 /// A figure that can be drawn.
 pub struct Listed {
@@ -30,96 +33,74 @@ pub struct Listed {
 
 impl Listed {
     /// The figure, computed anew.
-    ///
-    /// # Errors
-    /// [`FigureError`], where a part of it cannot be computed.
     pub fn draw(&self) -> Result<Box<dyn Chart>, FigureError> {
         (self.draw)(self)
     }
+
+    /// Panels over an axis, with the title and the command that draws them again.
+    fn figure(&self, x: Axis, panels: Vec<Panel>, remarks: &[&str]) -> Result<Figure, FigureError> {
+        Ok(Figure::new(self.title, x, panels, self.caption(remarks))?)
+    }
+
+    /// A diagram of place and time, with the names of place, time and quantity.
+    fn diagram(
+        &self,
+        evaluator: &FieldEvaluator,
+        quantity: Quantity,
+        last: &Rational,
+        names: [&str; 3],
+        remarks: &[&str],
+    ) -> Result<Diagram, FigureError> {
+        let window = [&Rational::default(), last];
+        let diagram = lagrange(evaluator, quantity, window, self.caption(remarks))?;
+        Ok(diagram.titled(self.title).measured(names))
+    }
+
+    fn caption(&self, remarks: &[&str]) -> Caption {
+        Caption {
+            versions: vec![("wavestep".to_owned(), env!("CARGO_PKG_VERSION").to_owned())],
+            command: format!("wavestep figure {} -o figure.svg", self.number),
+            remarks: remarks.iter().map(|remark| (*remark).to_owned()).collect(),
+            ..Caption::default()
+        }
+    }
+}
+
+const fn listed(
+    number: &'static str,
+    title: &'static str,
+    draw: fn(&Listed) -> Result<Box<dyn Chart>, FigureError>,
+) -> Listed {
+    Listed { number, title, draw }
 }
 
 /// All figures, in the order of their numbers.
 pub static FIGURES: [Listed; 18] = [
-    Listed {
-        number: "6.10",
-        title: "Impact of two bars: x-t diagram, Z1 = Z2/2",
-        draw: bars::diagram_of_impact,
-    },
-    Listed {
-        number: "6.11",
-        title: "Impact of two equal bars: progress of the wave",
-        draw: bars::progress,
-    },
-    Listed {
-        number: "6.12",
-        title: "Constant force on a free bar: the wave on its way",
-        draw: bars::pushed_fields,
-    },
-    Listed {
-        number: "6.13",
-        title: "Constant force on a free bar: x-t diagram",
-        draw: bars::pushed_diagram,
-    },
-    Listed {
-        number: "6.15",
-        title: "Rise of the force in a Hertzian contact and in a spring",
-        draw: local::rise,
-    },
-    Listed {
-        number: "6.16",
-        title: "Rise time of the force, impact velocity and nose radius",
-        draw: local::rise_times,
-    },
-    Listed {
-        number: "6.17",
-        title: "Impact through a contact spring: x-t diagram",
-        draw: pulse::diagram,
-    },
-    Listed {
-        number: "6.18",
-        title: "Shape of the pulse for several lengths of the impacting bar",
-        draw: pulse::shapes,
-    },
-    Listed {
-        number: "6.20",
-        title: "A rigid mass strikes a bar with a fixed end: x-t diagram",
-        draw: mass::diagram,
-    },
-    Listed {
-        number: "6.21",
-        title: "Velocity of the mass, strain at both ends",
-        draw: mass::courses,
-    },
-    Listed {
-        number: "6.22",
-        title: "Largest strain at the fixed end in each period",
-        draw: mass::largest_strains,
-    },
-    Listed { number: "6.23", title: "A wave against time", draw: dispersion::against_time },
-    Listed { number: "6.24", title: "A wave against place", draw: dispersion::against_place },
-    Listed { number: "6.25", title: "Two waves and their envelope", draw: dispersion::beats },
-    Listed { number: "6.26", title: "A dispersion diagram", draw: dispersion::diagram },
-    Listed {
-        number: "6.27",
-        title: "Crests that run back through the envelope",
-        draw: dispersion::crests,
-    },
-    Listed {
-        number: "6.28",
-        title: "Velocities for a curve that is concave downwards",
-        draw: dispersion::concave_downwards,
-    },
-    Listed {
-        number: "6.29",
-        title: "Velocities for a curve that is concave upwards",
-        draw: dispersion::concave_upwards,
-    },
+    listed("6.10", "Impact of two bars: x-t diagram, Z1 = Z2/2", bars::diagram_of_impact),
+    listed("6.11", "Impact of two equal bars: progress of the wave", bars::progress),
+    listed("6.12", "Constant force on a free bar: the wave on its way", bars::pushed_fields),
+    listed("6.13", "Constant force on a free bar: x-t diagram", bars::pushed_diagram),
+    listed("6.15", "Rise of the force in a Hertzian contact and in a spring", local::rise),
+    listed("6.16", "Rise time of the force, impact velocity and nose radius", local::rise_times),
+    listed("6.17", "Impact through a contact spring: x-t diagram", pulse::diagram),
+    listed("6.18", "Shape of the pulse for several lengths of the impacting bar", pulse::shapes),
+    listed("6.20", "A rigid mass strikes a bar with a fixed end: x-t diagram", mass::diagram),
+    listed("6.21", "Velocity of the mass, strain at both ends", mass::courses),
+    listed("6.22", "Largest strain at the fixed end in each period", mass::largest_strains),
+    listed("6.23", "A wave against time", dispersion::against_time),
+    listed("6.24", "A wave against place", dispersion::against_place),
+    listed("6.25", "Two waves and their envelope", dispersion::beats),
+    listed("6.26", "A dispersion diagram", dispersion::diagram),
+    listed("6.27", "Crests that run back through the envelope", dispersion::crests),
+    listed(
+        "6.28",
+        "Velocities for a curve that is concave downwards",
+        dispersion::concave_downwards,
+    ),
+    listed("6.29", "Velocities for a curve that is concave upwards", dispersion::concave_upwards),
 ];
 
 /// A figure by its number.
-///
-/// # Errors
-/// [`FigureError::Unknown`], which lists those there are.
 pub fn find(number: &str) -> Result<&'static Listed, FigureError> {
     let found = FIGURES.iter().find(|figure| figure.number == number);
     found.ok_or_else(|| FigureError::Unknown(number.to_owned()))

@@ -2,29 +2,28 @@
 
 use super::Listed;
 use super::error::FigureError;
-use super::scene::{caption, course, followed, network, ratio, recurrence};
-use crate::picture::lagrange;
+use super::scene::{course, followed, network, recurrence};
+use crate::ratio;
 use wavestep::field::Quantity;
 use wavestep::history::field_evaluator;
-use wavestep_draw::{Axis, Chart, Figure, Panel, Series};
+use wavestep_draw::{Axis, Chart, Panel, Series};
 
 /// 6.17.
 pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
     // With μ = 2 the unit of t k (1/Z1 + 1/Z2) is L/c.
     let network = network("cushion-with-release", &[("mu", ratio(2, 1))]);
-    let window = [&ratio(0, 1), &ratio(6, 1)];
+    let last = ratio(6, 1);
     let remarks = [
         "Two bars of impedance Z; the striker has the length L, x is from its free end. μ = 4Lk/(EA) = 2, so \
          that t k (1/Z1 + 1/Z2) = ct/L. X_max = ZV/2.",
         "The spring lies at x = L; once it is unloaded the bars part. Hatched: tension.",
     ];
-    let evaluator = field_evaluator(&network, window[1])?.looking(&ratio(3, 1))?;
-    let caption = caption(listed.number, &remarks);
-    let diagram = lagrange(&evaluator, Quantity::Force, window, caption)?;
-    let force = followed(&network, "force", window[1])?;
+    let evaluator = field_evaluator(&network, &last)?.looking(&ratio(3, 1))?;
+    let names = ["place x/L", "time ct/L", "X/(ZV)"];
+    let diagram = listed.diagram(&evaluator, Quantity::Force, &last, names, &remarks)?;
+    let force = followed(&network, "force", &last)?;
     let opens = until_zero(&force.points).last().map_or(0.0, |point| point.0);
-    let diagram = diagram.level(opens, "the bars part")?.titled(listed.title);
-    Ok(Box::new(diagram.measured(["place x/L", "time ct/L", "X/(ZV)"])))
+    Ok(Box::new(diagram.level(opens, "the bars part")?))
 }
 
 /// The part of a curve before it falls through zero, which ends there.
@@ -58,8 +57,7 @@ pub(super) fn shapes(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
         "X_max = EA V/(2c). Each curve ends where the force is zero again and the contact opens.",
     ];
     let time = Axis::linear("time t k (1/Z1 + 1/Z2)");
-    let caption = caption(listed.number, &remarks);
-    Ok(Box::new(Figure::new(listed.title, time, vec![panel], caption)?))
+    Ok(Box::new(listed.figure(time, vec![panel], &remarks)?))
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use super::error::FigureError;
 use super::largest_strain::LargestStrain;
-use super::scene::ratio;
 use crate::picture::Sampled;
+use crate::ratio;
 use wavestep_draw::{Axis, Caption, Chart, Figure, Panel, Series};
 use wavestep_polynomial::Rational;
 
@@ -40,9 +40,6 @@ fn release(strains: &LargestStrain) -> Sampled {
 }
 
 /// Release and largest strain against the ratio of the striking mass to that of the bar.
-///
-/// # Errors
-/// [`FigureError::Plot`], where nothing can be drawn.
 pub fn saint_venant() -> Result<Box<dyn Chart>, FigureError> {
     let strains = LargestStrain::new(PERIODS).expect("few periods");
     let mut largest = Vec::new();

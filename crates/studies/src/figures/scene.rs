@@ -9,13 +9,7 @@ use wavestep::language::{self, Source};
 use wavestep::network::Network;
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::Solution;
-use wavestep_draw::Caption;
 use wavestep_polynomial::Rational;
-
-/// A fraction of integers.
-pub(super) fn ratio(numerator: i64, denominator: i64) -> Rational {
-    Rational::new(numerator.into(), denominator.into())
-}
 
 fn source(name: &str) -> Source {
     let text = wavestep::scenes::find(name).expect("a built-in scene").text;
@@ -57,14 +51,4 @@ pub(super) fn followed(
 ) -> Result<Sampled, FigureError> {
     let signal = FollowedSignal::new(network, name, [&Rational::default(), last])?;
     Ok(sampled(&signal)?)
-}
-
-/// A caption with the command that draws the figure again, and remarks.
-pub(super) fn caption(number: &str, remarks: &[&str]) -> Caption {
-    Caption {
-        versions: vec![("wavestep".to_owned(), env!("CARGO_PKG_VERSION").to_owned())],
-        command: format!("wavestep figure {number} -o figure.svg"),
-        remarks: remarks.iter().map(|remark| (*remark).to_owned()).collect(),
-        ..Caption::default()
-    }
 }

@@ -30,7 +30,7 @@ impl Sample {
 
     /// `φ − (1 − e^{−t̄})`.
     fn difference(&self, precision: u64) -> Ball {
-        self.spring.subtract(self.contact.deficit(), precision)
+        self.spring.subtract(&self.contact.deficit, precision)
     }
 }
 
@@ -68,14 +68,14 @@ fn largest_between(
     precision: u64,
 ) -> Result<Rational, HertzError> {
     let zero = Ball::zero();
-    let (late, lacking) = q.map_or((&zero, &zero), |q| (&q.spring, q.contact.deficit()));
-    let lowest = late.subtract(p.contact.deficit(), precision);
+    let (late, lacking) = q.map_or((&zero, &zero), |q| (&q.spring, &q.contact.deficit));
+    let lowest = late.subtract(&p.contact.deficit, precision);
     let highest = p.spring.subtract(lacking, precision);
     let crude = sizes(&ends(&hull(&lowest, &highest, precision)))[0].clone();
     let Some(q) = q else { return Ok(crude) };
     let slope = law.exponent() - Rational::one();
     let power = |sample: &Sample| -> Result<Option<Ball>, HertzError> {
-        let compression = sample.contact.compression();
+        let compression = &sample.contact.compression;
         match (slope.is_zero(), zero.is_below(compression), slope.is_positive()) {
             (true, ..) => Ok(Some(Ball::from_rational(&Rational::one(), 4))),
             (_, true, _) => Ok(Some(compression.power(&slope, precision)?)),
@@ -85,7 +85,7 @@ fn largest_between(
     };
     let (Some(first), Some(last)) = (power(p)?, power(q)?) else { return Ok(crude) };
     let rise = hull(&first, &last, precision)
-        .multiply(&hull(p.contact.deficit(), q.contact.deficit(), precision), precision)
+        .multiply(&hull(&p.contact.deficit, &q.contact.deficit, precision), precision)
         .multiply_rational(law.exponent(), precision)
         .subtract(&hull(&p.spring, &q.spring, precision), precision);
     let way = Ball::between(&Rational::zero(), &(&q.time - &p.time), precision);
@@ -98,12 +98,7 @@ fn largest_between(
 /// `sup |φ(t̄) − (1 − e^{−t̄})|`, enclosed to about so many decimal places.
 ///
 /// Branch and bound: times are halved where the difference may exceed the largest one seen.
-///
-/// # Errors
-/// [`HertzError::Ball`] where an enclosure fails.
-///
-/// # Cost
-/// Some ten evaluations of [`PowerLaw::share`] for each decimal place.
+/// Takes some ten evaluations of [`PowerLaw::share`] for each decimal place.
 pub fn distance_from_spring(law: &PowerLaw, places: u32) -> Result<Ball, HertzError> {
     let precision = 4 * u64::from(places) + SPARE_BITS;
     if law.exponent().is_one() {

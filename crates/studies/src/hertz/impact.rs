@@ -41,9 +41,6 @@ impl EquivalentSpring {
     }
 
     /// The time at which its force has a share φ of the largest one, `−ln(1 − φ)` units of time (6.55).
-    ///
-    /// # Errors
-    /// [`HertzError::Share`] where the share is not from 0 to below 1.
     pub fn rise_time(&self, share: &Rational) -> Result<Ball, HertzError> {
         let spring = PowerLaw::new(Rational::from_integer(1.into()))?;
         let time = spring.time(share, self.precision)?;
@@ -54,9 +51,7 @@ impl EquivalentSpring {
 impl LongBars {
     /// Of the law, a force with the compression it belongs to, the impedances, and the velocity at which
     /// the bars approach each other.
-    ///
-    /// # Errors
-    /// [`HertzError::NotPositive`] where one of them is not certainly positive.
+    /// All have to be certainly positive.
     pub fn new(
         law: PowerLaw,
         (force, compression): (Ball, Ball),
@@ -101,7 +96,6 @@ impl LongBars {
     }
 
     /// The law of the contact.
-    #[must_use]
     pub fn law(&self) -> &PowerLaw {
         &self.law
     }
@@ -112,26 +106,18 @@ impl LongBars {
     }
 
     /// The time at which the force has a share of the largest one.
-    ///
-    /// # Errors
-    /// [`HertzError::Share`] where the share is not from 0 to below 1.
     pub fn rise_time(&self, share: &Rational) -> Result<Ball, HertzError> {
         let time = self.law.time(share, self.precision)?;
         Ok(time.multiply(&self.time_unit, self.precision))
     }
 
     /// The force at a time.
-    ///
-    /// # Errors
-    /// [`HertzError::Time`] where the time may be negative.
     pub fn force(&self, time: &Ball) -> Result<Ball, HertzError> {
-        Ok(self.share(time)?.force().multiply(&self.largest_force, self.precision))
+        Ok(self.share(time)?.force.multiply(&self.largest_force, self.precision))
     }
 
     /// How far the force has risen at a time.
-    ///
-    /// # Errors
-    /// [`HertzError::Time`] where the time may be negative.
+    /// The time must not be negative.
     pub fn share(&self, time: &Ball) -> Result<Share, HertzError> {
         let is_start = time == &Ball::zero();
         if !is_start && !Ball::zero().is_below(time) {
@@ -142,10 +128,6 @@ impl LongBars {
     }
 
     /// The spring with the same unit of time (6.56, 6.57).
-    ///
-    /// # Panics
-    /// Never: a positive compression has an inverse.
-    #[must_use]
     pub fn equivalent_spring(&self) -> EquivalentSpring {
         let inverse = self.largest_compression.reciprocal(self.precision);
         let inverse = inverse.expect("a compression is positive");

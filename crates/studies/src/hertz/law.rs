@@ -30,6 +30,7 @@
 //! From `j ≥ (1 + a)/2` on `|c_j|` does not grow, so that what S leaves out is at most `2 |c_J| y^J`.
 
 use super::error::HertzError;
+use crate::ratio;
 use num_traits::{One, Signed, ToPrimitive};
 use wavestep::ball::{Ball, Magnitude, Precisions};
 use wavestep_polynomial::Rational;
@@ -46,30 +47,12 @@ pub struct PowerLaw {
 /// How far the force has risen at a time.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Share {
-    force: Ball,
-    deficit: Ball,
-    compression: Ball,
-}
-
-impl Share {
     /// `X/X_max = φ`.
-    pub fn force(&self) -> &Ball {
-        &self.force
-    }
-
+    pub force: Ball,
     /// `1 − X/X_max`, with a small relative error however close the force is to its limit.
-    pub fn deficit(&self) -> &Ball {
-        &self.deficit
-    }
-
+    pub deficit: Ball,
     /// `α/α_max = φ^{1/m}`.
-    pub fn compression(&self) -> &Ball {
-        &self.compression
-    }
-}
-
-fn ratio(numerator: i64, denominator: i64) -> Rational {
-    Rational::new(numerator.into(), denominator.into())
+    pub compression: Ball,
 }
 
 fn exact(value: &Rational, precision: u64) -> Ball {
@@ -96,9 +79,6 @@ impl PowerLaw {
     pub const LEAST_INVERSE: i64 = 10;
 
     /// The law `X = k α^m`.
-    ///
-    /// # Errors
-    /// [`HertzError::Exponent`] where m is not from 1/10 to 100.
     pub fn new(exponent: Rational) -> Result<PowerLaw, HertzError> {
         match exponent >= ratio(1, Self::LEAST_INVERSE) && exponent <= ratio(Self::MOST, 1) {
             true => Ok(PowerLaw { exponent }),
@@ -107,23 +87,16 @@ impl PowerLaw {
     }
 
     /// Hertz' law, `m = 3/2` (6.49).
-    #[must_use]
     pub fn hertz() -> PowerLaw {
         PowerLaw { exponent: ratio(3, 2) }
     }
 
     /// m.
-    #[must_use]
     pub fn exponent(&self) -> &Rational {
         &self.exponent
     }
 
     /// The time `t̄ = t h^{1/m} V^{1−1/m}` at which the force has a share of its largest value.
-    ///
-    /// # Errors
-    /// [`HertzError::Share`] where the share is not from 0 to below 1.
-    ///
-    /// # Cost
     /// A few logarithms, or for exponents other than 1 and 3/2 as many products as bits.
     pub fn time(&self, share: &Rational, precision: u64) -> Result<Ball, HertzError> {
         if share.is_negative() || *share >= Rational::one() {
@@ -149,9 +122,6 @@ impl PowerLaw {
 
     /// The same for every m by the two series: the second derivation for m = 1 and 3/2, where tests
     /// hold it against the closed forms.
-    ///
-    /// # Errors
-    /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
     pub fn time_by_series(
         &self,
         force: &Ball,
@@ -219,12 +189,7 @@ impl PowerLaw {
     /// Newton's method finds a number near β, or beyond the middle near `λ = −ln(1 − φ)`; the mean
     /// value theorem encloses: `β* = β + (t̄ − t̄(β)) (1 − ξ^m)` and `λ* = λ + (t̄ − t̄(λ)) m (1 − η)^{−a}`, with
     /// factors from 0 to 1, and to `m max(1, 2^a)`.
-    ///
-    /// # Errors
-    /// [`HertzError::Time`] where the time is negative.
-    ///
-    /// # Cost
-    /// Some `log₂` of the precision evaluations of [`time`](Self::time).
+    /// Takes some `log₂` of the precision evaluations of [`time`](Self::time).
     pub fn share(&self, time: &Rational, precision: u64) -> Result<Share, HertzError> {
         if time.is_negative() {
             return Err(HertzError::Time(time.to_string()));
@@ -233,9 +198,6 @@ impl PowerLaw {
     }
 
     /// The same for an enclosed time, which must not be negative.
-    ///
-    /// # Errors
-    /// [`HertzError::Ball`] where an enclosure is not of positive numbers.
     pub fn share_at(&self, time: &Ball, precision: u64) -> Result<Share, HertzError> {
         let working = precision + 32;
         if time.magnitude() == Magnitude::ZERO {
@@ -383,9 +345,6 @@ fn hertz_time(p: &Ball, deficit: &Ball, precision: u64) -> Result<Ball, HertzErr
 /// have `t̄ = constant · (V/c)^{1/3} (R/r)^{1/3} (c t/r)`.
 ///
 /// It follows from `k = (4/3) E/(2(1 − ν²)) √(R/2)`, `Z = π r² E/c` and `t̄ = t h^{2/3} V^{1/3}`.
-///
-/// # Errors
-/// [`HertzError::Poisson`] where ν is not above −1 and at most 1/2.
 pub fn equal_bars_constant(poisson: &Rational, precision: u64) -> Result<Ball, HertzError> {
     if *poisson <= ratio(-1, 1) || *poisson > ratio(1, 2) {
         return Err(HertzError::Poisson(poisson.to_string()));

@@ -23,11 +23,7 @@ pub struct ContactOfScene {
 
 impl ContactOfScene {
     /// Reads the first local contact of a scene.
-    ///
-    /// # Errors
-    /// [`HertzError::Scene`] where there is none, or what stands beside it is no bar that is free of strain;
-    /// [`HertzError::NotPositive`] where the bars do not approach each other; [`HertzError::Enclosure`]
-    /// for symbols without values.
+    /// Beside it there have to be two bars free of strain, which approach each other.
     pub fn new(scaled: &ScaledScene, precision: u64) -> Result<ContactOfScene, HertzError> {
         let (scene, model) = (scaled.scene(), scaled.model());
         let element = scaled.local_contact().ok_or(NoContact::NoElement)?;

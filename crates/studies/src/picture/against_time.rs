@@ -19,9 +19,6 @@ pub struct Course {
 
 /// A figure of quantities against time, those of one dimension in one panel; without units, those of one
 /// kind.
-///
-/// # Errors
-/// [`PictureError::Plot`] where there is nothing finite to draw.
 pub fn against_time(
     title: &str,
     courses: &[Course],
@@ -29,10 +26,7 @@ pub fn against_time(
     (from, to): (f64, f64),
     caption: Caption,
 ) -> Result<Figure, PictureError> {
-    let seconds = match dimensional {
-        true => Prefixed::of("s", to.abs().max(from.abs())),
-        false => Prefixed { unit: String::new(), factor: 1.0 },
-    };
+    let seconds = Prefixed::in_scene(dimensional, "s", to.abs().max(from.abs()));
     // Units tell kinds apart; without them it is told what is measured.
     let kind_of = |course: &Course| match dimensional {
         true => (course.dimension, None),

@@ -13,9 +13,6 @@ const POINTS: usize = 160;
 
 /// A figure of fields along the line: a panel for each, with one line for each time, none of them after
 /// the last one of the evaluator.
-///
-/// # Errors
-/// [`PictureError`].
 pub fn along_the_line(
     evaluator: &FieldEvaluator,
     quantities: &[Quantity],
@@ -35,10 +32,7 @@ pub fn along_the_line(
     let length = |bar: usize| found.iter().map(|profiles| profiles[bar].length).fold(0.0, f64::max);
     let places = Places::of(network, (0..count).map(length))?;
     let dimensional = network.scene().dimensional;
-    let prefixed = |unit: &str, largest| match dimensional {
-        true => Prefixed::of(unit, largest),
-        false => Prefixed::of("", 1.0),
-    };
+    let prefixed = |unit: &str, largest| Prefixed::in_scene(dimensional, unit, largest);
     let metre = prefixed("m", places.window.0.abs().max(places.window.1));
     let seconds: Vec<f64> =
         times.iter().map(|time| Ball::from_rational(time, 64).to_double().0).collect();

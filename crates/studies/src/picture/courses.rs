@@ -27,9 +27,6 @@ const BITS: u64 = 64;
 
 /// The usual window from a time on: some periods; with a local contact some units of its time, and twice
 /// the time until a wave returns to it.
-///
-/// # Errors
-/// [`ProblemError::NoEnd`] where there are no periods.
 pub fn usual_end(problem: &Problem, from: &Rational) -> Result<Rational, PictureError> {
     let length = match problem.usual_method() {
         None => problem.usual_length()?,
@@ -46,9 +43,6 @@ pub fn usual_end(problem: &Problem, from: &Rational) -> Result<Rational, Picture
 
 /// The waves and observables of these names on a window, or all observables; with a local contact also
 /// how far their values were tested.
-///
-/// # Errors
-/// [`PictureError::NothingObserved`]; [`PictureError::Problem`].
 pub fn courses(
     problem: &Problem,
     names: &[String],

@@ -19,9 +19,6 @@ const FLAT: f64 = 1.0 / 96.0;
 /// Where two constant waves cross, a cell is exact and as large as it can be; where a wave bends, it
 /// is cut into strips along both families of characteristics, in each of which it changes by no more than a
 /// hundredth of the range of the waves. No cell reaches over a front.
-///
-/// # Errors
-/// [`PictureError`].
 pub fn lagrange(
     evaluator: &FieldEvaluator,
     quantity: Quantity,
@@ -41,10 +38,7 @@ pub fn lagrange(
     let times = (begin(&bars[0]), end(&bars[0]));
     let window: Window = [places.window, times];
     let scene = network.scene();
-    let unit = |unit: &str, largest: f64| match scene.dimensional {
-        true => Prefixed::of(unit, largest),
-        false => Prefixed::of("", 1.0),
-    };
+    let unit = |unit: &str, largest| Prefixed::in_scene(scene.dimensional, unit, largest);
     let (metre, second) = (unit("m", window[0].0.abs().max(window[0].1)), unit("s", times.1));
     let mut cells = Vec::new();
     let mut lines = Vec::new();
@@ -53,8 +47,7 @@ pub fn lagrange(
         lines.extend(lines_of(bar, *left, window));
     }
     let largest = cells.iter().map(|cell: &Cell| cell.value().abs()).fold(0.0, f64::max);
-    let own = Prefixed::of(&quantity.dimension().unit(), largest);
-    let own = if scene.dimensional { own } else { unit("", 1.0) };
+    let own = unit(&quantity.dimension().unit(), largest);
     let on = |(x, t): (f64, f64)| (x * metre.factor, t * second.factor);
     let (low, high) = (on((window[0].0, times.0)), on((window[0].1, times.1)));
     let shown: Window = [(low.0, high.0), (low.1, high.1)];

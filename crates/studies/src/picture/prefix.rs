@@ -42,6 +42,14 @@ impl Prefixed {
         Prefixed { unit, factor }
     }
 
+    /// The same where a scene has units; plain numbers stay as they are.
+    pub fn in_scene(dimensional: bool, unit: &str, largest: f64) -> Prefixed {
+        match dimensional {
+            true => Prefixed::of(unit, largest),
+            false => Prefixed { unit: String::new(), factor: 1.0 },
+        }
+    }
+
     /// A linear axis in this unit.
     pub fn axis(&self, name: &str) -> Axis {
         Axis::linear(name).unit(&self.unit)

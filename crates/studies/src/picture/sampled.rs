@@ -30,12 +30,7 @@ pub struct Sampled {
 
 /// Samples a signal on its window: a line through the points is off by at most about a thousandth of the
 /// range.
-///
-/// # Errors
-/// [`EvaluateError`]; an empty window.
-///
-/// # Cost
-/// A few hundred values, and at least three between two arrivals.
+/// Takes a few hundred values, and at least three between two arrivals.
 pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
     let [from, to] = function.window();
     if from >= to {
@@ -76,9 +71,6 @@ pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
 }
 
 /// Samples what has no stretches, an energy, at equal steps; it is continuous.
-///
-/// # Errors
-/// [`EvaluateError`].
 pub fn sampled_in_steps(signal: &dyn Signal, steps: usize) -> Result<Sampled, EvaluateError> {
     let [from, to] = signal.window();
     let mut found = Sampled::default();

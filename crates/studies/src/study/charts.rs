@@ -103,17 +103,11 @@ pub struct Charts {
 }
 
 /// The end of the window where none is asked for.
-///
-/// # Errors
-/// [`ProblemError::NoEnd`](wavestep::problem::ProblemError::NoEnd) where no period is known.
 pub fn usual_end(problem: &Problem) -> Result<Rational, PictureError> {
     Ok(problem.some_periods(PERIODS)?)
 }
 
 /// Draws all charts of a quantity on a window; `tick` is told what is being measured.
-///
-/// # Errors
-/// [`PictureError`] where nothing can be measured.
 pub fn charts(
     problem: &Problem,
     window: [Rational; 2],

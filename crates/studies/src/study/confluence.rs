@@ -21,9 +21,6 @@ const TEXT: &str = "recurrence \"Two poles\"\n\
 const LAST: f64 = 10.0;
 
 /// The error of values by the distance of two poles, which is `10^−j`.
-///
-/// # Errors
-/// [`PlotError`], where nothing was measured.
 pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, PlotError> {
     let kinds = [Kind::Expanded, Kind::Compiled];
     let mut curves = kinds.map(|kind| Curve { name: kind.to_string(), points: Vec::new() });

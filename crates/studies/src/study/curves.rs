@@ -53,9 +53,6 @@ fn levelled(
 }
 
 /// The largest error in each of equal parts of the window.
-///
-/// # Errors
-/// [`PlotError`], where no method has values.
 pub fn over_time(
     reference: &Reference,
     question: &Question<'_>,
@@ -78,9 +75,6 @@ pub fn over_time(
 }
 
 /// The error just after arrivals, by their number.
-///
-/// # Errors
-/// [`PlotError`], where no method has values.
 pub fn at_arrivals(
     question: &Question<'_>,
     most: usize,
@@ -109,9 +103,6 @@ pub fn at_arrivals(
 }
 
 /// The error at orders so high that exponentials underflow long before the echoes do.
-///
-/// # Errors
-/// [`PlotError`], where no method has values.
 pub fn over_order(
     subject: Subject<'_>,
     period: f64,
@@ -132,9 +123,6 @@ pub fn over_order(
 }
 
 /// The error of sums of modes by the distance from a jump, after it.
-///
-/// # Errors
-/// [`PlotError`], where modes have no values.
 pub fn near_jump(
     question: &Question<'_>,
     unit: &str,
@@ -165,9 +153,6 @@ pub fn near_jump(
 }
 
 /// The error of finite differences by Courant's number: the mean, and the largest.
-///
-/// # Errors
-/// [`PlotError`], where finite differences have no values.
 pub fn over_courant(
     question: &Question<'_>,
     (reference, most_cells): (&Reference, usize),

@@ -40,9 +40,6 @@ pub fn first_losses(
 }
 
 /// Losses as a chart over the parameter, and as a small table.
-///
-/// # Errors
-/// [`PlotError`], where no digits are lost anywhere.
 pub fn losses(
     kind: Kind,
     parameter: &str,

@@ -65,9 +65,6 @@ pub struct Reference {
 
 impl Reference {
     /// The values of a question, just after arrivals.
-    ///
-    /// # Errors
-    /// [`EvaluateError`], where the question cannot be enclosed, and for times that are no numbers.
     pub fn new(question: &Question<'_>, times: &[f64]) -> Result<Reference, EvaluateError> {
         let signal = &*question.signal;
         let scale = question.scale()?;
@@ -117,9 +114,6 @@ impl Reference {
     }
 
     /// `|computed − reference|` in parts of the largest value; infinite for what is no number.
-    ///
-    /// # Panics
-    /// Where there are not as many values as times.
     pub fn errors(&self, computed: &[f64]) -> Vec<f64> {
         assert_eq!(computed.len(), self.values.len(), "one value a time");
         self.first_errors(computed)

@@ -112,9 +112,6 @@ pub fn ladder(
 ///
 /// The diagram shows seconds a point, and above them the same with the preparation spread over the points
 /// of the reference.
-///
-/// # Errors
-/// [`PlotError`], where nothing was measured.
 pub fn work_precision(
     title: &str,
     outcomes: &[Outcome],

@@ -35,9 +35,6 @@ pub fn simple_roots(question: &Question<'_>, most: usize) -> Vec<f64> {
 ///
 /// The distances are `10^−k` of a period, k = 1 … 12, on both sides of at most so many roots; without
 /// periods they are such parts of the window.
-///
-/// # Errors
-/// [`PlotError`], where there is no root or no method has values.
 pub fn near_zeros(
     question: &Question<'_>,
     most: usize,

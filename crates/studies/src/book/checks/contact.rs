@@ -5,16 +5,13 @@ use crate::book::entry::Equation;
 use crate::book::refusal::Refusal;
 use crate::book::verdict::{Verdict, Witness};
 use crate::hertz::{PowerLaw, equal_bars_constant};
+use crate::ratio;
 use wavestep::ball::Ball;
 use wavestep::export::{Formula, Head};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Bits of enclosures.
 const BITS: u64 = 128;
-
-fn ratio(numerator: i64, denominator: i64) -> Rational {
-    Rational::new(numerator.into(), denominator.into())
-}
 
 /// 6.49: the stiffness is 4/3 of the effective modulus times the root of the effective radius.
 pub(super) fn stiffness() -> Result<Checked, Refusal> {

@@ -5,19 +5,16 @@ use crate::book::entry::Equation;
 use crate::book::refusal::Refusal;
 use crate::book::verdict::{Finding, Ground, Verdict, Witness};
 use crate::dispersion::{self, Builtin, Component, Pulse, Shape};
+use crate::ratio;
 use wavestep::ball::Ball;
 use wavestep::export::{Formula, Head};
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::Symbol;
 
 /// Bits of enclosures.
 const BITS: u64 = 128;
 
 /// Digits to which two values are compared.
 const DIGITS: usize = 30;
-
-fn ratio(numerator: i64, denominator: i64) -> Rational {
-    Rational::new(numerator.into(), denominator.into())
-}
 
 /// 6.91a: which factor stands in front of the product.
 pub(super) fn two_waves() -> Result<Checked, Refusal> {

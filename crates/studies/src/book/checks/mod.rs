@@ -1,7 +1,6 @@
 //! Checks of what no scene of bars derives: words, estimates, local contact, dispersion.
 //!
-//! An entry asks for one by its name, with `check NAME`. A check is one more name in [`CHECKS`] with its
-//! arm in `run`.
+//! An entry asks for one by its name, with `check NAME`; [`CHECKS`] lists them.
 
 mod contact;
 mod dispersion;
@@ -28,41 +27,29 @@ impl Checked {
     }
 }
 
-/// The names of all checks that entries may ask for.
-pub const CHECKS: [&str; 13] = [
-    "equal-bars",
-    "energy-estimate",
-    "better-estimate",
-    "hertz-stiffness",
-    "hertz-integral",
-    "hertz-time",
-    "hertz-constant",
-    "two-waves",
-    "narrow-band",
-    "beat",
-    "slope-of-pulse",
-    "peak-of-sum",
-    "peak-of-spectrum",
+type Check = fn() -> Result<Checked, Refusal>;
+
+/// All checks that entries may ask for, by their names.
+const CHECKS: [(&str, Check); 13] = [
+    ("equal-bars", estimates::equal_bars),
+    ("energy-estimate", estimates::energy_estimate),
+    ("better-estimate", estimates::better_estimate),
+    ("hertz-stiffness", contact::stiffness),
+    ("hertz-integral", contact::integral),
+    ("hertz-time", contact::time),
+    ("hertz-constant", contact::constant),
+    ("two-waves", dispersion::two_waves),
+    ("narrow-band", dispersion::narrow_band),
+    ("beat", dispersion::beat),
+    ("slope-of-pulse", dispersion::slope_of_pulse),
+    ("peak-of-sum", dispersion::peak_of_sum),
+    ("peak-of-spectrum", dispersion::peak_of_spectrum),
 ];
 
 /// Runs a check by its name.
 pub(super) fn run(name: &str) -> Result<Checked, Refusal> {
-    match name {
-        "equal-bars" => estimates::equal_bars(),
-        "energy-estimate" => estimates::energy_estimate(),
-        "better-estimate" => estimates::better_estimate(),
-        "hertz-stiffness" => contact::stiffness(),
-        "hertz-integral" => contact::integral(),
-        "hertz-time" => contact::time(),
-        "hertz-constant" => contact::constant(),
-        "two-waves" => dispersion::two_waves(),
-        "narrow-band" => dispersion::narrow_band(),
-        "beat" => dispersion::beat(),
-        "slope-of-pulse" => dispersion::slope_of_pulse(),
-        "peak-of-sum" => dispersion::peak_of_sum(),
-        "peak-of-spectrum" => dispersion::peak_of_spectrum(),
-        _ => Err(Refusal::UnknownName(name.to_owned())),
-    }
+    let check = CHECKS.iter().find(|(own, _)| *own == name);
+    check.ok_or_else(|| Refusal::UnknownName(name.to_owned()))?.1()
 }
 
 fn read(text: &str) -> Result<Expression, Refusal> {
@@ -89,8 +76,8 @@ mod tests {
 
     #[test]
     fn every_name_has_its_check() {
-        for name in CHECKS {
-            assert!(run(name).is_ok(), "{name}");
+        for (name, check) in CHECKS {
+            assert!(check().is_ok(), "{name}");
         }
         assert!(run("nothing").is_err());
     }

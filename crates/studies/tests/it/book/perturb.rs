@@ -74,11 +74,11 @@ fn is_here(at: &mut usize) -> bool {
 fn changed(equation: &Equation) -> Vec<Equation> {
     let mut all = Vec::new();
     for place in 0.. {
-        let mut right = equation.right().clone();
+        let mut right = equation.right.clone();
         if !change(&mut right, &mut place.clone()) {
             return all;
         }
-        all.push(equation.with_right(right));
+        all.push(Equation { right, ..equation.clone() });
     }
     unreachable!("a formula has an end")
 }
