@@ -7,7 +7,7 @@ use super::json::SCHEMA_VERSION;
 use super::progress;
 use num_rational::BigRational;
 use num_traits::Signed as _;
-use serde_json::{Map, Value as Json, json};
+use serde_json::{Value as Json, json};
 use wavestep::ball::{Ball, Value};
 use wavestep::language::{self, Source};
 use wavestep::problem::number;
@@ -59,6 +59,7 @@ struct Answer {
     title: String,
     relation: Relation,
     at: Vec<At>,
+    /// Its name, the velocity of its peak, and that in closed form.
     pulse: Option<(String, Option<PeakVelocity>, Option<Formula>)>,
     seen: Option<(String, Seen)>,
 }
@@ -108,7 +109,8 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
                 answer.seen =
                     Some((exact.to_string(), propagate(&answer.relation, &pulse, travel)?));
             }
-            answer.pulse = Some((name, Some(peak), None));
+            let exact = peak.exact.clone();
+            answer.pulse = Some((name, Some(peak), exact));
         }
     }
     Ok(match options.format {
@@ -217,12 +219,11 @@ fn text(answer: &Answer) -> String {
             lines.push(format!("{name:<5} = {value}"));
         }
     }
-    if let Some((name, peak, symbolic)) = &answer.pulse {
+    if let Some((name, peak, exact)) = &answer.pulse {
         lines.extend([String::new(), name.clone()]);
         if let Some(peak) = peak {
             lines.push(format!("k_co  = {}", peak.cut_off));
         }
-        let exact = symbolic.as_ref().or_else(|| peak.as_ref()?.exact.as_ref());
         if let Some(exact) = exact {
             lines.push(format!("c_pp  = {}", formula_text(exact)));
         }
@@ -257,12 +258,11 @@ fn latex(answer: &Answer) -> String {
             rows.push(format!("{name}\\left({k}\\right) &= {}", value(one)));
         }
     }
-    if let Some((_, peak, symbolic)) = &answer.pulse {
-        let exact = symbolic.as_ref().or_else(|| peak.as_ref()?.exact.as_ref());
+    if let Some((_, peak, exact)) = &answer.pulse {
         if let Some(peak) = peak {
             rows.push(format!("k_{{\\mathrm{{co}}}} &= {}", value(&peak.cut_off)));
         }
-        let exact = exact.map(formula_latex);
+        let exact = exact.as_ref().map(formula_latex);
         let digits = peak.as_ref().and_then(|peak| match &peak.value {
             Value::Exact(_) => None,
             certified => Some(value(certified)),
@@ -280,27 +280,19 @@ fn value_json(value: &Value, digits: usize) -> Json {
     match value {
         Value::Exact(exact) => json!({"exact": exact.to_string()}),
         Value::Certified { ball, .. } | Value::Enclosed(ball) => {
-            let mut told = json!({"value": value.to_string()});
             let ball = ball.to_decimal(digits + 10);
-            told["enclosure"] = json!({
-                "value": ball.midpoint().to_string(),
-                "radius": format!("{:e}", ball.radius()),
-            });
-            told
+            let (midpoint, radius) = (ball.midpoint().to_string(), format!("{:e}", ball.radius()));
+            let enclosure = json!({"value": midpoint, "radius": radius});
+            json!({"value": value.to_string(), "enclosure": enclosure})
         }
     }
 }
 
 fn json(answer: &Answer, digits: usize) -> String {
     let mut document = json!({"schema_version": SCHEMA_VERSION});
-    let formulas: Map<String, Json> = QUANTITIES
-        .iter()
-        .map(|(quantity, _, name, _)| {
-            let formula = formula_text(answer.relation.formula(*quantity));
-            ((*name).to_owned(), json!(formula))
-        })
-        .collect();
-    document["relation"] = Json::Object(formulas);
+    for (quantity, _, name, _) in QUANTITIES {
+        document["relation"][name] = json!(formula_text(answer.relation.formula(quantity)));
+    }
     let at = |At { k, values }: &At| {
         let mut row = json!({"k": k.to_string()});
         for ((_, _, name, _), value) in QUANTITIES.iter().zip(values) {
@@ -309,9 +301,9 @@ fn json(answer: &Answer, digits: usize) -> String {
         row
     };
     document["at"] = answer.at.iter().map(at).collect();
-    if let Some((name, peak, symbolic)) = &answer.pulse {
+    if let Some((name, peak, exact)) = &answer.pulse {
         let mut pulse = json!({"pulse": name});
-        if let Some(exact) = symbolic.as_ref().or_else(|| peak.as_ref()?.exact.as_ref()) {
+        if let Some(exact) = exact {
             pulse["exact"] = json!(formula_text(exact));
         }
         if let Some(peak) = peak {

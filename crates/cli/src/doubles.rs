@@ -3,7 +3,7 @@
 use super::arguments::{Eval, EvalFormat};
 use super::failure::Failure;
 use super::json::SCHEMA_VERSION;
-use super::rows::spaced;
+use super::rows::lines;
 use num_rational::BigRational;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -131,13 +131,8 @@ pub fn written(
     let rows = times.iter().zip(&found.values);
     match options.format {
         EvalFormat::Text => {
-            let limit = if options.side == Limit::Left { "-" } else { "" };
-            let (unit, time_unit) = (spaced(unit), spaced(problem.time_unit()));
-            let line = |(time, value): (&BigRational, &f64)| {
-                let time = if time_unit.is_empty() { time.to_string() } else { in_decimals(time) };
-                format!("{name}({time}{time_unit}{limit}) = {}{unit}\n", double(*value))
-            };
-            rows.map(line).collect()
+            let rows = rows.map(|(time, value)| (time, double(*value)));
+            lines(problem, unit, rows, options)
         }
         EvalFormat::Csv => {
             let line = |(time, value): (&BigRational, &f64)| {

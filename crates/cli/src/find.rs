@@ -7,7 +7,7 @@ use super::found::{self, Told};
 use super::input;
 use super::progress;
 use super::validity;
-use wavestep::evaluate::{Goal, Place, Search};
+use wavestep::evaluate::{Place, Search};
 use wavestep::signal::Purpose;
 
 /// Finds what is asked for.
@@ -17,20 +17,21 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         return find_equal::run(options);
     }
     let problem = input::problem(&options.scene)?;
-    let (name, level) = quantity(options)?;
+    let (name, written) = quantity(options)?;
     let wanted = problem.wanted(name)?;
     let (from, to) = (options.from.as_deref(), options.to.as_deref());
     let window =
         problem.window(("--from", from.unwrap_or_default()), ("--to", to.unwrap_or_default()))?;
     // What is given wrongly is told before any work is done.
-    let level = problem.quantity("--level", level, wanted.dimension())?;
-    let told = Told { options, problem: &problem, wanted: &wanted, window: &window };
+    let level = problem.quantity("--level", written, wanted.dimension())?;
+    let told =
+        Told { options, name, level: written, problem: &problem, wanted: &wanted, window: &window };
     let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
     let search = Search::new(&*signal)?;
     let progress = progress::spinner("searching");
     let (digits, limit_bits) = (options.digits, options.max_bits);
-    let found = match goal(options) {
-        Some(goal) => {
+    let found = match options.extremum() {
+        Some((goal, _)) => {
             let extremum = search.extremum(goal, digits, limit_bits)?;
             drop(progress);
             let open = |place: &&Place| matches!(place, Place::Undecided { .. });
@@ -63,17 +64,8 @@ fn settled(report: String, undecided: usize, [one, many]: [&str; 2]) -> Result<S
     Err(Failure::Undecided { report, message, remedy })
 }
 
-/// The extremum asked for.
-pub fn goal(options: &Find) -> Option<Goal> {
-    match (&options.max, &options.min) {
-        (Some(_), _) => Some(Goal::Largest),
-        (_, Some(_)) => Some(Goal::Smallest),
-        _ => None,
-    }
-}
-
 /// The name of the quantity asked for, and the level as it is written.
-pub fn quantity(options: &Find) -> Result<(&str, &str), Failure> {
+fn quantity(options: &Find) -> Result<(&str, &str), Failure> {
     if let Some(level) = &options.level {
         return match level.split_once('=') {
             Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
@@ -85,6 +77,7 @@ pub fn quantity(options: &Find) -> Result<(&str, &str), Failure> {
             }
         };
     }
-    let name = options.max.as_ref().or(options.min.as_ref()).or(options.zero.as_ref());
-    Ok((name.expect("one of them is required").trim(), "0"))
+    let zero = || options.zero.as_deref().map(str::trim);
+    let name = options.extremum().map(|(_, name)| name).or_else(zero);
+    Ok((name.expect("one of them is required"), "0"))
 }

@@ -2,7 +2,6 @@
 
 use super::arguments::{EvalFormat, Find};
 use super::failure::Failure;
-use super::find::{goal, quantity};
 use super::input;
 use super::json::SCHEMA_VERSION;
 use super::progress;
@@ -15,7 +14,7 @@ use wavestep::problem::{Crossing, EqualExtrema, number};
 
 /// Finds the value of the symbol.
 pub fn run(options: &Find) -> Result<String, Failure> {
-    let goal = goal(options).expect("arguments conflict with roots");
+    let (goal, name) = options.extremum().expect("arguments conflict with roots");
     let (symbol, range) = symbol(options.equal.as_deref().unwrap_or_default())?;
     let times = options.between.as_deref().unwrap_or_default();
     let times: Vec<&str> = times.split(',').map(str::trim).collect();
@@ -28,7 +27,6 @@ pub fn run(options: &Find) -> Result<String, Failure> {
         return Err(input::two_values(&symbol));
     }
     let problem = input::problem_with(&options.scene.scene, &values)?;
-    let (name, _) = quantity(options)?;
     let (symbol, digits) = (&*symbol, options.digits);
     let asked = EqualExtrema { name, goal, symbol, range, times, times_name: "--between", digits };
     let found = {
@@ -66,13 +64,10 @@ fn written(asked: &EqualExtrema<'_>, found: &Crossing, options: &Find) -> String
     let (low, high) = (&found.low, &found.high);
     let digits = asked.digits;
     let bits = 8 * digits as u64 + 64;
-    let half = BigRational::new(1.into(), 2.into());
-    let middle = Ball::from_rational(&((low + high) * &half), bits);
-    let ball = middle.add(&Ball::symmetric(&((high - low) * &half)), bits);
     let which = if asked.goal == Goal::Largest { "largest" } else { "smallest" };
     let (quantity, name) = (asked.name, asked.symbol);
     let [first, second, third] = asked.times;
-    let enclosure = ball.to_decimal(digits + 2);
+    let enclosure = Ball::between(low, high, bits).to_decimal(digits + 2);
     match options.format {
         EvalFormat::Text => format!(
             "{name} = {enclosure}\n\

@@ -1,7 +1,6 @@
 //! Roots and extrema as text, as JSON, and as columns.
 
 use super::arguments::{EvalFormat, Find};
-use super::find::quantity;
 use super::json::SCHEMA_VERSION;
 use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
@@ -17,6 +16,10 @@ const BOUND_DIGITS: usize = 20;
 pub struct Told<'a> {
     /// The arguments.
     pub options: &'a Find,
+    /// The name of the quantity.
+    pub name: &'a str,
+    /// The level, as it was written.
+    pub level: &'a str,
     /// What was read.
     pub problem: &'a Problem,
     /// The quantity.
@@ -26,15 +29,6 @@ pub struct Told<'a> {
 }
 
 impl Told<'_> {
-    fn name(&self) -> &str {
-        quantity(self.options).map_or("", |(name, _)| name)
-    }
-
-    /// The level as it was written.
-    fn level(&self) -> &str {
-        quantity(self.options).map_or("0", |(_, level)| level)
-    }
-
     fn second(&self) -> &str {
         if self.problem.has_units() { " s" } else { "" }
     }
@@ -70,7 +64,7 @@ pub fn roots(roots: &Roots, told: &Told<'_>) -> String {
         }
         EvalFormat::Json => {
             let list: Vec<Json> = roots.all.iter().map(root_json).collect();
-            document(told, json!({ "level": told.level(), "roots": list }))
+            document(told, json!({ "level": told.level, "roots": list }))
         }
         EvalFormat::Csv => {
             let line = |root: &Root| columns(&root_json(root));
@@ -97,16 +91,12 @@ pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
 }
 
 fn enclosed(from: &BigRational, to: &BigRational) -> Ball {
-    let (sum, difference) = (from + to, to - from);
-    let half = BigRational::new(1.into(), 2.into());
-    let bits = 64 + sum.numer().bits() + sum.denom().bits();
-    let middle = Ball::from_rational(&(sum * &half), bits);
-    // `±` half the width: a ball from a point and a symmetric one around zero.
-    middle.add(&Ball::symmetric(&(difference * half)), bits)
+    let sum = from + to;
+    Ball::between(from, to, 64 + sum.numer().bits() + sum.denom().bits())
 }
 
 fn root_line(root: &Root, told: &Told<'_>) -> String {
-    let (name, level) = (told.name(), told.level());
+    let (name, level) = (told.name, told.level);
     let at = |time: &Value| format!("{name} = {level} at t = {}", told.time(time));
     let line = match root {
         Root::Simple { time, rises } => {
@@ -168,7 +158,7 @@ fn summary(roots: &Roots, told: &Told<'_>) -> String {
 
 fn extremum_text(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
     let which = if goal == Goal::Largest { "largest" } else { "smallest" };
-    let (name, value, window) = (told.name(), told.value(&extremum.value), told.window());
+    let (name, value, window) = (told.name, told.value(&extremum.value), told.window());
     let mut text = format!("{which} {name} = {value} in {window}\n");
     let second = told.second();
     for place in &extremum.places {
@@ -270,7 +260,7 @@ fn document(told: &Told<'_>, body: Json) -> String {
     let mut document = json!({
         "schema_version": SCHEMA_VERSION,
         "title": told.problem.title(),
-        "quantity": told.name(),
+        "quantity": told.name,
         "set": told.options.scene.set,
         "digits": told.options.digits,
         "from": from,

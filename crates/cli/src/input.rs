@@ -1,4 +1,4 @@
-//! What the arguments point at: scenes, values, digits.
+//! Reads what the arguments name: scenes, values, digits.
 
 use super::arguments::Scene;
 use super::failure::Failure;

@@ -50,32 +50,30 @@ pub fn written(
     options: &Eval,
 ) -> String {
     match options.format {
-        EvalFormat::Text => text(problem, wanted, rows, options),
+        EvalFormat::Text => {
+            let values = rows.1.iter().map(|value| value.to_text(options.digits));
+            lines(problem, &wanted.unit(), rows.0.iter().zip(values), options)
+        }
         EvalFormat::Csv => csv(rows, options.digits),
         EvalFormat::Json => json_document(problem, wanted, rows, options),
     }
 }
 
-/// A space and a unit, or nothing.
-pub fn spaced(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
-}
-
 /// Lines of text, with the units of time and value.
-fn text(
+pub fn lines<'a>(
     problem: &Problem,
-    wanted: &Wanted,
-    (times, values): (&[BigRational], &[Value]),
+    unit: &str,
+    rows: impl Iterator<Item = (&'a BigRational, String)>,
     options: &Eval,
 ) -> String {
     let limit = if options.side == Limit::Left { "-" } else { "" };
-    let (unit, second) = (spaced(&wanted.unit()), spaced(problem.time_unit()));
-    let line = |(time, value): (&BigRational, &Value)| {
-        let value = value.to_text(options.digits);
+    let spaced = |unit: &str| if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let (unit, second) = (spaced(unit), spaced(problem.time_unit()));
+    let line = |(time, value): (&BigRational, String)| {
         let time = if second.is_empty() { time.to_string() } else { in_decimals(time) };
         format!("{}({time}{second}{limit}) = {value}{unit}\n", options.quantity)
     };
-    times.iter().zip(values).map(line).collect()
+    rows.map(line).collect()
 }
 
 /// Columns with a heading.

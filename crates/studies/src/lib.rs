@@ -1,6 +1,6 @@
-//! What stands on wavestep and that nothing in it needs: the equations of the book with their verdicts,
-//! its figures, pictures of scenes, charts of accuracy and speed, dispersion, and the closed forms of
-//! local contact.
+//! Studies built on wavestep, on which nothing in the library depends: the equations of the book with their
+//! verdicts, its figures, pictures of scenes, charts of accuracy and speed, dispersion, and the closed forms
+//! of local contact.
 
 pub mod book;
 pub mod dispersion;
@@ -14,4 +14,9 @@ use wavestep_polynomial::Rational;
 /// A fraction of whole numbers.
 fn ratio(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
+}
+
+/// The double nearest to a fraction.
+fn nearest(value: &Rational) -> f64 {
+    num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN)
 }

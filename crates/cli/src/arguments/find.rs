@@ -2,6 +2,7 @@
 
 use super::{EvalFormat, Scene};
 use clap::{ArgGroup, Args};
+use wavestep::evaluate::Goal;
 use wavestep::limits::SEARCH_BITS;
 
 /// Options of `find`.
@@ -53,4 +54,12 @@ pub struct Find {
     /// Written how
     #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
     pub format: EvalFormat,
+}
+
+impl Find {
+    /// The extremum asked for, and of which quantity.
+    pub fn extremum(&self) -> Option<(Goal, &str)> {
+        let largest = self.max.as_ref().map(|name| (Goal::Largest, name.trim()));
+        largest.or_else(|| Some((Goal::Smallest, self.min.as_ref()?.trim())))
+    }
 }

@@ -71,13 +71,17 @@ fn indented(text: &str) -> String {
     text.lines().map(|line| format!("    {line}\n")).collect()
 }
 
+/// The reading that the derivation supports.
+fn supported(readings: &[(Equation, Finding)]) -> Option<&Equation> {
+    readings.iter().find(|(_, finding)| finding.holds()).map(|(reading, _)| reading)
+}
+
 impl Examination {
     /// The verdict in a line: with the value that was found wrong, or the reading that is supported.
     pub fn summary(&self) -> String {
         match &self.verdict {
             Verdict::Unsure(readings) => {
-                let supported = readings.iter().find(|(_, finding)| finding.holds());
-                let supported = supported.map(|(reading, _)| format!(": {reading} is supported"));
+                let supported = supported(readings).map(|one| format!(": {one} is supported"));
                 format!("{}{}", self.verdict, supported.unwrap_or_default())
             }
             Verdict::Refuted(slip) => {
@@ -97,8 +101,7 @@ impl Examination {
         match &self.verdict {
             Verdict::Refuted(_) => "**refuted as read**".to_owned(),
             Verdict::Unsure(readings) => {
-                let supported = readings.iter().find(|(_, finding)| finding.holds());
-                let supported = supported.map(|(reading, _)| format!("; `{reading}` is supported"));
+                let supported = supported(readings).map(|one| format!("; `{one}` is supported"));
                 let why = self.entry.unsure.as_ref().map(|why| format!(" ({why})"));
                 let [why, supported] = [why, supported].map(Option::unwrap_or_default);
                 format!("reading unsure{why}{supported}")

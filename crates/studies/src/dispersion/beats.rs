@@ -1,6 +1,7 @@
 //! Two waves of nearly one frequency: their sum is a carrier times an envelope. The identity is proven
 //! in the exact arithmetic of expressions, where equal functions have one form.
 
+use crate::ratio;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 use wavestep::expression::{Expression, Fraction};
@@ -37,7 +38,7 @@ fn symbol(name: &str) -> Fraction {
 fn cosine(angle: &Fraction) -> Expression {
     let unit = Symbol::square_root(-1).expect("the imaginary unit");
     let turned = angle * &Fraction::from(Polynomial::symbol(&unit));
-    let half = Rational::new(1.into(), 2.into());
+    let half = ratio(1, 2);
     let minus = turned.scale(&Rational::from_integer((-1).into()));
     (&Expression::exponential(turned) + &Expression::exponential(minus)).scale(&half)
 }
@@ -46,7 +47,7 @@ fn cosine(angle: &Fraction) -> Expression {
 pub fn two_waves() -> TwoWaves {
     let phase = |omega: &Fraction, k: &Fraction| &(omega * &symbol("t")) - &(k * &symbol("x"));
     let [omega, k] = ["omega", "k"].map(|name| [1, 2].map(|i| symbol(&format!("{name}_{i}"))));
-    let half = Rational::new(1.into(), 2.into());
+    let half = ratio(1, 2);
     let mean = |pair: &[Fraction; 2]| (&pair[0] + &pair[1]).scale(&half);
     let half_difference = |pair: &[Fraction; 2]| (&pair[0] - &pair[1]).scale(&half);
     let amplitude = Expression::from(symbol("U"));

@@ -1,4 +1,4 @@
-//! What can be wrong with a dispersion relation, a pulse, or what is asked of them.
+//! Errors in dispersion relations, in pulses, and in what is asked of them.
 
 use wavestep_polynomial::{Rational, Symbol};
 
@@ -12,61 +12,38 @@ const PLACE_DIGITS: usize = 8;
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum DispersionError {
-    /// A formula for ω that does not depend on `k`.
     #[error("the formula does not depend on the wavenumber k")]
     NoWaveNumber,
-    /// A parameter without a value.
     #[error("the parameter {0} has no value")]
     MissingValue(Symbol),
-    /// A value that is given for what is no parameter of the relation.
     #[error("the relation has no parameter `{0}`")]
     UnknownParameter(String),
-    /// A value of a parameter that is not positive.
     #[error("`{0}` is {1}, which is not positive")]
     ParameterNotPositive(String, Rational),
-    /// A length, a duration or a time that is not positive.
     #[error("{0} is {1}, which is not positive")]
     NotPositive(&'static str, Rational),
-    /// A formula that has no value once values are put in.
     #[error("with these values there is {0}")]
     Formula(#[from] FormulaError),
-    /// ω is negative at this wavenumber: it is no frequency.
     #[error("ω is negative at k = {0}, so it is no frequency")]
     NegativeFrequency(Box<DecimalEnclosure>),
-    /// The formula has no real value at this wavenumber.
     #[error("the formula is not real at k = {0}")]
     NotReal(Box<DecimalEnclosure>),
-    /// A divisor vanishes at this wavenumber, or near it.
     #[error("the formula divides by what may be zero at k = {0}")]
     DivisionByZero(Box<DecimalEnclosure>),
-    /// A root has no derivative at this wavenumber, or near it.
     #[error("the formula may have no derivative at k = {0}: a root of zero")]
     NotDifferentiable(Box<DecimalEnclosure>),
-    /// `ω(k) τ = 2π` has no root for `0 < k ≤ through`.
     #[error("ω(k)·τ = 2π has no root for 0 < k ≤ {through}, and none is looked for beyond")]
-    NoCutOff {
-        /// How far was looked, or where ω stops being positive.
-        through: Box<DecimalEnclosure>,
-    },
-    /// Whether there is a root near this wavenumber is not decided.
+    NoCutOff { through: Box<DecimalEnclosure> },
     #[error("whether ω(k)·τ = 2π has a root near k = {0} is not decided")]
     UndecidedCutOff(Box<DecimalEnclosure>),
-    /// The spectrum's second moment may be zero, so no peak is defined.
     #[error("∫ U k² dk may be zero, so the pulse has no peak to follow")]
     NoPeak,
-    /// The digits asked for are not reached.
     #[error("the digits asked for are not reached with {bits} bits{}", best_known(best.as_deref()))]
-    AccuracyNotReached {
-        /// The best enclosure, where there is one.
-        best: Option<Box<Ball>>,
-        /// The precision tried last, in bits.
-        bits: u64,
-    },
-    /// The balls could not be computed.
+    AccuracyNotReached { best: Option<Box<Ball>>, bits: u64 },
     #[error(transparent)]
     Ball(BallError),
-    /// A grid that cannot hold the pulse.
     #[error(transparent)]
     Grid(#[from] NoGrid),
 }
@@ -124,31 +101,20 @@ fn best_known(best: Option<&Ball>) -> String {
 /// Why times, lengths and counts make no grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum NoGrid {
-    /// A wavenumber that is infinite or no number.
     #[error("the wavenumber is no finite number")]
     WaveNumber,
-    /// A time of travel that is not positive.
     #[error("the time of travel is not positive")]
     Time,
-    /// A length that is not positive.
     #[error("the length of the grid is not positive")]
     Length,
-    /// A grid that is shorter than the waves in it.
     #[error("the grid is too short: it holds fewer than four components")]
     TooShort,
-    /// A grid that needs too many points.
     #[error(
         "the grid would need more than {limit} points: take a shorter time of travel, or a longer pulse"
     )]
-    TooLong {
-        /// The most points.
-        limit: usize,
-    },
-    /// A number of points that does not suit the waves.
+    TooLong { limit: usize },
     #[error("the grid needs more than two points to the shortest wave, and at most {limit} in all")]
-    Points {
-        /// The most points.
-        limit: usize,
-    },
+    Points { limit: usize },
 }

@@ -4,7 +4,7 @@ use super::Listed;
 use super::error::FigureError;
 use super::largest_strain::LargestStrain;
 use super::scene::{followed, network};
-use crate::ratio;
+use crate::{nearest, ratio};
 use wavestep::ball::Ball;
 use wavestep::field::Quantity;
 use wavestep::history::field_evaluator;
@@ -81,15 +81,14 @@ pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureE
     let mut series = Vec::new();
     for period in 0..PERIODS {
         let pushed = ratios().filter(|ratio| strains.is_pushed(period, &ratio.recip()));
-        let points = pushed.map(|ratio| {
-            (ratio_as_double(&ratio), double(&strains.strain(period, &ratio.recip(), 60)))
-        });
+        let points = pushed
+            .map(|ratio| (nearest(&ratio), double(&strains.strain(period, &ratio.recip(), 60))));
         series.push(Series::new(&format!("n = {period}"), points.collect()));
     }
     // It bends most at the beginning.
     let dense = (0..=20).map(|i| ratio(i, 40)).chain(ratios());
     let estimate =
-        dense.map(|ratio| (ratio_as_double(&ratio), double(&LargestStrain::estimate(&ratio, 60))));
+        dense.map(|ratio| (nearest(&ratio), double(&LargestStrain::estimate(&ratio, 60))));
     let estimate = Series::new("estimate 6.86", estimate.collect()).look(Look::Thin);
     series.push(estimate.styled(SOLID_BLACK));
     let panel = Panel::new(Axis::linear("largest strain −εL c/V"), series).named_at_ends();
@@ -107,8 +106,4 @@ pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureE
         }
     }
     Ok(Box::new(figure.window(0.0, LARGEST_RATIO as f64)?))
-}
-
-fn ratio_as_double(value: &wavestep_polynomial::Rational) -> f64 {
-    num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN)
 }

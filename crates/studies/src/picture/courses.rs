@@ -2,7 +2,7 @@
 
 use super::{Course, PictureError, Sampled, sampled, sampled_in_steps};
 use crate::hertz::ContactOfScene;
-use num_traits::ToPrimitive as _;
+use crate::nearest;
 use wavestep::answer::{Accuracy, Kind, Remark, Tested};
 use wavestep::ball::Ball;
 use wavestep::evaluate::Limit;
@@ -33,7 +33,7 @@ pub fn usual_end(problem: &Problem, from: &Rational) -> Result<Rational, Picture
         Some(_) => {
             let contact = ContactOfScene::new(problem.scaled()?, BITS);
             let contact = contact.map_err(|_| ProblemError::NoEnd)?;
-            let seconds = |ball: &Ball| double(&ball.to_decimal(15).midpoint().to_rational());
+            let seconds = |ball: &Ball| nearest(&ball.to_decimal(15).midpoint().to_rational());
             let returned = contact.first_return.as_ref().map_or(0.0, |time| 2.0 * seconds(time));
             two_figures((seconds(contact.bars.time_unit()) * UNITS).max(returned))?
         }
@@ -85,7 +85,7 @@ fn by_model(
     wanted: &Wanted,
     window: [&Rational; 2],
 ) -> Result<(Sampled, Option<Tested>), PictureError> {
-    let [from, to] = window.map(double);
+    let [from, to] = window.map(nearest);
     let times: Vec<f64> =
         (0..=POINTS).map(|i| from + (to - from) * i as f64 / POINTS as f64).collect();
     let exact: Vec<Rational> =
@@ -98,8 +98,4 @@ fn by_model(
     });
     let points = times.into_iter().zip(found.values).collect();
     Ok((Sampled { points, jumps: Vec::new() }, tested))
-}
-
-fn double(time: &Rational) -> f64 {
-    time.to_f64().unwrap_or(f64::NAN)
 }

@@ -7,20 +7,16 @@ use wavestep_draw::PlotError;
 
 /// Why there is no picture.
 #[derive(Clone, Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum PictureError {
-    /// A field that has no diagram of place and time: it is not constant along characteristics.
     #[error("there is no diagram of the {}: give velocity, strain or force", .0.name())]
     NoDiagram(Quantity),
-    /// The scene has no bars.
     #[error("the scene has no bar along which to draw")]
     NoBars,
-    /// The scene observes nothing.
     #[error("nothing is observed in this scene")]
     NothingObserved,
-    /// What is asked for has no course.
     #[error(transparent)]
     Problem(Box<ProblemError>),
-    /// Numbers cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
 }

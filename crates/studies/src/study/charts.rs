@@ -117,7 +117,7 @@ pub fn charts(
     let subject = Subject { problem, quantity: asked.quantity };
     let question = &problem.question(asked.quantity, window)?;
     let window = question.signal.window();
-    let ends = window.map(|end| end.to_f64().unwrap_or(f64::NAN));
+    let ends = window.map(crate::nearest);
     let reference = Reference::new(question, &asked.sampling.times(ends[0], ends[1]))?;
     let effort = asked.effort;
     let settings = (effort.settings(), effort == Effort::Quick);
@@ -126,16 +126,11 @@ pub fn charts(
     let caption = caption(asked, asked.sampling.law());
     let (work, table) =
         work_precision("Work against precision", &outcomes, &reference, caption.clone())?;
-    let all = vec![Charted {
-        name: "work-precision".to_owned(),
-        text: "Each line is a method, each marker one of its settings. Further left is more accurate, \
-               further down is faster. A segment leads from the measured error to the proven bound, \
-               where there is one. Markers do not count preparation; a ring above a marker does, spread \
-               over the points.",
-        chart: Box::new(work),
-        listing: None,
-    }];
-    let (all, left_out) = (all, Vec::new());
+    let text = "Each line is a method, each marker one of its settings. Further left is more accurate, \
+                further down is faster. A segment leads from the measured error to the proven bound, where \
+                there is one. Markers do not count preparation; a ring above a marker does, spread over the \
+                points.";
+    let (all, left_out) = (vec![Charted::new("work-precision", text, work)], Vec::new());
     let mut study =
         Study { subject, question, asked, caption, tick, unit: problem.time_unit(), all, left_out };
     study.over_the_window(&reference);
@@ -184,13 +179,16 @@ struct Study<'s> {
     left_out: Vec<(&'static str, PlotError)>,
 }
 
+impl Charted {
+    fn new(name: &str, text: &'static str, chart: impl Chart + 'static) -> Charted {
+        Charted { name: name.to_owned(), text, chart: Box::new(chart), listing: None }
+    }
+}
+
 impl Study<'_> {
     fn add(&mut self, name: &'static str, text: &'static str, chart: Result<Curves, PlotError>) {
         match chart {
-            Ok(chart) => {
-                let (name, chart) = (name.to_owned(), Box::new(chart));
-                self.all.push(Charted { name, text, chart, listing: None });
-            }
+            Ok(chart) => self.all.push(Charted::new(name, text, chart)),
             Err(reason) => self.left_out.push((name, reason)),
         }
     }
@@ -204,10 +202,7 @@ impl Study<'_> {
     fn over_the_window(&mut self, reference: &Reference) {
         let (question, effort) = (self.question, self.asked.effort);
         (self.tick)("errors over time");
-        let axis = match self.unit {
-            "" => Axis::linear("time"),
-            unit => Axis::linear("time").unit(unit),
-        };
+        let axis = Axis::linear("time").unit(self.unit);
         let parts = effort.pick(10, 100);
         self.add(
             "error-over-time",
@@ -351,25 +346,18 @@ impl Study<'_> {
             let refused = rows.iter().all(|(_, row)| row.iter().all(Option::is_none));
             let map = order_map(kind, symbol, orders, rows, caption(refusals));
             if let (false, Ok(map)) = (refused, map) {
-                self.all.push(Charted {
-                    name: format!("map-{}", kind.name()),
-                    text: "Colours are powers of ten of the error. The lines are where half of the digits \
-                           are lost, and where nothing of use is left.",
-                    chart: Box::new(map),
-                    listing: None,
-                });
+                let text = "Colours are powers of ten of the error. The lines are where half of the digits \
+                            are lost, and where nothing of use is left.";
+                self.all.push(Charted::new(&format!("map-{}", kind.name()), text, map));
             }
         }
         let last = orders.last().copied().unwrap_or(0);
         let between = "Near each of the two levels every order is looked at.".to_owned();
         let losses = losses(MAPPED[0], symbol, last, &lost, caption(vec![between]));
         if let Ok((chart, listing)) = losses {
-            self.all.push(Charted {
-                name: "orders-of-loss".to_owned(),
-                text: "The formula as printed, order by order where its digits go.",
-                chart: Box::new(chart),
-                listing: Some(listing),
-            });
+            let text = "The formula as printed, order by order where its digits go.";
+            let charted = Charted::new("orders-of-loss", text, chart);
+            self.all.push(Charted { listing: Some(listing), ..charted });
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::study::harness::{Subject, errors};
 use crate::study::reference::Reference;
-use wavestep::answer::{Kind, Question, WayError};
+use wavestep::answer::{Kind, Question};
 use wavestep::evaluate::{StablePrecision, first_doubles};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
@@ -26,19 +26,27 @@ pub const HALF: f64 = 1e-8;
 /// Errors above this, in parts of the largest value, stand at the upper edge of a chart.
 const CEILING: f64 = 100.0;
 
-/// A curve, with what a way refused as a remark.
-pub(super) fn curve(
-    kind: Kind,
-    points: Result<Vec<(f64, f64)>, WayError>,
+/// A curve for each method, of what `points` makes of its errors; what a method refused is a remark.
+pub(super) fn by_method(
+    kinds: &[Kind],
+    question: &Question<'_>,
+    reference: &Reference,
     caption: &mut Caption,
-) -> Option<Curve> {
-    match points {
-        Ok(points) => Some(Curve { name: kind.to_string(), points }),
-        Err(reason) => {
-            caption.remarks.push(format!("{kind} is left out: {reason}."));
-            None
+    points: impl Fn(&[f64]) -> Vec<(f64, f64)>,
+) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    for kind in kinds {
+        match errors(question, *kind, reference) {
+            Ok(errors) => curves.push(Curve { name: kind.to_string(), points: points(&errors) }),
+            Err(reason) => caption.remarks.push(format!("{kind} is left out: {reason}.")),
         }
     }
+    curves
+}
+
+/// There is nothing to draw.
+pub(super) fn empty(title: &str) -> PlotError {
+    PlotError::Empty { title: title.to_owned() }
 }
 
 /// Curves with the lines at which half and all of the usefulness is lost.
@@ -62,15 +70,10 @@ pub fn over_time(
 ) -> Result<Curves, PlotError> {
     let times = reference.times();
     let size = times.len().div_ceil(parts).max(1);
-    let mut curves = Vec::new();
-    for kind in DOUBLES {
-        let points = errors(question, kind, reference);
-        let points = points.map(|errors| {
-            let parts = times.chunks(size).zip(errors.chunks(size));
-            parts.map(|(t, e)| (t[t.len() / 2], super::worst(e))).collect()
-        });
-        curves.extend(curve(kind, points, &mut caption));
-    }
+    let curves = by_method(&DOUBLES, question, reference, &mut caption, |errors| {
+        let parts = times.chunks(size).zip(errors.chunks(size));
+        parts.map(|(t, e)| (t[t.len() / 2], super::worst(e))).collect()
+    });
     levelled("Error over time", axis, curves, caption)
 }
 
@@ -80,7 +83,6 @@ pub fn at_arrivals(
     most: usize,
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
-    let empty = |title: &str| PlotError::Empty { title: title.to_owned() };
     let title = "Error just after arrivals";
     let mut arrivals = first_doubles(&*question.signal).map_err(|_| empty(title))?.split_off(1);
     // One at the very end has no time after it.
@@ -90,15 +92,10 @@ pub fn at_arrivals(
     let chosen: Vec<(usize, f64)> = arrivals.iter().copied().enumerate().step_by(stride).collect();
     let times: Vec<f64> = chosen.iter().flat_map(|(_, at)| [*at, at.next_up()]).collect();
     let reference = Reference::new(question, &times).map_err(|_| empty(title))?;
-    let mut curves = Vec::new();
-    for kind in DOUBLES {
-        let points = errors(question, kind, &reference);
-        let points = points.map(|errors| {
-            let pairs = chosen.iter().zip(errors.chunks(2));
-            pairs.map(|((n, _), pair)| (*n as f64 + 1.0, super::worst(pair))).collect()
-        });
-        curves.extend(curve(kind, points, &mut caption));
-    }
+    let curves = by_method(&DOUBLES, question, &reference, &mut caption, |errors| {
+        let pairs = chosen.iter().zip(errors.chunks(2));
+        pairs.map(|((n, _), pair)| (*n as f64 + 1.0, super::worst(pair))).collect()
+    });
     levelled(title, Axis::linear("number of the arrival"), curves, caption)
 }
 
@@ -130,25 +127,19 @@ pub fn near_jump(
 ) -> Result<Curves, PlotError> {
     const PLACES: usize = 60;
     let title = "Modes near a jump";
-    let empty = || PlotError::Empty { title: title.to_owned() };
-    let arrivals = first_doubles(&*question.signal).map_err(|_| empty())?.split_off(1);
+    let arrivals = first_doubles(&*question.signal).map_err(|_| empty(title))?.split_off(1);
     let middle = arrivals.len() / 2;
     let (Some(at), Some(next)) = (arrivals.get(middle), arrivals.get(middle + 1)) else {
-        return Err(empty());
+        return Err(empty(title));
     };
     let distance = |i: usize| 10f64.powf(-4.0 + 3.8 * i as f64 / PLACES as f64) * (next - at);
     let times: Vec<f64> = (0..PLACES).map(|i| at + distance(i)).collect();
-    let reference = Reference::new(question, &times).map_err(|_| empty())?;
-    let mut curves = Vec::new();
-    for count in [30, 300, 3000] {
-        let kind = Kind::Modes { count };
-        let points = errors(question, kind, &reference);
-        let points =
-            points.map(|errors| times.iter().zip(errors).map(|(t, e)| (t - at, e)).collect());
-        curves.extend(curve(kind, points, &mut caption));
-    }
-    let axis = Axis::logarithmic("time after the jump");
-    let axis = if unit.is_empty() { axis } else { axis.unit(unit) };
+    let reference = Reference::new(question, &times).map_err(|_| empty(title))?;
+    let kinds = [30, 300, 3000].map(|count| Kind::Modes { count });
+    let curves = by_method(&kinds, question, &reference, &mut caption, |errors| {
+        times.iter().zip(errors).map(|(t, e)| (t - at, *e)).collect()
+    });
+    let axis = Axis::logarithmic("time after the jump").unit(unit);
     Curves::new(title, axis, Axis::logarithmic("error"), curves, caption)
 }
 

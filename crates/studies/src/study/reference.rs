@@ -1,6 +1,5 @@
 //! Times drawn by a seed, and values there that are far finer than doubles.
 
-use num_traits::ToPrimitive as _;
 use wavestep::answer::Question;
 use wavestep::ball::{Attempt, Precisions};
 use wavestep::evaluate::{At, EvaluateError, Limit};
@@ -38,11 +37,6 @@ impl Sampling {
     pub fn law(&self) -> String {
         format!("{} times, one in each of equal parts of the window, uniform there", self.points)
     }
-}
-
-/// The double nearest to a rational number.
-pub(crate) fn nearest(number: &Rational) -> f64 {
-    number.to_f64().unwrap_or(f64::NAN)
 }
 
 /// The generator SplitMix64 (Steele, Lea and Flood 2014): 64 bits from a counter.

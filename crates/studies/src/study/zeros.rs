@@ -1,7 +1,6 @@
 //! Errors near zeros: certified roots, and times at given distances from them.
 
-use crate::study::curves::{DOUBLES, curve};
-use crate::study::harness::errors;
+use crate::study::curves::{DOUBLES, by_method, empty};
 use crate::study::reference::Reference;
 use wavestep::answer::Question;
 use wavestep::evaluate::{ClosedForm, Root, Search};
@@ -41,8 +40,7 @@ pub fn near_zeros(
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
     let title = "Error relative to the value, near zeros";
-    let empty = || PlotError::Empty { title: title.to_owned() };
-    let [from, to] = question.signal.window().map(crate::study::reference::nearest);
+    let [from, to] = question.signal.window().map(crate::nearest);
     let roots = simple_roots(question, most);
     let period = question.signal.closed_form().ok().and_then(ClosedForm::period);
     let unit = period.unwrap_or(to - from);
@@ -56,22 +54,17 @@ pub fn near_zeros(
     }
     times.sort_by(|a, b| a.1.total_cmp(&b.1));
     let at: Vec<f64> = times.iter().map(|(_, time)| *time).collect();
-    let reference = Reference::new(question, &at).map_err(|_| empty())?;
+    let reference = Reference::new(question, &at).map_err(|_| empty(title))?;
     let sizes = reference.sizes();
-    let mut curves = Vec::new();
-    for kind in DOUBLES {
-        let points = errors(question, kind, &reference);
-        let points = points.map(|errors| {
-            let relative = |i: usize| if sizes[i] == 0.0 { 0.0 } else { errors[i] / sizes[i] };
-            let worst = |decade: i32| {
-                let mine = (0..times.len()).filter(|i| times[*i].0 == decade);
-                let worst = mine.map(relative).reduce(f64::max)?;
-                Some((10f64.powi(-decade), worst))
-            };
-            DECADES.filter_map(worst).collect()
-        });
-        curves.extend(curve(kind, points, &mut caption));
-    }
+    let curves = by_method(&DOUBLES, question, &reference, &mut caption, |errors| {
+        let relative = |i: usize| if sizes[i] == 0.0 { 0.0 } else { errors[i] / sizes[i] };
+        let worst = |decade: i32| {
+            let mine = (0..times.len()).filter(|i| times[*i].0 == decade);
+            let worst = mine.map(relative).reduce(f64::max)?;
+            Some((10f64.powi(-decade), worst))
+        };
+        DECADES.filter_map(worst).collect()
+    });
     let of = if period.is_some() { "periods" } else { "parts of the window" };
     let axis = Axis::logarithmic(&format!("distance from the nearest certified root, in {of}"));
     caption.remarks.push(format!("{} roots.", roots.len()));
