@@ -275,8 +275,9 @@ fn the_first_opening_is_told_in_closed_form() {
 fn mirrored_scenes_have_mirrored_histories() {
     let walls = [
         "scene \"A wall\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\nline free - rod | fixed",
-        "scene \"A mass on a wall\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\n\
-         mass m { mass = 5, velocity = 1 }\nline free - rod - m | fixed",
+        "scene \"A spring on a wall\"\nbar rod { impedance = 2, travel = 3, velocity = 1 }\n\
+         mass m { mass = 5, velocity = 1 }\nspring k { stiffness = 1 }\n\
+         line free - rod - m - k | fixed",
     ];
     let walls = walls.map(|text| network_of(text, &[]));
     for network in SHIPPED.iter().map(|(name, values)| shipped(name, values)).chain(walls) {
