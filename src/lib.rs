@@ -70,7 +70,7 @@ pub mod signal;
 #[doc(hidden)]
 pub mod solution;
 
-pub use answer::{Doubles, Kind as Method, Tolerance};
+pub use answer::{Doubles, Method, Tolerance};
 pub use error::Error;
 pub use evaluate::{Extremum, Goal, Place, Root, Roots, StablePrecision, Value};
 pub use facade::{Formula, Signal};

@@ -4,7 +4,7 @@
 //! `cargo bench --bench costs` and rounded: they rank ways against each other and are not promises.
 //! `docs/accuracy-and-speed.md` draws such measurements.
 
-use crate::answer::kind::Kind;
+use crate::answer::method::Method;
 use crate::evaluate::StablePrecision;
 
 /// How large a problem is.
@@ -52,19 +52,19 @@ const WAVE: f64 = 1.2e-6;
 
 impl Cost {
     /// The cost of a method; `None` for models, which are never picked.
-    pub fn of(kind: Kind, size: Size) -> Option<Cost> {
+    pub fn of(kind: Method, size: Size) -> Option<Cost> {
         let n = size.order as f64 + 1.0;
         let pieces = PIECES * n * if size.marches { MOVED } else { TERMS * n * TERM };
         let echoes = n * n / 2.0;
         let coefficients = n * (4.0 * n).sqrt().max(30.0);
         let (setup, point) = match kind {
-            Kind::Certified if size.marches => (n * FIXED_PERIOD, FIXED_POINT),
-            Kind::Certified => (3.0 * echoes * BALL, n * BALL + LOOKUP),
-            Kind::Compiled => (pieces, LOOKUP),
-            Kind::Stable(StablePrecision::Double) => (0.0, echoes * STEP + LOOKUP),
-            Kind::Stable(StablePrecision::DoubleDouble) => (0.0, echoes * PAIR_STEP + LOOKUP),
-            Kind::Plain | Kind::Expanded => (0.0, echoes * STEP + LOOKUP),
-            Kind::Marched { proven } => {
+            Method::Certified if size.marches => (n * FIXED_PERIOD, FIXED_POINT),
+            Method::Certified => (3.0 * echoes * BALL, n * BALL + LOOKUP),
+            Method::Compiled => (pieces, LOOKUP),
+            Method::Stable(StablePrecision::Double) => (0.0, echoes * STEP + LOOKUP),
+            Method::Stable(StablePrecision::DoubleDouble) => (0.0, echoes * PAIR_STEP + LOOKUP),
+            Method::Plain | Method::Expanded => (0.0, echoes * STEP + LOOKUP),
+            Method::Marched { proven } => {
                 let each = if proven { PROVEN_COEFFICIENT } else { COEFFICIENT };
                 (coefficients * each, LOOKUP + COEFFICIENT * coefficients / n)
             }

@@ -1,6 +1,6 @@
 //! Values in doubles: by a method that is named, or by the cheapest that is proven to be good enough.
 
-use crate::answer::kind::Kind;
+use crate::answer::method::Method;
 use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
 use crate::answer::way::{Way, WayError};
@@ -20,7 +20,7 @@ pub enum Accuracy {
     /// Doubles, by the cheapest method that is proven to be within a tolerance.
     Within(Tolerance),
     /// Doubles by this method, held against a tolerance where one is given.
-    Method(Kind, Option<Tolerance>),
+    Method(Method, Option<Tolerance>),
 }
 
 /// Values in doubles.
@@ -37,7 +37,7 @@ pub enum Accuracy {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Doubles {
     /// The method they were computed by.
-    pub method: Kind,
+    pub method: Method,
     /// How far they can be off, in words.
     pub law: String,
     /// A proven bound on the absolute error, beyond half a unit in the last place.
@@ -59,7 +59,7 @@ pub enum Remark {
     /// The law of a model says how far it can be off.
     Law,
     /// This method did not keep its promise, so that values were certified.
-    PromiseNotKept(Kind),
+    PromiseNotKept(Method),
     /// The bound that was proven is larger than the tolerance.
     BoundTooLarge(f64),
     /// The method is off by so much at this time, more than the tolerance.
@@ -95,7 +95,7 @@ pub fn doubles(
     let way = match accuracy {
         Accuracy::Method(kind, tolerance) => choice.named(kind, tolerance)?,
         Accuracy::Within(tolerance) => choice.cheapest(times.len(), tolerance)?,
-        Accuracy::Digits => Way::new(Kind::Certified, question, None)?,
+        Accuracy::Digits => Way::new(Method::Certified, question, None)?,
     };
     let values = way.exact_values(times, limit)?;
     if let Some(i) = values.iter().position(|value| !value.is_finite()) {
@@ -138,7 +138,7 @@ impl<'p> Choice<'p, '_> {
     }
 
     /// The method that is named.
-    fn named(&mut self, kind: Kind, tolerance: Option<Tolerance>) -> Result<Way<'p>, WayError> {
+    fn named(&mut self, kind: Method, tolerance: Option<Tolerance>) -> Result<Way<'p>, WayError> {
         let absolute = tolerance.map(|tolerance| self.absolute(tolerance)).transpose()?;
         let way = Way::new(kind, self.question, absolute)?;
         self.remarks.push(Remark::AsAskedFor);
@@ -165,7 +165,7 @@ impl<'p> Choice<'p, '_> {
             Some(bound) if bound <= absolute => Ok(way),
             _ => {
                 self.remarks.push(Remark::PromiseNotKept(kind));
-                Way::new(Kind::Certified, self.question, None)
+                Way::new(Method::Certified, self.question, None)
             }
         }
     }
@@ -176,7 +176,7 @@ impl<'p> Choice<'p, '_> {
         tolerance: Tolerance,
         (times, limit, values): (&[Rational], Limit, &[f64]),
     ) -> Result<(), WayError> {
-        let certified = Way::new(Kind::Certified, self.question, None)?;
+        let certified = Way::new(Method::Certified, self.question, None)?;
         let stride = times.len().div_ceil(COMPARED);
         let (mut worst, mut error) = (0, 0.0);
         let mut scale = 0.0_f64;

@@ -7,7 +7,7 @@
 
 mod cost;
 mod doubles;
-mod kind;
+mod method;
 mod question;
 mod tolerance;
 mod way;
@@ -15,7 +15,7 @@ mod weigh;
 
 pub use cost::{Cost, Size};
 pub use doubles::{Accuracy, Doubles, Remark, Tested, doubles};
-pub use kind::{InvalidWay, Kind};
+pub use method::{InvalidWay, Method};
 pub use question::Question;
 pub use tolerance::{InvalidTolerance, Tolerance};
 pub use way::{Way, WayError};

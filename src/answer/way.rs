@@ -1,12 +1,12 @@
 //! A way to the values of a question, made ready.
 
-use crate::answer::kind::Kind;
+use crate::answer::method::Method;
 use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
 use crate::answer::weigh::Weighed;
 use crate::ball::in_decimals;
 use crate::evaluate::{
-    Certified, Compiled, EvaluateError, Limit, Marched, Method, MethodError, Summation, Summed,
+    self, Certified, Compiled, EvaluateError, Limit, Marched, MethodError, Summation, Summed,
 };
 use crate::model::{
     Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
@@ -35,7 +35,7 @@ pub enum WayError {
     LeftLimit(&'static str),
     /// A method gives no number at a time.
     #[error("{} gives no number at {}", .0, in_decimals(.1))]
-    NoNumber(Kind, Rational),
+    NoNumber(Method, Rational),
     /// No method is proven to be good enough.
     #[error("no double is proven to be within {tolerance}")]
     NotMet {
@@ -57,14 +57,14 @@ impl From<EvaluateError> for WayError {
 /// A way that is ready to give values.
 enum Ways<'a> {
     /// A method on the exact solution.
-    Method(Box<dyn Method + 'a>),
+    Method(Box<dyn evaluate::Method + 'a>),
     /// A model, and the place of the observable in the scene.
     Model(Box<dyn Model>, usize),
 }
 
 /// A way to the values of a question.
 pub struct Way<'a> {
-    kind: Kind,
+    kind: Method,
     inner: Ways<'a>,
 }
 
@@ -75,23 +75,25 @@ impl<'a> Way<'a> {
     /// # Errors
     /// [`WayError`], where the question is none for this way.
     pub fn new(
-        kind: Kind,
+        kind: Method,
         question: &'a Question<'_>,
         tolerance: Option<f64>,
     ) -> Result<Way<'a>, WayError> {
         let signal = &*question.signal;
-        let method: Box<dyn Method + 'a> = match kind {
-            Kind::Certified => Box::new(Certified::new(signal)?),
-            Kind::Compiled => Box::new(Compiled::new(signal, tolerance)?),
-            Kind::Marched { proven } => Box::new(Marched::new(signal, proven)?),
-            Kind::Stable(precision) => Box::new(Summed::new(signal, Summation::Stable(precision))?),
-            Kind::Plain => Box::new(Summed::new(signal, Summation::Plain)?),
-            Kind::Expanded => Box::new(Summed::new(signal, Summation::Expanded)?),
-            Kind::Rigid
-            | Kind::Third
-            | Kind::Modes { .. }
-            | Kind::Leapfrog { .. }
-            | Kind::Steps { .. } => {
+        let method: Box<dyn evaluate::Method + 'a> = match kind {
+            Method::Certified => Box::new(Certified::new(signal)?),
+            Method::Compiled => Box::new(Compiled::new(signal, tolerance)?),
+            Method::Marched { proven } => Box::new(Marched::new(signal, proven)?),
+            Method::Stable(precision) => {
+                Box::new(Summed::new(signal, Summation::Stable(precision))?)
+            }
+            Method::Plain => Box::new(Summed::new(signal, Summation::Plain)?),
+            Method::Expanded => Box::new(Summed::new(signal, Summation::Expanded)?),
+            Method::Rigid
+            | Method::Third
+            | Method::Modes { .. }
+            | Method::Leapfrog { .. }
+            | Method::Steps { .. } => {
                 let (network, place) = question.scene.ok_or(WayError::NeedsScene(kind.name()))?;
                 // Models know no contacts that open.
                 signal.closed_form()?;
@@ -107,23 +109,23 @@ impl<'a> Way<'a> {
     /// [`WayError::NeedsRecurrence`] for methods on the exact solution; [`WayError::Model`] where the
     /// model refuses the scene.
     pub fn of_model(
-        kind: Kind,
+        kind: Method,
         scene: &impl AsRef<ScaledScene>,
         place: usize,
     ) -> Result<Way<'a>, WayError> {
         let model: Box<dyn Model> = match kind {
-            Kind::Rigid => Box::new(RigidBody::new(scene)?),
-            Kind::Third => Box::new(ThirdOfMass::new(scene, StartingVelocity::ByMomentum)?),
-            Kind::Modes { count } => Box::new(Modes::new(scene, count)?),
-            Kind::Leapfrog { cells, courant } => Box::new(Leapfrog::new(scene, cells, courant)?),
-            Kind::Steps { tolerance } => Box::new(Steps::new(scene, tolerance)?),
+            Method::Rigid => Box::new(RigidBody::new(scene)?),
+            Method::Third => Box::new(ThirdOfMass::new(scene, StartingVelocity::ByMomentum)?),
+            Method::Modes { count } => Box::new(Modes::new(scene, count)?),
+            Method::Leapfrog { cells, courant } => Box::new(Leapfrog::new(scene, cells, courant)?),
+            Method::Steps { tolerance } => Box::new(Steps::new(scene, tolerance)?),
             _ => return Err(WayError::NeedsRecurrence(kind.name())),
         };
         Ok(Way { kind, inner: Ways::Model(model, place) })
     }
 
     /// Its name and settings.
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> Method {
         self.kind
     }
 

@@ -1,7 +1,7 @@
 //! Which way is the cheapest whose proven bound meets a tolerance.
 
 use crate::answer::cost::{Cost, Size};
-use crate::answer::kind::Kind;
+use crate::answer::method::Method;
 use crate::answer::question::Question;
 use crate::ball::unit_in_the_last_place;
 use crate::evaluate::{EvaluateError, NoTaps, StablePrecision, Taps};
@@ -9,14 +9,14 @@ use crate::limits::MAX_PIECES;
 use std::fmt;
 
 /// The methods that are weighed; models leave something out and are picked by name only.
-const METHODS: [Kind; 7] = [
-    Kind::Certified,
-    Kind::Compiled,
-    Kind::Marched { proven: true },
-    Kind::Stable(StablePrecision::Double),
-    Kind::Stable(StablePrecision::DoubleDouble),
-    Kind::Plain,
-    Kind::Expanded,
+const METHODS: [Method; 7] = [
+    Method::Certified,
+    Method::Compiled,
+    Method::Marched { proven: true },
+    Method::Stable(StablePrecision::Double),
+    Method::Stable(StablePrecision::DoubleDouble),
+    Method::Plain,
+    Method::Expanded,
 ];
 
 /// The bound of compiled polynomials that can be relied on, in units in the last place of the largest
@@ -44,7 +44,7 @@ pub enum Promise {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Candidate {
     /// Which.
-    pub kind: Kind,
+    pub kind: Method,
     /// How far off it can be; `None` where it has no values.
     pub promise: Option<Promise>,
     /// What it costs, in seconds, by the table.
@@ -79,9 +79,9 @@ pub fn consider(
     let marches = matches!((&form, &taps), (Ok(form), Ok(Ok(taps))) if taps.is_rational() && form.is_rational());
     let size = Size { order, points, marches };
     let ulp = unit_in_the_last_place(scale);
-    let candidate = |kind: Kind| {
+    let candidate = |kind: Method| {
         let cost = match (kind, &form, &taps) {
-            (Kind::Marched { .. }, Ok(form), Ok(Err(_))) => {
+            (Method::Marched { .. }, Ok(form), Ok(Err(_))) => {
                 Some(Cost::of_waves(size, form.recurrence().wave_count()))
             }
             _ => Cost::of(kind, size),
@@ -90,10 +90,10 @@ pub fn consider(
         let told = |promise, verdict: String| Candidate { kind, promise, seconds, verdict };
         let refused = |reason: &dyn fmt::Display| told(None, format!("has no values: {reason}"));
         match (kind, &taps) {
-            (Kind::Certified | Kind::Compiled, _) | (_, Ok(Ok(_))) => {}
+            (Method::Certified | Method::Compiled, _) | (_, Ok(Ok(_))) => {}
             (_, Err(reason)) => return refused(reason),
-            (Kind::Expanded, _) => {}
-            (Kind::Marched { .. }, Ok(Err(reason))) if *reason != NoTaps::NoGrid => {
+            (Method::Expanded, _) => {}
+            (Method::Marched { .. }, Ok(Err(reason))) if *reason != NoTaps::NoGrid => {
                 let promise = Some(Promise::Measured(MARCHED_WAVES * scale));
                 return told(
                     promise,
@@ -102,15 +102,17 @@ pub fn consider(
             }
             (_, Ok(Err(reason))) => return refused(reason),
         }
-        if order > MAX_PIECES && matches!(kind, Kind::Certified | Kind::Compiled | Kind::Expanded) {
+        if order > MAX_PIECES
+            && matches!(kind, Method::Certified | Method::Compiled | Method::Expanded)
+        {
             return refused(&format_args!("more than {MAX_PIECES} periods"));
         }
         let promise = match kind {
-            Kind::Certified => Promise::Proven(ulp / 2.0),
-            Kind::Compiled => Promise::Proven((COMPILED_ULPS * ulp).max(tolerance / 2.0)),
-            Kind::Marched { .. } => Promise::Proven(MARCHED_ULPS * (order as f64 + 1.0) * ulp),
-            Kind::Stable(StablePrecision::Double) => Promise::Measured(64.0 * ulp),
-            Kind::Stable(StablePrecision::DoubleDouble) => Promise::Measured(2.0 * ulp),
+            Method::Certified => Promise::Proven(ulp / 2.0),
+            Method::Compiled => Promise::Proven((COMPILED_ULPS * ulp).max(tolerance / 2.0)),
+            Method::Marched { .. } => Promise::Proven(MARCHED_ULPS * (order as f64 + 1.0) * ulp),
+            Method::Stable(StablePrecision::Double) => Promise::Measured(64.0 * ulp),
+            Method::Stable(StablePrecision::DoubleDouble) => Promise::Measured(2.0 * ulp),
             _ => Promise::Nothing,
         };
         let verdict = match promise {

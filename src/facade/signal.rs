@@ -1,7 +1,7 @@
 //! Signals by name: what can be asked of a wave or an observable.
 
 use super::proven;
-use crate::answer::{Accuracy, Doubles, Kind as Method, Tolerance};
+use crate::answer::{Accuracy, Doubles, Method, Tolerance};
 use crate::ball::Value;
 use crate::error::Error;
 use crate::evaluate::{Extremum, Goal, Limit, Roots, Search, Signal as Analytic};

@@ -2,9 +2,7 @@
 
 use super::error::equivalent_spring;
 use super::{Kind, Problem, ProblemError, Wanted};
-use crate::answer::{
-    self, Accuracy, Doubles, Kind as Method, Question, Remark, Tested, Way, WayError,
-};
+use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, Way, WayError};
 use crate::evaluate::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use crate::expression::Fraction;
 use crate::model::ModelError;

@@ -8,16 +8,16 @@ use num_rational::BigRational;
 use serde_json::json;
 use std::fmt::Write as _;
 use wavestep::answer::{
-    Candidate, Doubles, Kind, Promise, Remark, Tested, Tolerance, WayError, Weighed,
+    Candidate, Doubles, Method, Promise, Remark, Tested, Tolerance, WayError, Weighed,
 };
 use wavestep::ball::in_decimals;
 use wavestep::evaluate::Limit;
 use wavestep::problem::{Problem, ProblemError};
 
 /// A method by its name and settings.
-pub fn method(text: &str) -> Result<Kind, Failure> {
+pub fn method(text: &str) -> Result<Method, Failure> {
     text.parse().map_err(|error| {
-        let names: Vec<&str> = Kind::NAMES.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = Method::NAMES.iter().map(|(name, _)| *name).collect();
         Failure::usage(format!("{error}"), format!("give one of {}", names.join(", ")))
     })
 }

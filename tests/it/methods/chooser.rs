@@ -5,7 +5,7 @@ use crate::methods::tally::{Tally, ends};
 use crate::methods::{Values, exact, random, times, unit_in_the_last_place};
 use proptest::prelude::RngExt as _;
 use wavestep::answer::{
-    Cost, Kind, Promise, Question, Size, Tolerance, Way, WayError, Weighed, consider,
+    Cost, Method, Promise, Question, Size, Tolerance, Way, WayError, Weighed, consider,
 };
 use wavestep::evaluate::{Limit, StablePrecision};
 
@@ -31,7 +31,10 @@ fn is_cheapest(problem: &Question<'_>, weighed: &Weighed, points: usize, toleran
         assert_eq!(first.seconds, least, "{points} points: {first:?}");
         assert!(first.verdict.contains("cheapest"), "{}", first.verdict);
         assert!(
-            matches!(first.kind, Kind::Certified | Kind::Compiled | Kind::Marched { proven: true }),
+            matches!(
+                first.kind,
+                Method::Certified | Method::Compiled | Method::Marched { proven: true }
+            ),
             "{first:?}"
         );
     }
@@ -62,15 +65,15 @@ fn what_is_picked_is_the_cheapest_that_is_proven() {
             let first = |points, tolerance: f64| {
                 consider(problem, points, tolerance, scale).unwrap().candidates[0].kind
             };
-            assert_eq!(first(1_000_000, 0.6 * unit), Kind::Certified);
+            assert_eq!(first(1_000_000, 0.6 * unit), Method::Certified);
             many.push(first(1_000_000, 4.0 * unit));
-            assert_eq!(first(1, 4.0 * unit), Kind::Certified);
+            assert_eq!(first(1, 4.0 * unit), Method::Certified);
         });
     }
     println!("chooser: {weighed_problems} problems weighed, many values by {many:?}");
     // A march in integers makes certified values the cheapest at exact times; others cost more.
-    assert!(many.iter().all(|kind| matches!(kind, Kind::Certified | Kind::Compiled)));
-    assert!(many.contains(&Kind::Certified) && many.contains(&Kind::Compiled));
+    assert!(many.iter().all(|kind| matches!(kind, Method::Certified | Method::Compiled)));
+    assert!(many.contains(&Method::Certified) && many.contains(&Method::Compiled));
 }
 
 /// A way made for a tolerance keeps it, for tolerances and numbers of points at random.
@@ -152,17 +155,17 @@ fn tolerances_are_read_as_they_are_documented() {
 
 #[test]
 fn every_method_is_named_as_it_is_read() {
-    for (name, _) in Kind::NAMES {
+    for (name, _) in Method::NAMES {
         let bare = name.split(':').next().unwrap();
-        let kind: Kind = bare.parse().unwrap();
+        let kind: Method = bare.parse().unwrap();
         assert_eq!(kind.name(), bare);
-        assert_eq!(kind.to_string().parse::<Kind>(), Ok(kind));
+        assert_eq!(kind.to_string().parse::<Method>(), Ok(kind));
         assert_eq!(kind.setting().is_empty(), !name.contains(':'), "{name}");
         let size = Size { order: 50, points: 10, marches: true };
         assert_eq!(Cost::of(kind, size).is_none(), kind.is_model(), "{name}");
     }
     for text in ["modes:", "modes:-1", "leapfrog:4,x", "steps:tight", "compiled:3"] {
-        let error = text.parse::<Kind>().unwrap_err().to_string();
+        let error = text.parse::<Method>().unwrap_err().to_string();
         let (name, setting) = text.split_once(':').unwrap();
         assert_eq!(error, format!("`{setting}` is no setting of {name}"));
     }
@@ -172,17 +175,17 @@ fn every_method_is_named_as_it_is_read() {
 #[test]
 fn models_have_their_limits() {
     with("rigid-mass", &[("mu", "1")], "f", ("0", "4"), |subject| {
-        let refused = Way::new(Kind::Modes { count: 10 }, &subject.question, None).err();
+        let refused = Way::new(Method::Modes { count: 10 }, &subject.question, None).err();
         assert_eq!(refused, Some(WayError::NeedsScene("modes")));
     });
     with("mass-on-fixed-bar", &[("mu", "1")], "velocity", ("0", "4"), |subject| {
-        let way = Way::new(Kind::Modes { count: 10 }, &subject.question, None).unwrap();
+        let way = Way::new(Method::Modes { count: 10 }, &subject.question, None).unwrap();
         assert_eq!(way.bound(), None);
         let left = way.value(&exact(2.0), Limit::Left);
         assert_eq!(left, Err(WayError::LeftLimit("modes")));
         assert!(way.value(&exact(2.0), Limit::Right).is_ok());
         for precision in [StablePrecision::Double, StablePrecision::DoubleDouble] {
-            let way = Way::new(Kind::Stable(precision), &subject.question, None).unwrap();
+            let way = Way::new(Method::Stable(precision), &subject.question, None).unwrap();
             assert!(way.bound().is_none() && way.law().contains("measured"));
         }
     });

@@ -5,7 +5,7 @@ use crate::methods::{Values, exact, random, unit_in_the_last_place};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
 use proptest::prelude::RngExt as _;
-use wavestep::answer::{Accuracy, Kind, Question, Tolerance, Way, WayError};
+use wavestep::answer::{Accuracy, Method, Question, Tolerance, Way, WayError};
 use wavestep::evaluate::{EvaluateError, Limit, MethodError, Value, digits};
 use wavestep::problem::{Problem, ProblemError};
 
@@ -76,7 +76,7 @@ fn nearest(value: &Value) -> f64 {
 fn certified_values_are_nearest_to_digits() {
     let mut zeros = 0;
     each(|name, question| {
-        let way = Way::new(Kind::Certified, question, None).unwrap();
+        let way = Way::new(Method::Certified, question, None).unwrap();
         let times = doubles(question, 91, 200);
         let values = way.values(&times).unwrap_or_else(|error| panic!("{name}: {error}"));
         for (time, value) in times.iter().zip(values) {
@@ -104,7 +104,7 @@ fn many_certified_values_are_those_that_come_one_by_one() {
     ] {
         let problem = problem(scene, values);
         let question = problem.question(quantity, [BigRational::zero(), number(last)]).unwrap();
-        let way = Way::new(Kind::Certified, &question, None).unwrap();
+        let way = Way::new(Method::Certified, &question, None).unwrap();
         let times = doubles(&question, 92, 3000);
         let values = way.values(&times).unwrap();
         for (time, value) in times.iter().zip(values).step_by(20) {
@@ -128,7 +128,7 @@ fn compiled_values_keep_their_bound() {
         let ends: Vec<([BigRational; 2], BigRational)> = ends.collect();
         let scale = question.scale().unwrap();
         for tolerance in [None, Some(1e-9 * scale)] {
-            let way = Way::new(Kind::Compiled, question, tolerance);
+            let way = Way::new(Method::Compiled, question, tolerance);
             let way = way.unwrap_or_else(|error| panic!("{name}: {error}"));
             let bound = way.bound().unwrap();
             let most = tolerance.unwrap_or(4.0 * unit_in_the_last_place(scale));
@@ -158,7 +158,7 @@ fn a_tolerance_is_met_without_a_closed_form() {
     let times: Vec<BigRational> = (0..40).map(|i| number(&format!("{i}/5"))).collect();
     let within = Accuracy::Within(Tolerance::Relative(1e-9));
     let found = problem.doubles("strain_impact", &times, Limit::Right, within).unwrap();
-    assert!(matches!(found.method, Kind::Certified | Kind::Compiled));
+    assert!(matches!(found.method, Method::Certified | Method::Compiled));
     assert_eq!(found.values[39], 0.0, "after the mass has left");
     let refused = |kind| match problem.question("velocity", [times[0].clone(), times[30].clone()]) {
         Ok(question) => Way::new(kind, &question, None).err(),
@@ -183,7 +183,7 @@ fn single_times_have_values() {
             let question = problem.question(quantity, [at.clone(), at.clone()]).unwrap();
             for side in [Limit::Left, Limit::Right] {
                 let known = nearest(&told(&question, &at, side));
-                for kind in [Kind::Certified, Kind::Compiled] {
+                for kind in [Method::Certified, Method::Compiled] {
                     let way = Way::new(kind, &question, None).unwrap();
                     let value = way.value(&at, side).unwrap();
                     let most = way.bound().unwrap() + unit_in_the_last_place(known);

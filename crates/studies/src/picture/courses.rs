@@ -3,7 +3,7 @@
 use super::{Course, PictureError, Sampled, sampled, sampled_in_steps};
 use crate::hertz::ContactOfScene;
 use crate::nearest;
-use wavestep::answer::{Accuracy, Kind, Remark, Tested};
+use wavestep::answer::{Accuracy, Method, Remark, Tested};
 use wavestep::ball::Ball;
 use wavestep::evaluate::Limit;
 use wavestep::problem::{Course as Known, Problem, ProblemError, Wanted, two_figures};
@@ -14,7 +14,7 @@ use wavestep_polynomial::Rational;
 const STEPS: usize = 240;
 
 /// The method for local contacts: far finer than a picture shows.
-const MODEL: Kind = Kind::Steps { tolerance: 1e-8 };
+const MODEL: Method = Method::Steps { tolerance: 1e-8 };
 
 /// At how many times it is asked.
 const POINTS: usize = 1000;

@@ -10,7 +10,7 @@ use super::{over_courant, over_order, over_time, work_precision};
 use crate::picture::PictureError;
 use num_traits::ToPrimitive as _;
 use std::time::Duration;
-use wavestep::answer::{self, Kind};
+use wavestep::answer::{self, Method};
 use wavestep::evaluate::instructions;
 use wavestep::problem::{Problem, number};
 use wavestep_draw::{Axis, Caption, Chart, Curves, Listing, PlotError, Table};
@@ -34,7 +34,7 @@ const HUGE: f64 = 100.0;
 const LAST_OF_HUGE: usize = 20;
 
 /// The methods that have maps.
-const MAPPED: [Kind; 6] = DOUBLES;
+const MAPPED: [Method; 6] = DOUBLES;
 
 /// How much is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

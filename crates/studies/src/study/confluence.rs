@@ -2,7 +2,7 @@
 
 use crate::study::harness::{Subject, errors, worst};
 use crate::study::reference::{Reference, Sampling};
-use wavestep::answer::Kind;
+use wavestep::answer::Method;
 use wavestep::problem::Problem;
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
@@ -22,7 +22,7 @@ const LAST: f64 = 10.0;
 
 /// The error of values by the distance of two poles, which is `10^−j`.
 pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, PlotError> {
-    let kinds = [Kind::Expanded, Kind::Compiled];
+    let kinds = [Method::Expanded, Method::Compiled];
     let mut curves = kinds.map(|kind| Curve { name: kind.to_string(), points: Vec::new() });
     for decade in 0..=decades {
         let distance = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(decade));
@@ -43,12 +43,12 @@ pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, Plo
         .level(1e-8, "8 digits lost")
 }
 
-fn at_distance(distance: Rational, kinds: &[Kind]) -> Option<Vec<f64>> {
+fn at_distance(distance: Rational, kinds: &[Method]) -> Option<Vec<f64>> {
     let values = [("d".to_owned(), distance)].into();
     let problem = Problem::of_text("two poles", TEXT, &values).ok()?;
     let question = Subject { problem: &problem, quantity: "f" }.between(0.0, LAST).ok()?;
     let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST);
     let reference = Reference::new(&question, &times).ok()?;
-    let error = |kind: &Kind| errors(&question, *kind, &reference).ok().map(|e| worst(&e));
+    let error = |kind: &Method| errors(&question, *kind, &reference).ok().map(|e| worst(&e));
     kinds.iter().map(error).collect()
 }

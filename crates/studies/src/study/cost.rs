@@ -4,7 +4,7 @@ use crate::study::curves::DOUBLES;
 use crate::study::harness::{Measured, Settings, Subject, measure};
 use crate::study::reference::{Reference, Sampling};
 use std::time::{Duration, Instant};
-use wavestep::answer::Kind;
+use wavestep::answer::Method;
 use wavestep::problem::ProblemError;
 use wavestep::recurrence::{Observation, Recurrence};
 use wavestep::solution::{ObserveError, Solution};
@@ -79,7 +79,7 @@ pub fn cost_over_order(
             Err(error) => of_preparation.remarks.push(format!("{name}, is left out: {error}.")),
         }
     }
-    for kind in DOUBLES.into_iter().chain([Kind::Certified]) {
+    for kind in DOUBLES.into_iter().chain([Method::Certified]) {
         let mut measured = Vec::new();
         for &order in orders {
             match on_period(subject, kind, (order, period), settings) {
@@ -119,7 +119,7 @@ fn numeric(subject: Subject<'_>, period: f64) -> Option<(Recurrence, Observation
 /// One way on the period that begins after so many.
 fn on_period(
     subject: Subject<'_>,
-    kind: Kind,
+    kind: Method,
     (order, period): (usize, f64),
     settings: Settings,
 ) -> Result<Measured, ProblemError> {

@@ -2,19 +2,19 @@
 
 use crate::study::harness::{Subject, errors};
 use crate::study::reference::Reference;
-use wavestep::answer::{Kind, Question};
+use wavestep::answer::{Method, Question};
 use wavestep::evaluate::{StablePrecision, first_doubles};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
 
 /// The methods in doubles whose errors are followed.
-pub const DOUBLES: [Kind; 6] = [
-    Kind::Expanded,
-    Kind::Plain,
-    Kind::Stable(StablePrecision::Double),
-    Kind::Stable(StablePrecision::DoubleDouble),
-    Kind::Marched { proven: false },
-    Kind::Compiled,
+pub const DOUBLES: [Method; 6] = [
+    Method::Expanded,
+    Method::Plain,
+    Method::Stable(StablePrecision::Double),
+    Method::Stable(StablePrecision::DoubleDouble),
+    Method::Marched { proven: false },
+    Method::Compiled,
 ];
 
 /// An error, in parts of the largest value, from which on a result is of no use.
@@ -28,7 +28,7 @@ const CEILING: f64 = 100.0;
 
 /// A curve for each method, of what `points` makes of its errors; what a method refused is a remark.
 pub(super) fn by_method(
-    kinds: &[Kind],
+    kinds: &[Method],
     question: &Question<'_>,
     reference: &Reference,
     caption: &mut Caption,
@@ -135,7 +135,7 @@ pub fn near_jump(
     let distance = |i: usize| 10f64.powf(-4.0 + 3.8 * i as f64 / PLACES as f64) * (next - at);
     let times: Vec<f64> = (0..PLACES).map(|i| at + distance(i)).collect();
     let reference = Reference::new(question, &times).map_err(|_| empty(title))?;
-    let kinds = [30, 300, 3000].map(|count| Kind::Modes { count });
+    let kinds = [30, 300, 3000].map(|count| Method::Modes { count });
     let curves = by_method(&kinds, question, &reference, &mut caption, |errors| {
         times.iter().zip(errors).map(|(t, e)| (t - at, *e)).collect()
     });
@@ -154,7 +154,7 @@ pub fn over_courant(
     for cells in [50, 200, 800].into_iter().filter(|cells| *cells <= most_cells) {
         let (mut mean, mut largest) = (Vec::new(), Vec::new());
         for courant in numbers {
-            match errors(question, Kind::Leapfrog { cells, courant }, reference) {
+            match errors(question, Method::Leapfrog { cells, courant }, reference) {
                 Ok(errors) => {
                     let sum: f64 = errors.iter().sum();
                     mean.push((courant, sum / errors.len().max(1) as f64));

@@ -2,7 +2,7 @@
 
 use crate::study::reference::Reference;
 use std::time::{Duration, Instant};
-use wavestep::answer::{Kind, Question, Way, WayError};
+use wavestep::answer::{Method, Question, Way, WayError};
 use wavestep::problem::{Problem, ProblemError};
 use wavestep_polynomial::Rational;
 
@@ -45,7 +45,7 @@ impl Default for Settings {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Measured {
     /// Which way.
-    pub kind: Kind,
+    pub kind: Method,
     /// The largest error, in parts of the largest value.
     pub error: f64,
     /// The proven bound, in parts of the largest value, half a unit in the last place included.
@@ -71,7 +71,7 @@ pub fn worst(errors: &[f64]) -> f64 {
 /// [`WayError`], where the question is none for this way.
 pub fn errors(
     question: &Question<'_>,
-    kind: Kind,
+    kind: Method,
     reference: &Reference,
 ) -> Result<Vec<f64>, WayError> {
     let way = Way::new(kind, question, None)?;
@@ -81,7 +81,7 @@ pub fn errors(
 /// The time of a preparation and the first values, when nothing is known of the signal.
 fn from_scratch(
     question: &Question<'_>,
-    (kind, tolerance): (Kind, Option<f64>),
+    (kind, tolerance): (Method, Option<f64>),
     reference: &Reference,
 ) -> Result<Duration, WayError> {
     // Whether there is a closed form is part of the question.
@@ -100,7 +100,7 @@ fn from_scratch(
 /// [`ProblemError`], where the question is none for this way.
 pub fn measure(
     (subject, window): (Subject<'_>, [&Rational; 2]),
-    (kind, tolerance): (Kind, Option<f64>),
+    (kind, tolerance): (Method, Option<f64>),
     reference: &Reference,
     settings: Settings,
 ) -> Result<Measured, ProblemError> {

@@ -3,7 +3,7 @@
 use crate::study::curves::HALF;
 use crate::study::harness::Subject;
 use crate::study::map::errors_by_order;
-use wavestep::answer::Kind;
+use wavestep::answer::Method;
 use wavestep_draw::{Axis, Caption, Curve, Curves, Listing, PlotError};
 
 /// The first orders at which a way has lost digits, for one value of a parameter.
@@ -23,7 +23,7 @@ pub struct Loss {
 /// not, each order is measured.
 pub fn first_losses(
     subject: Subject<'_>,
-    kind: Kind,
+    kind: Method,
     (parameter, period): (f64, f64),
     (orders, known): (&[usize], &[Option<f64>]),
 ) -> Loss {
@@ -41,7 +41,7 @@ pub fn first_losses(
 
 /// Losses as a chart over the parameter, and as a small table.
 pub fn losses(
-    kind: Kind,
+    kind: Method,
     parameter: &str,
     last: usize,
     rows: &[Loss],

@@ -3,7 +3,7 @@
 use crate::study::curves::{HALF, USELESS};
 use crate::study::harness::{Subject, worst};
 use crate::study::reference::{Reference, Sampling};
-use wavestep::answer::{Kind, Way};
+use wavestep::answer::{Method, Way};
 use wavestep::problem::ProblemError;
 use wavestep_draw::{Axis, Caption, Level, Map, PlotError};
 
@@ -50,7 +50,7 @@ pub fn errors_by_order(
     subject: Subject<'_>,
     period: f64,
     orders: &[usize],
-    kinds: &[Kind],
+    kinds: &[Method],
 ) -> Vec<OrderRow> {
     let until = |orders: &[usize]| {
         subject.between(0.0, (orders.last().copied().unwrap_or(0) as f64 + 1.0) * period)
@@ -64,7 +64,7 @@ pub fn errors_by_order(
             return vec![refused; kinds.len()];
         }
     };
-    let row = |kind: &Kind| {
+    let row = |kind: &Method| {
         let mut refusal = None;
         for known in (1..=orders.len()).rev() {
             let known_times = &times[..known * 2 * TIMES];
@@ -93,7 +93,7 @@ pub fn errors_by_order(
 /// # Errors
 /// [`PlotError`], where there are no rows.
 pub fn order_map(
-    kind: Kind,
+    kind: Method,
     parameter: &str,
     orders: &[usize],
     rows: &[(f64, Vec<Option<f64>>)],

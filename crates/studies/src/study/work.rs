@@ -2,50 +2,50 @@
 
 use crate::study::harness::{Measured, Settings, Subject, measure};
 use crate::study::reference::Reference;
-use wavestep::answer::Kind;
+use wavestep::answer::Method;
 use wavestep::evaluate::StablePrecision;
 use wavestep::problem::ProblemError;
-use wavestep_draw::{Caption, Method, PlotError, Point, Row, Table, WorkPrecision};
+use wavestep_draw::{Caption, PlotError, Point, Row, Table, WorkPrecision};
 use wavestep_polynomial::Rational;
 
 /// One step of the ladder: a way, and the tolerance it is given in parts of the largest value.
-pub type Step = (Kind, Option<f64>);
+pub type Step = (Method, Option<f64>);
 
 /// The ways that are measured, and their settings in order.
 pub const LADDER: [Step; 33] = [
-    (Kind::Rigid, None),
-    (Kind::Third, None),
-    (Kind::Modes { count: 10 }, None),
-    (Kind::Modes { count: 100 }, None),
-    (Kind::Modes { count: 1_000 }, None),
-    (Kind::Modes { count: 10_000 }, None),
-    (Kind::Leapfrog { cells: 50, courant: 0.9 }, None),
-    (Kind::Leapfrog { cells: 200, courant: 0.9 }, None),
-    (Kind::Leapfrog { cells: 800, courant: 0.9 }, None),
-    (Kind::Leapfrog { cells: 50, courant: 1.0 }, None),
-    (Kind::Leapfrog { cells: 200, courant: 1.0 }, None),
-    (Kind::Leapfrog { cells: 800, courant: 1.0 }, None),
-    (Kind::Steps { tolerance: 1e-3 }, None),
-    (Kind::Steps { tolerance: 1e-5 }, None),
-    (Kind::Steps { tolerance: 1e-7 }, None),
-    (Kind::Steps { tolerance: 1e-9 }, None),
-    (Kind::Steps { tolerance: 1e-11 }, None),
-    (Kind::Expanded, None),
-    (Kind::Plain, None),
-    (Kind::Stable(StablePrecision::Double), None),
-    (Kind::Stable(StablePrecision::DoubleDouble), None),
-    (Kind::Marched { proven: true }, None),
-    (Kind::Compiled, Some(1e-2)),
-    (Kind::Compiled, Some(1e-3)),
-    (Kind::Compiled, Some(1e-4)),
-    (Kind::Compiled, Some(1e-6)),
-    (Kind::Compiled, Some(1e-8)),
-    (Kind::Compiled, Some(1e-10)),
-    (Kind::Compiled, Some(1e-12)),
-    (Kind::Compiled, Some(1e-13)),
-    (Kind::Compiled, Some(1e-14)),
-    (Kind::Compiled, None),
-    (Kind::Certified, None),
+    (Method::Rigid, None),
+    (Method::Third, None),
+    (Method::Modes { count: 10 }, None),
+    (Method::Modes { count: 100 }, None),
+    (Method::Modes { count: 1_000 }, None),
+    (Method::Modes { count: 10_000 }, None),
+    (Method::Leapfrog { cells: 50, courant: 0.9 }, None),
+    (Method::Leapfrog { cells: 200, courant: 0.9 }, None),
+    (Method::Leapfrog { cells: 800, courant: 0.9 }, None),
+    (Method::Leapfrog { cells: 50, courant: 1.0 }, None),
+    (Method::Leapfrog { cells: 200, courant: 1.0 }, None),
+    (Method::Leapfrog { cells: 800, courant: 1.0 }, None),
+    (Method::Steps { tolerance: 1e-3 }, None),
+    (Method::Steps { tolerance: 1e-5 }, None),
+    (Method::Steps { tolerance: 1e-7 }, None),
+    (Method::Steps { tolerance: 1e-9 }, None),
+    (Method::Steps { tolerance: 1e-11 }, None),
+    (Method::Expanded, None),
+    (Method::Plain, None),
+    (Method::Stable(StablePrecision::Double), None),
+    (Method::Stable(StablePrecision::DoubleDouble), None),
+    (Method::Marched { proven: true }, None),
+    (Method::Compiled, Some(1e-2)),
+    (Method::Compiled, Some(1e-3)),
+    (Method::Compiled, Some(1e-4)),
+    (Method::Compiled, Some(1e-6)),
+    (Method::Compiled, Some(1e-8)),
+    (Method::Compiled, Some(1e-10)),
+    (Method::Compiled, Some(1e-12)),
+    (Method::Compiled, Some(1e-13)),
+    (Method::Compiled, Some(1e-14)),
+    (Method::Compiled, None),
+    (Method::Certified, None),
 ];
 
 /// What came of one step.
@@ -61,7 +61,7 @@ impl Outcome {
     /// The line of the chart that it belongs to.
     fn line(&self) -> String {
         match self.step.0 {
-            Kind::Leapfrog { courant, .. } => format!("leapfrog, CFL {courant}"),
+            Method::Leapfrog { courant, .. } => format!("leapfrog, CFL {courant}"),
             kind => kind.name().to_owned(),
         }
     }
@@ -69,12 +69,12 @@ impl Outcome {
     /// The setting, in few letters; no two steps of different lines have the same.
     fn setting(&self) -> String {
         match self.step {
-            (Kind::Modes { count }, _) => format!("N = {count}"),
-            (Kind::Leapfrog { cells, courant }, _) if courant < 1.0 => {
+            (Method::Modes { count }, _) => format!("N = {count}"),
+            (Method::Leapfrog { cells, courant }, _) if courant < 1.0 => {
                 format!("{cells} cells, CFL {courant}")
             }
-            (Kind::Leapfrog { cells, .. }, _) => format!("{cells} cells"),
-            (Kind::Steps { tolerance }, _) => format!("rtol {tolerance:e}"),
+            (Method::Leapfrog { cells, .. }, _) => format!("{cells} cells"),
+            (Method::Steps { tolerance }, _) => format!("rtol {tolerance:e}"),
             (_, Some(tolerance)) => format!("tol {tolerance:e}"),
             _ => String::new(),
         }
@@ -82,11 +82,11 @@ impl Outcome {
 }
 
 /// Whether a step takes long.
-fn is_heavy(kind: Kind) -> bool {
+fn is_heavy(kind: Method) -> bool {
     match kind {
-        Kind::Modes { count } => count > 1_000,
-        Kind::Leapfrog { cells, .. } => cells > 100,
-        Kind::Steps { tolerance } => tolerance < 1e-6,
+        Method::Modes { count } => count > 1_000,
+        Method::Leapfrog { cells, .. } => cells > 100,
+        Method::Steps { tolerance } => tolerance < 1e-6,
         _ => false,
     }
 }
@@ -96,7 +96,7 @@ pub fn ladder(
     asked: (Subject<'_>, [&Rational; 2]),
     reference: &Reference,
     (settings, quick): (Settings, bool),
-    tick: impl Fn(&Kind),
+    tick: impl Fn(&Method),
 ) -> Vec<Outcome> {
     let outcome = |step: Step| {
         let (kind, tolerance) = step;
@@ -118,11 +118,11 @@ pub fn work_precision(
     reference: &Reference,
     mut caption: Caption,
 ) -> Result<(WorkPrecision, Table), PlotError> {
-    let mut methods: Vec<Method> = Vec::new();
+    let mut methods: Vec<wavestep_draw::Method> = Vec::new();
     let mut rows = Vec::new();
     let slowest = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
     let slowest = slowest
-        .filter(|measured| matches!(measured.kind, Kind::Certified))
+        .filter(|measured| matches!(measured.kind, Method::Certified))
         .map(|measured| measured.seconds)
         .next();
     caption.remarks.push(format!(
@@ -146,7 +146,7 @@ pub fn work_precision(
         let point = Point { setting: setting.clone(), error, bound, seconds, prepared };
         match methods.iter_mut().find(|method| method.name == line) {
             Some(method) => method.points.push(point),
-            None => methods.push(Method { name: line.clone(), points: vec![point] }),
+            None => methods.push(wavestep_draw::Method { name: line.clone(), points: vec![point] }),
         }
         let prepared = format!("prepared in {}", duration(preparation));
         let setting = match (setting.is_empty(), preparation > seconds) {

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::time::Duration;
-use wavestep::answer::{Kind, Question};
+use wavestep::answer::{Method, Question};
 use wavestep::problem::Problem;
 use wavestep_draw::{Axis, Caption, Curves};
 use wavestep_studies::study::{
@@ -55,7 +55,7 @@ fn expanded_formulas_lose_digits_with_time_and_order() {
     with_wave(8.0, |subject, _| {
         let chart = over_order(subject, 2.0, &[5, 40], Caption::default()).unwrap();
         assert!(last(&chart, "expanded") > 1e-3 && last(&chart, "double-double") < 1e-15);
-        let kinds = [Kind::Expanded, Kind::Compiled, Kind::Rigid];
+        let kinds = [Method::Expanded, Method::Compiled, Method::Rigid];
         let rows = errors_by_order(subject, 2.0, &[1, 30], &kinds);
         let [expanded, compiled, rigid] = &rows[..] else { panic!("a row for each") };
         assert!(expanded.errors[0].unwrap() < 1e-14 && expanded.errors[1].unwrap() > 1e-8);
@@ -103,7 +103,7 @@ fn models_miss_jumps_and_keep_to_the_courant_number() {
 #[test]
 fn the_ladder_keeps_its_bounds() {
     // Tolerances of one way descend, so that its line goes from coarse to fine.
-    let compiled = LADDER.iter().filter(|(kind, _)| *kind == Kind::Compiled);
+    let compiled = LADDER.iter().filter(|(kind, _)| *kind == Method::Compiled);
     let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| *tolerance).collect();
     assert!(tolerances.is_sorted_by(|a, b| a > b) && tolerances.len() > 5);
     with_wave(8.0, |subject, question| {
@@ -122,7 +122,7 @@ fn the_ladder_keeps_its_bounds() {
             step: (kind, None),
             result: Ok(Measured { kind, error: 1e-16, bound: None, preparation: 0.0, seconds }),
         };
-        let outcomes = [measured(Kind::Compiled, 1e-9), measured(Kind::Certified, 1e-6)];
+        let outcomes = [measured(Method::Compiled, 1e-9), measured(Method::Certified, 1e-6)];
         let (chart, table) =
             work_precision("Values", &outcomes, &reference, Caption::default()).unwrap();
         assert_eq!(chart.methods()[0].name, "compiled");
@@ -153,14 +153,14 @@ fn costs_are_told_for_every_order() {
 #[test]
 fn maps_and_losses_are_drawn_from_their_rows() {
     let rows = [(0.25, vec![Some(1e-16), Some(1e-9)]), (1.0, vec![Some(1e-14), None])];
-    let map = order_map(Kind::Expanded, "mu", &[10, 40], &rows, Caption::default()).unwrap();
+    let map = order_map(Method::Expanded, "mu", &[10, 40], &rows, Caption::default()).unwrap();
     // Columns are orders, rows values of the parameter.
     assert_eq!((map.cell(1, 0), map.cell(1, 1)), (Some(1e-9), None));
     let rows = [
         Loss { parameter: 0.01, half: None, all: None },
         Loss { parameter: 1.0, half: Some(24), all: Some(46) },
     ];
-    let (chart, listing) = losses(Kind::Expanded, "mu", 200, &rows, Caption::default()).unwrap();
+    let (chart, listing) = losses(Method::Expanded, "mu", 200, &rows, Caption::default()).unwrap();
     assert_eq!(chart.curves()[1].points, [(1.0, 46.0)]);
     assert_eq!(listing.rows, [["0.01", "> 200", "> 200"], ["1", "24", "46"]]);
 }

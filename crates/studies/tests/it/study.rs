@@ -1,6 +1,6 @@
 //! The harness of the charts, measured itself: a known error in is a known error out.
 
-use wavestep::answer::{Kind, Question};
+use wavestep::answer::{Method, Question};
 use wavestep::evaluate::StablePrecision;
 use wavestep::problem::Problem;
 use wavestep_draw::Caption;
@@ -24,7 +24,7 @@ fn known_errors_are_measured() {
         let times = Sampling { points: 100, seed: 3 }.times(0.0, 12.0);
         let reference = Reference::new(question, &times).unwrap();
         assert!(reference.radius() < 1e-29, "{:e}", reference.radius());
-        let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();
+        let certified = wavestep::answer::Way::new(Method::Certified, question, None).unwrap();
         let values = certified.values(&times).unwrap();
         assert!(worst(&reference.errors(&values)) <= f64::EPSILON / 2.0);
         for (i, known) in [(0, 1e-3), (17, 1e-9), (99, 1e-13)] {
@@ -50,7 +50,7 @@ fn references_agree_with_certified_digits() {
     with_question(|_, question| {
         let times = [0.0, 0.5, 2.0 / 3.0, 5.25, 11.999];
         let reference = Reference::new(question, &times).unwrap();
-        let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();
+        let certified = wavestep::answer::Way::new(Method::Certified, question, None).unwrap();
         for (time, error) in times.iter().zip(reference.errors(&certified.values(&times).unwrap()))
         {
             assert!(error <= f64::EPSILON / 2.0, "{time}: {error:e}");
@@ -67,10 +67,10 @@ fn proven_bounds_hold_where_they_are_measured() {
         let settings = Settings { runs: 1, time: std::time::Duration::ZERO };
         let scale = reference.scale();
         let kinds = [
-            (Kind::Certified, None),
-            (Kind::Compiled, None),
-            (Kind::Compiled, Some(1e-6 * scale)),
-            (Kind::Marched { proven: true }, None),
+            (Method::Certified, None),
+            (Method::Compiled, None),
+            (Method::Compiled, Some(1e-6 * scale)),
+            (Method::Marched { proven: true }, None),
         ];
         for step in kinds {
             let measured =
@@ -79,7 +79,7 @@ fn proven_bounds_hold_where_they_are_measured() {
             assert!(measured.error <= bound, "{step:?}: {:e} > {bound:e}", measured.error);
             assert!(measured.seconds > 0.0 && measured.preparation >= 0.0);
         }
-        assert!(worst(&errors(question, Kind::Expanded, &reference).unwrap()) > 1e-13);
+        assert!(worst(&errors(question, Method::Expanded, &reference).unwrap()) > 1e-13);
     });
 }
 
@@ -90,7 +90,7 @@ fn orders_of_loss_are_the_first_ones() {
     let subject = Subject { problem: &problem, quantity: "f" };
     let all: Vec<usize> = (1..=60).collect();
     let few = [1, 5, 10, 15, 20, 30, 40, 60];
-    let kind = Kind::Expanded;
+    let kind = Method::Expanded;
     let row = |orders: &[usize]| errors_by_order(subject, 2.0, orders, &[kind]).swap_remove(0);
     let every = row(&all).errors;
     let loss = first_losses(subject, kind, (1.0, 2.0), (&few, &row(&few).errors));
@@ -110,7 +110,7 @@ fn refused_periods_leave_the_others() {
     let problem = Problem::of_text("two poles", text, &Default::default()).unwrap();
     let subject = Subject { problem: &problem, quantity: "f" };
     // With two poles `expanded` sums 300 echoes at most, and `stable` none.
-    let kinds = [Kind::Stable(StablePrecision::Double), Kind::Expanded];
+    let kinds = [Method::Stable(StablePrecision::Double), Method::Expanded];
     let [stable, expanded] = &errors_by_order(subject, 2.0, &[1, 5, 310], &kinds)[..] else {
         panic!("two rows")
     };
@@ -128,7 +128,7 @@ fn relative_errors_grow_towards_zeros() {
     with_question(|_, question| {
         let roots = simple_roots(question, 100);
         assert!(roots.len() > 3 && roots.is_sorted(), "{roots:?}");
-        let certified = wavestep::answer::Way::new(Kind::Certified, question, None).unwrap();
+        let certified = wavestep::answer::Way::new(Method::Certified, question, None).unwrap();
         // Certified values change sign across each root.
         for root in &roots {
             let signs = certified.values(&[root - 1e-12, root + 1e-12]).unwrap();

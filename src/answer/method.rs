@@ -15,7 +15,7 @@ use std::str::FromStr;
 /// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Kind {
+pub enum Method {
     /// Correctly rounded.
     Certified,
     /// Polynomials with a proven bound.
@@ -54,7 +54,7 @@ pub enum Kind {
     },
 }
 
-impl Kind {
+impl Method {
     /// The names, each with its settings and what they are when nothing is said.
     pub const NAMES: [(&'static str, &'static str); 13] = [
         ("certified", "correctly rounded"),
@@ -79,45 +79,45 @@ impl Kind {
     pub fn is_model(&self) -> bool {
         matches!(
             self,
-            Kind::Rigid
-                | Kind::Third
-                | Kind::Modes { .. }
-                | Kind::Leapfrog { .. }
-                | Kind::Steps { .. }
+            Method::Rigid
+                | Method::Third
+                | Method::Modes { .. }
+                | Method::Leapfrog { .. }
+                | Method::Steps { .. }
         )
     }
 
     /// The name without settings.
     pub fn name(&self) -> &'static str {
         match self {
-            Kind::Certified => "certified",
-            Kind::Compiled => "compiled",
-            Kind::Marched { proven: true } => "marched",
-            Kind::Marched { proven: false } => "marched-unproven",
-            Kind::Stable(StablePrecision::Double) => "stable",
-            Kind::Stable(StablePrecision::DoubleDouble) => "double-double",
-            Kind::Plain => "plain",
-            Kind::Expanded => "expanded",
-            Kind::Rigid => "rigid",
-            Kind::Third => "third",
-            Kind::Modes { .. } => "modes",
-            Kind::Leapfrog { .. } => "leapfrog",
-            Kind::Steps { .. } => "steps",
+            Method::Certified => "certified",
+            Method::Compiled => "compiled",
+            Method::Marched { proven: true } => "marched",
+            Method::Marched { proven: false } => "marched-unproven",
+            Method::Stable(StablePrecision::Double) => "stable",
+            Method::Stable(StablePrecision::DoubleDouble) => "double-double",
+            Method::Plain => "plain",
+            Method::Expanded => "expanded",
+            Method::Rigid => "rigid",
+            Method::Third => "third",
+            Method::Modes { .. } => "modes",
+            Method::Leapfrog { .. } => "leapfrog",
+            Method::Steps { .. } => "steps",
         }
     }
 
     /// The settings, as they are written; none where there are none.
     pub fn setting(&self) -> String {
         match self {
-            Kind::Modes { count } => count.to_string(),
-            Kind::Leapfrog { cells, courant } => format!("{cells},{courant}"),
-            Kind::Steps { tolerance } => format!("{tolerance:e}"),
+            Method::Modes { count } => count.to_string(),
+            Method::Leapfrog { cells, courant } => format!("{cells},{courant}"),
+            Method::Steps { tolerance } => format!("{tolerance:e}"),
             _ => String::new(),
         }
     }
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.setting() {
             setting if setting.is_empty() => f.write_str(self.name()),
@@ -137,44 +137,44 @@ pub enum InvalidWay {
     Setting(&'static str, String),
 }
 
-impl FromStr for Kind {
+impl FromStr for Method {
     type Err = InvalidWay;
 
-    fn from_str(text: &str) -> Result<Kind, InvalidWay> {
+    fn from_str(text: &str) -> Result<Method, InvalidWay> {
         let (name, settings) = match text.split_once(':') {
             Some((name, settings)) => (name, Some(settings)),
             None => (text, None),
         };
         let kind = match name {
-            "certified" => Kind::Certified,
-            "compiled" => Kind::Compiled,
-            "marched" => Kind::Marched { proven: true },
-            "marched-unproven" => Kind::Marched { proven: false },
-            "stable" => Kind::Stable(StablePrecision::Double),
-            "double-double" => Kind::Stable(StablePrecision::DoubleDouble),
-            "plain" => Kind::Plain,
-            "expanded" => Kind::Expanded,
-            "rigid" => Kind::Rigid,
-            "third" => Kind::Third,
-            "modes" => Kind::Modes { count: 1000 },
-            "leapfrog" => Kind::Leapfrog { cells: 400, courant: 1.0 },
-            "steps" => Kind::Steps { tolerance: 1e-10 },
+            "certified" => Method::Certified,
+            "compiled" => Method::Compiled,
+            "marched" => Method::Marched { proven: true },
+            "marched-unproven" => Method::Marched { proven: false },
+            "stable" => Method::Stable(StablePrecision::Double),
+            "double-double" => Method::Stable(StablePrecision::DoubleDouble),
+            "plain" => Method::Plain,
+            "expanded" => Method::Expanded,
+            "rigid" => Method::Rigid,
+            "third" => Method::Third,
+            "modes" => Method::Modes { count: 1000 },
+            "leapfrog" => Method::Leapfrog { cells: 400, courant: 1.0 },
+            "steps" => Method::Steps { tolerance: 1e-10 },
             _ => return Err(InvalidWay::Name(name.to_owned())),
         };
         let Some(settings) = settings else { return Ok(kind) };
         let invalid = || InvalidWay::Setting(kind.name(), settings.to_owned());
         match kind {
-            Kind::Modes { .. } => {
-                settings.parse().map(|count| Kind::Modes { count }).map_err(|_| invalid())
+            Method::Modes { .. } => {
+                settings.parse().map(|count| Method::Modes { count }).map_err(|_| invalid())
             }
-            Kind::Steps { .. } => {
-                settings.parse().map(|tolerance| Kind::Steps { tolerance }).map_err(|_| invalid())
+            Method::Steps { .. } => {
+                settings.parse().map(|tolerance| Method::Steps { tolerance }).map_err(|_| invalid())
             }
-            Kind::Leapfrog { .. } => {
+            Method::Leapfrog { .. } => {
                 let (cells, courant) = settings.split_once(',').unwrap_or((settings, "1"));
                 let cells = cells.parse().map_err(|_| invalid())?;
                 let courant = courant.parse().map_err(|_| invalid())?;
-                Ok(Kind::Leapfrog { cells, courant })
+                Ok(Method::Leapfrog { cells, courant })
             }
             _ => Err(invalid()),
         }
