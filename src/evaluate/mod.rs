@@ -33,7 +33,7 @@ pub use method::{
     Certified, Compiled, Marched, Method, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
-pub(crate) use signal::Known;
-pub use signal::{At, Limit, Point, Signal};
+pub use signal::{At, Effort, Instant, Limit, Point, Signal};
+pub(crate) use signal::{Enclosure, Known};
 pub use taps::{NoTaps, Taps};
 pub use taylor::Taylor;

@@ -4,6 +4,7 @@ use crate::ball::{Ball, Magnitude};
 use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taylor::Taylor;
+use crate::expression::{Expression, Fraction};
 use std::cmp::Ordering;
 pub use wavestep_kernels::Limit;
 use wavestep_polynomial::Rational;
@@ -26,6 +27,27 @@ pub(crate) enum Known {
     Irrational,
     /// Exact arithmetic has not told.
     Unknown,
+}
+
+/// An exact instant by which breaks of two signals are known as one: those of one scene that are equal
+/// are one instant, whatever their enclosures tell.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Instant {
+    /// The scene, by its address.
+    pub(crate) scene: usize,
+    /// The event that it is counted from, with the address of what was followed; `None` for the start.
+    pub(crate) event: Option<(usize, usize)>,
+    /// The delay since then, in the scale of the scene.
+    pub(crate) delay: Fraction,
+}
+
+/// How much work an exact form may cost.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Effort {
+    /// None to speak of.
+    Little,
+    /// That of exact echoes, as far as these are worked out at all.
+    Much,
 }
 
 /// `f(bits)`: an enclosure with about so many bits.
@@ -88,6 +110,17 @@ pub trait Signal {
         Err(EvaluateError::NoClosedForm)
     }
 
+    /// More bits than these tell no more of stretches.
+    fn most_bits(&self) -> u64 {
+        u64::MAX
+    }
+
+    /// How many echoes other than zero are worked out for values, and how many can reach what is observed;
+    /// nothing where echoes are not counted.
+    fn echoes(&self) -> Option<(usize, usize)> {
+        None
+    }
+
     /// How many stretches there are, with numbers from 0 on; to tell that, all breaks are found.
     fn count(&self) -> Result<usize, EvaluateError>;
 
@@ -127,6 +160,13 @@ pub trait Signal {
 
     /// The time of an end, where it is known to be rational.
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational>;
+
+    /// What identifies the first time of a stretch, where it is known exactly since the start or an event.
+    fn instant(&self, stretch: usize) -> Option<Instant>;
+
+    /// The function of a stretch at an exact time in the scale of the scene, which may hold a symbol, where
+    /// that is known and costs no more than this.
+    fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression>;
 
     /// An enclosure of the time of an end.
     fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError>;

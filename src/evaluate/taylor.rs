@@ -171,6 +171,47 @@ impl Taylor {
         self.remainder = self.remainder.add(&other.remainder);
     }
 
+    /// The product, with as many terms as the longer factor has: what either leaves out times all of the
+    /// other, and the products of terms of too high a degree, are the remainder.
+    pub(crate) fn multiply(&self, other: &Taylor, bits: u64) -> Taylor {
+        let terms = self.coefficients.len().max(other.coefficients.len());
+        let mut coefficients = vec![Ball::zero(); terms];
+        let is_zero = |c: &Ball| c.is_exact() && c.contains_zero();
+        let others = || other.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c));
+        let mut remainder =
+            self.tail(0).multiply(&other.remainder).add(&self.remainder.multiply(&other.tail(0)));
+        for (i, own) in self.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c)) {
+            let mut high = Magnitude::ZERO;
+            for (j, c) in others() {
+                match coefficients.get_mut(i + j) {
+                    Some(sum) => *sum = sum.add(&own.multiply(c, bits), bits),
+                    None => high = high.add(&c.magnitude()),
+                }
+            }
+            remainder = remainder.add(&own.magnitude().multiply(&high));
+        }
+        Taylor { coefficients, remainder }
+    }
+
+    /// `∫_0^u p`, with one more term. The remainder is the same, since `|u| ≤ 1`.
+    pub(crate) fn antiderivative(mut self, bits: u64) -> Taylor {
+        for (k, c) in self.coefficients.iter_mut().enumerate() {
+            *c = c.multiply_rational(&Rational::new(1.into(), (k + 1).into()), bits);
+        }
+        self.coefficients.insert(0, Ball::zero());
+        self
+    }
+
+    /// The same function where `u` is known but for an error of this size.
+    pub(crate) fn blurred(mut self, by: &Magnitude) -> Taylor {
+        let slopes = self.coefficients.iter().enumerate();
+        let slope = slopes.fold(Magnitude::ZERO, |sum, (k, c)| {
+            sum.add(&c.magnitude().multiply(&Magnitude::from_u64(k as u64)))
+        });
+        self.remainder = self.remainder.add(&slope.multiply(by));
+        self
+    }
+
     /// Times a number.
     pub(crate) fn scaled(mut self, factor: &Ball, bits: u64) -> Taylor {
         for coefficient in &mut self.coefficients {
@@ -181,7 +222,6 @@ impl Taylor {
     }
 
     /// An enclosure of the function at all `u` of a ball within `|u| ≤ 1`.
-    #[cfg(test)]
     pub(crate) fn value(&self, u: &Ball, bits: u64) -> Ball {
         let horner = |value: Ball, c: &Ball| value.multiply(u, bits).add(c, bits);
         let value = self.coefficients.iter().rev().fold(Ball::zero(), horner);

@@ -98,9 +98,6 @@ pub enum NotFollowed {
         /// Where, in words.
         place: String,
     },
-    /// Energies, where pieces are asked for.
-    #[error("energies are followed by `eval` and `plot` alone")]
-    Energy,
     /// A measure at a place that does not have it.
     #[error("{0}")]
     Measure(Mistake),

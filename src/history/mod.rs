@@ -35,5 +35,6 @@ mod waves;
 pub use error::{HistoryError, NotFollowed, Question};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
 pub use phased::FollowedSignal;
+pub(crate) use phased::Follower;
 pub use validity::Validity;
 pub use waves::field_evaluator;

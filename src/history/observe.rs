@@ -1,33 +1,21 @@
-//! Observables of a scene across all phases of its contacts: the readings of the table of measures in
-//! terms of what the engine follows, and the energies that are made of them.
+//! The readings of the table of measures in terms of what the engine follows, across all phases of the
+//! contacts; and what elements hold at an instant.
 
 use crate::ball::Number;
 use crate::evaluate::Limit;
 use crate::expression::{Fraction, Root};
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
-use crate::history::error::{HistoryError, NotFollowed};
-use crate::history::history::{History, unit};
+use crate::history::error::HistoryError;
+use crate::history::history::unit;
 use crate::history::moment::Moment;
 use crate::history::part::{Part, Signal, Source};
 use crate::network::{
-    Elements, Energy, Field, Lump, Lumped, Measured, Network, Reading, Section, Side, Term, Window,
+    Elements, Energy, Field, Lump, Lumped, Network, Reading, Section, Side, Term, Window,
 };
-use crate::scene::{ElementIndex, Mistake};
+use crate::scene::ElementIndex;
 
 type Outcome<T> = Result<T, HistoryError>;
-
-impl History {
-    /// The observable of this name.
-    pub(crate) fn observable<'a>(
-        network: &'a Network,
-        name: &str,
-    ) -> Result<&'a Measured, HistoryError> {
-        let mut measures = network.scaled.measures().iter();
-        let measured = measures.find(|own| own.name == name);
-        measured.ok_or_else(|| HistoryError::NoObservable(name.to_owned()))
-    }
-}
 
 impl Engine {
     /// The elements of the scene, with what they hold.
@@ -196,23 +184,5 @@ impl Engine {
             }
         }
         Ok(energy.multiply(impedance, self.cut.bits))
-    }
-
-    /// A sum of energies of elements with coefficients, in a unit of the user's.
-    pub fn energies(
-        &self,
-        network: &Network,
-        energies: &[(Fraction, ElementIndex)],
-        one: &Root,
-        (moment, limit): (&Moment, Limit),
-    ) -> Outcome<Number> {
-        let mut sum = Number::zero();
-        for (coefficient, element) in energies {
-            let energy = self.energy_of(self.elements(network), *element, moment, limit)?;
-            let energy = energy.ok_or(NotFollowed::Measure(Mistake::Infinite))?;
-            let own = energy.multiply(&self.clock.number(coefficient)?, self.cut.bits);
-            sum = sum.add(&own, self.cut.bits);
-        }
-        Ok(sum.multiply(&unit(one, &self.clock.numbers, self.cut.bits)?, self.cut.bits))
     }
 }

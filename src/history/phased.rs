@@ -2,15 +2,16 @@
 
 use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::enclosure::EnclosureError;
-use crate::evaluate::{At, EvaluateError, Known, Limit, Point, Signal, Taylor};
+use crate::evaluate::{At, Effort, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor};
+use crate::expression::{Expression, Fraction};
 use crate::history::engine::Engine;
-use crate::history::error::{HistoryError, NotFollowed};
-use crate::history::history::{History, undecided};
+use crate::history::error::HistoryError;
+use crate::history::history::undecided;
 use crate::history::moment::Moment;
-use crate::history::part::Part;
+use crate::history::part::{Part, Source};
 use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::{Measured, MeasuredValue, Network};
+use crate::network::{MeasuredValue, Network, Squared};
 use crate::scene::Dimension;
 use num_traits::Zero as _;
 use std::borrow::Cow;
@@ -63,25 +64,76 @@ impl Piece {
 
 /// What is known at one precision.
 struct Followed {
-    engine: Engine,
-    /// None for an energy.
-    parts: Option<Vec<Part>>,
+    engine: Rc<Engine>,
+    parts: Vec<Part>,
     /// Made when stretches are first asked for.
     pieces: OnceCell<Vec<Piece>>,
     /// The unit of time, and one over it.
     unit: [Number; 2],
 }
 
+/// A scene whose contacts open, followed until an instant: once for all signals that are seen of it.
+pub(crate) struct Follower<'a> {
+    network: &'a Network,
+    until: Moment,
+    known: RefCell<Rc<Engine>>,
+}
+
+impl<'a> Follower<'a> {
+    /// Follows the scene until a time of the user's.
+    ///
+    /// # Errors
+    /// As [`History::of`].
+    ///
+    /// # Cost
+    /// That of the history until then, again for each doubling of the precision.
+    pub fn new(network: &'a Network, until: &Rational) -> Result<Rc<Follower<'a>>, HistoryError> {
+        let until = Moment::at(network.scaled_time(until));
+        let attempt = |bits| match Follower::follow(network, &until, bits) {
+            Ok(known) => Ok(Attempt::Done(Ok(known))),
+            Err(error) => undecided(error),
+        };
+        let known =
+            Precisions::whole_doublings(FIRST_BITS, MAX_HISTORY_BITS).raise(attempt)?.best()?;
+        Ok(Rc::new(Follower { network, until, known: RefCell::new(known) }))
+    }
+
+    fn follow(network: &Network, until: &Moment, bits: u64) -> Result<Rc<Engine>, HistoryError> {
+        let mut engine = Engine::new(network, bits)?;
+        engine.follow_until(until)?;
+        Ok(Rc::new(engine))
+    }
+
+    /// What is known at a precision; where more is known, that.
+    fn engine(&self, bits: u64) -> Result<Rc<Engine>, EvaluateError> {
+        let known = Rc::clone(&self.known.borrow());
+        if known.cut.bits >= bits {
+            return Ok(known);
+        }
+        let bits = bits.next_multiple_of(STEP_BITS);
+        // The window was followed before, so nothing but the precision can be wanting.
+        let finer = Follower::follow(self.network, &self.until, bits)
+            .map_err(|_| EvaluateError::NotFollowed { bits })?;
+        *self.known.borrow_mut() = Rc::clone(&finer);
+        Ok(finer)
+    }
+}
+
+/// The parts of what is seen, at the precision of an engine.
+type Seen<'a> = Box<dyn Fn(&Engine) -> Result<Vec<Part>, HistoryError> + 'a>;
+
 /// An observable of a scene whose contacts open, on a window of the user's time.
 pub struct FollowedSignal<'a> {
-    network: &'a Network,
-    measured: &'a Measured,
+    follower: Rc<Follower<'a>>,
+    seen: Seen<'a>,
     window: [Rational; 2],
+    /// The highest precision of stretches.
+    most_bits: u64,
     known: RefCell<Rc<Followed>>,
 }
 
 impl<'a> FollowedSignal<'a> {
-    /// Follows the scene until the end of the window.
+    /// Follows the scene until the end of the window, to see an observable that is linear in the motion.
     ///
     /// # Errors
     /// As [`History::of`]; [`HistoryError::EmptyWindow`]; [`HistoryError::Refused`] for places that are no
@@ -92,44 +144,77 @@ impl<'a> FollowedSignal<'a> {
     pub fn new(
         network: &'a Network,
         observable: &str,
-        [from, to]: [&Rational; 2],
+        window: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
-        if to < from || *from < Rational::zero() {
-            return Err(HistoryError::EmptyWindow);
-        }
-        let measured = History::observable(network, observable)?;
-        let window = [from.clone(), to.clone()];
-        let attempt = |bits| match Followed::of(network, measured, &window, bits) {
-            Ok(known) => Ok(Attempt::Done(Ok(known))),
-            Err(error) => undecided(error),
-        };
-        let known =
-            Precisions::whole_doublings(FIRST_BITS, MAX_HISTORY_BITS).raise(attempt)?.best()?;
-        Ok(FollowedSignal { network, measured, window, known: RefCell::new(Rc::new(known)) })
+        let mut measures = network.scaled.measures().iter();
+        let found = measures.find_map(|own| match &own.value {
+            MeasuredValue::Linear(terms) if own.name == observable => Some((terms, &own.unit)),
+            _ => None,
+        });
+        let (terms, unit) =
+            found.ok_or_else(|| HistoryError::NoObservable(observable.to_owned()))?;
+        let seen = Box::new(|engine: &Engine| engine.parts(network, terms, unit));
+        FollowedSignal::seen(&follower(network, window)?, seen, window)
+    }
+
+    /// What an energy is the square of, in the scale of the scene; its stretches are known with the
+    /// precision of values.
+    ///
+    /// # Errors
+    /// As [`FollowedSignal::new`].
+    pub(crate) fn squared(
+        follower: &Rc<Follower<'a>>,
+        squared: &'a Squared,
+        window: [&Rational; 2],
+    ) -> Result<Self, HistoryError> {
+        let network = follower.network;
+        let seen = Box::new(move |engine: &Engine| match squared {
+            Squared::Reading(reading) => {
+                engine.reading(engine.elements(network), reading, &Number::one())
+            }
+            Squared::Entering { bar, direction } => {
+                let delay = Some(Fraction::zero());
+                let source = Source::Wave { bar: *bar, direction: *direction, delay };
+                Ok(vec![Part::of(source, Number::one())])
+            }
+        });
+        let signal = FollowedSignal::seen(follower, seen, window)?;
+        Ok(FollowedSignal { most_bits: MAX_HISTORY_BITS, ..signal })
+    }
+
+    fn seen(
+        follower: &Rc<Follower<'a>>,
+        seen: Seen<'a>,
+        window: [&Rational; 2],
+    ) -> Result<Self, HistoryError> {
+        let engine = Rc::clone(&follower.known.borrow());
+        let known = RefCell::new(Rc::new(Followed::of(follower.network, engine, &seen)?));
+        let (follower, window) = (Rc::clone(follower), window.map(Clone::clone));
+        Ok(FollowedSignal { follower, seen, window, most_bits: SEARCH_BITS, known })
     }
 
     /// Finds all breaks, so that stretches can be asked for.
     ///
     /// # Errors
-    /// [`HistoryError::Refused`] for energies.
+    /// Where the order of two breaks is not decided.
     pub fn cut_at_breaks(self) -> Result<Self, HistoryError> {
-        self.known.borrow().pieces(self.network, &self.window)?;
+        self.known.borrow().pieces(self.follower.network, &self.window)?;
         Ok(self)
     }
 
     /// What is known at a precision; where more is known, that.
     fn followed(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
         let known = Rc::clone(&self.known.borrow());
-        if known.engine.cut.bits >= bits {
+        let engine = self.follower.engine(bits)?;
+        if Rc::ptr_eq(&engine, &known.engine) {
             return Ok(known);
         }
-        let bits = bits.next_multiple_of(STEP_BITS);
-        // The window was followed before, so nothing but the precision can be wanting.
+        let bits = engine.cut.bits;
         let wanting = |_| EvaluateError::NotFollowed { bits };
-        let finer =
-            Followed::of(self.network, self.measured, &self.window, bits).map_err(wanting)?;
+        let network = self.follower.network;
+        let finer = Followed::of(network, engine, &self.seen).map_err(wanting)?;
         if let Some(pieces) = known.pieces.get()
-            && finer.pieces(self.network, &self.window).map_err(wanting)?.len() != pieces.len()
+            && finer.pieces(network, &self.window).map_err(wanting)?.len() != pieces.len()
         {
             return Err(EvaluateError::NotFollowed { bits });
         }
@@ -140,7 +225,7 @@ impl<'a> FollowedSignal<'a> {
 
     /// What is known of stretches at a precision, as far as one is reached.
     fn cut(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
-        self.followed(bits.min(SEARCH_BITS))
+        self.followed(bits.min(self.most_bits))
     }
 
     /// The time from the first instant of a piece.
@@ -154,45 +239,36 @@ impl<'a> FollowedSignal<'a> {
         let number = match at {
             At::End(Limit::Right) => return Ok(Number::zero()),
             At::End(Limit::Left) => followed.engine.clock.since(from, to)?,
-            At::Time(time) => {
-                followed.engine.clock.since(from, &Moment::at(self.network.scaled_time(time)))?
-            }
+            At::Time(time) => followed
+                .engine
+                .clock
+                .since(from, &Moment::at(self.follower.network.scaled_time(time)))?,
         };
         Ok(number)
+    }
+}
+
+/// The scene of a window, followed until its end.
+fn follower<'a>(
+    network: &'a Network,
+    [from, to]: [&Rational; 2],
+) -> Result<Rc<Follower<'a>>, HistoryError> {
+    match to < from || *from < Rational::zero() {
+        true => Err(HistoryError::EmptyWindow),
+        false => Follower::new(network, to),
     }
 }
 
 impl Followed {
     fn of(
         network: &Network,
-        measured: &Measured,
-        window: &[Rational; 2],
-        bits: u64,
+        engine: Rc<Engine>,
+        seen: &Seen<'_>,
     ) -> Result<Followed, HistoryError> {
-        let mut engine = Engine::new(network, bits)?;
-        engine.follow_until(&Moment::at(network.scaled_time(&window[1])))?;
-        let parts = match &measured.value {
-            MeasuredValue::Linear(terms) => Some(engine.parts(network, terms, &measured.unit)?),
-            MeasuredValue::Energy(_) => None,
-        };
+        let parts = seen(&engine)?;
         let time = engine.unit(network, Dimension::TIME)?;
-        let inverse = time.reciprocal(bits)?;
+        let inverse = time.reciprocal(engine.cut.bits)?;
         Ok(Followed { engine, parts, pieces: OnceCell::new(), unit: [time, inverse] })
-    }
-
-    /// One limit at an instant.
-    fn value(
-        &self,
-        network: &Network,
-        measured: &Measured,
-        at: (&Moment, Limit),
-    ) -> Result<Number, HistoryError> {
-        match (&self.parts, &measured.value) {
-            (None, MeasuredValue::Energy(energies)) => {
-                self.engine.energies(network, energies, &measured.unit, at)
-            }
-            (parts, _) => self.engine.sum_of(parts.as_deref().unwrap_or_default(), at),
-        }
     }
 
     fn pieces(&self, network: &Network, window: &[Rational; 2]) -> Result<&[Piece], HistoryError> {
@@ -200,7 +276,7 @@ impl Followed {
             return Ok(pieces);
         }
         let engine = &self.engine;
-        let parts = self.parts.as_ref().ok_or(NotFollowed::Energy)?;
+        let parts = &self.parts;
         let ends = window.each_ref().map(|time| Moment::at(network.scaled_time(time)));
         let mut starts = vec![ends[0].clone()];
         starts.extend(engine.breaks(parts, &ends)?);
@@ -282,22 +358,21 @@ impl Signal for FollowedSignal<'_> {
     }
 
     fn point(&self, at: &Rational, limit: Limit) -> Result<Point<'_>, EvaluateError> {
-        let moment = Moment::at(self.network.scaled_time(at));
+        let moment = Moment::at(self.follower.network.scaled_time(at));
         let value = move |bits: u64| -> Result<Number, EvaluateError> {
             let mut first = self.known.borrow().engine.cut.bits;
             if bits > first {
                 first = (bits + SPARE_BITS).max((2 * first).min(MAX_HISTORY_BITS));
             }
-            let attempt = |bits| match self.followed(bits)?.value(
-                self.network,
-                self.measured,
-                (&moment, limit),
-            ) {
-                Ok(value) => Ok(Attempt::Done(value)),
-                Err(error @ HistoryError::Undecided { .. }) => {
-                    Ok(Attempt::NotYet(error.of_value(bits)))
+            let attempt = |bits| {
+                let followed = self.followed(bits)?;
+                match followed.engine.sum_of(&followed.parts, (&moment, limit)) {
+                    Ok(value) => Ok(Attempt::Done(value)),
+                    Err(error @ HistoryError::Undecided { .. }) => {
+                        Ok(Attempt::NotYet(error.of_value(bits)))
+                    }
+                    Err(error) => Err(error.of_value(bits)),
                 }
-                Err(error) => Err(error.of_value(bits)),
             };
             Precisions::whole_doublings(first, MAX_HISTORY_BITS).raise(attempt)?.done()
         };
@@ -317,14 +392,42 @@ impl Signal for FollowedSignal<'_> {
         })
     }
 
+    fn most_bits(&self) -> u64 {
+        self.most_bits
+    }
+
+    fn instant(&self, stretch: usize) -> Option<Instant> {
+        // Events are numbered by the engine: all signals of one follower have to tell of the same one.
+        let known = self.followed(0).ok()?;
+        let Moment { event, delay } = &known.piece(stretch).ends[0];
+        let address = Rc::as_ptr(&known.engine).addr();
+        let event = event.map(|event| (address, event));
+        let scene = std::ptr::from_ref(self.follower.network).addr();
+        Some(Instant { scene, event, delay: delay.clone() })
+    }
+
+    /// Polynomials with rational coefficients, on stretches that begin at an exact time.
+    fn exact_at(&self, stretch: usize, at: &Fraction, _: Effort) -> Option<Expression> {
+        let known = self.known.borrow();
+        let Piece { ends: [from, _], series, .. } = known.piece(stretch);
+        if from.event.is_some() || !series.rest.is_zero() {
+            return None;
+        }
+        let (x, mut sum) = (at - &from.delay, Fraction::zero());
+        for coefficient in series.coefficients.iter().rev() {
+            sum = &(&sum * &x) + &Fraction::constant(coefficient.exact()?);
+        }
+        Some(sum.into())
+    }
+
     fn count(&self) -> Result<usize, EvaluateError> {
         let known = self.cut(0)?;
-        let pieces = known.pieces(self.network, &self.window);
+        let pieces = known.pieces(self.follower.network, &self.window);
         Ok(pieces.map_err(|error| error.of_value(known.engine.cut.bits))?.len())
     }
 
     fn begins(&self, stretch: usize, at: &Rational) -> Result<Ordering, EvaluateError> {
-        let at = Moment::at(self.network.scaled_time(at));
+        let at = Moment::at(self.follower.network.scaled_time(at));
         let attempt = |bits| {
             let followed = self.cut(bits)?;
             let order = followed.engine.clock.compare(&followed.piece(stretch).ends[0], &at);
@@ -388,7 +491,7 @@ impl Signal for FollowedSignal<'_> {
         // A finer history may be known than is asked for.
         let cut = &Truncation { bits: followed.engine.cut.bits.min(bits), ..followed.engine.cut };
         let at = self.since(&followed, stretch, At::Time(middle))?;
-        let h = followed.engine.clock.number(&self.network.scaled_time(half))?;
+        let h = followed.engine.clock.number(&self.follower.network.scaled_time(half))?;
         let series = followed.derivative(stretch, order);
         let (near, remainder) = series.about(&at, &h.magnitude(), terms, cut);
         let mut power = Number::one();
@@ -416,7 +519,7 @@ impl Signal for FollowedSignal<'_> {
         let followed = self.cut(0)?;
         let end = &followed.piece(stretch).ends[1];
         let zero = |part| followed.engine.vanishes_before(part, end);
-        if matches!(at, At::End(Limit::Left)) && followed.parts.iter().flatten().all(zero) {
+        if matches!(at, At::End(Limit::Left)) && followed.parts.iter().all(zero) {
             return Ok(Some(Rational::zero()));
         }
         let at = self.since(&followed, stretch, at)?;
@@ -431,7 +534,7 @@ impl Signal for FollowedSignal<'_> {
             let slope = followed.engine.slope_of(part);
             slope.is_some_and(|slope| followed.engine.vanishes_before(&slope, last))
         };
-        if end == Limit::Left && followed.parts.iter().flatten().all(flat) {
+        if end == Limit::Left && followed.parts.iter().all(flat) {
             return Ok(true);
         }
         let at = self.since(&followed, stretch, At::End(end))?;

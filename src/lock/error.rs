@@ -2,6 +2,7 @@
 
 use crate::evaluate::EvaluateError;
 use crate::history::HistoryError;
+use crate::signal::SignalError;
 use crate::solution::SolveError;
 
 /// Why nothing can be locked.
@@ -14,9 +15,18 @@ pub enum LockError {
     Evaluate(#[from] EvaluateError),
     #[error(transparent)]
     History(#[from] HistoryError),
+    /// An observable is no signal.
+    #[error(transparent)]
+    Signal(Box<SignalError>),
     #[error("{0} significant digits cannot be certified")]
     Digits(usize),
     /// A number, by its name, that has no proven digits and is not so near to zero that it needs none.
     #[error("accuracy not reached: {0} has no proven digits")]
     AccuracyNotReached(String),
+}
+
+impl From<SignalError> for LockError {
+    fn from(error: SignalError) -> LockError {
+        LockError::Signal(Box::new(error))
+    }
 }

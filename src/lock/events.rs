@@ -4,13 +4,12 @@
 
 use crate::ball::{Attempt, Ball, Decimal, Precisions};
 use crate::evaluate::{Limit, Value, value};
-use crate::history::{
-    ContactSummary, Ending, Event, EventKind, FollowedSignal, History, HistoryError,
-};
+use crate::history::{ContactSummary, Ending, Event, EventKind, History, HistoryError};
 use crate::lock::difference::{Difference, both, compared};
 use crate::lock::stated::of_scene;
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
 use crate::network::Network;
+use crate::signal::{self, Purpose};
 use num_bigint::BigInt;
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -73,11 +72,11 @@ fn values(network: &Network, request: &Request, digits: u64) -> Result<Values, L
         return Ok(values);
     };
     let writer = Writer { digits: request.digits };
-    for observable in &network.scene().observables {
-        let name = &observable.name;
-        let signal = FollowedSignal::new(network, name, [first, last])?;
+    for observed in network.observables() {
+        let name = &observed.name;
+        let signal = signal::of_scene(network, observed, [first, last], Purpose::Values)?;
         for time in &request.times {
-            let value = value(&signal, time, Limit::Right, digits as usize, LIMIT_BITS);
+            let value = value(&*signal, time, Limit::Right, digits as usize, LIMIT_BITS);
             let value = value.map_err(HistoryError::from)?;
             let value = writer.number(&value, || format!("{name}({time})"))?;
             values.insert((name.clone(), time.clone()), value);

@@ -43,7 +43,7 @@ pub(crate) use measures::{Measured, MeasuredValue, unit};
 pub use model::{Model, ModelBar, ModelLoad, Scale};
 pub use node::ElementLaw;
 pub(crate) use node::{Acting, Link, Lumped, Node, Side};
-pub(crate) use observed::EnergyTerm;
+pub(crate) use observed::{EnergyTerm, Squared};
 pub use observed::{Observed, ObservedValue, Window};
 pub(crate) use reading::{Elements, Energy, Face, Field, Lump, Reading, Section, Term};
 pub use scaled::ScaledScene;

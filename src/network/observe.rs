@@ -9,7 +9,7 @@ use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
-use crate::network::observed::{EnergyTerm, Observed, ObservedValue, Window};
+use crate::network::observed::{EnergyTerm, Observed, ObservedValue, Squared, Window};
 use crate::network::reading::{Elements, Energy, Face, Field, Lump, Reading, Section, section};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
 use crate::scene::ElementIndex;
@@ -211,7 +211,8 @@ impl Network {
                     let of = self.reading(&term.of);
                     let coefficient = coefficient * &term.coefficient;
                     let (before, window) = (Fraction::zero(), Window::Now);
-                    terms.push(EnergyTerm { coefficient, of, before, window });
+                    let squared = Squared::Reading(term.of);
+                    terms.push(EnergyTerm { coefficient, squared, of, before, window });
                 }
                 Energy::InBar(bar) => terms.extend(self.energy_in(coefficient, bar)?),
             }
@@ -232,13 +233,15 @@ impl Network {
         };
         let half = |sum: Fraction| sum.scale(&Rational::new(1.into(), 2.into()));
         let before = [&data.velocity + pressed.factor(), &data.velocity - pressed.factor()];
-        let ways = self.waves_of(bar).into_iter().zip(before.map(half));
-        let parts = ways.filter_map(|(wave, before)| {
+        let ways = self.waves_of(bar).into_iter().zip(before.map(half)).enumerate();
+        let parts = ways.filter_map(|(direction, (wave, before))| {
             let (wave, lead) = wave?;
             let mut of = constant(&before);
             of.waves.push(seen(wave, -lead, &Fraction::one()));
             let window = data.travel.clone().map_or(Window::Always, Window::Last);
-            Some(EnergyTerm { coefficient: coefficient * &data.impedance, of, before, window })
+            let squared = Squared::Entering { bar, direction };
+            let coefficient = coefficient * &data.impedance;
+            Some(EnergyTerm { coefficient, squared, of, before, window })
         });
         Ok(parts.collect())
     }

@@ -1,6 +1,7 @@
 //! What an observable is in the waves of a network.
 
 use crate::expression::{Fraction, Root};
+use crate::network::reading::Reading;
 use crate::recurrence::Observation;
 use crate::scene::Dimension;
 
@@ -25,12 +26,23 @@ pub enum ObservedValue {
     Energy(Vec<EnergyTerm>),
 }
 
+/// What an energy is the square of.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Squared {
+    /// A reading of an element.
+    Reading(Reading),
+    /// The wave that enters a bar, to the right (0) or to the left (1).
+    Entering { bar: usize, direction: usize },
+}
+
 /// One part of an energy: `c q²`, or `c ∫ q² dt` over the time that a wave needs to leave a bar.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EnergyTerm {
     /// The coefficient `c`.
     pub coefficient: Fraction,
-    /// The quantity `q`, zero before the start but for `before`.
+    /// The quantity `q`.
+    pub(crate) squared: Squared,
+    /// The same in waves, zero before the start but for `before`.
     pub of: Observation,
     /// What `q` was before the start.
     pub before: Fraction,

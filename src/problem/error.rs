@@ -260,6 +260,7 @@ impl From<LockError> for ProblemError {
         match error {
             LockError::Solve(error) => error.into(),
             LockError::History(error) => error.into(),
+            LockError::Signal(error) => (*error).into(),
             // Fewer digits help here, more bits do not.
             LockError::Evaluate(EvaluateError::AccuracyNotReached { .. }) => {
                 ProblemError::Lock(Box::new(error))

@@ -67,12 +67,10 @@ impl Problem {
             }
             Ok(values)
         };
-        if count_echoes {
-            let signal = self.closed_signal(wanted, [from, to])?.echo_by_echo();
-            return Ok(Proven { values: all(&signal)?, echoes: signal.work() });
-        }
-        let signal = self.signal_on(wanted, [from, to], Purpose::Values)?;
-        Ok(Proven { values: all(&*signal)?, echoes: None })
+        let purpose = if count_echoes { Purpose::Echoes } else { Purpose::Values };
+        let signal = self.signal_on(wanted, [from, to], purpose)?;
+        let values = all(&*signal)?;
+        Ok(Proven { values, echoes: if count_echoes { signal.echoes() } else { None } })
     }
 
     /// The method for values in doubles where digits cannot be proven and none is named.
@@ -121,23 +119,9 @@ impl Problem {
             (Kind::Line { network, .. }, Some(observed)) => {
                 Ok(signal::of_scene(network, observed, window, purpose)?)
             }
-            _ => Ok(Box::new(self.closed_signal(wanted, window)?)),
-        }
-    }
-
-    /// The same with closed contacts.
-    fn closed_signal(
-        &self,
-        wanted: &Wanted,
-        window: [&Rational; 2],
-    ) -> Result<ClosedSignal<'_>, ProblemError> {
-        match (&self.kind, wanted.observed()) {
             (Kind::Equations(solution), _) => {
                 let observation = wanted.observation().expect("it is linear");
-                Ok(ClosedSignal::of_recurrence(solution, observation, window)?)
-            }
-            (Kind::Line { network, .. }, Some(observed)) => {
-                Ok(ClosedSignal::of_scene(network, observed, window)?)
+                Ok(Box::new(ClosedSignal::of_recurrence(solution, observation, window)?))
             }
             _ => Err(ProblemError::local_contact(self.scaled()?)),
         }

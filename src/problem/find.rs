@@ -1,4 +1,4 @@
-//! Events, fields, and how quantities are known between times.
+//! Events, fields, and what observables measure.
 
 use super::{Kind, Problem, ProblemError, Wanted};
 use crate::evaluate::EvaluateError;
@@ -39,29 +39,6 @@ impl Problem {
     /// Velocity, strain, displacement and force along the bars until a time.
     pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
         Ok(fields_of_scene(self.network()?, last)?)
-    }
-}
-
-/// How a quantity is known between two times.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Course {
-    /// As a function, in which roots and extrema can be looked for.
-    Everywhere,
-    /// At single times: an energy.
-    AtTimes,
-    /// By models alone.
-    ByModel,
-}
-
-#[doc(hidden)]
-impl Problem {
-    /// How a quantity is known between two times.
-    pub fn course(&self, wanted: &Wanted) -> Course {
-        match (&self.kind, wanted.observation()) {
-            (Kind::LocalContact(_), _) => Course::ByModel,
-            (_, None) => Course::AtTimes,
-            (_, Some(_)) => Course::Everywhere,
-        }
     }
 
     /// What an observable measures; none where its terms differ, or where it is a wave.

@@ -32,7 +32,6 @@ pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToD
 pub use equal::{Crossing, EqualError, EqualExtrema};
 pub use error::{Missing, ProblemError};
 pub use evaluate::{Digits, Proven};
-pub use find::Course;
 pub use given::{Given, number};
 pub use lock::{LockRefusal, ToLock};
 pub use times::{evenly_spaced, two_figures, window};

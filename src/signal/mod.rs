@@ -1,12 +1,16 @@
-//! The planner: which source of signals answers for a quantity.
+//! The planner: which source of signals answers for a quantity, and what is made of its signals.
 //!
 //! Nobody else asks what kind of scene it is. Where contacts stay closed, waves have a closed form, which
-//! is cheap and exact; where they open, the scene is followed from cell to cell.
+//! is cheap and exact; where they open, the scene is followed from cell to cell. Energies are sums of
+//! squares of such signals, in bars integrated over the last travel time.
+
+mod energy;
+mod operations;
 
 use crate::evaluate::{ClosedSignal, EvaluateError, Signal};
 use crate::field::{FieldError, FieldEvaluator};
 use crate::history::{FollowedSignal, HistoryError, field_evaluator};
-use crate::network::{Network, Observed};
+use crate::network::{Network, Observed, ObservedValue};
 use wavestep_polynomial::Rational;
 
 /// Why there is no signal.
@@ -28,6 +32,8 @@ pub enum SignalError {
 pub enum Purpose {
     /// Values at times.
     Values,
+    /// Values at times, from echoes that are counted one by one.
+    Echoes,
     /// Stretches between breaks, for roots, extrema and polynomials.
     Stretches,
 }
@@ -42,12 +48,19 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    if let ObservedValue::Energy(_) = &observed.value {
+        return energy::of_scene(network, &observed.name, window);
+    }
     if !network.scene().contacts_open {
-        return Ok(Box::new(ClosedSignal::of_scene(network, observed, window)?));
+        let signal = ClosedSignal::of_scene(network, observed, window)?;
+        return Ok(Box::new(match purpose {
+            Purpose::Echoes => signal.echo_by_echo(),
+            Purpose::Values | Purpose::Stretches => signal,
+        }));
     }
     let followed = FollowedSignal::new(network, &observed.name, window)?;
     Ok(match purpose {
-        Purpose::Values => Box::new(followed),
+        Purpose::Values | Purpose::Echoes => Box::new(followed),
         Purpose::Stretches => Box::new(followed.cut_at_breaks()?),
     })
 }

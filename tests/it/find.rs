@@ -458,7 +458,7 @@ fn scenes_with_units_and_lattices() {
 }
 
 #[test]
-fn windows_and_energies_are_refused() {
+fn empty_windows_are_refused() {
     let rigid = solution("rigid-mass", &[("mu", "1")]);
     let f = rigid.recurrence().observation("f").unwrap();
     let (one, two) = (number("1"), number("2"));

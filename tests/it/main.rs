@@ -1,6 +1,7 @@
 //! The library, a module a capability.
 
 mod derivations;
+mod energies;
 mod evaluate;
 mod examples;
 mod expression;

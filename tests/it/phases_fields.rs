@@ -5,10 +5,11 @@
 use wavestep::evaluate::{Limit, Value, value};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Mesh, Profile, Quantity};
-use wavestep::history::{EventKind, FollowedSignal, History, HistoryError, field_evaluator};
+use wavestep::history::{EventKind, History, HistoryError, field_evaluator};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::scene::{Kind, Measure, Observable, Place, Position, Seen};
+use wavestep::signal::{Purpose, of_scene};
 
 type Rational = wavestep_polynomial::Rational;
 
@@ -95,8 +96,9 @@ fn observed(
     scene.observables = vec![Observable { name: "q".into(), terms }];
     let network = Network::new(&scene).unwrap();
     let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
-    let signal = FollowedSignal::new(&network, "q", window).unwrap();
-    let told = |time| value(&signal, time, Limit::Right, 18, 1 << 18).unwrap();
+    let observed = &network.observables()[0];
+    let signal = of_scene(&network, observed, window, Purpose::Values).unwrap();
+    let told = |time| value(&*signal, time, Limit::Right, 18, 1 << 18).unwrap();
     times.iter().map(|time| double(&told(time))).collect()
 }
 

@@ -38,10 +38,15 @@ pub struct ClosedForm {
     pub(super) slowness: Fraction,
     pub(super) numbers: Rc<Numbers>,
     /// The echoes, where arrivals lie on no grid.
-    pub(super) lattice: Option<Scattered>,
+    pub(super) lattice: Option<Rc<Scattered>>,
+    /// All that is seen of the waves, here and in other views of them.
+    seen: Rc<Observation>,
     /// The waves, by bits.
-    solved: RefCell<BTreeMap<u64, Rc<RefCell<Solved>>>>,
+    solved: Rc<RefCell<ByBits>>,
 }
+
+/// The waves, by bits.
+type ByBits = BTreeMap<u64, Rc<RefCell<Solved>>>;
 
 /// Echoes on a lattice of several periods.
 pub(super) struct Scattered {
@@ -92,7 +97,7 @@ impl ClosedForm {
         let evaluator = SceneEchoes::new(network, &last)?;
         let (unfolded, arrivals) = evaluator.into_parts();
         let signal = ClosedForm::on_grid(unfolded.recurrence(), observation, unit, slowness)?;
-        Ok(ClosedForm { lattice: Some(Scattered { unfolded, arrivals, last }), ..signal })
+        Ok(ClosedForm { lattice: Some(Rc::new(Scattered { unfolded, arrivals, last })), ..signal })
     }
 
     fn on_grid(
@@ -111,8 +116,23 @@ impl ClosedForm {
             unit,
             slowness,
             lattice: None,
-            solved: RefCell::default(),
+            seen: Rc::new(observation.clone()),
+            solved: Rc::default(),
         })
+    }
+
+    /// A part of what is seen, in the scale of the waves; these are solved once for all of its parts.
+    pub(super) fn part(&self, observation: &Observation) -> ClosedForm {
+        ClosedForm {
+            recurrence: self.recurrence.clone(),
+            observation: observation.clone(),
+            unit: Root::from(Fraction::one()),
+            slowness: self.slowness.clone(),
+            numbers: self.numbers.clone(),
+            lattice: self.lattice.clone(),
+            seen: self.seen.clone(),
+            solved: self.solved.clone(),
+        }
     }
 
     /// The recurrence of the waves that are seen.
@@ -238,7 +258,7 @@ impl ClosedForm {
     fn demand(&self, arrivals: &[(usize, Fraction)]) -> Demand {
         let mut demand = Demand::none(&self.recurrence);
         let exists = |k| self.lattice.as_ref().is_none_or(|l| l.unfolded.counts(k).is_some());
-        for seen in &self.observation.waves {
+        for seen in &self.seen.waves {
             for (number, _) in arrivals {
                 demand.add_where(&self.recurrence, seen.wave, *number, exists);
             }

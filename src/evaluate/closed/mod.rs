@@ -3,11 +3,10 @@
 //! Between two arrivals such a signal is one exponential polynomial. [`ClosedForm`] encloses it, on a grid
 //! by one piece of each wave that is seen ([`periods`]), on a lattice by all echoes that have arrived;
 //! `stretch` tells where it is smooth, `values` what it is there. Exact values come from `exact`, where
-//! echoes of a recurrence are rational, and from `scene`, echo by echo; `energy` squares and integrates
-//! them. [`ClosedSignal`] is all of this on a window of time.
+//! echoes of a recurrence are rational, and from `scene`, echo by echo. [`ClosedSignal`] is all of this on
+//! a window of time.
 
 mod contribution;
-mod energy;
 mod exact;
 mod form;
 mod modular;

@@ -141,19 +141,17 @@ impl<'a> SceneEchoes<'a> {
         &self.numbers
     }
 
-    /// The recurrence of the scene, with lags on its lattice.
-    pub(crate) fn recurrence(&self) -> &Recurrence {
-        self.unfolded.recurrence()
-    }
-
     /// How many echoes can reach what was asked for.
-    pub fn needed(&self) -> usize {
+    fn needed(&self) -> usize {
         self.demand.borrow().count()
     }
 
-    /// How many echoes other than zero were worked out last.
-    pub fn expanded(&self) -> usize {
-        self.expanded.get()
+    /// How many echoes other than zero are worked out, and how many can reach what was asked for.
+    pub fn work(&self) -> Option<(usize, usize)> {
+        if self.expanded.get() == 0 {
+            self.solved(self.numbers(), FIRST_BITS).ok()?;
+        }
+        Some((self.expanded.get(), self.needed()))
     }
 
     /// An observable in its unit at a time in the scale of the scene, zero before the start.
@@ -178,17 +176,8 @@ impl<'a> SceneEchoes<'a> {
             return Err(EvaluateError::AfterLast);
         }
         let unit = observed.unit.clone();
-        let observation = match &observed.value {
-            ObservedValue::Linear(observation) => observation,
-            ObservedValue::Energy(terms) => {
-                let parts = Rc::new(self.energy_parts(numbers, terms, at, side)?);
-                if parts.is_empty() {
-                    return Ok(Point::exact(Rational::zero()));
-                }
-                let known = Rc::clone(&parts);
-                let enclose = move |bits| self.enclose_energy(self.numbers(), &parts, bits);
-                return self.suspected(unit, enclose, move || self.exact_energy(&known));
-            }
+        let ObservedValue::Linear(observation) = &observed.value else {
+            return Err(EvaluateError::NotLinear(observed.name.clone()));
         };
         let arrived = self.arrived(numbers, observation, at, side)?;
         let forced = self.forcing(numbers, observation, at, side)?;
@@ -202,18 +191,7 @@ impl<'a> SceneEchoes<'a> {
         let sum = Rc::new((arrived, forced));
         let known = Rc::clone(&sum);
         let enclose = move |bits| self.enclose(self.numbers(), &sum.0, &sum.1, bits);
-        self.suspected(unit, enclose, move || self.exact(&known.0, &known.1))
-    }
-
-    /// A value in its unit, of which enclosures and an exact expression in the scale of the scene can be
-    /// had.
-    fn suspected<'b>(
-        &'b self,
-        unit: Root,
-        enclose: impl Fn(u64) -> Result<Ball, EvaluateError> + 'b,
-        exact: impl Fn() -> Option<Expression> + 'b,
-    ) -> Result<Point<'b>, EvaluateError> {
-        let numbers = self.numbers();
+        let exact = move || self.exact(&known.0, &known.1);
         let size = numbers.enclose_root(&unit, SUSPICION_BITS)?.magnitude();
         let factor = unit.exact().and_then(|unit| unit.as_constant());
         let decide = move || match (exact(), &factor) {
@@ -277,17 +255,6 @@ impl<'a> SceneEchoes<'a> {
             true => Ok(observation.forcing.substitute(&self.network.scene().time, at)?),
             false => Ok(Expression::zero()),
         }
-    }
-
-    /// Those of some echoes that are not zero.
-    pub(crate) fn audible(
-        &self,
-        numbers: &Numbers,
-        arrived: Vec<Arrived>,
-    ) -> Result<Vec<Arrived>, EvaluateError> {
-        let echoes = self.solved(numbers, FIRST_BITS)?;
-        let sounds = |echo: &Arrived| !echoes[echo.wave][echo.number].is_zero();
-        Ok(arrived.into_iter().filter(sounds).collect())
     }
 
     /// Notes that all echoes are needed that are seen until the last time, once for all times before;
@@ -369,8 +336,30 @@ impl<'a> SceneEchoes<'a> {
         self.exact_later(arrived, forced, &Fraction::zero())
     }
 
+    /// What is seen on a stretch, exactly, at a time that may hold a symbol: of the waves that have arrived
+    /// when the stretch begins.
+    pub(crate) fn exact_since(
+        &self,
+        observation: &Observation,
+        from: &Fraction,
+        at: &Fraction,
+    ) -> Option<Expression> {
+        let numbers = self.numbers();
+        self.want_until_last(numbers, observation).ok()?;
+        let arrived = self.arrived(numbers, observation, from, Limit::Right).ok()?;
+        let begun = numbers.compare(from, &Fraction::zero()).ok()? != Ordering::Less;
+        let forced = match begun {
+            true => observation.forcing.substitute(&self.network.scene().time, at).ok()?,
+            false => Expression::zero(),
+        };
+        match arrived.is_empty() {
+            true => Some(forced),
+            false => self.exact_later(&arrived, &forced, &(at - from)),
+        }
+    }
+
     /// The sum as an exact expression, so much later than now.
-    pub(crate) fn exact_later(
+    fn exact_later(
         &self,
         arrived: &[Arrived],
         forced: &Expression,

@@ -6,15 +6,17 @@ use super::scene::SceneEchoes;
 use super::stretch::Stretch;
 use crate::ball::{Ball, Magnitude, Value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::{At, Known, Limit, Point, Signal};
+use crate::evaluate::signal::{At, Effort, Instant, Known, Limit, Point, Signal};
 use crate::evaluate::taylor::Taylor;
-use crate::expression::{Field as _, Fraction, Root};
+use crate::expression::{Expression, Field as _, Fraction, Root};
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
+use crate::scene::Dimension;
 use crate::solution::Solution;
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
+use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// The precision in bits with which echoes that are zero are left out.
@@ -55,9 +57,12 @@ enum Source<'a> {
         /// Those of its recurrence, where all that is observed has a closed form without units.
         exact: OnceCell<Option<Box<ExactEchoes<'static>>>>,
         /// Those until the end of the window.
-        echoes: OnceCell<Box<SceneEchoes<'a>>>,
+        echoes: Shared<'a>,
     },
 }
+
+/// Echoes that several signals of a scene may be seen in.
+type Shared<'a> = Rc<OnceCell<SceneEchoes<'a>>>;
 
 impl<'a> ClosedSignal<'a> {
     /// A wave or observable of a recurrence.
@@ -84,8 +89,42 @@ impl<'a> ClosedSignal<'a> {
         window: [&Rational; 2],
     ) -> Result<Self, EvaluateError> {
         let observed = Box::new(observed.clone());
-        let (exact, echoes) = (OnceCell::new(), OnceCell::new());
+        let (exact, echoes) = (OnceCell::new(), Rc::default());
         ClosedSignal::new(Source::Scene { network, observed, exact, echoes }, window)
+    }
+
+    /// What energies of a scene are the squares of, in its own scale, on windows with one end; echoes are
+    /// worked out once for all of them.
+    ///
+    /// # Errors
+    /// As [`ClosedForm::of_scene`]; [`EvaluateError::EmptyWindow`].
+    pub(crate) fn squared(
+        network: &'a Network,
+        squared: &[(&Observation, [&Rational; 2])],
+        until: &Rational,
+    ) -> Result<Vec<Self>, EvaluateError> {
+        let linear = |observation: Observation| Observed {
+            name: String::new(),
+            value: ObservedValue::Linear(observation),
+            unit: Root::from(Fraction::one()),
+            dimension: Dimension::NONE,
+        };
+        let waves = squared.iter().flat_map(|(of, _)| of.waves.iter().cloned()).collect();
+        let all = linear(Observation { waves, forcing: Expression::zero() });
+        let form = ClosedForm::of_scene(network, &all, until)?;
+        let echoes = SceneEchoes::new(network, &network.scaled_time(until))?;
+        for (of, _) in squared {
+            echoes.want_until_last(echoes.numbers(), of)?;
+        }
+        let echoes = Rc::new(OnceCell::from(echoes));
+        let signal = |(of, window): &(&Observation, [&Rational; 2])| {
+            let observed = Box::new(linear((*of).clone()));
+            let (exact, echoes) = (OnceCell::from(None), Rc::clone(&echoes));
+            let source = Source::Scene { network, observed, exact, echoes };
+            let form = OnceCell::from(form.part(of));
+            Ok(ClosedSignal { form, ..ClosedSignal::new(source, *window)? })
+        };
+        squared.iter().map(signal).collect()
     }
 
     fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
@@ -96,20 +135,13 @@ impl<'a> ClosedSignal<'a> {
         Ok(ClosedSignal { source, window, form: OnceCell::new(), stretches: OnceCell::new() })
     }
 
-    /// The same, with exact values from single echoes alone, of which [`ClosedSignal::work`] tells.
+    /// The same, with exact values from single echoes alone, of which [`Signal::echoes`] tells.
     #[must_use]
     pub fn echo_by_echo(mut self) -> Self {
         if let Source::Scene { exact, .. } = &mut self.source {
             *exact = OnceCell::from(None);
         }
         self
-    }
-
-    /// How many echoes other than zero were worked out last, and how many can reach what is observed;
-    /// nothing where no value has been asked for echo by echo.
-    pub fn work(&self) -> Option<(usize, usize)> {
-        let Source::Scene { echoes, .. } = &self.source else { return None };
-        echoes.get().map(|echoes| (echoes.expanded(), echoes.needed()))
     }
 
     /// The closed form in balls.
@@ -129,6 +161,10 @@ impl<'a> ClosedSignal<'a> {
             }
         };
         Ok(self.form.get_or_init(|| form))
+    }
+
+    fn has_no_forcing(&self) -> bool {
+        self.known_form().observation().forcing.is_zero()
     }
 
     fn known_form(&self) -> &ClosedForm {
@@ -192,13 +228,13 @@ impl<'a> ClosedSignal<'a> {
     fn scene_echoes<'s>(
         &self,
         network: &'a Network,
-        echoes: &'s OnceCell<Box<SceneEchoes<'a>>>,
+        echoes: &'s Shared<'a>,
     ) -> Result<&'s SceneEchoes<'a>, EvaluateError> {
         if let Some(known) = echoes.get() {
             return Ok(known);
         }
         let made = SceneEchoes::new(network, &network.scaled_time(&self.window[1]))?;
-        Ok(echoes.get_or_init(|| Box::new(made)))
+        Ok(echoes.get_or_init(|| made))
     }
 }
 
@@ -261,6 +297,31 @@ impl Signal for ClosedSignal<'_> {
         self.form()
     }
 
+    fn echoes(&self) -> Option<(usize, usize)> {
+        let Source::Scene { echoes, .. } = &self.source else { return None };
+        echoes.get()?.work()
+    }
+
+    fn instant(&self, stretch: usize) -> Option<Instant> {
+        let scene = match &self.source {
+            Source::Scene { network, .. } => std::ptr::from_ref(*network).addr(),
+            Source::Recurrence { echoes, .. } => std::ptr::from_ref(echoes.recurrence()).addr(),
+        };
+        Some(Instant { scene, event: None, delay: self.stretch(stretch).from().clone() })
+    }
+
+    fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
+        let Source::Scene { network, observed, echoes, .. } = &self.source else { return None };
+        let ObservedValue::Linear(observation) = &observed.value else { return None };
+        if effort == Effort::Little {
+            return None;
+        }
+        let unit = observed.unit.exact()?;
+        let echoes = self.scene_echoes(network, echoes).ok()?;
+        let value = echoes.exact_since(observation, self.stretch(stretch).from(), at)?;
+        Some(value.times(&unit))
+    }
+
     fn count(&self) -> Result<usize, EvaluateError> {
         if let Some(stretches) = self.stretches.get() {
             return Ok(stretches.len());
@@ -280,7 +341,8 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn is_zero(&self, stretch: usize) -> bool {
-        self.stretch(stretch).is_silent()
+        let stretch = self.stretch(stretch);
+        stretch.is_silent() || (stretch.has_no_waves() && self.has_no_forcing())
     }
 
     fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {

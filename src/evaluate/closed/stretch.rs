@@ -146,7 +146,12 @@ impl Stretch {
 
     /// Whether nothing is seen on it.
     pub(super) fn is_silent(&self) -> bool {
-        self.parts.is_empty() && !self.begun
+        self.has_no_waves() && !self.begun
+    }
+
+    /// Whether no wave is seen on it.
+    pub(super) fn has_no_waves(&self) -> bool {
+        self.parts.is_empty()
     }
 }
 

@@ -206,7 +206,7 @@ impl<'s> Search<'s> {
     }
 
     fn contenders(&self, goal: Goal, limit_bits: u64) -> Result<Contenders<'_, 's>, EvaluateError> {
-        let limit_bits = limit_bits.max(self.bits.get());
+        let limit_bits = limit_bits.min(self.most_bits).max(self.bits.get());
         self.work.set(0);
         let (negative, zero) = (goal == Goal::Smallest, Rational::default());
         let mut record = Record { negative, best: None };

@@ -153,7 +153,7 @@ impl Search<'_> {
         digits: usize,
         limit_bits: u64,
     ) -> Result<Roots, EvaluateError> {
-        let limit_bits = limit_bits.max(self.bits.get());
+        let limit_bits = limit_bits.min(self.most_bits).max(self.bits.get());
         let target = Target { order: 0, level, limit_bits };
         let question = Question { target, digits };
         self.work.set(0);

@@ -39,6 +39,8 @@ pub struct Search<'a> {
     pub(crate) bits: Cell<u64>,
     /// The cells looked at so far.
     pub(crate) work: Cell<usize>,
+    /// More bits than these tell no more.
+    pub(crate) most_bits: u64,
     /// Whether the end of the window, at which an echo arrives, is left out.
     open: bool,
 }
@@ -48,7 +50,7 @@ impl<'a> Search<'a> {
     ///
     /// # Errors
     /// [`EvaluateError::EmptyWindow`]; [`EvaluateError::TooManyEchoes`] where too many arrivals lie in the
-    /// window; [`EvaluateError::NotLinear`] for energies.
+    /// window.
     pub fn new(signal: &'a dyn Signal) -> Result<Search<'a>, EvaluateError> {
         let window = signal.window();
         if window[1] <= window[0] || *window[0] < Rational::default() {
@@ -56,7 +58,8 @@ impl<'a> Search<'a> {
         }
         let (bits, work) = (Cell::new(FIRST_BITS), Cell::new(0));
         let (count, window) = (signal.count()?, window.map(Clone::clone));
-        Ok(Search { function: signal, count, window, bits, work, open: false })
+        let most_bits = signal.most_bits();
+        Ok(Search { function: signal, count, window, bits, work, most_bits, open: false })
     }
 
     /// The same window without its end: an echo that arrives there does not count, the limit before

@@ -14,9 +14,10 @@ use crate::support::mirror::mirrored;
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;
 use wavestep::evaluate::{Limit, Value, value};
-use wavestep::history::{Ending, Event, EventKind, FollowedSignal, History};
+use wavestep::history::{Ending, Event, EventKind, History};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
+use wavestep::signal::{Purpose, of_scene};
 use wavestep_polynomial::Rational;
 
 type Values<'a> = &'a [(&'a str, &'a str)];
@@ -59,8 +60,9 @@ fn values(
     digits: usize,
 ) -> Vec<Value> {
     let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
-    let signal = FollowedSignal::new(network, name, window).unwrap();
-    times.iter().map(|time| value(&signal, time, limit, digits, 1 << 18).unwrap()).collect()
+    let observed = network.observables().iter().find(|own| own.name == name).unwrap();
+    let signal = of_scene(network, observed, window, Purpose::Values).unwrap();
+    times.iter().map(|time| value(&*signal, time, limit, digits, 1 << 18).unwrap()).collect()
 }
 
 fn ball(value: &Value) -> Ball {

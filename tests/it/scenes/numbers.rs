@@ -2,8 +2,9 @@
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use wavestep::evaluate::{ClosedSignal, Limit, digits};
+use wavestep::evaluate::{Limit, digits};
 use wavestep::scene::Scene;
+use wavestep::signal::{Purpose, of_scene};
 
 use crate::scenes::march::March;
 use crate::scenes::{built_in, network_of, rational, scene_of, shipped, usual};
@@ -11,16 +12,17 @@ use crate::scenes::{built_in, network_of, rational, scene_of, shipped, usual};
 /// Compares all observables at `count` times up to `last`, in seconds or plain numbers, none of which
 /// lies on a grid of small numbers. The march is good to 1e-10 of the largest value of each.
 pub fn assert_as_marched(scene: &Scene, last: &BigRational, count: i64) {
-    let network = network_of(scene);
+    // Contacts are closed on the march.
+    let network = network_of(&Scene { contacts_open: false, ..scene.clone() });
     let march = March::new(scene, last.to_f64().unwrap());
     for (observed, seen) in network.observables().iter().zip(&scene.observables) {
         assert_eq!(observed.name, seen.name);
-        let signal = ClosedSignal::of_scene(&network, observed, [&BigRational::default(), last]);
-        let signal = signal.expect("a window").echo_by_echo();
+        let window = [&BigRational::default(), last];
+        let signal = of_scene(&network, observed, window, Purpose::Echoes).expect("a window");
         let mut pairs = Vec::new();
         for k in 0..count {
             let at = last * rational((2 * k + 1) * 9973, 2 * count * 10007);
-            let value = digits(&signal, &at, Limit::Right, 15, 1 << 13);
+            let value = digits(&*signal, &at, Limit::Right, 15, 1 << 13);
             let value = value.unwrap_or_else(|error| {
                 panic!("{}: {} at {at}: {error}", scene.title, observed.name)
             });

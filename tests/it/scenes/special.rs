@@ -2,10 +2,11 @@
 //! in two, and everything mirrored.
 
 use num_rational::BigRational;
-use wavestep::evaluate::{ClosedSignal, Limit, digits};
+use wavestep::evaluate::{Limit, digits};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::network::{Network, NetworkError};
 use wavestep::scene::{Kind, Scene};
+use wavestep::signal::{Purpose, of_scene};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Symbol;
 
@@ -367,13 +368,12 @@ fn assert_same_numbers(one: &Network, other: &Network, last: &BigRational) {
     let start = BigRational::default();
     for (own, turned) in one.observables().iter().zip(other.observables()) {
         let signals = [(one, own), (other, turned)].map(|(network, observed)| {
-            let signal = ClosedSignal::of_scene(network, observed, [&start, last]);
-            signal.expect("a window").echo_by_echo()
+            of_scene(network, observed, [&start, last], Purpose::Echoes).expect("a window")
         });
         for k in 1..4 {
             let at = last * rational(k * 997, 4 * 1009);
             let [first, second] = signals.each_ref().map(|signal| {
-                let value = digits(signal, &at, Limit::Right, 20, 1 << 13);
+                let value = digits(&**signal, &at, Limit::Right, 20, 1 << 13);
                 value.unwrap_or_else(|error| panic!("{error}")).decimal(20).0.to_string()
             });
             assert_eq!(first, second, "{}: {} at {at}", one.scene().title, own.name);
@@ -397,10 +397,10 @@ fn energy_that_nothing_takes_stays() {
         let network = network_of(&scene);
         let last = if scene.dimensional { rational(1, 1000) } else { rational(8, 1) };
         let energy = network.observables().iter().find(|seen| seen.name == "energy").expect("one");
-        let signal = ClosedSignal::of_scene(&network, energy, [&BigRational::default(), &last]);
-        let signal = signal.expect("a window");
+        let window = [&BigRational::default(), &last];
+        let signal = of_scene(&network, energy, window, Purpose::Values).expect("a window");
         let value = |at: BigRational| {
-            let value = digits(&signal, &at, Limit::Right, 30, 1 << 13);
+            let value = digits(&*signal, &at, Limit::Right, 30, 1 << 13);
             value.unwrap_or_else(|error| panic!("{error}")).decimal(30).0.to_string()
         };
         let start = value(rational(0, 1));

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use wavestep::evaluate::{ClosedSignal, Limit, digits};
+use wavestep::evaluate::{Limit, digits};
+use wavestep::signal::{Purpose, of_scene};
 
 use crate::scenes::{built_in, network_of, rational, scene_of, usual};
 
@@ -32,11 +33,10 @@ fn work_done_is_as_recorded() {
         let at = rational(p, q);
         let observed = network.observables().iter().find(|seen| seen.name == observable);
         let observed = observed.expect("an observable");
-        let signal = ClosedSignal::of_scene(&network, observed, [&at, &at]);
-        let signal = signal.expect("a window").echo_by_echo();
-        let value = digits(&signal, &at, Limit::Right, 12, 1 << 12);
+        let signal = of_scene(&network, observed, [&at, &at], Purpose::Echoes).expect("a window");
+        let value = digits(&*signal, &at, Limit::Right, 12, 1 << 12);
         let digits = value.expect("a value").decimal(12).0;
-        let (expanded, needed) = signal.work().expect("echoes");
+        let (expanded, needed) = signal.echoes().expect("echoes");
         let line = format!("{name} {observable}({p}/{q})");
         writeln!(table, "{line:<40}{digits:<24}{expanded:>5} of {needed:>5}").unwrap();
     }
@@ -67,10 +67,9 @@ fn a_long_chain_is_followed() {
     let last = rational(60, 1);
     for observed in network.observables() {
         let at = &last - rational(1, 7);
-        let signal = ClosedSignal::of_scene(&network, observed, [&at, &last]);
-        let signal = signal.expect("a window").echo_by_echo();
-        let value = digits(&signal, &at, Limit::Right, 15, 1 << 14).expect("a value");
-        let (expanded, needed) = signal.work().expect("echoes");
+        let signal = of_scene(&network, observed, [&at, &last], Purpose::Echoes).expect("a window");
+        let value = digits(&*signal, &at, Limit::Right, 15, 1 << 14).expect("a value");
+        let (expanded, needed) = signal.echoes().expect("echoes");
         eprintln!(
             "{} = {}: {expanded} of {needed} echoes, {:.1?}",
             observed.name,

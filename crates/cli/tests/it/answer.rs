@@ -164,7 +164,7 @@ fn forced_methods_warn() {
 // ---- What is refused ----------------------------------------------------------------------------
 
 /// Lines with the exit code, the message and the remedy, which may go on.
-const REFUSALS: [(&str, i32, &str, &str); 20] = [
+const REFUSALS: [(&str, i32, &str, &str); 18] = [
     (
         "eval rigid-mass --set mu=1 --quantity f --at 2 --tol 1e-20",
         3,
@@ -233,12 +233,6 @@ const REFUSALS: [(&str, i32, &str, &str); 20] = [
         "use another model, or a method on the exact solution",
     ),
     (
-        "eval pile --quantity energy --at 2 --tol 1e-9",
-        1,
-        "energy is an energy, quadratic in the waves",
-        "ask for a force or a velocity, or for digits: `eval` without --tol and --method",
-    ),
-    (
         "eval incommensurate --quantity wall_force --at 100us --method stable",
         1,
         "echoes arrive on no common grid",
@@ -273,12 +267,6 @@ const REFUSALS: [(&str, i32, &str, &str); 20] = [
         3,
         "doubles are proven to be within ",
         "give a larger --tol",
-    ),
-    (
-        "export pile --as c --quantity energy --to 2",
-        1,
-        "energy is an energy, quadratic in the waves",
-        "ask for a force or a velocity",
     ),
     (
         "export rigid-mass --set mu=1 --as c --quantity f --to 2 --tol 1%",

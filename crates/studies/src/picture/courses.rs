@@ -1,17 +1,14 @@
 //! What of a problem is drawn against time, and on which window.
 
-use super::{Course, PictureError, Sampled, sampled, sampled_in_steps};
+use super::{Course, PictureError, Sampled, sampled};
 use crate::hertz::ContactOfScene;
 use crate::nearest;
 use wavestep::answer::{Accuracy, Method, Remark, Tested};
 use wavestep::ball::Ball;
 use wavestep::evaluate::Limit;
-use wavestep::problem::{Course as Known, Problem, ProblemError, Wanted, two_figures};
+use wavestep::problem::{Problem, ProblemError, Wanted, two_figures};
 use wavestep::signal::Purpose;
 use wavestep_polynomial::Rational;
-
-/// At how many steps one looks at what is a sum over all bars.
-const STEPS: usize = 240;
 
 /// The method for local contacts: far finer than a picture shows.
 const MODEL: Method = Method::Steps { tolerance: 1e-8 };
@@ -60,14 +57,9 @@ pub fn courses(
     let mut courses = Vec::new();
     for name in names {
         let wanted = problem.wanted(name)?;
-        let values = match problem.course(&wanted) {
-            Known::Everywhere => {
-                sampled(&*problem.signal_on(&wanted, window, Purpose::Stretches)?)?
-            }
-            Known::AtTimes => {
-                sampled_in_steps(&*problem.signal_on(&wanted, window, Purpose::Values)?, STEPS)?
-            }
-            Known::ByModel => {
+        let values = match problem.usual_method() {
+            None => sampled(&*problem.signal_on(&wanted, window, Purpose::Stretches)?)?,
+            Some(_) => {
                 let (values, remark) = by_model(problem, &wanted, window)?;
                 tested = tested.or(remark);
                 values

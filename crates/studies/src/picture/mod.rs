@@ -17,4 +17,4 @@ pub use courses::{courses, usual_end};
 pub use error::PictureError;
 pub use lagrange::lagrange;
 pub use prefix::Prefixed;
-pub use sampled::{Sampled, sampled, sampled_in_steps};
+pub use sampled::{Sampled, sampled};

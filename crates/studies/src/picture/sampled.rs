@@ -1,11 +1,8 @@
 //! Observables sampled for a line: more densely where they bend, from both sides where they jump.
 
 use wavestep::ball::{Attempt, Ball, Precisions};
-use wavestep::evaluate::{At, EvaluateError, Limit, Signal, digits};
+use wavestep::evaluate::{At, EvaluateError, Limit, Signal};
 use wavestep_polynomial::Rational;
-
-/// Digits of energies.
-const DIGITS: usize = 9;
 
 /// The precision tried first, and the highest.
 const FIRST_BITS: u64 = 128;
@@ -67,18 +64,6 @@ pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
         }
     }
     found.points.dedup();
-    Ok(found)
-}
-
-/// Samples what has no stretches, an energy, at equal steps; it is continuous.
-pub fn sampled_in_steps(signal: &dyn Signal, steps: usize) -> Result<Sampled, EvaluateError> {
-    let [from, to] = signal.window();
-    let mut found = Sampled::default();
-    for step in 0..=steps {
-        let at = from + (to - from) * Rational::new(step.into(), steps.max(1).into());
-        let value = digits(signal, &at, Limit::Right, DIGITS, MAX_BITS)?;
-        found.points.push((double(&at), value.to_f64()));
-    }
     Ok(found)
 }
 

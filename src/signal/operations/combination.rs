@@ -1,0 +1,210 @@
+//! Sums of products of signals.
+//!
+//! Derivatives of products are those of Leibniz, `(fg)^(n) = Σ_k C(n,k) f^(k) g^(n−k)`, of enclosures as
+//! of Taylor polynomials, of which a value is one with a single term.
+
+use super::{Mark, Outcome, Rule, Scale, value_at};
+use crate::ball::{Ball, Magnitude};
+use crate::evaluate::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
+use crate::expression::{Expression, Fraction};
+use num_traits::{One as _, Zero as _};
+use std::ops::Range;
+use std::rc::Rc;
+use wavestep_polynomial::{Rational, binomial};
+
+/// A coefficient times signals, by their places among the operands.
+pub(in crate::signal) struct Product {
+    pub coefficient: Fraction,
+    pub factors: Vec<usize>,
+}
+
+/// `Σ c_i Π_j f_ij`.
+///
+/// # Invariants
+/// - all operands have the window of the combination; a product has a factor.
+pub(in crate::signal) struct Combination<'a> {
+    pub scale: Rc<Scale<'a>>,
+    pub operands: Vec<Rc<dyn Signal + 'a>>,
+    pub products: Vec<Product>,
+}
+
+impl Combination<'_> {
+    /// The derivative of an order of one product, of those of its factors.
+    fn derivative(
+        &self,
+        product: &Product,
+        order: usize,
+        bits: u64,
+        factor: impl Fn(usize, usize) -> Outcome<Taylor>,
+    ) -> Outcome<Taylor> {
+        let derivatives = |operand: usize| -> Outcome<Vec<Taylor>> {
+            (0..=order).map(|order| factor(operand, order)).collect()
+        };
+        let mut known = derivatives(product.factors[0])?;
+        for (place, operand) in product.factors.iter().enumerate().skip(1) {
+            // Squares are common.
+            let others = match *operand == product.factors[0] && place == 1 {
+                true => known.clone(),
+                false => derivatives(*operand)?,
+            };
+            let leibniz = |n: usize| {
+                let mut sum = polynomial(Vec::new());
+                for k in 0..=n {
+                    let ways = Ball::from_integer(&binomial(n as u32, k as u32));
+                    sum.add(known[k].multiply(&others[n - k], bits).scaled(&ways, bits), bits);
+                }
+                sum
+            };
+            known = (0..=order).map(leibniz).collect();
+        }
+        let coefficient = self.scale.numbers.enclose(&product.coefficient, bits)?;
+        let last = known.pop().expect("one for each order");
+        Ok(last.scaled(&coefficient, bits))
+    }
+
+    fn is_exactly_zero(&self, places: &[usize], operand: usize, end: Limit) -> Outcome<bool> {
+        let value = self.operands[operand].exact(places[operand], At::End(end))?;
+        Ok(value.is_some_and(|value| value.is_zero()))
+    }
+}
+
+/// A polynomial that leaves nothing out.
+fn polynomial(coefficients: Vec<Ball>) -> Taylor {
+    Taylor { coefficients, remainder: Magnitude::ZERO }
+}
+
+impl Rule for Combination<'_> {
+    fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
+        self.operands.iter().map(|operand| Ok(0..operand.count()?)).collect()
+    }
+
+    fn mark(&self, operand: usize, place: usize) -> Mark<'_> {
+        Mark::of(&*self.operands[operand], place)
+    }
+
+    fn is_instant(&self, operand: usize, place: usize) -> bool {
+        self.operands.get(operand).is_some_and(|operand| operand.is_instant(place))
+    }
+
+    fn is_zero(&self, places: &[usize]) -> bool {
+        let is_zero = |operand: &usize| self.operands[*operand].is_zero(places[*operand]);
+        self.products.iter().all(|product| product.factors.iter().any(is_zero))
+    }
+
+    fn terms(
+        &self,
+        places: &[usize],
+        order: usize,
+        at: &Mark<'_>,
+        bits: u64,
+    ) -> Outcome<Vec<Ball>> {
+        let factor = |operand: usize, order: usize| {
+            let value = value_at(&*self.operands[operand], places[operand], order, at, bits)?;
+            Ok(polynomial(vec![value]))
+        };
+        let term = |product| {
+            let mut derivative = self.derivative(product, order, bits, factor)?;
+            Ok(derivative.coefficients.remove(0))
+        };
+        self.products.iter().map(term).collect()
+    }
+
+    fn taylor(
+        &self,
+        places: &[usize],
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Outcome<Taylor> {
+        let factor = |operand: usize, order: usize| {
+            self.operands[operand].taylor(places[operand], order, place, terms, bits)
+        };
+        let mut sum = polynomial(vec![Ball::zero(); terms]);
+        for product in &self.products {
+            sum.add(self.derivative(product, order, bits, factor)?, bits);
+        }
+        Ok(sum)
+    }
+
+    fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
+        let mut known = vec![None; self.operands.len()];
+        let mut sum = Expression::zero();
+        for Product { coefficient, factors } in &self.products {
+            let mut value = Expression::from(coefficient.clone());
+            for &operand in factors {
+                if known[operand].is_none() {
+                    let own = self.operands[operand].exact_at(places[operand], at, effort)?;
+                    known[operand] = Some(own);
+                }
+                value = &value * known[operand].as_ref()?;
+            }
+            sum += &value;
+        }
+        Some(sum)
+    }
+
+    /// Where in every product, for each factor, its slope or another factor is zero.
+    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool> {
+        for Product { factors, .. } in &self.products {
+            for (i, &operand) in factors.iter().enumerate() {
+                let mut vanishes = self.operands[operand].slope_vanishes(places[operand], end)?;
+                for (_, &other) in factors.iter().enumerate().filter(|(j, _)| *j != i) {
+                    vanishes = vanishes || self.is_exactly_zero(places, other, end)?;
+                }
+                if !vanishes {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {
+        let points = self.operands.iter().map(|operand| operand.point(at, side));
+        let points: Vec<_> = points.collect::<Outcome<_>>()?;
+        let most_bits = points.iter().map(|point| point.most_bits).min().unwrap_or(u64::MAX);
+        let exact = |operand: &usize| match &points[*operand].known {
+            Known::Rational(value) => Some(value),
+            Known::Irrational | Known::Unknown => None,
+        };
+        let mut sum = Some(Rational::zero());
+        for Product { coefficient, factors } in &self.products {
+            let mut factors = factors.iter().map(exact);
+            let value = match factors.clone().flatten().any(|value| value.is_zero()) {
+                true => Some(Rational::zero()),
+                false => factors
+                    .try_fold(Rational::one(), |product, factor| Some(product * factor?))
+                    .zip(coefficient.as_constant())
+                    .map(|(value, coefficient)| value * coefficient),
+            };
+            sum = sum.zip(value).map(|(sum, value)| sum + value);
+        }
+        let enclose = move |bits| {
+            let values: Vec<Ball> =
+                points.iter().map(|point| (point.enclose)(bits)).collect::<Outcome<_>>()?;
+            let mut sum = Ball::zero();
+            for Product { coefficient, factors } in &self.products {
+                let coefficient = self.scale.numbers.enclose(coefficient, bits)?;
+                let times = |value: Ball, factor: &usize| value.multiply(&values[*factor], bits);
+                sum = sum.add(&factors.iter().fold(coefficient, times), bits);
+            }
+            Ok(sum)
+        };
+        // Sums of closed forms are looked at more closely only where they may be zero.
+        let is_closed = self.operands.iter().any(|operand| operand.closed_form().is_ok());
+        let known = match sum {
+            Some(sum) if sum.is_zero() || !is_closed => Known::Rational(sum),
+            _ => Known::Unknown,
+        };
+        Ok((known, Box::new(enclose), most_bits))
+    }
+
+    fn most_bits(&self) -> u64 {
+        self.operands.iter().map(|operand| operand.most_bits()).min().unwrap_or(u64::MAX)
+    }
+
+    fn echoes(&self) -> Option<(usize, usize)> {
+        self.operands.first()?.echoes()
+    }
+}

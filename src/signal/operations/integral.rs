@@ -1,0 +1,422 @@
+//! Integrals of a signal: since the start, or over the last so long.
+//!
+//! On a stretch of the integrand its Taylor polynomials, on cells so short that the rest is smaller than
+//! their rounding, are integrated term by term: `∫_a^b f = h (P(u_b) − P(u_a))`, `P` the antiderivative of
+//! the polynomial in `u = (t − m)/h`, and what is left out adds at most the rest times `|b − a|`. The integral
+//! from one time to another is that of the part of the first stretch, of whole stretches, and of the part
+//! of the last one; whole stretches that are zero add an exact zero. Where the integrand is an exact
+//! expression, so is the integral. Its derivative is the integrand now, less that at the other end.
+
+use super::{Mark, Outcome, Rule, Scale, begins, locate, value_at, working};
+use crate::ball::{Ball, Magnitude};
+use crate::evaluate::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
+use crate::expression::{Expression, Fraction};
+use num_traits::Zero as _;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// How often a stretch is halved at most.
+const MAX_DEPTH: usize = 40;
+
+/// By what part a polynomial holds beyond the ends of its cell, so that times that are enclosed lie within.
+const SLACK: u64 = 1 << 16;
+
+/// A radius as a power of two that tells nothing.
+const WIDE: i64 = 1 << 20;
+
+/// `∫ f dt` over the last time of a length, or since the start, in the time of the scene.
+///
+/// # Invariants
+/// - the window of the integrand reaches to the end of that of the integral, and as far back as it is
+///   integrated.
+pub(in crate::signal) struct Integral<'a> {
+    scale: Rc<Scale<'a>>,
+    of: Rc<dyn Signal + 'a>,
+    /// None since the start.
+    last: Option<Fraction>,
+    /// What the integrand was before the start.
+    before: Fraction,
+    window: [Rational; 2],
+    primitives: RefCell<BTreeMap<(u64, usize), Rc<Primitive>>>,
+}
+
+/// A part of a stretch with the antiderivative of its polynomial.
+struct Cell {
+    from: Rational,
+    to: Rational,
+    middle: Rational,
+    half: Rational,
+    antiderivative: Taylor,
+    /// The integral from the start of the first cell to that of this one, less the antiderivative there.
+    offset: Ball,
+}
+
+/// The integral of one stretch; without cells it is zero.
+struct Primitive {
+    cells: Vec<Cell>,
+}
+
+/// So many terms that `4^N/N!` is below `2^(−bits)`: for all cells of a history, on which rates times
+/// lengths are at most 4, and few cells of a closed form.
+fn terms(bits: u64) -> usize {
+    let (mut terms, mut size) = (1_usize, 0.0);
+    while size > -(bits as f64) {
+        size += 2.0 - (terms as f64).log2();
+        terms += 1;
+    }
+    terms
+}
+
+/// The two ends of an integral, as operands.
+const UPPER: usize = 0;
+const LOWER: usize = 1;
+
+impl<'a> Integral<'a> {
+    pub fn new(
+        scale: &Rc<Scale<'a>>,
+        of: Rc<dyn Signal + 'a>,
+        (last, before): (Option<Fraction>, Fraction),
+        window: [&Rational; 2],
+    ) -> Integral<'a> {
+        let (scale, window) = (Rc::clone(scale), window.map(Clone::clone));
+        Integral { scale, of, last, before, window, primitives: RefCell::default() }
+    }
+
+    /// The places of both ends at a time: the stretch of the upper one, and one more than that of the lower
+    /// one, or zero where that lies before the start.
+    fn places(&self, at: &Rational, side: Limit) -> Outcome<[usize; 2]> {
+        let at = self.scale.mark(at);
+        let upper = locate(&*self.of, &at, side)?;
+        let lower = match &self.lower(&at) {
+            Some(lower) if begins(&self.scale.mark(&Rational::zero()), lower, side)? => {
+                locate(&*self.of, lower, side)? + 1
+            }
+            _ => 0,
+        };
+        Ok([upper, lower])
+    }
+
+    /// Where the integral over the last time begins.
+    fn lower<'m>(&'m self, at: &'m Mark<'_>) -> Option<Mark<'m>> {
+        let last = self.last.as_ref()?;
+        Some(at.again().after(-last, &self.scale))
+    }
+
+    fn slowness(&self, bits: u64) -> Outcome<Ball> {
+        Ok(self.scale.numbers.enclose(self.scale.slowness(), bits)?)
+    }
+
+    fn primitive(&self, stretch: usize, bits: u64) -> Outcome<Rc<Primitive>> {
+        if let Some(known) = self.primitives.borrow().get(&(bits, stretch)) {
+            return Ok(Rc::clone(known));
+        }
+        let mut cells = Vec::new();
+        if !self.of.is_zero(stretch) {
+            let outer = |end| -> Outcome<(Rational, Rational)> {
+                if let Some(time) = self.of.exact_time(stretch, end) {
+                    return Ok((time.clone(), time));
+                }
+                let (lower, upper) = self.of.time(stretch, end, bits)?.endpoints();
+                Ok((Rational::from(&lower), Rational::from(&upper)))
+            };
+            let ((from, _), (_, to)) = (outer(Limit::Right)?, outer(Limit::Left)?);
+            self.add_cells(&mut cells, stretch, (from, to), MAX_DEPTH, bits)?;
+        }
+        let primitive = Rc::new(Primitive { cells });
+        self.primitives.borrow_mut().insert((bits, stretch), Rc::clone(&primitive));
+        Ok(primitive)
+    }
+
+    fn add_cells(
+        &self,
+        cells: &mut Vec<Cell>,
+        stretch: usize,
+        (from, to): (Rational, Rational),
+        depth: usize,
+        bits: u64,
+    ) -> Outcome<()> {
+        if from >= to {
+            return Ok(());
+        }
+        let two = Rational::from_integer(2.into());
+        let slack = Rational::new((SLACK + 1).into(), SLACK.into());
+        let (middle, half) = ((&from + &to) / &two, (&to - &from) / two * slack);
+        let taylor = self.of.taylor(stretch, 0, (&middle, &half), terms(bits), bits)?;
+        let rounding =
+            taylor.coefficients.iter().map(|c| *c.radius()).max().unwrap_or(Magnitude::ZERO);
+        let size = taylor.coefficients.iter().map(Ball::magnitude).max().unwrap_or(Magnitude::ZERO);
+        let small = rounding.max(size.scale(-(bits as i64)));
+        if taylor.remainder > small && depth > 0 {
+            self.add_cells(cells, stretch, (from, middle.clone()), depth - 1, bits)?;
+            return self.add_cells(cells, stretch, (middle, to), depth - 1, bits);
+        }
+        let antiderivative = taylor.antiderivative(bits);
+        let start = Ball::from_rational(&from, bits);
+        let so_far = cells.last().map_or_else(Ball::zero, |cell| cell.until(&start, bits));
+        let mut cell = Cell { from, to, middle, half, antiderivative, offset: Ball::zero() };
+        cell.offset = so_far.subtract(&cell.until(&start, bits), bits);
+        cells.push(cell);
+        Ok(())
+    }
+
+    /// The integral from the start of a stretch to a time, which may lie beyond its ends.
+    fn until(&self, stretch: usize, time: &Ball, bits: u64) -> Outcome<Ball> {
+        let primitive = self.primitive(stretch, bits)?;
+        let (Some(first), Some(last)) = (primitive.cells.first(), primitive.cells.last()) else {
+            return Ok(Ball::zero());
+        };
+        let middle = Rational::from(time.midpoint());
+        let (edge, beyond) = match (middle < first.from, middle > last.to) {
+            (true, _) if !first.holds(time, bits) => (&first.from, (middle, first.from.clone())),
+            (_, true) if !last.holds(time, bits) => (&last.to, (last.to.clone(), middle)),
+            _ => return Ok(primitive.until(time, bits)),
+        };
+        let mut cells = Vec::new();
+        self.add_cells(&mut cells, stretch, beyond, MAX_DEPTH, bits)?;
+        let (edge, beyond) = (Ball::from_rational(edge, bits), Primitive { cells });
+        let rest = beyond.until(time, bits).subtract(&beyond.until(&edge, bits), bits);
+        Ok(primitive.until(&edge, bits).add(&rest, bits))
+    }
+
+    /// The integral from the lower end to the upper one, in terms.
+    fn integral(&self, places: &[usize], at: &Mark<'_>, bits: u64) -> Outcome<Vec<Ball>> {
+        let bits = working(bits);
+        let mut terms = Vec::new();
+        let upper = at.ball(bits)?;
+        let (first, mut from) = match (places[LOWER], self.lower(at)) {
+            (place @ 1.., Some(lower)) => (place - 1, lower.ball(bits)?),
+            _ => (0, Mark::of(&*self.of, 0).ball(bits)?),
+        };
+        for stretch in first..=places[UPPER] {
+            let to = match stretch == places[UPPER] {
+                true => upper.clone(),
+                false => Mark::of(&*self.of, stretch + 1).ball(bits)?,
+            };
+            if !self.of.is_zero(stretch) {
+                let [from, to] = [&from, &to].map(|time| self.until(stretch, time, bits));
+                terms.push(to?.subtract(&from?, bits).multiply(&self.slowness(bits)?, bits));
+            }
+            from = to;
+        }
+        if let (0, Some(last)) = (places[LOWER], &self.last)
+            && !self.before.is_zero()
+        {
+            let rest = self.scale.numbers.enclose(last, bits)?;
+            let rest = rest.subtract(&upper.multiply(&self.slowness(bits)?, bits), bits);
+            terms.push(rest.multiply(&self.scale.numbers.enclose(&self.before, bits)?, bits));
+        }
+        Ok(terms)
+    }
+
+    /// The integrand at the lower end as a polynomial about that of a time.
+    fn taylor_below(
+        &self,
+        place: usize,
+        order: usize,
+        (middle, half): (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Outcome<Taylor> {
+        let before = |value: Ball| Taylor { coefficients: vec![value], remainder: Magnitude::ZERO };
+        let Some(last) = &self.last else { return Ok(before(Ball::zero())) };
+        if place == 0 {
+            return Ok(before(match order {
+                0 => self.scale.numbers.enclose(&self.before, bits)?,
+                _ => Ball::zero(),
+            }));
+        }
+        if let Some(length) = self.scale.exact_time(last) {
+            return self.of.taylor(place - 1, order, (&(middle - length), half), terms, bits);
+        }
+        let about = Ball::from_rational(middle, bits).subtract(&self.scale.time(last, bits)?, bits);
+        let off = Rational::from(about.radius());
+        let larger = half + &off + &off;
+        let about = Rational::from(about.midpoint());
+        let taylor = self.of.taylor(place - 1, order, (&about, &larger), terms, bits)?;
+        let mut taylor = taylor.blurred(&Magnitude::from_rational(&(off / &larger)));
+        taylor.stretch(&(half / larger), bits);
+        Ok(taylor)
+    }
+
+    /// When a stretch of the integrand begins, in the scale of the scene.
+    fn start(&self, stretch: usize) -> Option<Fraction> {
+        let Instant { event, delay, .. } = self.of.instant(stretch)?;
+        event.is_none().then_some(delay)
+    }
+}
+
+impl Cell {
+    /// `u` of a time.
+    fn place(&self, time: &Ball, bits: u64) -> Ball {
+        let from_middle = time.subtract(&Ball::from_rational(&self.middle, bits), bits);
+        from_middle.multiply_rational(&self.half.recip(), bits)
+    }
+
+    /// Whether the polynomial holds at a time.
+    fn holds(&self, time: &Ball, bits: u64) -> bool {
+        self.place(time, bits).magnitude() <= Magnitude::power_of_two(0)
+    }
+
+    /// The integral from the start of the first cell to a time within this one.
+    fn until(&self, time: &Ball, bits: u64) -> Ball {
+        if !self.holds(time, bits) {
+            // The time is not known well enough.
+            return Ball::zero().widened(&Magnitude::power_of_two(WIDE));
+        }
+        let u = self.place(time, bits);
+        let value = self.antiderivative.value(&u, bits).multiply_rational(&self.half, bits);
+        value.add(&self.offset, bits)
+    }
+}
+
+impl Primitive {
+    /// The integral from the start of the first cell to a time.
+    fn until(&self, time: &Ball, bits: u64) -> Ball {
+        let middle = Rational::from(time.midpoint());
+        let cell = self.cells.partition_point(|cell| cell.to < middle);
+        match self.cells.get(cell).or(self.cells.last()) {
+            Some(cell) => cell.until(time, bits),
+            None => Ball::zero(),
+        }
+    }
+}
+
+impl Rule for Integral<'_> {
+    fn ranges(&self) -> Outcome<Vec<Range<usize>>> {
+        let first = self.places(&self.window[0], Limit::Right)?;
+        let last = self.places(&self.window[1], Limit::Left)?;
+        Ok([UPPER, LOWER].map(|end| first[end]..last[end].max(first[end]) + 1).into())
+    }
+
+    fn mark(&self, end: usize, place: usize) -> Mark<'_> {
+        match (&self.last, end, place) {
+            (Some(last), LOWER, 1) => {
+                self.scale.mark(&Rational::zero()).after(last.clone(), &self.scale)
+            }
+            (Some(last), LOWER, _) => {
+                Mark::of(&*self.of, place - 1).after(last.clone(), &self.scale)
+            }
+            _ => Mark::of(&*self.of, place),
+        }
+    }
+
+    fn is_instant(&self, _: usize, _: usize) -> bool {
+        false
+    }
+
+    fn is_zero(&self, places: &[usize]) -> bool {
+        let first = places[LOWER].saturating_sub(1);
+        let from_start = places[LOWER] > 0 || self.before.is_zero() || self.last.is_none();
+        from_start && (first..=places[UPPER]).all(|stretch| self.of.is_zero(stretch))
+    }
+
+    fn terms(
+        &self,
+        places: &[usize],
+        order: usize,
+        at: &Mark<'_>,
+        bits: u64,
+    ) -> Outcome<Vec<Ball>> {
+        let Some(order) = order.checked_sub(1) else {
+            return self.integral(places, at, bits);
+        };
+        let slowness = self.slowness(bits)?;
+        let now = value_at(&*self.of, places[UPPER], order, at, bits)?.multiply(&slowness, bits);
+        let then = match (self.lower(at), places[LOWER], order) {
+            (Some(lower), place @ 1.., _) => value_at(&*self.of, place - 1, order, &lower, bits)?,
+            (Some(_), 0, 0) => self.scale.numbers.enclose(&self.before, bits)?,
+            _ => Ball::zero(),
+        };
+        Ok(vec![now, then.multiply(&slowness, bits).negate()])
+    }
+
+    fn taylor(
+        &self,
+        places: &[usize],
+        order: usize,
+        (middle, half): (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Outcome<Taylor> {
+        let (slope, kept) =
+            (order.saturating_sub(1), terms - usize::from(order == 0).min(terms - 1));
+        let minus = Ball::from_integer(&(-1).into());
+        let mut taylor = self.of.taylor(places[UPPER], slope, (middle, half), kept, bits)?;
+        let below = self.taylor_below(places[LOWER], slope, (middle, half), kept, bits)?;
+        taylor.add(below.scaled(&minus, bits), bits);
+        let taylor = taylor.scaled(&self.slowness(bits)?, bits);
+        if order > 0 {
+            return Ok(taylor);
+        }
+        let half = Ball::from_rational(half, bits);
+        let mut integral = taylor.antiderivative(bits).scaled(&half, bits);
+        for term in self.integral(places, &self.scale.mark(middle), bits)? {
+            integral.coefficients[0] = integral.coefficients[0].add(&term, bits);
+        }
+        Ok(integral)
+    }
+
+    fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression> {
+        let scene = self.scale.network.scene();
+        let time = Fraction::symbol(&scene.time);
+        let mut sum = Expression::zero();
+        let from_start = self.last.is_none() || places[LOWER] == 0;
+        if let (true, Some(last)) = (from_start, &self.last) {
+            sum += &(&self.before * &(last - at)).into();
+        }
+        let first = places[LOWER].saturating_sub(1);
+        for stretch in first..=places[UPPER] {
+            let integrand = self.of.exact_at(stretch, &time, effort)?;
+            if integrand.is_zero() {
+                continue;
+            }
+            let assumptions = &self.scale.network.model().assumptions;
+            let primitive = integrand.antiderivative(&scene.time, assumptions).ok()?;
+            let from = match (&self.last, stretch == first && !from_start) {
+                (Some(last), true) => at - last,
+                _ => self.start(stretch)?,
+            };
+            let to = match stretch == places[UPPER] {
+                true => at.clone(),
+                false => self.start(stretch + 1)?,
+            };
+            sum += &primitive.substitute(&scene.time, &to).ok()?;
+            sum -= &primitive.substitute(&scene.time, &from).ok()?;
+        }
+        Some(sum)
+    }
+
+    fn slope_vanishes(&self, _: &[usize], _: Limit) -> Outcome<bool> {
+        Ok(false)
+    }
+
+    fn point(&self, at: &Rational, _: Limit) -> Outcome<(Known, Enclosure<'_>, u64)> {
+        let places = self.places(at, Limit::Left)?;
+        let known = match self.is_zero(&places) {
+            true => Some(Rational::zero()),
+            false => {
+                let scaled = self.scale.network.scaled_time(at);
+                let exact = self.exact_at(&places, &scaled, Effort::Little);
+                exact.and_then(|exact| exact.as_constant())
+            }
+        };
+        let at = at.clone();
+        let enclose = move |bits| {
+            let terms = self.integral(&places, &self.scale.mark(&at), bits)?;
+            Ok(terms.iter().fold(Ball::zero(), |sum, term| sum.add(term, bits)))
+        };
+        let known = known.map_or(Known::Unknown, Known::Rational);
+        Ok((known, Box::new(enclose), self.of.most_bits()))
+    }
+
+    fn most_bits(&self) -> u64 {
+        self.of.most_bits()
+    }
+
+    fn echoes(&self) -> Option<(usize, usize)> {
+        self.of.echoes()
+    }
+}

@@ -1,0 +1,482 @@
+//! Operations on signals of one scene: sums of products, and integrals.
+//!
+//! The stretches of the result are cut where an operand breaks. Breaks of two operands that are the same
+//! exact instant are one, whatever their enclosures tell; others are put in order by enclosures that are
+//! narrowed until they part. A [`Rule`] says what the result is on a stretch; [`Operation`] makes a signal
+//! of it.
+
+mod combination;
+mod integral;
+
+pub(super) use combination::{Combination, Product};
+pub(super) use integral::Integral;
+
+use crate::ball::{Attempt, Ball, Magnitude, Precisions};
+use crate::enclosure::Numbers;
+use crate::evaluate::{
+    At, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor,
+};
+use crate::expression::{Expression, Fraction, Root};
+use crate::network::Network;
+use num_traits::{Signed as _, Zero as _};
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+use std::ops::Range;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// The precisions with which two instants are told apart.
+const ORDER_BITS: [u64; 2] = [64, 1 << 12];
+
+/// A value that is zero but for as many bits is suspected to be zero.
+const SUSPICION_BITS: u64 = 64;
+
+/// The lowest precision of values and integrals, and the step between two: one serves for several questions.
+const FIRST_BITS: u64 = 192;
+const STEP_BITS: u64 = 64;
+
+/// The precision that values and integrals are worked out with.
+fn working(bits: u64) -> u64 {
+    bits.max(FIRST_BITS).next_multiple_of(STEP_BITS)
+}
+
+type Outcome<T> = Result<T, EvaluateError>;
+
+/// The scales of a scene, and its constants.
+pub(super) struct Scale<'a> {
+    network: &'a Network,
+    numbers: Numbers,
+}
+
+impl<'a> Scale<'a> {
+    pub fn of(network: &'a Network) -> Rc<Scale<'a>> {
+        Rc::new(Scale { network, numbers: Numbers::new(&network.model().constants) })
+    }
+
+    fn slowness(&self) -> &'a Fraction {
+        &self.network.model().slowness
+    }
+
+    /// The instant that is so long after the start of the scene.
+    fn instant(&self, delay: Fraction) -> Instant {
+        Instant { scene: std::ptr::from_ref(self.network).addr(), event: None, delay }
+    }
+
+    /// A time of the user's.
+    fn mark<'m>(&self, time: &Rational) -> Mark<'m> {
+        let (exact, own) = (Some(time.clone()), time.clone());
+        let enclose = Box::new(move |bits| Ok(Ball::from_rational(&own, bits)));
+        Mark { exact, instant: Some(self.instant(self.network.scaled_time(time))), enclose }
+    }
+
+    /// A length of time of the scene in the user's, where that is a rational number.
+    fn exact_time(&self, length: &Fraction) -> Option<Rational> {
+        Some(length.as_constant()? / self.slowness().as_constant()?)
+    }
+
+    /// The same, enclosed.
+    pub fn time(&self, length: &Fraction, bits: u64) -> Outcome<Ball> {
+        let slowness = self.numbers.enclose(self.slowness(), bits)?;
+        let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
+        Ok(self.numbers.enclose(length, bits)?.multiply(&inverse, bits))
+    }
+}
+
+/// A time of the user's, as far as it is known.
+pub(super) struct Mark<'m> {
+    exact: Option<Rational>,
+    instant: Option<Instant>,
+    enclose: Box<dyn Fn(u64) -> Outcome<Ball> + 'm>,
+}
+
+impl<'m> Mark<'m> {
+    /// Where a stretch begins.
+    fn of(signal: &'m dyn Signal, stretch: usize) -> Mark<'m> {
+        let (exact, instant) = (signal.exact_time(stretch, Limit::Right), signal.instant(stretch));
+        let enclose = Box::new(move |bits| signal.time(stretch, Limit::Right, bits));
+        Mark { exact, instant, enclose }
+    }
+
+    fn again(&self) -> Mark<'_> {
+        let enclose = Box::new(|bits| self.ball(bits));
+        Mark { exact: self.exact.clone(), instant: self.instant.clone(), enclose }
+    }
+
+    /// A length of time of the scene later, or earlier where that is negative.
+    fn after(self, length: Fraction, scale: &'m Scale<'_>) -> Mark<'m> {
+        let exact = self.exact.clone().zip(scale.exact_time(&length));
+        let delayed = |own: Instant| Instant { delay: &own.delay + &length, ..own };
+        let instant = self.instant.clone().map(delayed);
+        let enclose = move |bits| Ok(self.ball(bits)?.add(&scale.time(&length, bits)?, bits));
+        let exact = exact.map(|(time, length)| time + length);
+        Mark { exact, instant, enclose: Box::new(enclose) }
+    }
+
+    fn ball(&self, bits: u64) -> Outcome<Ball> {
+        match &self.exact {
+            Some(time) => Ok(Ball::from_rational(time, bits)),
+            None => (self.enclose)(bits),
+        }
+    }
+
+    /// Which of two times is earlier.
+    ///
+    /// # Errors
+    /// [`EvaluateError::AccuracyNotReached`] where their enclosures never part.
+    fn compare(&self, other: &Mark<'_>) -> Outcome<Ordering> {
+        if self.instant.is_some() && self.instant == other.instant {
+            return Ok(Ordering::Equal);
+        }
+        if let (Some(own), Some(other)) = (&self.exact, &other.exact) {
+            return Ok(own.cmp(other));
+        }
+        let [first, most] = ORDER_BITS;
+        let attempt = |bits| {
+            let difference = self.ball(bits)?.subtract(&other.ball(bits)?, bits);
+            Ok::<_, EvaluateError>(match difference.sign() {
+                Some(order) => Attempt::Done(order),
+                None => Attempt::NotYet(EvaluateError::AccuracyNotReached {
+                    best: Box::new(difference),
+                    bits,
+                }),
+            })
+        };
+        Precisions::doubling(first, most).raise(attempt).and_then(Attempt::done)
+    }
+}
+
+/// The last of some stretches that begins before a time; on the right side, at it.
+fn locate(signal: &dyn Signal, at: &Mark<'_>, side: Limit) -> Outcome<usize> {
+    let (mut low, mut high) = (0, signal.count()?);
+    while high - low > 1 {
+        let middle = low.midpoint(high);
+        match begins(&Mark::of(signal, middle), at, side)? {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    Ok(low)
+}
+
+/// Whether something that begins at a mark has begun at a time.
+fn begins(mark: &Mark<'_>, at: &Mark<'_>, side: Limit) -> Outcome<bool> {
+    let order = mark.compare(at)?;
+    Ok(order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right))
+}
+
+/// An enclosure of a derivative of an operand at a time that may be known by enclosures alone: there the
+/// values of a short time around it, in which the function of the stretch goes on.
+fn value_at(
+    signal: &dyn Signal,
+    stretch: usize,
+    order: usize,
+    at: &Mark<'_>,
+    bits: u64,
+) -> Outcome<Ball> {
+    if let Some(time) = &at.exact {
+        return signal.enclose(stretch, order, At::Time(time), bits);
+    }
+    let time = at.ball(bits)?;
+    let half = Rational::from(time.radius());
+    if half.is_zero() {
+        let time = time.midpoint().into();
+        return signal.enclose(stretch, order, At::Time(&time), bits);
+    }
+    let near = signal.taylor(stretch, order, (&time.midpoint().into(), &half), 2, bits)?;
+    Ok(near.coefficients[0].widened(&near.tail(1)))
+}
+
+/// What an operation is between the breaks of its operands. A list of places says for each operand, or
+/// for each end of an integral, on which stretch it is.
+pub(super) trait Rule {
+    /// The places on the first stretch, and the ends of those that follow, one range for each operand.
+    fn ranges(&self) -> Outcome<Vec<Range<usize>>>;
+
+    /// When an operand comes to a place.
+    fn mark(&self, operand: usize, place: usize) -> Mark<'_>;
+
+    /// Whether an operand is at a place for the last instant of the window alone.
+    fn is_instant(&self, operand: usize, place: usize) -> bool;
+
+    fn is_zero(&self, places: &[usize]) -> bool;
+
+    /// Terms of which a derivative with respect to the user's time is the sum.
+    fn terms(&self, places: &[usize], order: usize, at: &Mark<'_>, bits: u64)
+    -> Outcome<Vec<Ball>>;
+
+    /// As [`Signal::taylor`].
+    fn taylor(
+        &self,
+        places: &[usize],
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Outcome<Taylor>;
+
+    /// As [`Signal::exact_at`].
+    fn exact_at(&self, places: &[usize], at: &Fraction, effort: Effort) -> Option<Expression>;
+
+    /// Whether the first derivative at an end of a stretch is known to be exactly zero.
+    fn slope_vanishes(&self, places: &[usize], end: Limit) -> Outcome<bool>;
+
+    /// One limit at a time, what exact arithmetic tells of it at once, and the most bits that are of use.
+    fn point(&self, at: &Rational, side: Limit) -> Outcome<(Known, Enclosure<'_>, u64)>;
+
+    fn most_bits(&self) -> u64;
+
+    fn echoes(&self) -> Option<(usize, usize)>;
+}
+
+/// A stretch of an operation: which operand comes to a new place where it begins, and all places.
+struct Step {
+    begins: usize,
+    places: Vec<usize>,
+}
+
+/// The signal of a rule, in a unit, on a window of the user's time.
+pub(super) struct Operation<'a, R> {
+    scale: Rc<Scale<'a>>,
+    rule: R,
+    unit: Root,
+    window: [Rational; 2],
+    steps: OnceCell<Vec<Step>>,
+}
+
+impl<'a, R: Rule> Operation<'a, R> {
+    pub fn new(scale: &Rc<Scale<'a>>, rule: R, unit: Root, window: [&Rational; 2]) -> Self {
+        let (scale, window) = (Rc::clone(scale), window.map(Clone::clone));
+        Operation { scale, rule, unit, window, steps: OnceCell::new() }
+    }
+
+    /// The stretches: all operands go on to their next places in the order of their breaks.
+    fn steps(&self) -> Outcome<&[Step]> {
+        if let Some(steps) = self.steps.get() {
+            return Ok(steps);
+        }
+        let ranges = self.rule.ranges()?;
+        let marks: Vec<Vec<Mark<'_>>> = (0..)
+            .zip(&ranges)
+            .map(|(operand, range)| {
+                (range.start + 1..range.end).map(|place| self.rule.mark(operand, place)).collect()
+            })
+            .collect();
+        let mut places: Vec<usize> = ranges.iter().map(|range| range.start).collect();
+        let mut steps = vec![Step { begins: 0, places: places.clone() }];
+        loop {
+            // Those operands that come to a new place first, all at one time.
+            let mut first: Vec<(usize, &Mark<'_>)> = Vec::new();
+            for (operand, range) in ranges.iter().enumerate() {
+                let Some(mark) = marks[operand].get(places[operand] - range.start) else {
+                    continue;
+                };
+                match first.first().map(|known| mark.compare(known.1)).transpose()? {
+                    Some(Ordering::Greater) => {}
+                    Some(Ordering::Equal) => first.push((operand, mark)),
+                    Some(Ordering::Less) | None => first = vec![(operand, mark)],
+                }
+            }
+            let Some(begins) = first.first().map(|(operand, _)| *operand) else { break };
+            first.iter().for_each(|(operand, _)| places[*operand] += 1);
+            steps.push(Step { begins, places: places.clone() });
+        }
+        drop(marks);
+        Ok(self.steps.get_or_init(|| steps))
+    }
+
+    fn step(&self, stretch: usize) -> &Step {
+        &self.known()[stretch]
+    }
+
+    fn known(&self) -> &[Step] {
+        self.steps.get().expect("stretches were counted before they are asked for")
+    }
+
+    /// When a stretch begins.
+    fn beginning(&self, stretch: usize) -> Mark<'_> {
+        match stretch {
+            0 => self.scale.mark(&self.window[0]),
+            _ => {
+                let Step { begins, places } = self.step(stretch);
+                self.rule.mark(*begins, places[*begins])
+            }
+        }
+    }
+
+    fn mark(&self, stretch: usize, at: At<'_>) -> Mark<'_> {
+        match at {
+            At::Time(time) => self.scale.mark(time),
+            At::End(Limit::Right) => self.beginning(stretch),
+            At::End(Limit::Left) if stretch + 1 < self.known().len() => self.beginning(stretch + 1),
+            At::End(Limit::Left) => self.scale.mark(&self.window[1]),
+        }
+    }
+
+    fn in_unit(&self, value: Ball, bits: u64) -> Outcome<Ball> {
+        match self.unit == Root::from(Fraction::one()) {
+            true => Ok(value),
+            false => Ok(value.multiply(&self.scale.numbers.enclose_root(&self.unit, bits)?, bits)),
+        }
+    }
+
+    /// What is told of an exact value in the scale of the scene.
+    fn told(&self, value: Option<Expression>) -> Known {
+        let unit = self.unit.exact().and_then(|unit| unit.as_constant());
+        match (value, unit) {
+            (Some(value), _) if value.is_zero() => Known::Rational(Rational::zero()),
+            (Some(value), Some(unit)) => match value.as_constant() {
+                Some(value) => Known::Rational(value * unit),
+                None => Known::Irrational,
+            },
+            (Some(_), None) => Known::Irrational,
+            (None, _) => Known::Unknown,
+        }
+    }
+
+    /// What exact arithmetic tells of a limit at a time.
+    fn decided(&self, at: &Rational, side: Limit) -> Outcome<Known> {
+        let stretch = self.stretch_at(at, side)?.unwrap_or_default();
+        let at = self.scale.network.scaled_time(at);
+        Ok(self.told(self.rule.exact_at(&self.step(stretch).places, &at, Effort::Much)))
+    }
+}
+
+impl<R: Rule> Signal for Operation<'_, R> {
+    fn window(&self) -> [&Rational; 2] {
+        self.window.each_ref()
+    }
+
+    fn point(&self, at: &Rational, side: Limit) -> Outcome<Point<'_>> {
+        if at.is_negative() {
+            return Ok(Point::exact(Rational::zero()));
+        }
+        let (known, enclose, most_bits) = self.rule.point(at, side)?;
+        if let Known::Rational(value) = known
+            && let Known::Rational(value) = self.told(Some(Expression::constant(&value)))
+        {
+            return Ok(Point::exact(value));
+        }
+        let unit = self.scale.numbers.enclose_root(&self.unit, SUSPICION_BITS)?.magnitude();
+        let at = at.clone();
+        Ok(Point {
+            known: Known::Unknown,
+            enclose: Box::new(move |bits| {
+                let bits = working(bits);
+                self.in_unit(enclose(bits)?, bits)
+            }),
+            decide: Box::new(move || self.decided(&at, side).unwrap_or(Known::Unknown)),
+            negligible: unit.scale(-(SUSPICION_BITS as i64)),
+            most_bits,
+        })
+    }
+
+    fn most_bits(&self) -> u64 {
+        self.rule.most_bits()
+    }
+
+    fn echoes(&self) -> Option<(usize, usize)> {
+        self.rule.echoes()
+    }
+
+    fn count(&self) -> Outcome<usize> {
+        Ok(self.steps()?.len())
+    }
+
+    fn begins(&self, stretch: usize, at: &Rational) -> Outcome<Ordering> {
+        self.beginning(stretch).compare(&self.scale.mark(at))
+    }
+
+    fn is_instant(&self, stretch: usize) -> bool {
+        let Step { begins, places } = self.step(stretch);
+        self.rule.is_instant(*begins, places[*begins])
+    }
+
+    fn is_zero(&self, stretch: usize) -> bool {
+        self.rule.is_zero(&self.step(stretch).places)
+    }
+
+    fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
+        self.mark(stretch, At::End(end)).exact
+    }
+
+    fn instant(&self, stretch: usize) -> Option<Instant> {
+        self.beginning(stretch).instant
+    }
+
+    fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
+        let value = self.rule.exact_at(&self.step(stretch).places, at, effort)?;
+        Some(value.times(&self.unit.exact()?))
+    }
+
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Outcome<Ball> {
+        self.mark(stretch, At::End(end)).ball(bits)
+    }
+
+    fn enclose(&self, stretch: usize, order: usize, at: At<'_>, bits: u64) -> Outcome<Ball> {
+        let (mark, places) = (self.mark(stretch, at), &self.step(stretch).places);
+        let terms = self.rule.terms(places, order, &mark, bits)?;
+        let sum = terms.iter().fold(Ball::zero(), |sum, term| sum.add(term, bits));
+        self.in_unit(sum, bits)
+    }
+
+    fn taylor(
+        &self,
+        stretch: usize,
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Outcome<Taylor> {
+        let taylor = self.rule.taylor(&self.step(stretch).places, order, place, terms, bits)?;
+        match self.unit == Root::from(Fraction::one()) {
+            true => Ok(taylor),
+            false => Ok(taylor.scaled(&self.scale.numbers.enclose_root(&self.unit, bits)?, bits)),
+        }
+    }
+
+    fn size(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: &Rational,
+        bits: u64,
+    ) -> Outcome<(Magnitude, Magnitude)> {
+        let (mark, places) = (self.scale.mark(at), &self.step(stretch).places);
+        let (mut size, mut error) = (Magnitude::ZERO, Magnitude::ZERO);
+        for term in self.rule.terms(places, order, &mark, bits)? {
+            let term = self.in_unit(term, bits)?;
+            (size, error) = (size.add(&term.midpoint().magnitude()), error.add(term.radius()));
+        }
+        Ok((size, error))
+    }
+
+    fn exact(&self, stretch: usize, at: At<'_>) -> Outcome<Option<Rational>> {
+        let network = self.scale.network;
+        let at = match at {
+            At::Time(time) => network.scaled_time(time),
+            At::End(Limit::Left) if stretch + 1 == self.known().len() => {
+                network.scaled_time(&self.window[1])
+            }
+            At::End(end) => match self.instant(stretch + usize::from(end == Limit::Left)) {
+                Some(Instant { event: None, delay, .. }) => delay,
+                _ => return Ok(None),
+            },
+        };
+        let value = self.rule.exact_at(&self.step(stretch).places, &at, Effort::Much);
+        Ok(match self.told(value) {
+            Known::Rational(value) => Some(value),
+            Known::Irrational | Known::Unknown => None,
+        })
+    }
+
+    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Outcome<bool> {
+        self.rule.slope_vanishes(&self.step(stretch).places, end)
+    }
+
+    /// Known where the exact function of the stretch is the constant.
+    fn equals(&self, stretch: usize, value: &Rational, _: &[Rational; 2], _: u64) -> Outcome<bool> {
+        let time = Fraction::symbol(&self.scale.network.scene().time);
+        let own = self.rule.exact_at(&self.step(stretch).places, &time, Effort::Much);
+        Ok(self.told(own) == Known::Rational(value.clone()))
+    }
+}

@@ -1,0 +1,198 @@
+//! Energies as signals: their derivative is the power that flows in, their sum stays where nothing is spent,
+//! and their extrema are those of dense samples; where contacts stay closed and where they open.
+
+use wavestep::ball::Ball;
+use wavestep::evaluate::{At, Goal, Limit, Search, Signal, Value, value};
+use wavestep::language::{Source, parse_number, read_scene};
+use wavestep::network::Network;
+use wavestep::signal::{Purpose, of_scene};
+use wavestep_polynomial::Rational;
+
+/// A mass strikes a bar that is held by a spring at its end; what flows into each element is its power.
+const STRUCK: &str = "scene \"Struck\"\nmass hammer { mass = 3/2, velocity = 1 }\n\
+    bar rod { impedance = 1, travel = 1 }\nspring toe { stiffness = 2 }\nline free - hammer JOINT rod - toe - fixed\n\
+    observe rod_energy = energy(rod)\nobserve hammer_energy = energy(hammer)\n\
+    observe toe_energy = energy(toe)\nobserve all = energy(line)\n\
+    observe force = force(rod.left)\nobserve v = velocity(rod.left)\nobserve speed = velocity(hammer)\n\
+    observe end = force(rod.right)\nobserve u = velocity(rod.right)\n";
+
+/// Steel on aluminium in units: travel times have no common measure and are no rational numbers.
+const UNITS: &str = "scene \"Steel strikes aluminium\"\n\
+    bar a { modulus = 210 GPa, density = 7850 kg/m^3, area = 1 cm^2, length = 1 m, velocity = 1 m/s }\n\
+    spring k { stiffness = 30 MN/m }\n\
+    bar b { modulus = 70 GPa, density = 2700 kg/m^3, area = 1 cm^2, length = 13/10 m }\n\
+    line free - a - k - b - free\n\
+    observe a_energy = energy(a)\nobserve b_energy = energy(b)\nobserve all = energy(line)\n\
+    observe force = force(b.left)\nobserve v = velocity(b.left)\n";
+
+const BITS: u64 = 160;
+
+fn network(text: &str) -> Network {
+    let source = Source::new("scene", text).unwrap();
+    Network::new(&read_scene(&source, &Default::default()).unwrap()).unwrap()
+}
+
+fn closed() -> Network {
+    network(&STRUCK.replace("JOINT", "-"))
+}
+
+fn open() -> Network {
+    network(&(STRUCK.replace("JOINT", "|") + "contacts open\n"))
+}
+
+fn rational(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+fn signal<'a>(network: &'a Network, name: &str, last: &Rational) -> Box<dyn Signal + 'a> {
+    let observed = network.observables().iter().find(|own| own.name == name).expect("observed");
+    of_scene(network, observed, [&Rational::default(), last], Purpose::Stretches).expect("a signal")
+}
+
+/// The stretch of a time that is no break.
+fn stretch_of(signal: &dyn Signal, at: &Rational) -> usize {
+    let begun = |stretch: &usize| {
+        let start = signal.time(*stretch, Limit::Right, BITS).unwrap();
+        start.subtract(&Ball::from_rational(at, BITS), BITS).sign()
+            != Some(std::cmp::Ordering::Greater)
+    };
+    (0..signal.count().unwrap()).take_while(begun).last().expect("a stretch")
+}
+
+fn derivative(signal: &dyn Signal, order: usize, at: &Rational) -> Ball {
+    signal.enclose(stretch_of(signal, at), order, At::Time(at), BITS).unwrap()
+}
+
+/// Whether two balls are about one number that is known to ten decimals beyond a scale.
+fn assert_same(own: &Ball, other: &Ball, scale: f64, what: &str) {
+    let off = own.subtract(other, BITS);
+    let (_, bound) = off.to_double();
+    assert!(off.contains_zero() && bound.to_double() <= 1e-10 * scale, "{what}: {own} {other}");
+}
+
+/// `E' = F v` at the ends of a bar, a mass and a spring, and one derivative more by the product of slopes.
+#[test]
+fn the_derivative_of_an_energy_is_the_power_that_flows_in() {
+    for (kind, network) in [("closed", closed()), ("open", open())] {
+        let last = rational(7, 1);
+        let of = |name| signal(&network, name, &last);
+        let [rod, hammer, toe] = ["rod_energy", "hammer_energy", "toe_energy"].map(of);
+        let [force, v, speed, end, u] = ["force", "v", "speed", "end", "u"].map(of);
+        for n in 0..40 {
+            let at = rational(7 * (2 * n + 1), 81);
+            let value = |signal: &dyn Signal| derivative(signal, 0, &at);
+            let power = |force: &dyn Signal, v: &dyn Signal| value(force).multiply(&value(v), BITS);
+            let (left, right) = (power(&*force, &*v), power(&*end, &*u));
+            let what = format!("{kind} at {at}");
+            assert_same(&derivative(&*rod, 1, &at), &left.subtract(&right, BITS), 1.0, &what);
+            assert_same(&derivative(&*toe, 1, &at), &right, 1.0, &what);
+            let lost = power(&*force, &*speed).negate();
+            assert_same(&derivative(&*hammer, 1, &at), &lost, 1.0, &what);
+            let slopes = [(&force, &v, 1), (&end, &u, -1)].map(|(force, v, sign)| {
+                let one = derivative(&**force, 1, &at).multiply(&value(&**v), BITS);
+                let other = derivative(&**v, 1, &at).multiply(&value(&**force), BITS);
+                one.add(&other, BITS).multiply_rational(&rational(sign, 1), BITS)
+            });
+            let second = slopes[0].add(&slopes[1], BITS);
+            assert_same(&derivative(&*rod, 2, &at), &second, 1.0, &what);
+        }
+    }
+}
+
+/// Values by the planner for values are those on stretches, and polynomials enclose both.
+#[test]
+fn values_stretches_and_polynomials_agree() {
+    let networks =
+        [("closed", closed(), 5.0), ("open", open(), 5.0), ("units", network(UNITS), 9e-4)];
+    for (kind, network, last) in networks {
+        let last = Rational::from_float(last).unwrap();
+        for observed in network.observables().iter().filter(|own| own.name.ends_with("energy")) {
+            let window = [&Rational::default(), &last];
+            let values = of_scene(&network, observed, window, Purpose::Values).unwrap();
+            let signal = signal(&network, &observed.name, &last);
+            let scale = value(&*values, &(&last / rational(2, 1)), Limit::Right, 9, 4096).unwrap();
+            let scale = scale.to_f64().abs().max(0.1);
+            for n in 0..12 {
+                let at = &last * rational(2 * n + 1, 25);
+                let told = value(&*values, &at, Limit::Right, 20, 4096).unwrap().ball(BITS);
+                let what = format!("{kind} {} at {at}", observed.name);
+                assert_same(&derivative(&*signal, 0, &at), &told, scale, &what);
+                // About a time near by, which may lie beyond the stretch.
+                let stretch = stretch_of(&*signal, &at);
+                let half = &last * rational(1, 1000);
+                let place = (&(&at + &half * rational(1, 3)), &half);
+                for order in 0..3 {
+                    let taylor = signal.taylor(stretch, order, place, 24, BITS).unwrap();
+                    let u = Ball::from_rational(&rational(-1, 3), BITS);
+                    let horner = |sum: Ball, c: &Ball| sum.multiply(&u, BITS).add(c, BITS);
+                    let sum = taylor.coefficients.iter().rev().fold(Ball::zero(), horner);
+                    let own = signal.enclose(stretch, order, At::Time(&at), BITS).unwrap();
+                    let size = own.magnitude().to_double().max(scale);
+                    assert_same(&sum.widened(&taylor.remainder), &own, size, &what);
+                }
+            }
+        }
+    }
+}
+
+/// Where nothing is spent the sum stays; where all is known exactly that is proven on whole stretches.
+#[test]
+fn the_sum_of_energies_stays() {
+    for (kind, network) in [("closed", closed()), ("open", open())] {
+        let last = rational(6, 1);
+        let all = signal(&network, "all", &last);
+        for n in 0..30 {
+            let at = rational(6 * (2 * n + 1), 61);
+            let start = Ball::from_rational(&rational(3, 4), BITS);
+            assert_same(&derivative(&*all, 0, &at), &start, 1.0, kind);
+            assert_same(&derivative(&*all, 1, &at), &Ball::zero(), 1.0, kind);
+        }
+    }
+    let closed = closed();
+    let last = rational(3, 1);
+    let all = signal(&closed, "all", &last);
+    let search = Search::new(&*all).unwrap();
+    for goal in [Goal::Largest, Goal::Smallest] {
+        assert_eq!(search.extremum(goal, 9, 1 << 12).unwrap().value, Value::Exact(rational(3, 4)));
+    }
+    assert_eq!(search.roots(&rational(1, 2), 9, 1 << 12).unwrap().all, []);
+}
+
+/// No sample is above the largest value or below the smallest, and one comes near.
+#[test]
+fn extrema_are_those_of_dense_samples() {
+    for (kind, network, name, last) in [
+        ("closed", closed(), "rod_energy", "4"),
+        ("open", open(), "rod_energy", "4"),
+        ("open", open(), "toe_energy", "4"),
+        ("units", network(UNITS), "b_energy", "3e-4"),
+    ] {
+        let last = parse_number(last).unwrap();
+        let signal = signal(&network, name, &last);
+        let search = Search::new(&*signal).unwrap();
+        let extremum = |goal| search.extremum(goal, 12, 1 << 12).unwrap().value.to_f64();
+        let (most, least) = (extremum(Goal::Largest), extremum(Goal::Smallest));
+        let samples: Vec<f64> = (0..=400)
+            .map(|n| derivative(&*signal, 0, &(&last * rational(n, 400))).to_double().0)
+            .collect();
+        let (top, bottom) =
+            samples.iter().fold((0.0_f64, 1e9_f64), |(a, b), v| (a.max(*v), b.min(*v)));
+        let near = 1e-3 * most;
+        assert!(top <= most + 1e-12 && top >= most - near, "{kind} {name}: {top} {most}");
+        assert!(
+            bottom >= least - 1e-12 && bottom <= least + near,
+            "{kind} {name}: {bottom} {least}"
+        );
+    }
+}
+
+/// Digits far beyond those of a search, where contacts open.
+#[test]
+fn energies_have_many_digits() {
+    let network = open();
+    let all = network.observables().iter().find(|own| own.name == "all").unwrap();
+    let at = rational(5, 2);
+    let signal = of_scene(&network, all, [&at, &at], Purpose::Values).unwrap();
+    let told = value(&*signal, &at, Limit::Right, 250, 1 << 12).unwrap();
+    assert!(told.decimal(250).0.to_string().starts_with("0.7500000000"), "{told:?}");
+}
