@@ -189,7 +189,7 @@ fn kind_of_evaluate(error: &EvaluateError) -> Kind {
         EvaluateError::Ball(_)
         | EvaluateError::TooSteep
         | EvaluateError::NoClosedForm
-        | EvaluateError::NotLinear(_) => Kind::NotSupported,
+        | EvaluateError::NotLinear => Kind::NotSupported,
     }
 }
 
@@ -336,8 +336,9 @@ fn remedy_of_network(error: &NetworkError) -> &'static str {
 fn remedy_of_evaluate(error: &EvaluateError) -> String {
     let usual = match error {
         EvaluateError::MissingValue(symbol) => return format!("give {symbol} a value"),
-        EvaluateError::NotLinear(_) => "ask for a force or a velocity, or for digits",
-        EvaluateError::NoClosedForm => "use the method compiled or certified",
+        EvaluateError::NoClosedForm | EvaluateError::NotLinear => {
+            "use the method compiled or certified"
+        }
         EvaluateError::EmptyWindow => "let the window end after it begins",
         EvaluateError::TooManyRoots { .. } | EvaluateError::TooManyCells { .. } => {
             "ask for a shorter window"

@@ -46,7 +46,7 @@ impl Question<'_> {
     pub fn order(&self) -> Result<usize, EvaluateError> {
         match self.signal.closed_form() {
             Ok(form) => form.order(self.signal.window()[1]),
-            Err(EvaluateError::NoClosedForm) => self.signal.count(),
+            Err(EvaluateError::NoClosedForm | EvaluateError::NotLinear) => self.signal.count(),
             Err(error) => Err(error),
         }
     }

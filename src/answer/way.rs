@@ -96,7 +96,9 @@ impl<'a> Way<'a> {
             | Method::Steps { .. } => {
                 let (network, place) = question.scene.ok_or(WayError::NeedsScene(kind.name()))?;
                 // Models know no contacts that open.
-                signal.closed_form()?;
+                if network.scene().contacts_open {
+                    return Err(EvaluateError::NoClosedForm.into());
+                }
                 return Way::of_model(kind, network, place);
             }
         };

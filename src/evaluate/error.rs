@@ -70,15 +70,15 @@ pub enum EvaluateError {
         /// How many are allowed.
         limit: usize,
     },
-    /// A window that does not end after it begins, at or after time 0.
-    #[error("the window is empty: it has to end after it begins, from 0 on")]
+    /// A window that ends before it begins, or begins before time 0; for searches, also a single time.
+    #[error("the window is empty, or begins before time 0")]
     EmptyWindow,
     /// A function that no polynomial of the degree allowed follows, however short the cell.
     #[error("the function is too steep for polynomials between neighbouring doubles")]
     TooSteep,
-    /// An energy, where only what is linear in the waves can be expanded.
-    #[error("{0} is an energy, quadratic in the waves: it has no pieces to expand")]
-    NotLinear(String),
+    /// An energy, where sums of echoes or steps of periods are asked for.
+    #[error("this method sums waves; an energy is quadratic in them")]
+    NotLinear,
     /// The openings of contacts cannot be followed with the precision that is needed.
     #[error("the openings of the contacts cannot be followed with {bits} bits")]
     NotFollowed {

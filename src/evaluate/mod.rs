@@ -34,6 +34,6 @@ pub use method::{
     instructions,
 };
 pub use signal::{At, Effort, Instant, Limit, Point, Signal};
-pub(crate) use signal::{Enclosure, Known};
+pub(crate) use signal::{Enclosure, Known, has_begun, last_begun};
 pub use taps::{NoTaps, Taps};
 pub use taylor::Taylor;

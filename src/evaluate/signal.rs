@@ -87,6 +87,29 @@ impl<'a> Point<'a> {
     }
 }
 
+/// Whether what begins has begun at a time, by how its beginning compares with that.
+pub(crate) fn has_begun(begins: Ordering, side: Limit) -> bool {
+    begins == Ordering::Less || (begins == Ordering::Equal && side == Limit::Right)
+}
+
+/// The last of some stretches that has begun at a time, or the first; `begins` compares the beginning of
+/// one with that time.
+pub(crate) fn last_begun(
+    count: usize,
+    side: Limit,
+    begins: impl Fn(usize) -> Result<Ordering, EvaluateError>,
+) -> Result<usize, EvaluateError> {
+    let (mut low, mut high) = (0, count);
+    while high - low > 1 {
+        let middle = low.midpoint(high);
+        match has_begun(begins(middle)?, side) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    Ok(low)
+}
+
 /// A real function of the user's time on a window, cut into stretches, on each of which it is analytic.
 ///
 /// # Invariants
@@ -105,7 +128,7 @@ pub trait Signal {
     /// that sum echoes or march from period to period need.
     ///
     /// # Errors
-    /// [`EvaluateError::NoClosedForm`] for all other signals.
+    /// [`EvaluateError::NotLinear`] for energies, [`EvaluateError::NoClosedForm`] where contacts open.
     fn closed_form(&self) -> Result<&ClosedForm, EvaluateError> {
         Err(EvaluateError::NoClosedForm)
     }
@@ -140,16 +163,7 @@ pub trait Signal {
         if at == from && side == Limit::Left {
             return Ok(None);
         }
-        let (mut low, mut high) = (0, self.count()?);
-        while high - low > 1 {
-            let middle = low.midpoint(high);
-            let order = self.begins(middle, at)?;
-            match order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right) {
-                true => low = middle,
-                false => high = middle,
-            }
-        }
-        Ok(Some(low))
+        last_begun(self.count()?, side, |stretch| self.begins(stretch, at)).map(Some)
     }
 
     /// Whether a stretch is the last instant of the window alone.

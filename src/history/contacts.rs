@@ -15,13 +15,21 @@ use crate::limits::MAX_EVENTS;
 use crate::network::System;
 use std::cmp::Ordering;
 
+/// Why a contact closed or opened.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Cause {
+    /// Its force or its gap came to zero by itself.
+    Crossing,
+    /// What arrives jumped.
+    Jump,
+}
+
 /// That a contact closed or opened.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Happening {
     /// Whether the contact closed.
     pub closes: bool,
-    /// Whether its force or its gap came to zero by itself, not by a jump of what arrives.
-    pub smooth: bool,
+    pub cause: Cause,
     pub contact: usize,
     pub moment: Moment,
     /// When the contact would have pulled, or the gap have become negative: later than the moment where a
@@ -140,9 +148,8 @@ impl Engine {
         Ok(first)
     }
 
-    /// Opens closed contacts and closes open ones at the time of a node; `smooth` where a force or a gap
-    /// came to zero by itself, and not by a jump of what arrives.
-    pub fn change(&mut self, node: usize, changes: &[usize], smooth: bool) -> Outcome<()> {
+    /// Opens closed contacts and closes open ones at the time of a node.
+    pub fn change(&mut self, node: usize, changes: &[usize], cause: Cause) -> Outcome<()> {
         let bits = self.cut.bits;
         let now = self.states[node].now.clone();
         let own = &self.nodes[node];
@@ -157,7 +164,7 @@ impl Engine {
             known.gap = Number::zero();
             known.pressed = false;
             let (closes, contact, forced) = (known.closed, *contact, now.clone());
-            self.happenings.push(Happening { closes, smooth, contact, moment, forced });
+            self.happenings.push(Happening { closes, cause, contact, moment, forced });
         }
         let state = &self.states[node];
         let open = &self.open;
@@ -175,7 +182,7 @@ impl Engine {
             let run = self.layout.contacts[*contact].run;
             let inert = system.has_inertia(run) && system.has_inertia(run + 1);
             let own = &mut self.open[*contact];
-            own.rests = !own.closed && (inert || smooth && !loosened);
+            own.rests = !own.closed && (inert || cause == Cause::Crossing && !loosened);
         }
         let state = &mut self.states[node];
         (state.system, state.state) = (system, next);
@@ -190,7 +197,7 @@ impl Engine {
                 let forced = moment.clone();
                 self.happenings.push(Happening {
                     closes: true,
-                    smooth: false,
+                    cause: Cause::Jump,
                     contact,
                     moment,
                     forced,

@@ -7,7 +7,7 @@
 
 use crate::ball::{Ball, Magnitude, Number};
 use crate::expression::Fraction;
-use crate::history::contacts::{Contact, Happening};
+use crate::history::contacts::{Cause, Contact, Happening};
 use crate::history::error::{HistoryError, NotFollowed, Question};
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
@@ -389,7 +389,7 @@ impl Engine {
             if changed > MAX_CHANGES {
                 return self.undecided(Question::Simultaneous, &self.states[node].now, None);
             }
-            self.change(node, &changes, false)?;
+            self.change(node, &changes, Cause::Jump)?;
         };
         if self.cells[node].is_empty() {
             self.tell_impacts(node, &forces);
@@ -407,7 +407,7 @@ impl Engine {
         };
         self.finish(node, &inputs, motion, [forces, gaps], end, &length)?;
         if let Some((contact, _)) = first {
-            self.change(node, &[contact], true)?;
+            self.change(node, &[contact], Cause::Crossing)?;
         }
         Ok(())
     }

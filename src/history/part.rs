@@ -4,6 +4,7 @@
 use crate::ball::Number;
 use crate::evaluate::Limit;
 use crate::expression::Fraction;
+use crate::history::contacts::Cause;
 use crate::history::energy::Integrand;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
@@ -169,7 +170,7 @@ impl Engine {
         let Source::Node { node, signal: Signal::Force(place) } = part.source else { return false };
         let contact = self.nodes[node].contacts().nth(place).expect("a contact of the node").0;
         let mut happenings = self.happenings.iter().filter(|own| own.contact == contact);
-        happenings.any(|own| own.smooth && !own.closes && own.moment == *moment)
+        happenings.any(|own| own.cause == Cause::Crossing && !own.closes && own.moment == *moment)
     }
 
     /// What the derivative of a part is a multiple of, where that is the force of one contact: of the

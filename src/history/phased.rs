@@ -164,11 +164,11 @@ impl<'a> FollowedSignal<'a> {
     /// As [`FollowedSignal::new`].
     pub(crate) fn squared(
         follower: &Rc<Follower<'a>>,
-        squared: &'a Squared,
+        squared: &Squared,
         window: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
-        let network = follower.network;
-        let seen = Box::new(move |engine: &Engine| match squared {
+        let (network, squared) = (follower.network, squared.clone());
+        let seen = Box::new(move |engine: &Engine| match &squared {
             Squared::Reading(reading) => {
                 engine.reading(engine.elements(network), reading, &Number::one())
             }
@@ -223,7 +223,7 @@ impl<'a> FollowedSignal<'a> {
         Ok(finer)
     }
 
-    /// What is known of stretches at a precision, as far as one is reached.
+    /// Stretches at this precision, capped at `most_bits`.
     fn cut(&self, bits: u64) -> Result<Rc<Followed>, EvaluateError> {
         self.followed(bits.min(self.most_bits))
     }

@@ -4,7 +4,7 @@ use super::{Given, Kind, Problem, ProblemError, number};
 use crate::evaluate::{ClosedForm, EvaluateError};
 use crate::expression::Fraction;
 use crate::language::{self, Source};
-use crate::network::{Network, Observed, ObservedValue};
+use crate::network::{Network, ObservedValue};
 use crate::scene::Dimension;
 use num_integer::Integer as _;
 use num_traits::{Signed as _, ToPrimitive as _};
@@ -107,9 +107,12 @@ impl Problem {
         if let Some(period) = self.shortest_period() {
             return Ok(period * periods);
         }
-        let is_linear = |observed: &&Observed| matches!(observed.value, ObservedValue::Linear(_));
-        let observed = network.observables().iter().find(is_linear).ok_or(ProblemError::NoEnd)?;
-        let form = ClosedForm::of_scene(network, observed, &Rational::default())?;
+        let linear = network.observables().iter().find_map(|observed| match &observed.value {
+            ObservedValue::Linear(observation) => Some((observation, observed.unit.clone())),
+            ObservedValue::Energy(_) => None,
+        });
+        let (observation, unit) = linear.ok_or(ProblemError::NoEnd)?;
+        let form = ClosedForm::of_scene(network, observation, unit, &Rational::default())?;
         let period = form.period().ok_or(ProblemError::NoEnd)?;
         two_figures(period * periods.to_f64().unwrap_or(f64::NAN))
     }

@@ -4,8 +4,8 @@ use super::SignalError;
 use super::operations::{Combination, Integral, Operation, Product, Scale};
 use crate::evaluate::{ClosedSignal, EvaluateError, Signal};
 use crate::expression::{Fraction, Root};
-use crate::history::{FollowedSignal, Follower, HistoryError};
-use crate::network::{EnergyTerm, Network, ObservedValue, Window};
+use crate::history::{FollowedSignal, Follower};
+use crate::network::{EnergyTerm, Network, Window};
 use num_traits::{Signed as _, Zero as _};
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
@@ -13,17 +13,13 @@ use wavestep_polynomial::Rational;
 /// Bits with which it is told how far back an integral reaches.
 const REACH_BITS: u64 = 64;
 
-/// An energy of a scene, by its name, on a window of the user's time.
+/// An energy of a scene, the sum of its terms, on a window of the user's time.
 pub(super) fn of_scene<'a>(
     network: &'a Network,
-    name: &str,
+    terms: &[EnergyTerm],
+    unit: &Root,
     [from, to]: [&Rational; 2],
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    let observed = network.observables().iter().find(|own| own.name == name);
-    let (terms, unit) = match observed.map(|own| (&own.value, &own.unit)) {
-        Some((ObservedValue::Energy(terms), unit)) => (terms, unit.clone()),
-        _ => return Err(HistoryError::NoObservable(name.to_owned()).into()),
-    };
     if to < from {
         return Err(EvaluateError::EmptyWindow.into());
     }
@@ -46,13 +42,13 @@ pub(super) fn of_scene<'a>(
         let one = Product { coefficient: Fraction::one(), factors: vec![0, 0] };
         let square = combination(&scale, vec![of], vec![one]);
         let square = Operation::new(&scale, square, one_root(), [&reaches[place], to]);
-        let before = (last, term.before.pow(2));
-        let integral = Integral::new(&scale, Rc::new(square), before, [from, to]);
+        let before = term.before.pow(2);
+        let integral = Integral::new(&scale, Rc::new(square), last, before, [from, to]);
         operands.push(Rc::new(Operation::new(&scale, integral, one_root(), [from, to])));
         products.push(Product { coefficient, factors: vec![place] });
     }
     let sum = combination(&scale, operands, products);
-    Ok(Box::new(Operation::new(&scale, sum, unit, [from, to])))
+    Ok(Box::new(Operation::new(&scale, sum, unit.clone(), [from, to])))
 }
 
 fn one_root() -> Root {
@@ -82,7 +78,7 @@ fn reach(scale: &Scale<'_>, term: &EnergyTerm, from: &Rational) -> Result<Ration
 /// What the terms are the squares of.
 fn squared<'a>(
     network: &'a Network,
-    terms: &'a [EnergyTerm],
+    terms: &[EnergyTerm],
     reaches: &[Rational],
     to: &Rational,
 ) -> Result<Vec<Rc<dyn Signal + 'a>>, SignalError> {
@@ -93,7 +89,7 @@ fn squared<'a>(
         return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());
     }
     let follower = Follower::new(network, to)?;
-    let signal = |(term, window): (&'a EnergyTerm, _)| -> Result<Rc<dyn Signal + 'a>, SignalError> {
+    let signal = |(term, window): (&EnergyTerm, _)| -> Result<Rc<dyn Signal + 'a>, SignalError> {
         Ok(Rc::new(FollowedSignal::squared(&follower, &term.squared, window)?))
     };
     windows.map(signal).collect()

@@ -48,8 +48,8 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    if let ObservedValue::Energy(_) = &observed.value {
-        return energy::of_scene(network, &observed.name, window);
+    if let ObservedValue::Energy(terms) = &observed.value {
+        return energy::of_scene(network, terms, &observed.unit, window);
     }
     if !network.scene().contacts_open {
         let signal = ClosedSignal::of_scene(network, observed, window)?;

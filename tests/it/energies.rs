@@ -2,7 +2,10 @@
 //! and their extrema are those of dense samples; where contacts stay closed and where they open.
 
 use wavestep::ball::Ball;
-use wavestep::evaluate::{At, Goal, Limit, Search, Signal, Value, value};
+use wavestep::evaluate::{
+    At, EvaluateError, Goal, Limit, Marched, MethodError, Root, Search, Signal, StablePrecision,
+    Summation, Summed, Value, value,
+};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep::signal::{Purpose, of_scene};
@@ -195,4 +198,42 @@ fn energies_have_many_digits() {
     let signal = of_scene(&network, all, [&at, &at], Purpose::Values).unwrap();
     let told = value(&*signal, &at, Limit::Right, 250, 1 << 12).unwrap();
     assert!(told.decimal(250).0.to_string().starts_with("0.7500000000"), "{told:?}");
+}
+
+/// A dashpot stores nothing: its energy is a signal that is zero, for values as for searches.
+#[test]
+fn a_dashpot_has_no_energy() {
+    const SCENE: &str = "scene \"Dashpot\"\nbar rod { impedance = 1, travel = 1, velocity = 1 }\n\
+        mass m { mass = 1 }\nspring d { damping = 1 }\nline free - rod JOINT d - m - free\n\
+        observe energy = energy(d)\n";
+    for scene in [SCENE.replace("JOINT", "-"), SCENE.replace("JOINT", "|") + "contacts open\n"] {
+        let network = network(&scene);
+        let signal = signal(&network, "energy", &rational(3, 1));
+        for side in [Limit::Left, Limit::Right] {
+            let told = value(&*signal, &rational(3, 2), side, 12, 1 << 12).unwrap();
+            assert_eq!(told, Value::Exact(Rational::default()));
+        }
+        let search = Search::new(&*signal).unwrap();
+        for goal in [Goal::Largest, Goal::Smallest] {
+            let extremum = search.extremum(goal, 9, 1 << 12).unwrap();
+            assert_eq!(extremum.value, Value::Exact(Rational::default()));
+        }
+        let roots = search.roots(&Rational::default(), 9, 1 << 12).unwrap();
+        assert!(matches!(roots.all[..], [Root::Interval { .. }]), "{roots:?}");
+        assert_eq!(search.roots(&rational(1, 2), 9, 1 << 12).unwrap().all, []);
+    }
+}
+
+/// Methods that sum waves refuse energies, and say why.
+#[test]
+fn methods_that_sum_waves_refuse_energies() {
+    for network in [closed(), open()] {
+        let signal = signal(&network, "all", &rational(3, 1));
+        for summation in [Summation::Stable(StablePrecision::Double), Summation::Plain] {
+            let refused = Summed::new(&*signal, summation).err();
+            assert_eq!(refused, Some(MethodError::Evaluate(EvaluateError::NotLinear)));
+        }
+        let refused = Marched::new(&*signal, false).err();
+        assert_eq!(refused, Some(MethodError::Evaluate(EvaluateError::NotLinear)));
+    }
 }

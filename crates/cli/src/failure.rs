@@ -270,9 +270,6 @@ fn for_network(error: &NetworkError) -> Option<&'static str> {
 
 fn for_evaluate(error: &EvaluateError) -> Option<&'static str> {
     Some(match error {
-        EvaluateError::NotLinear(_) => {
-            "ask for a force or a velocity, or for digits: `eval` without --tol and --method"
-        }
         EvaluateError::AccuracyNotReached { .. } => "raise --max-bits, or ask for fewer digits",
         EvaluateError::EmptyWindow => WINDOW,
         _ => return None,

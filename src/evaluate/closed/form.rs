@@ -11,7 +11,7 @@ use crate::evaluate::closed::periods::Periods;
 use crate::evaluate::closed::scene::{Echoes, SceneEchoes, solve_in, whole_periods};
 use crate::evaluate::error::EvaluateError;
 use crate::expression::{Fraction, Root};
-use crate::network::{Network, Observed, ObservedValue, Unfolded};
+use crate::network::{Network, Unfolded};
 use crate::recurrence::{Observation, Recurrence};
 use crate::solution::Demand;
 use std::cell::RefCell;
@@ -75,20 +75,17 @@ impl ClosedForm {
         ClosedForm::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
     }
 
-    /// An observable of a scene, for times up to `last`; on a grid this may be any.
+    /// An observable of a scene in a unit, for times up to `last`; on a grid this may be any.
     ///
     /// # Errors
-    /// [`EvaluateError`] where a symbol has no value or too many echoes arrive;
-    /// [`EvaluateError::NotLinear`] for energies.
+    /// [`EvaluateError`] where a symbol has no value or too many echoes arrive.
     pub fn of_scene(
         network: &Network,
-        observed: &Observed,
+        observation: &Observation,
+        unit: Root,
         last: &Rational,
     ) -> Result<ClosedForm, EvaluateError> {
-        let ObservedValue::Linear(observation) = &observed.value else {
-            return Err(EvaluateError::NotLinear(observed.name.clone()));
-        };
-        let (unit, slowness) = (observed.unit.clone(), network.model().slowness.clone());
+        let slowness = network.model().slowness.clone();
         if network.lattice().periods().len() == 1 {
             let recurrence = network.recurrence()?;
             return ClosedForm::on_grid(&recurrence, observation, unit, slowness);

@@ -13,7 +13,7 @@ use crate::evaluate::signal::{Known, Limit, Point};
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
 use crate::limits::MAX_ECHOES;
-use crate::network::{Network, Observed, ObservedValue, Unfolded};
+use crate::network::{Network, Unfolded};
 use crate::recurrence::{Observation, Recurrence, WaveIndex};
 use crate::solution::{Demand, EchoByEcho};
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -154,7 +154,7 @@ impl<'a> SceneEchoes<'a> {
         Some((self.expanded.get(), self.needed()))
     }
 
-    /// An observable in its unit at a time in the scale of the scene, zero before the start.
+    /// An observable in a unit at a time in the scale of the scene, zero before the start.
     ///
     /// # Errors
     /// [`EvaluateError::AfterLast`]; where two times cannot be told apart.
@@ -164,7 +164,8 @@ impl<'a> SceneEchoes<'a> {
     /// working precision, once for all times.
     pub fn point(
         &self,
-        observed: &Observed,
+        observation: &Observation,
+        unit: &Root,
         at: &Fraction,
         side: Limit,
     ) -> Result<Point<'_>, EvaluateError> {
@@ -175,10 +176,7 @@ impl<'a> SceneEchoes<'a> {
         if numbers.compare(at, &self.last)? == Ordering::Greater {
             return Err(EvaluateError::AfterLast);
         }
-        let unit = observed.unit.clone();
-        let ObservedValue::Linear(observation) = &observed.value else {
-            return Err(EvaluateError::NotLinear(observed.name.clone()));
-        };
+        let unit = unit.clone();
         let arrived = self.arrived(numbers, observation, at, side)?;
         let forced = self.forcing(numbers, observation, at, side)?;
         if arrived.is_empty() && forced.is_zero() {

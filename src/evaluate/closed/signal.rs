@@ -11,7 +11,6 @@ use crate::evaluate::taylor::Taylor;
 use crate::expression::{Expression, Field as _, Fraction, Root};
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
-use crate::scene::Dimension;
 use crate::solution::Solution;
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -53,7 +52,8 @@ enum Source<'a> {
     },
     Scene {
         network: &'a Network,
-        observed: Box<Observed>,
+        value: Box<Observation>,
+        unit: Root,
         /// Those of its recurrence, where all that is observed has a closed form without units.
         exact: OnceCell<Option<Box<ExactEchoes<'static>>>>,
         /// Those until the end of the window.
@@ -82,15 +82,18 @@ impl<'a> ClosedSignal<'a> {
     /// An observable of a scene whose contacts stay closed.
     ///
     /// # Errors
-    /// [`EvaluateError::EmptyWindow`].
+    /// [`EvaluateError::NotLinear`] for energies; [`EvaluateError::EmptyWindow`].
     pub fn of_scene(
         network: &'a Network,
         observed: &Observed,
         window: [&Rational; 2],
     ) -> Result<Self, EvaluateError> {
-        let observed = Box::new(observed.clone());
+        let ObservedValue::Linear(value) = &observed.value else {
+            return Err(EvaluateError::NotLinear);
+        };
+        let (value, unit) = (Box::new(value.clone()), observed.unit.clone());
         let (exact, echoes) = (OnceCell::new(), Rc::default());
-        ClosedSignal::new(Source::Scene { network, observed, exact, echoes }, window)
+        ClosedSignal::new(Source::Scene { network, value, unit, exact, echoes }, window)
     }
 
     /// What energies of a scene are the squares of, in its own scale, on windows with one end; echoes are
@@ -103,24 +106,19 @@ impl<'a> ClosedSignal<'a> {
         squared: &[(&Observation, [&Rational; 2])],
         until: &Rational,
     ) -> Result<Vec<Self>, EvaluateError> {
-        let linear = |observation: Observation| Observed {
-            name: String::new(),
-            value: ObservedValue::Linear(observation),
-            unit: Root::from(Fraction::one()),
-            dimension: Dimension::NONE,
-        };
         let waves = squared.iter().flat_map(|(of, _)| of.waves.iter().cloned()).collect();
-        let all = linear(Observation { waves, forcing: Expression::zero() });
-        let form = ClosedForm::of_scene(network, &all, until)?;
+        let all = Observation { waves, forcing: Expression::zero() };
+        let unit = Root::from(Fraction::one());
+        let form = ClosedForm::of_scene(network, &all, unit.clone(), until)?;
         let echoes = SceneEchoes::new(network, &network.scaled_time(until))?;
         for (of, _) in squared {
             echoes.want_until_last(echoes.numbers(), of)?;
         }
         let echoes = Rc::new(OnceCell::from(echoes));
         let signal = |(of, window): &(&Observation, [&Rational; 2])| {
-            let observed = Box::new(linear((*of).clone()));
+            let (value, unit) = (Box::new((*of).clone()), unit.clone());
             let (exact, echoes) = (OnceCell::from(None), Rc::clone(&echoes));
-            let source = Source::Scene { network, observed, exact, echoes };
+            let source = Source::Scene { network, value, unit, exact, echoes };
             let form = OnceCell::from(form.part(of));
             Ok(ClosedSignal { form, ..ClosedSignal::new(source, *window)? })
         };
@@ -156,8 +154,8 @@ impl<'a> ClosedSignal<'a> {
             Source::Recurrence { echoes, value } => {
                 ClosedForm::of_recurrence(echoes.recurrence(), value)?
             }
-            Source::Scene { network, observed, .. } => {
-                ClosedForm::of_scene(network, observed, &self.window[1])?
+            Source::Scene { network, value, unit, .. } => {
+                ClosedForm::of_scene(network, value, unit.clone(), &self.window[1])?
             }
         };
         Ok(self.form.get_or_init(|| form))
@@ -192,20 +190,18 @@ impl<'a> ClosedSignal<'a> {
                 Some(at) => echoes.point(value, &at, side).and_then(digits),
                 None => return Ok(None),
             },
-            Source::Scene { network, observed, exact, echoes } => {
-                match (exact_form(network, observed, exact)?, at.as_constant(), &observed.value) {
-                    (Some(echoes), Some(at), ObservedValue::Linear(value)) => {
-                        echoes.point(value, &at, side).and_then(digits)
-                    }
+            Source::Scene { network, value, unit, exact, echoes } => {
+                match (exact_form(network, value, unit, exact)?, at.as_constant()) {
+                    (Some(echoes), Some(at)) => echoes.point(value, &at, side).and_then(digits),
                     _ => {
                         let known = self.scene_echoes(network, echoes).ok();
-                        let value =
-                            known.map(|known| known.point(observed, at, side).and_then(digits));
-                        match value {
-                            Some(value @ Ok(Value::Exact(_))) => value,
+                        let told =
+                            known.map(|known| known.point(value, unit, at, side).and_then(digits));
+                        match told {
+                            Some(told @ Ok(Value::Exact(_))) => told,
                             // With the echoes until then alone, exact arithmetic may be within reach.
                             _ => SceneEchoes::new(network, at)
-                                .and_then(|echoes| digits(echoes.point(observed, at, side)?)),
+                                .and_then(|echoes| digits(echoes.point(value, unit, at, side)?)),
                         }
                     }
                 }
@@ -242,22 +238,23 @@ impl<'a> ClosedSignal<'a> {
 /// named constants: then any of them is had without those before.
 fn exact_form<'s>(
     network: &Network,
-    observed: &Observed,
+    value: &Observation,
+    unit: &Root,
     known: &'s OnceCell<Option<Box<ExactEchoes<'static>>>>,
 ) -> Result<Option<&'s ExactEchoes<'static>>, EvaluateError> {
     if known.get().is_none() {
-        let _ = known.set(made_exact(network, observed)?);
+        let _ = known.set(made_exact(network, value, unit)?);
     }
     Ok(known.get().and_then(Option::as_deref))
 }
 
 fn made_exact(
     network: &Network,
-    observed: &Observed,
+    value: &Observation,
+    unit: &Root,
 ) -> Result<Option<Box<ExactEchoes<'static>>>, EvaluateError> {
-    let ObservedValue::Linear(observation) = &observed.value else { return Ok(None) };
     let has_scale = network.scene().dimensional
-        || observed.unit != Root::from(Fraction::one())
+        || *unit != Root::from(Fraction::one())
         || network.model().slowness != Fraction::one();
     if has_scale || network.lattice().periods().len() > 1 {
         return Ok(None);
@@ -267,7 +264,7 @@ fn made_exact(
         return Ok(None);
     }
     let solution = Solution::new(recurrence);
-    match observation.waves.iter().all(|seen| solution.general(seen.wave).is_ok()) {
+    match value.waves.iter().all(|seen| solution.general(seen.wave).is_ok()) {
         true => Ok(Some(Box::new(ExactEchoes::own(solution)?))),
         false => Ok(None),
     }
@@ -281,12 +278,12 @@ impl Signal for ClosedSignal<'_> {
     fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
         match &self.source {
             Source::Recurrence { echoes, value } => echoes.point(value, at, side),
-            Source::Scene { network, observed, exact, echoes } => {
-                match (exact_form(network, observed, exact)?, &observed.value) {
-                    (Some(echoes), ObservedValue::Linear(value)) => echoes.point(value, at, side),
-                    _ => {
+            Source::Scene { network, value, unit, exact, echoes } => {
+                match exact_form(network, value, unit, exact)? {
+                    Some(echoes) => echoes.point(value, at, side),
+                    None => {
                         let echoes = self.scene_echoes(network, echoes)?;
-                        echoes.point(observed, &network.scaled_time(at), side)
+                        echoes.point(value, unit, &network.scaled_time(at), side)
                     }
                 }
             }
@@ -311,14 +308,15 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
-        let Source::Scene { network, observed, echoes, .. } = &self.source else { return None };
-        let ObservedValue::Linear(observation) = &observed.value else { return None };
+        let Source::Scene { network, value, unit, echoes, .. } = &self.source else {
+            return None;
+        };
         if effort == Effort::Little {
             return None;
         }
-        let unit = observed.unit.exact()?;
+        let unit = unit.exact()?;
         let echoes = self.scene_echoes(network, echoes).ok()?;
-        let value = echoes.exact_since(observation, self.stretch(stretch).from(), at)?;
+        let value = echoes.exact_since(value, self.stretch(stretch).from(), at)?;
         Some(value.times(&unit))
     }
 
@@ -417,13 +415,12 @@ impl Signal for ClosedSignal<'_> {
                 let zero = Known::Rational(Rational::default());
                 return Ok(echoes.point(&slope, &at, end).is_ok_and(|point| point.known == zero));
             }
-            Source::Scene { network, observed, .. } => {
-                let ObservedValue::Linear(value) = &observed.value else { return Ok(false) };
+            Source::Scene { network, value, unit, .. } => {
                 let Some(slope) = slope_of(value) else { return Ok(false) };
-                let slope =
-                    Observed { value: ObservedValue::Linear(slope), ..(**observed).clone() };
                 let Ok(echoes) = SceneEchoes::new(network, &at) else { return Ok(false) };
-                echoes.point(&slope, &at, end).and_then(|point| point.value(FEW_DIGITS, SIGN_BITS))
+                echoes
+                    .point(&slope, unit, &at, end)
+                    .and_then(|point| point.value(FEW_DIGITS, SIGN_BITS))
             }
         };
         Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))

@@ -12,9 +12,8 @@ use crate::evaluate::signal::Limit;
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Expression, Field as _, Fraction, Root};
 use crate::limits::MAX_PIECES;
-use crate::network::{Network, Observed, ObservedValue};
+use crate::network::Network;
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
-use crate::scene::Dimension;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
@@ -46,13 +45,8 @@ impl Waves {
         };
         let observation =
             Observation { waves: waves.iter().map(seen).collect(), forcing: Expression::zero() };
-        let observed = Observed {
-            name: String::new(),
-            value: ObservedValue::Linear(observation),
-            unit: Root::from(Fraction::one()),
-            dimension: Dimension::NONE,
-        };
-        let signal = ClosedForm::of_scene(network, &observed, last)?;
+        let unit = Root::from(Fraction::one());
+        let signal = ClosedForm::of_scene(network, &observation, unit, last)?;
         let period = signal.recurrence().statement().period.clone();
         let echoes = match signal.scattered() {
             None => None,

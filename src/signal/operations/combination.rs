@@ -1,7 +1,7 @@
 //! Sums of products of signals.
 //!
-//! Derivatives of products are those of Leibniz, `(fg)^(n) = Σ_k C(n,k) f^(k) g^(n−k)`, of enclosures as
-//! of Taylor polynomials, of which a value is one with a single term.
+//! Derivatives of products are those of Leibniz, `(fg)^(n) = Σ_k C(n,k) f^(k) g^(n−k)`. Values are
+//! handled as Taylor polynomials with one term.
 
 use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::{Ball, Magnitude};

@@ -1,4 +1,4 @@
-//! Integrals of a signal: since the start, or over the last so long.
+//! Integrals of a signal: from the start, or over a sliding interval of fixed length.
 //!
 //! On a stretch of the integrand its Taylor polynomials, on cells so short that the rest is smaller than
 //! their rounding, are integrated term by term: `∫_a^b f = h (P(u_b) − P(u_a))`, `P` the antiderivative of
@@ -7,9 +7,9 @@
 //! of the last one; whole stretches that are zero add an exact zero. Where the integrand is an exact
 //! expression, so is the integral. Its derivative is the integrand now, less that at the other end.
 
-use super::{Mark, Outcome, Rule, Scale, begins, locate, value_at, working};
+use super::{Mark, Outcome, Rule, Scale, locate, value_at, working};
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor};
+use crate::evaluate::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun};
 use crate::expression::{Expression, Fraction};
 use num_traits::Zero as _;
 use std::cell::RefCell;
@@ -21,13 +21,13 @@ use wavestep_polynomial::Rational;
 /// How often a stretch is halved at most.
 const MAX_DEPTH: usize = 40;
 
-/// By what part a polynomial holds beyond the ends of its cell, so that times that are enclosed lie within.
+/// Cells are widened by `1/SLACK`, so that an enclosed end lies inside.
 const SLACK: u64 = 1 << 16;
 
-/// A radius as a power of two that tells nothing.
+/// Radius, as a power of two, returned where the time is too uncertain; callers retry with more bits.
 const WIDE: i64 = 1 << 20;
 
-/// `∫ f dt` over the last time of a length, or since the start, in the time of the scene.
+/// `∫ f dt` over a sliding interval, or from the start, in the time of the scene.
 ///
 /// # Invariants
 /// - the window of the integrand reaches to the end of that of the integral, and as far back as it is
@@ -35,7 +35,7 @@ const WIDE: i64 = 1 << 20;
 pub(in crate::signal) struct Integral<'a> {
     scale: Rc<Scale<'a>>,
     of: Rc<dyn Signal + 'a>,
-    /// None since the start.
+    /// The length; none for integrals from the start.
     last: Option<Fraction>,
     /// What the integrand was before the start.
     before: Fraction,
@@ -78,7 +78,8 @@ impl<'a> Integral<'a> {
     pub fn new(
         scale: &Rc<Scale<'a>>,
         of: Rc<dyn Signal + 'a>,
-        (last, before): (Option<Fraction>, Fraction),
+        last: Option<Fraction>,
+        before: Fraction,
         window: [&Rational; 2],
     ) -> Integral<'a> {
         let (scale, window) = (Rc::clone(scale), window.map(Clone::clone));
@@ -91,7 +92,7 @@ impl<'a> Integral<'a> {
         let at = self.scale.mark(at);
         let upper = locate(&*self.of, &at, side)?;
         let lower = match &self.lower(&at) {
-            Some(lower) if begins(&self.scale.mark(&Rational::zero()), lower, side)? => {
+            Some(lower) if has_begun(self.scale.mark(&Rational::zero()).compare(lower)?, side) => {
                 locate(&*self.of, lower, side)? + 1
             }
             _ => 0,

@@ -14,7 +14,8 @@ pub(super) use integral::Integral;
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
 use crate::evaluate::{
-    At, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor,
+    At, ClosedForm, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor,
+    last_begun,
 };
 use crate::expression::{Expression, Fraction, Root};
 use crate::network::Network;
@@ -31,11 +32,11 @@ const ORDER_BITS: [u64; 2] = [64, 1 << 12];
 /// A value that is zero but for as many bits is suspected to be zero.
 const SUSPICION_BITS: u64 = 64;
 
-/// The lowest precision of values and integrals, and the step between two: one serves for several questions.
+/// The lowest precision of values and integrals, and the step between two.
 const FIRST_BITS: u64 = 192;
 const STEP_BITS: u64 = 64;
 
-/// The precision that values and integrals are worked out with.
+/// Precision is rounded up to multiples of [`STEP_BITS`], so that cached results are used again.
 fn working(bits: u64) -> u64 {
     bits.max(FIRST_BITS).next_multiple_of(STEP_BITS)
 }
@@ -145,23 +146,9 @@ impl<'m> Mark<'m> {
     }
 }
 
-/// The last of some stretches that begins before a time; on the right side, at it.
+/// The stretch that holds a time; at a break `side` decides.
 fn locate(signal: &dyn Signal, at: &Mark<'_>, side: Limit) -> Outcome<usize> {
-    let (mut low, mut high) = (0, signal.count()?);
-    while high - low > 1 {
-        let middle = low.midpoint(high);
-        match begins(&Mark::of(signal, middle), at, side)? {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    Ok(low)
-}
-
-/// Whether something that begins at a mark has begun at a time.
-fn begins(mark: &Mark<'_>, at: &Mark<'_>, side: Limit) -> Outcome<bool> {
-    let order = mark.compare(at)?;
-    Ok(order == Ordering::Less || (order == Ordering::Equal && side == Limit::Right))
+    last_begun(signal.count()?, side, |stretch| Mark::of(signal, stretch).compare(at))
 }
 
 /// An enclosure of a derivative of an operand at a time that may be known by enclosures alone: there the
@@ -335,7 +322,7 @@ impl<'a, R: Rule> Operation<'a, R> {
 
     /// What exact arithmetic tells of a limit at a time.
     fn decided(&self, at: &Rational, side: Limit) -> Outcome<Known> {
-        let stretch = self.stretch_at(at, side)?.unwrap_or_default();
+        let Some(stretch) = self.stretch_at(at, side)? else { return Ok(Known::Unknown) };
         let at = self.scale.network.scaled_time(at);
         Ok(self.told(self.rule.exact_at(&self.step(stretch).places, &at, Effort::Much)))
     }
@@ -370,6 +357,10 @@ impl<R: Rule> Signal for Operation<'_, R> {
         })
     }
 
+    fn closed_form(&self) -> Outcome<&ClosedForm> {
+        Err(EvaluateError::NotLinear)
+    }
+
     fn most_bits(&self) -> u64 {
         self.rule.most_bits()
     }
@@ -388,7 +379,7 @@ impl<R: Rule> Signal for Operation<'_, R> {
 
     fn is_instant(&self, stretch: usize) -> bool {
         let Step { begins, places } = self.step(stretch);
-        self.rule.is_instant(*begins, places[*begins])
+        places.get(*begins).is_some_and(|place| self.rule.is_instant(*begins, *place))
     }
 
     fn is_zero(&self, stretch: usize) -> bool {
