@@ -16,8 +16,9 @@ const DIGITS_OF_DOUBLE: usize = 40;
 
 /// A wave or an observable as a function of time `t`, zero for `t < 0`, analytic between breaks.
 ///
-/// Times and values are plain numbers, or in SI units where the scene has units. Every answer is proven:
-/// digits are correctly rounded, no root is missed.
+/// Times and values are plain numbers, or in SI units where the scene has units. Answers are proven: digits
+/// are correctly rounded, no root is missed. Only [`values_by`](Signal::values_by) computes with a method
+/// that may have no proof; [`Doubles::bound`] tells.
 ///
 /// ```
 /// use wavestep::{Goal, Problem};

@@ -1,8 +1,9 @@
 //! The planner: which source of signals answers for a quantity, and what is made of its signals.
 //!
-//! Nobody else asks what kind of scene it is. Where contacts stay closed, waves have a closed form, which
-//! is cheap and exact; where they open, the scene is followed from cell to cell. Energies are sums of
-//! squares of such signals, in bars integrated over the last travel time.
+//! Where contacts stay closed, waves have a closed form, which is cheap and exact; where they open, the
+//! scene is followed from cell to cell. Energies are sums of squares of such signals, in bars integrated
+//! over the last travel time. Who has a signal need not know which it is. Only what is no signal, such as
+//! locks, remarks and refusals, asks elsewhere whether contacts open.
 
 mod energy;
 mod operations;
