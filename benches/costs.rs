@@ -7,7 +7,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 use wavestep::evaluate::{
-    Certified, Compiled, Limit, Marched, Method, StablePrecision, Summation, Summed, Taps,
+    Certified, Compiled, Evaluator, Limit, Marched, StablePrecision, Summation, Summed, Taps,
 };
 use wavestep::language::parse_number;
 use wavestep_benches::{rigid_mass, with_signal};
@@ -56,7 +56,7 @@ fn print(name: &str, what: &str, seconds: f64) {
 fn main() {
     let to = (2 * ORDER).to_string();
     let late = parse_number(&to).unwrap() - &parse_number("1/3").unwrap();
-    let value = |method: &dyn Method| seconds(|| method.value(&late, Limit::Right).unwrap());
+    let value = |method: &dyn Evaluator| seconds(|| method.value(&late, Limit::Right).unwrap());
     with_signal(rigid_mass(), Some("1"), &to, |signal| {
         assert!(
             signal.closed_form().is_ok_and(|form| Taps::of(form).is_ok()),

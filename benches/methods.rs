@@ -7,7 +7,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use std::cell::LazyCell;
 use std::hint::black_box;
 use wavestep::evaluate::{
-    Certified, Compiled, Marched, Method, Signal, StablePrecision, Summation, Summed,
+    Certified, Compiled, Evaluator, Marched, Signal, StablePrecision, Summation, Summed,
 };
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_kernels::{Level, Piece, Table};

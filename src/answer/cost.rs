@@ -52,12 +52,12 @@ const WAVE: f64 = 1.2e-6;
 
 impl Cost {
     /// The cost of a method; `None` for models, which are never picked.
-    pub fn of(kind: Method, size: Size) -> Option<Cost> {
+    pub fn of(method: Method, size: Size) -> Option<Cost> {
         let n = size.order as f64 + 1.0;
         let pieces = PIECES * n * if size.marches { MOVED } else { TERMS * n * TERM };
         let echoes = n * n / 2.0;
         let coefficients = n * (4.0 * n).sqrt().max(30.0);
-        let (setup, point) = match kind {
+        let (setup, point) = match method {
             Method::Certified if size.marches => (n * FIXED_PERIOD, FIXED_POINT),
             Method::Certified => (3.0 * echoes * BALL, n * BALL + LOOKUP),
             Method::Compiled => (pieces, LOOKUP),

@@ -93,19 +93,19 @@ pub fn doubles(
 ) -> Result<Doubles, WayError> {
     let mut choice = Choice { question, scale: OnceCell::new(), remarks: Vec::new() };
     let way = match accuracy {
-        Accuracy::Method(kind, tolerance) => choice.named(kind, tolerance)?,
+        Accuracy::Method(method, tolerance) => choice.named(method, tolerance)?,
         Accuracy::Within(tolerance) => choice.cheapest(times.len(), tolerance)?,
         Accuracy::Digits => Way::new(Method::Certified, question, None)?,
     };
     let values = way.exact_values(times, limit)?;
     if let Some(i) = values.iter().position(|value| !value.is_finite()) {
-        return Err(WayError::NoNumber(way.kind(), times[i].clone()));
+        return Err(WayError::NoNumber(way.method(), times[i].clone()));
     }
     if let (Accuracy::Method(_, Some(tolerance)), None) = (accuracy, way.bound()) {
         choice.compare(tolerance, (times, limit, &values))?;
     }
     let remarks = choice.remarks;
-    Ok(Doubles { method: way.kind(), law: way.law(), bound: way.bound(), values, remarks })
+    Ok(Doubles { method: way.method(), law: way.law(), bound: way.bound(), values, remarks })
 }
 
 /// The choice of a method, and what is to be known of it.
@@ -138,9 +138,9 @@ impl<'p> Choice<'p, '_> {
     }
 
     /// The method that is named.
-    fn named(&mut self, kind: Method, tolerance: Option<Tolerance>) -> Result<Way<'p>, WayError> {
+    fn named(&mut self, method: Method, tolerance: Option<Tolerance>) -> Result<Way<'p>, WayError> {
         let absolute = tolerance.map(|tolerance| self.absolute(tolerance)).transpose()?;
-        let way = Way::new(kind, self.question, absolute)?;
+        let way = Way::new(method, self.question, absolute)?;
         self.remarks.push(Remark::AsAskedFor);
         if let (Some(bound), Some(absolute)) = (way.bound(), absolute)
             && bound > absolute
@@ -157,14 +157,14 @@ impl<'p> Choice<'p, '_> {
         if !weighed.met {
             return Err(WayError::NotMet { weighed: Box::new(weighed), tolerance, absolute });
         }
-        let kind = weighed.candidates[0].kind;
+        let method = weighed.candidates[0].method;
         self.remarks.push(Remark::Weighed(weighed, absolute));
-        let way = Way::new(kind, self.question, Some(absolute))?;
+        let way = Way::new(method, self.question, Some(absolute))?;
         // A promise is kept but where functions are unusually steep.
         match way.bound() {
             Some(bound) if bound <= absolute => Ok(way),
             _ => {
-                self.remarks.push(Remark::PromiseNotKept(kind));
+                self.remarks.push(Remark::PromiseNotKept(method));
                 Way::new(Method::Certified, self.question, None)
             }
         }

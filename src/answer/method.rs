@@ -126,26 +126,26 @@ impl fmt::Display for Method {
     }
 }
 
-/// What names no way.
+/// Why a text is no method.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum InvalidWay {
-    /// No way has this name.
+pub enum InvalidMethod {
+    /// No method has this name.
     #[error("there is no method `{0}`")]
     Name(String),
-    /// A way has not this setting.
+    /// The method does not take this setting.
     #[error("`{1}` is no setting of {0}")]
     Setting(&'static str, String),
 }
 
 impl FromStr for Method {
-    type Err = InvalidWay;
+    type Err = InvalidMethod;
 
-    fn from_str(text: &str) -> Result<Method, InvalidWay> {
+    fn from_str(text: &str) -> Result<Method, InvalidMethod> {
         let (name, settings) = match text.split_once(':') {
             Some((name, settings)) => (name, Some(settings)),
             None => (text, None),
         };
-        let kind = match name {
+        let method = match name {
             "certified" => Method::Certified,
             "compiled" => Method::Compiled,
             "marched" => Method::Marched { proven: true },
@@ -159,11 +159,11 @@ impl FromStr for Method {
             "modes" => Method::Modes { count: 1000 },
             "leapfrog" => Method::Leapfrog { cells: 400, courant: 1.0 },
             "steps" => Method::Steps { tolerance: 1e-10 },
-            _ => return Err(InvalidWay::Name(name.to_owned())),
+            _ => return Err(InvalidMethod::Name(name.to_owned())),
         };
-        let Some(settings) = settings else { return Ok(kind) };
-        let invalid = || InvalidWay::Setting(kind.name(), settings.to_owned());
-        match kind {
+        let Some(settings) = settings else { return Ok(method) };
+        let invalid = || InvalidMethod::Setting(method.name(), settings.to_owned());
+        match method {
             Method::Modes { .. } => {
                 settings.parse().map(|count| Method::Modes { count }).map_err(|_| invalid())
             }

@@ -15,7 +15,7 @@ mod weigh;
 
 pub use cost::{Cost, Size};
 pub use doubles::{Accuracy, Doubles, Remark, Tested, doubles};
-pub use method::{InvalidWay, Method};
+pub use method::{InvalidMethod, Method};
 pub use question::Question;
 pub use tolerance::{InvalidTolerance, Tolerance};
 pub use way::{Way, WayError};

@@ -1,6 +1,6 @@
 //! What is asked for: an observable on a window of time.
 
-use crate::evaluate::{EvaluateError, Limit, Marched, Method as _, Signal, Taps, scale};
+use crate::evaluate::{EvaluateError, Evaluator as _, Limit, Marched, Signal, Taps, scale};
 use crate::network::Network;
 use wavestep_polynomial::Rational;
 

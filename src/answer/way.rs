@@ -6,7 +6,7 @@ use crate::answer::tolerance::Tolerance;
 use crate::answer::weigh::Weighed;
 use crate::ball::in_decimals;
 use crate::evaluate::{
-    self, Certified, Compiled, EvaluateError, Limit, Marched, MethodError, Summation, Summed,
+    Certified, Compiled, EvaluateError, Evaluator, Limit, Marched, MethodError, Summation, Summed,
 };
 use crate::model::{
     Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
@@ -57,14 +57,14 @@ impl From<EvaluateError> for WayError {
 /// A way that is ready to give values.
 enum Ways<'a> {
     /// A method on the exact solution.
-    Method(Box<dyn evaluate::Method + 'a>),
+    Method(Box<dyn Evaluator + 'a>),
     /// A model, and the place of the observable in the scene.
     Model(Box<dyn Model>, usize),
 }
 
 /// A way to the values of a question.
 pub struct Way<'a> {
-    kind: Method,
+    method: Method,
     inner: Ways<'a>,
 }
 
@@ -75,12 +75,12 @@ impl<'a> Way<'a> {
     /// # Errors
     /// [`WayError`], where the question is none for this way.
     pub fn new(
-        kind: Method,
+        method: Method,
         question: &'a Question<'_>,
         tolerance: Option<f64>,
     ) -> Result<Way<'a>, WayError> {
         let signal = &*question.signal;
-        let method: Box<dyn evaluate::Method + 'a> = match kind {
+        let evaluator: Box<dyn Evaluator + 'a> = match method {
             Method::Certified => Box::new(Certified::new(signal)?),
             Method::Compiled => Box::new(Compiled::new(signal, tolerance)?),
             Method::Marched { proven } => Box::new(Marched::new(signal, proven)?),
@@ -94,15 +94,15 @@ impl<'a> Way<'a> {
             | Method::Modes { .. }
             | Method::Leapfrog { .. }
             | Method::Steps { .. } => {
-                let (network, place) = question.scene.ok_or(WayError::NeedsScene(kind.name()))?;
+                let (network, place) = question.scene.ok_or(WayError::NeedsScene(method.name()))?;
                 // Models know no contacts that open.
                 if network.scene().contacts_open {
                     return Err(EvaluateError::NoClosedForm.into());
                 }
-                return Way::of_model(kind, network, place);
+                return Way::of_model(method, network, place);
             }
         };
-        Ok(Way { kind, inner: Ways::Method(method) })
+        Ok(Way { method, inner: Ways::Method(evaluator) })
     }
 
     /// A model made ready for the observable at this place of a scene, which needs no recurrence.
@@ -111,30 +111,30 @@ impl<'a> Way<'a> {
     /// [`WayError::NeedsRecurrence`] for methods on the exact solution; [`WayError::Model`] where the
     /// model refuses the scene.
     pub fn of_model(
-        kind: Method,
+        method: Method,
         scene: &impl AsRef<ScaledScene>,
         place: usize,
     ) -> Result<Way<'a>, WayError> {
-        let model: Box<dyn Model> = match kind {
+        let model: Box<dyn Model> = match method {
             Method::Rigid => Box::new(RigidBody::new(scene)?),
             Method::Third => Box::new(ThirdOfMass::new(scene, StartingVelocity::ByMomentum)?),
             Method::Modes { count } => Box::new(Modes::new(scene, count)?),
             Method::Leapfrog { cells, courant } => Box::new(Leapfrog::new(scene, cells, courant)?),
             Method::Steps { tolerance } => Box::new(Steps::new(scene, tolerance)?),
-            _ => return Err(WayError::NeedsRecurrence(kind.name())),
+            _ => return Err(WayError::NeedsRecurrence(method.name())),
         };
-        Ok(Way { kind, inner: Ways::Model(model, place) })
+        Ok(Way { method, inner: Ways::Model(model, place) })
     }
 
     /// Its name and settings.
-    pub fn kind(&self) -> Method {
-        self.kind
+    pub fn method(&self) -> Method {
+        self.method
     }
 
     /// How far values can be off, in words.
     pub fn law(&self) -> String {
         match &self.inner {
-            Ways::Method(method) => method.law(),
+            Ways::Method(evaluator) => evaluator.law(),
             Ways::Model(model, _) => format!("a model: {}", model.assumptions()),
         }
     }
@@ -142,7 +142,7 @@ impl<'a> Way<'a> {
     /// A proven bound on the absolute error of every value, beyond half a unit in its last place.
     pub fn bound(&self) -> Option<f64> {
         match &self.inner {
-            Ways::Method(method) => method.bound(),
+            Ways::Method(evaluator) => evaluator.bound(),
             Ways::Model(..) => None,
         }
     }
@@ -153,8 +153,8 @@ impl<'a> Way<'a> {
     /// [`WayError`], for times outside the window and left limits of models.
     pub fn value(&self, at: &Rational, side: Limit) -> Result<f64, WayError> {
         match &self.inner {
-            Ways::Method(method) => Ok(method.value(at, side)?),
-            Ways::Model(..) if side == Limit::Left => Err(WayError::LeftLimit(self.kind.name())),
+            Ways::Method(evaluator) => Ok(evaluator.value(at, side)?),
+            Ways::Model(..) if side == Limit::Left => Err(WayError::LeftLimit(self.method.name())),
             Ways::Model(model, place) => {
                 let at = at.to_f64().unwrap_or(f64::NAN);
                 Ok(model.values(*place, &[at])?[0])
@@ -168,9 +168,9 @@ impl<'a> Way<'a> {
     /// As [`Way::value`].
     pub fn values(&self, at: &[f64]) -> Result<Vec<f64>, WayError> {
         match &self.inner {
-            Ways::Method(method) => {
+            Ways::Method(evaluator) => {
                 let mut values = vec![0.0; at.len()];
-                method.values(at, &mut values)?;
+                evaluator.values(at, &mut values)?;
                 Ok(values)
             }
             Ways::Model(model, place) => Ok(model.values(*place, at)?),
@@ -187,8 +187,8 @@ impl<'a> Way<'a> {
                 let at: Vec<f64> = at.iter().map(|at| at.to_f64().unwrap_or(f64::NAN)).collect();
                 Ok(model.values(*place, &at)?)
             }
-            Ways::Method(method) => Ok(method.exact_values(at, side)?),
-            Ways::Model(..) => Err(WayError::LeftLimit(self.kind.name())),
+            Ways::Method(evaluator) => Ok(evaluator.exact_values(at, side)?),
+            Ways::Model(..) => Err(WayError::LeftLimit(self.method.name())),
         }
     }
 }

@@ -44,7 +44,7 @@ pub enum Promise {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Candidate {
     /// Which.
-    pub kind: Method,
+    pub method: Method,
     /// How far off it can be; `None` where it has no values.
     pub promise: Option<Promise>,
     /// What it costs, in seconds, by the table.
@@ -79,17 +79,17 @@ pub fn consider(
     let marches = matches!((&form, &taps), (Ok(form), Ok(Ok(taps))) if taps.is_rational() && form.is_rational());
     let size = Size { order, points, marches };
     let ulp = unit_in_the_last_place(scale);
-    let candidate = |kind: Method| {
-        let cost = match (kind, &form, &taps) {
+    let candidate = |method: Method| {
+        let cost = match (method, &form, &taps) {
             (Method::Marched { .. }, Ok(form), Ok(Err(_))) => {
                 Some(Cost::of_waves(size, form.recurrence().wave_count()))
             }
-            _ => Cost::of(kind, size),
+            _ => Cost::of(method, size),
         };
         let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));
-        let told = |promise, verdict: String| Candidate { kind, promise, seconds, verdict };
+        let told = |promise, verdict: String| Candidate { method, promise, seconds, verdict };
         let refused = |reason: &dyn fmt::Display| told(None, format!("has no values: {reason}"));
-        match (kind, &taps) {
+        match (method, &taps) {
             (Method::Certified | Method::Compiled, _) | (_, Ok(Ok(_))) => {}
             (_, Err(reason)) => return refused(reason),
             (Method::Expanded, _) => {}
@@ -103,11 +103,11 @@ pub fn consider(
             (_, Ok(Err(reason))) => return refused(reason),
         }
         if order > MAX_PIECES
-            && matches!(kind, Method::Certified | Method::Compiled | Method::Expanded)
+            && matches!(method, Method::Certified | Method::Compiled | Method::Expanded)
         {
             return refused(&format_args!("more than {MAX_PIECES} periods"));
         }
-        let promise = match kind {
+        let promise = match method {
             Method::Certified => Promise::Proven(ulp / 2.0),
             Method::Compiled => Promise::Proven((COMPILED_ULPS * ulp).max(tolerance / 2.0)),
             Method::Marched { .. } => Promise::Proven(MARCHED_ULPS * (order as f64 + 1.0) * ulp),

@@ -30,7 +30,7 @@ pub use digits::{digits, value};
 pub use error::EvaluateError;
 pub use find::{Extremum, Goal, Place, Root, Roots, Search};
 pub use method::{
-    Certified, Compiled, Marched, Method, MethodError, StablePrecision, Summation, Summed,
+    Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
 pub use signal::{At, Effort, Instant, Limit, Point, Signal};

@@ -1,7 +1,7 @@
 //! Why a problem has no answer.
 
 use super::{EqualError, LockRefusal};
-use crate::answer::{InvalidTolerance, InvalidWay, Tolerance, WayError};
+use crate::answer::{InvalidMethod, InvalidTolerance, Tolerance, WayError};
 use crate::evaluate::{EvaluateError, MethodError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
@@ -32,7 +32,7 @@ pub enum ProblemError {
     #[error(transparent)]
     Tolerance(#[from] InvalidTolerance),
     #[error(transparent)]
-    Method(#[from] InvalidWay),
+    Method(#[from] InvalidMethod),
     #[error("the time {0} lies before the start")]
     BeforeStart(Rational),
     #[error("the window from {} to {} is empty", .0[0], .0[1])]
@@ -85,7 +85,7 @@ pub enum ProblemError {
     ObservableIsNoWave(String),
     #[error("`{name}` is no observable of this scene")]
     NotAnObservable { name: String, observables: Vec<String> },
-    #[error("{0} is an energy, an integral of squares, and has no pieces of its own")]
+    #[error("{0} is an energy, quadratic in the waves, and has no pieces of its own")]
     EnergyHasNoPieces(String),
     #[error("the echoes of {0} are those of its waves")]
     EchoesOfObservable(String),
@@ -152,7 +152,7 @@ pub enum ProblemError {
     Field(Box<FieldError>),
 }
 
-/// What there is not where travel times have no common measure.
+/// What needs commensurate travel times.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Missing {
     #[error("is no form for every period")]

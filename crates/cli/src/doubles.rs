@@ -32,32 +32,32 @@ pub fn tolerance(text: &str) -> Result<Tolerance, Failure> {
 
 /// Says on standard error what is to be known of values; with `explain` also how they were computed.
 pub fn tell(found: &Doubles, points: usize, tolerance: Option<Tolerance>, explain: bool) {
-    let kind = found.method;
+    let method = found.method;
     let tolerance = tolerance.map_or_else(String::new, |tolerance| tolerance.to_string());
     for remark in &found.remarks {
         match remark {
             Remark::Tested(tested) => note_tested(tested),
             Remark::BoundTooLarge(bound) => {
                 eprintln!(
-                    "warning: {kind} is proven to be within {bound:.1e}, not within {tolerance}"
+                    "warning: {method} is proven to be within {bound:.1e}, not within {tolerance}"
                 );
             }
             Remark::Off(error, time) => eprintln!(
-                "warning: {kind} is off by {error:.1e} at {}, more than {tolerance}",
+                "warning: {method} is off by {error:.1e} at {}, more than {tolerance}",
                 in_decimals(time)
             ),
             Remark::OffAtMost(error, compared) => eprintln!(
-                "note: {kind} is off by at most {error:.1e} at {compared} of the times, which proves \
+                "note: {method} is off by at most {error:.1e} at {compared} of the times, which proves \
                  nothing of the others"
             ),
             _ if !explain => {}
             Remark::Weighed(weighed, absolute) => {
                 eprint!("{}", explained(weighed, points, &tolerance, *absolute));
             }
-            Remark::AsAskedFor => eprintln!("{kind}, as asked for: {}", found.law),
-            Remark::Law => eprintln!("{kind}: {}", found.law),
-            Remark::PromiseNotKept(kind) => {
-                eprintln!("{kind} did not keep its promise: certified instead");
+            Remark::AsAskedFor => eprintln!("{method}, as asked for: {}", found.law),
+            Remark::Law => eprintln!("{method}: {}", found.law),
+            Remark::PromiseNotKept(method) => {
+                eprintln!("{method} did not keep its promise: certified instead");
             }
             Remark::NearSpring(spring) => {
                 eprintln!("near to it is the exact solution with the equivalent spring: {spring}");
@@ -92,14 +92,15 @@ fn explained(weighed: &Weighed, points: usize, tolerance: &str, absolute: f64) -
         if points == 1 { "" } else { "s" }
     );
     let _ = writeln!(text, "  {:<14} {:>12} {:>10}", "method", "expected", "seconds");
-    for Candidate { kind, promise, seconds, verdict } in &weighed.candidates {
+    for Candidate { method, promise, seconds, verdict } in &weighed.candidates {
         let promise = match promise {
             Some(Promise::Proven(bound)) => format!("≤ {bound:.1e}"),
             Some(Promise::Measured(error)) => format!("~ {error:.1e}"),
             Some(Promise::Nothing) | None => "–".to_owned(),
         };
         let seconds = format!("{seconds:.0e}");
-        let _ = writeln!(text, "  {:<14} {promise:>12} {seconds:>10}  {verdict}", kind.to_string());
+        let _ =
+            writeln!(text, "  {:<14} {promise:>12} {seconds:>10}  {verdict}", method.to_string());
     }
     text
 }

@@ -9,7 +9,7 @@ use super::progress;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::answer::{Tolerance, WayError};
-use wavestep::evaluate::{Compiled, Method as _};
+use wavestep::evaluate::{Compiled, Evaluator as _};
 use wavestep::export::{CHeading, to_c};
 
 /// Writes the program that is asked for.

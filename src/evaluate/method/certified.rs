@@ -7,7 +7,7 @@
 //! enclosed one by one.
 
 use super::doubles::{Kept, ascend, inside, piece};
-use super::{Method, MethodError};
+use super::{Evaluator, MethodError};
 use crate::ball::{Attempt, Ball, Precisions, rational};
 use crate::evaluate::cell::Fit;
 use crate::evaluate::cells::{Window, enclosure};
@@ -139,7 +139,7 @@ fn rounds_to_zero(ball: &Ball) -> bool {
     lower.to_double() == 0.0 && upper.to_double() == 0.0
 }
 
-impl Method for Certified<'_> {
+impl Evaluator for Certified<'_> {
     fn law(&self) -> String {
         "correctly rounded, proven".to_owned()
     }

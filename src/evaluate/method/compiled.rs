@@ -6,7 +6,7 @@
 //! [`Table`] proves. Whatever the order of the waves, a value costs some ten multiply-adds.
 
 use super::doubles::{Kept, ascend, piece};
-use super::{Method, MethodError};
+use super::{Evaluator, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
 use crate::evaluate::cell::Fit;
 use crate::evaluate::cells::Window;
@@ -78,7 +78,7 @@ impl<'a> Compiled<'a> {
     }
 }
 
-impl Method for Compiled<'_> {
+impl Evaluator for Compiled<'_> {
     fn law(&self) -> String {
         format!(
             "at most {:.1e} everywhere on the window, proven: {} polynomials of degree {}",

@@ -7,7 +7,7 @@ use super::clock::{Clock, Delayed, Place};
 use super::doubles::{exactly, inside};
 use super::marched_response::{Response, reflection, weights};
 use super::marched_waves::Waves;
-use super::{Method, MethodError};
+use super::{Evaluator, MethodError};
 use crate::ball::{Attempt, Ball, ComplexBall, Magnitude, Precisions, rational};
 use crate::enclosure::Numbers;
 use crate::evaluate::closed::ClosedForm;
@@ -159,7 +159,7 @@ impl Marched {
     }
 }
 
-impl Method for Marched {
+impl Evaluator for Marched {
     fn law(&self) -> String {
         self.march.law()
     }

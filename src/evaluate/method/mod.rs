@@ -34,8 +34,8 @@ pub use summed::{StablePrecision, Summation, Summed};
 use crate::evaluate::signal::Limit;
 use wavestep_polynomial::Rational;
 
-/// One way to values of an observable in doubles, on a window of time.
-pub trait Method {
+/// Evaluates an observable in doubles on a window of time, in one way.
+pub trait Evaluator {
     /// How far values can be off, in words.
     fn law(&self) -> String;
 
@@ -52,7 +52,7 @@ pub trait Method {
     /// The values at many exact times.
     ///
     /// # Errors
-    /// As [`Method::value`].
+    /// As [`Evaluator::value`].
     fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         at.iter().map(|at| self.value(at, side)).collect()
     }
@@ -60,7 +60,7 @@ pub trait Method {
     /// The values at many times, right limits.
     ///
     /// # Errors
-    /// As [`Method::value`].
+    /// As [`Evaluator::value`].
     ///
     /// # Panics
     /// Where there are not as many places for values as times.

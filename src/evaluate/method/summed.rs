@@ -14,7 +14,7 @@
 
 use super::echo_sums::EchoSums;
 use super::printed::PrintedEchoes;
-use super::{Method, MethodError};
+use super::{Evaluator, MethodError};
 use crate::ball::{Ball, rational};
 use crate::evaluate::signal::{Limit, Signal};
 use wavestep_kernels::echoes;
@@ -98,7 +98,7 @@ impl Summed {
     }
 }
 
-impl Method for Summed {
+impl Evaluator for Summed {
     fn law(&self) -> String {
         match self.summation {
             Summation::Stable(StablePrecision::Double) => {

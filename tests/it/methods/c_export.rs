@@ -91,7 +91,7 @@ fn check(name: &str, quantity: &str, subject: &Subject<'_>, tolerance: Option<f6
         let lines: Vec<&str> = printed.lines().collect();
         assert_eq!(lines.len(), at.len() + 1);
         let bound = double(lines[at.len()]);
-        assert_eq!(Some(bound), wavestep::evaluate::Method::bound(&compiled));
+        assert_eq!(Some(bound), wavestep::evaluate::Evaluator::bound(&compiled));
         let mut values = Vec::new();
         for (i, line) in lines[..at.len()].iter().enumerate() {
             let columns: Vec<f64> = line.split(' ').map(double).collect();

@@ -32,7 +32,7 @@ fn is_cheapest(problem: &Question<'_>, weighed: &Weighed, points: usize, toleran
         assert!(first.verdict.contains("cheapest"), "{}", first.verdict);
         assert!(
             matches!(
-                first.kind,
+                first.method,
                 Method::Certified | Method::Compiled | Method::Marched { proven: true }
             ),
             "{first:?}"
@@ -63,7 +63,7 @@ fn what_is_picked_is_the_cheapest_that_is_proven() {
             let met = |tolerance: f64| consider(problem, 10, tolerance, scale).unwrap().met;
             assert!(met(0.5 * unit) && met(unit) && !met(0.49 * unit));
             let first = |points, tolerance: f64| {
-                consider(problem, points, tolerance, scale).unwrap().candidates[0].kind
+                consider(problem, points, tolerance, scale).unwrap().candidates[0].method
             };
             assert_eq!(first(1_000_000, 0.6 * unit), Method::Certified);
             many.push(first(1_000_000, 4.0 * unit));
@@ -72,7 +72,7 @@ fn what_is_picked_is_the_cheapest_that_is_proven() {
     }
     println!("chooser: {weighed_problems} problems weighed, many values by {many:?}");
     // A march in integers makes certified values the cheapest at exact times; others cost more.
-    assert!(many.iter().all(|kind| matches!(kind, Method::Certified | Method::Compiled)));
+    assert!(many.iter().all(|method| matches!(method, Method::Certified | Method::Compiled)));
     assert!(many.contains(&Method::Certified) && many.contains(&Method::Compiled));
 }
 
@@ -81,7 +81,7 @@ fn what_is_picked_is_the_cheapest_that_is_proven() {
 fn tolerances_are_kept() {
     let mut random = random(72);
     let mut tally = Tally::new("ways by tolerance, of the tolerance");
-    let mut kinds = std::collections::BTreeSet::new();
+    let mut methods = std::collections::BTreeSet::new();
     for (scene, values, quantity, last) in PROBLEMS {
         with(scene, values, quantity, ("0", last), |subject| {
             let (problem, scale) = (&subject.question, subject.scale());
@@ -90,34 +90,34 @@ fn tolerances_are_kept() {
                 let points = 10f64.powf(random.random_range(0.0..6.0)) as usize;
                 let weighed = consider(problem, points, tolerance, scale).unwrap();
                 assert!(weighed.met);
-                let kind = weighed.candidates[0].kind;
-                let way = Way::new(kind, problem, Some(tolerance)).unwrap();
-                kinds.insert(way.kind().to_string());
+                let method = weighed.candidates[0].method;
+                let way = Way::new(method, problem, Some(tolerance)).unwrap();
+                methods.insert(way.method().to_string());
                 let bound = way.bound().expect("what is picked is proven");
                 // The bound of certified values is beyond the rounding of the result.
                 let rounding = unit_in_the_last_place(scale) / 2.0;
-                assert!(bound <= tolerance && rounding <= tolerance, "{kind} {tolerance:e}");
+                assert!(bound <= tolerance && rounding <= tolerance, "{method} {tolerance:e}");
                 let mut at = times::special(subject);
                 at.truncate(30);
                 at.extend(times::anywhere(subject, &mut random, 20));
                 let values = way.values(&at).unwrap();
                 for (time, value) in at.iter().zip(values) {
                     let enclosed = ends(&subject.exact(&exact(*time), Limit::Right));
-                    let place = || format!("{time:?} by {kind} in {}", subject.name);
+                    let place = || format!("{time:?} by {method} in {}", subject.name);
                     tally.within(value, enclosed, &exact(tolerance), place);
                 }
                 let exact_times: Vec<_> = at.iter().map(|time| exact(*time)).collect();
                 let values = way.exact_values(&exact_times, Limit::Left).unwrap();
                 for (time, value) in exact_times.iter().zip(values) {
                     let enclosed = ends(&subject.exact(time, Limit::Left));
-                    let place = || format!("{time} on the left by {kind} in {}", subject.name);
+                    let place = || format!("{time} on the left by {method} in {}", subject.name);
                     tally.within(value, enclosed, &exact(tolerance), place);
                 }
             }
         });
     }
-    println!("ways taken: {kinds:?}");
-    assert!(kinds.contains("certified") && kinds.contains("compiled"), "{kinds:?}");
+    println!("ways taken: {methods:?}");
+    assert!(methods.contains("certified") && methods.contains("compiled"), "{methods:?}");
     tally.report(1_000);
 }
 
@@ -157,12 +157,12 @@ fn tolerances_are_read_as_they_are_documented() {
 fn every_method_is_named_as_it_is_read() {
     for (name, _) in Method::NAMES {
         let bare = name.split(':').next().unwrap();
-        let kind: Method = bare.parse().unwrap();
-        assert_eq!(kind.name(), bare);
-        assert_eq!(kind.to_string().parse::<Method>(), Ok(kind));
-        assert_eq!(kind.setting().is_empty(), !name.contains(':'), "{name}");
+        let method: Method = bare.parse().unwrap();
+        assert_eq!(method.name(), bare);
+        assert_eq!(method.to_string().parse::<Method>(), Ok(method));
+        assert_eq!(method.setting().is_empty(), !name.contains(':'), "{name}");
         let size = Size { order: 50, points: 10, marches: true };
-        assert_eq!(Cost::of(kind, size).is_none(), kind.is_model(), "{name}");
+        assert_eq!(Cost::of(method, size).is_none(), method.is_model(), "{name}");
     }
     for text in ["modes:", "modes:-1", "leapfrog:4,x", "steps:tight", "compiled:3"] {
         let error = text.parse::<Method>().unwrap_err().to_string();

@@ -5,7 +5,7 @@ use crate::methods::response::Response;
 use crate::methods::subject::{Subject, with};
 use crate::methods::tally::Tally;
 use crate::methods::{exact, random, times, unit_in_the_last_place};
-use wavestep::evaluate::{Compiled, Limit, Method as _};
+use wavestep::evaluate::{Compiled, Evaluator as _, Limit};
 use wavestep::language::parse_number;
 
 /// Values of polynomials, at the ends of all pieces and without pattern, against the march in

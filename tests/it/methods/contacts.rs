@@ -183,11 +183,11 @@ fn single_times_have_values() {
             let question = problem.question(quantity, [at.clone(), at.clone()]).unwrap();
             for side in [Limit::Left, Limit::Right] {
                 let known = nearest(&told(&question, &at, side));
-                for kind in [Method::Certified, Method::Compiled] {
-                    let way = Way::new(kind, &question, None).unwrap();
+                for method in [Method::Certified, Method::Compiled] {
+                    let way = Way::new(method, &question, None).unwrap();
                     let value = way.value(&at, side).unwrap();
                     let most = way.bound().unwrap() + unit_in_the_last_place(known);
-                    assert!((value - known).abs() <= most, "{quantity} at {at} by {kind}");
+                    assert!((value - known).abs() <= most, "{quantity} at {at} by {method}");
                 }
             }
         }

@@ -8,7 +8,7 @@ use crate::methods::{
 };
 use num_rational::BigRational;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Certified, Limit, Method, StablePrecision, Summation, Summed};
+use wavestep::evaluate::{Certified, Evaluator, Limit, StablePrecision, Summation, Summed};
 
 /// Comparisons by method.
 struct Tallies {
@@ -45,7 +45,13 @@ impl Tallies {
 
 /// Compares the values of one method with a bound: at doubles, where the bound is all there is, and at
 /// exact arrivals from both sides, where the rounding of the result is added.
-fn compare(method: &dyn Method, bound: f64, subject: &Subject<'_>, at: &[f64], tally: &mut Tally) {
+fn compare(
+    method: &dyn Evaluator,
+    bound: f64,
+    subject: &Subject<'_>,
+    at: &[f64],
+    tally: &mut Tally,
+) {
     let name = &subject.name;
     let mut values = vec![0.0; at.len()];
     method.values(at, &mut values).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -212,7 +218,7 @@ fn windows_end_where_they_end() {
         let marched = subject.marched(true).unwrap();
         let stable =
             Summed::new(subject.signal(), Summation::Stable(StablePrecision::Double)).unwrap();
-        let methods: [(&str, &dyn Method); 4] = [
+        let methods: [(&str, &dyn Evaluator); 4] = [
             ("certified", &certified),
             ("compiled", &compiled),
             ("marched", &marched),

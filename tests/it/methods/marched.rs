@@ -6,7 +6,7 @@ use crate::methods::subject::{Subject, with};
 use crate::methods::tally::{Tally, ends};
 use crate::methods::{Values, exact, random, times, unit_in_the_last_place};
 use num_rational::BigRational;
-use wavestep::evaluate::{Limit, Marched, Method as _, MethodError, Taps};
+use wavestep::evaluate::{Evaluator as _, Limit, Marched, MethodError, Taps};
 use wavestep::problem::Problem;
 
 /// A rigid mass whose bar ends in a dashpot: all but a part of each wave is lost; and what is seen

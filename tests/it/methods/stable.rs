@@ -7,7 +7,9 @@ use crate::methods::tally::{Tally, ends};
 use crate::methods::{exact, mass_ratio, random, unit_in_the_last_place};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
-use wavestep::evaluate::{Limit, Method, MethodError, NoTaps, StablePrecision, Summation, Summed};
+use wavestep::evaluate::{
+    Evaluator, Limit, MethodError, NoTaps, StablePrecision, Summation, Summed,
+};
 use wavestep::language::parse_number;
 
 /// Doubles on every period up to a last one: just after its start, just before its end, and four
@@ -181,8 +183,8 @@ fn the_printed_formula_fails_first() {
         let plain = Summed::new(signal, Summation::Plain).unwrap();
         let expanded = Summed::new(signal, Summation::Expanded).unwrap();
         let stable = Summed::new(signal, Summation::Stable(StablePrecision::DoubleDouble)).unwrap();
-        let off = |method: &dyn Method, at: f64| {
-            let value = |method: &dyn Method| method.value(&exact(at), Limit::Right).unwrap();
+        let off = |method: &dyn Evaluator, at: f64| {
+            let value = |method: &dyn Evaluator| method.value(&exact(at), Limit::Right).unwrap();
             (value(method) - value(&stable)).abs()
         };
         assert!(off(&plain, 3.0) < 1e-15 && off(&expanded, 3.0) < 1e-14);

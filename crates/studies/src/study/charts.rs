@@ -122,7 +122,7 @@ pub fn charts(
     let effort = asked.effort;
     let settings = (effort.settings(), effort == Effort::Quick);
     let asked_for = (subject, window);
-    let outcomes = ladder(asked_for, &reference, settings, |kind| tick(&kind.to_string()));
+    let outcomes = ladder(asked_for, &reference, settings, |method| tick(&method.to_string()));
     let caption = caption(asked, asked.sampling.law());
     let (work, table) =
         work_precision("Work against precision", &outcomes, &reference, caption.clone())?;
@@ -342,13 +342,13 @@ impl Study<'_> {
             }
         }
         let caption = |remarks| Caption { remarks, ..caption(self.asked, order_law()) };
-        for ((kind, rows), refusals) in MAPPED.into_iter().zip(&rows).zip(refusals) {
+        for ((method, rows), refusals) in MAPPED.into_iter().zip(&rows).zip(refusals) {
             let refused = rows.iter().all(|(_, row)| row.iter().all(Option::is_none));
-            let map = order_map(kind, symbol, orders, rows, caption(refusals));
+            let map = order_map(method, symbol, orders, rows, caption(refusals));
             if let (false, Ok(map)) = (refused, map) {
                 let text = "Colours are powers of ten of the error. The lines are where half of the digits \
                             are lost, and where nothing of use is left.";
-                self.all.push(Charted::new(&format!("map-{}", kind.name()), text, map));
+                self.all.push(Charted::new(&format!("map-{}", method.name()), text, map));
             }
         }
         let last = orders.last().copied().unwrap_or(0);

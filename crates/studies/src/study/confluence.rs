@@ -22,11 +22,11 @@ const LAST: f64 = 10.0;
 
 /// The error of values by the distance of two poles, which is `10^−j`.
 pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, PlotError> {
-    let kinds = [Method::Expanded, Method::Compiled];
-    let mut curves = kinds.map(|kind| Curve { name: kind.to_string(), points: Vec::new() });
+    let methods = [Method::Expanded, Method::Compiled];
+    let mut curves = methods.map(|method| Curve { name: method.to_string(), points: Vec::new() });
     for decade in 0..=decades {
         let distance = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(decade));
-        match at_distance(distance, &kinds) {
+        match at_distance(distance, &methods) {
             Some(row) => {
                 for (curve, error) in curves.iter_mut().zip(row) {
                     curve.points.push((10f64.powi(-(decade as i32)), error));
@@ -43,12 +43,12 @@ pub fn near_confluence(decades: u32, mut caption: Caption) -> Result<Curves, Plo
         .level(1e-8, "8 digits lost")
 }
 
-fn at_distance(distance: Rational, kinds: &[Method]) -> Option<Vec<f64>> {
+fn at_distance(distance: Rational, methods: &[Method]) -> Option<Vec<f64>> {
     let values = [("d".to_owned(), distance)].into();
     let problem = Problem::of_text("two poles", TEXT, &values).ok()?;
     let question = Subject { problem: &problem, quantity: "f" }.between(0.0, LAST).ok()?;
     let times = Sampling { points: 50, seed: 1 }.times(0.0, LAST);
     let reference = Reference::new(&question, &times).ok()?;
-    let error = |kind: &Method| errors(&question, *kind, &reference).ok().map(|e| worst(&e));
-    kinds.iter().map(error).collect()
+    let error = |method: &Method| errors(&question, *method, &reference).ok().map(|e| worst(&e));
+    methods.iter().map(error).collect()
 }

@@ -79,24 +79,24 @@ pub fn cost_over_order(
             Err(error) => of_preparation.remarks.push(format!("{name}, is left out: {error}.")),
         }
     }
-    for kind in DOUBLES.into_iter().chain([Method::Certified]) {
+    for method in DOUBLES.into_iter().chain([Method::Certified]) {
         let mut measured = Vec::new();
         for &order in orders {
-            match on_period(subject, kind, (order, period), settings) {
+            match on_period(subject, method, (order, period), settings) {
                 Ok(costs) => measured.push((order as f64, costs.seconds, costs.preparation)),
                 Err(reason) => {
-                    let remark = format!("{kind} is left out from n = {order} on: {reason}.");
+                    let remark = format!("{method} is left out from n = {order} on: {reason}.");
                     of_values.remarks.push(remark);
                     break;
                 }
             }
         }
         let points = measured.iter().map(|(order, seconds, _)| (*order, *seconds)).collect();
-        values.push(Curve { name: kind.to_string(), points });
+        values.push(Curve { name: method.to_string(), points });
         // A difference of two times that are alike says nothing.
         let prepared = measured.iter().filter(|(_, _, preparation)| *preparation > NO_PREPARATION);
         let points = prepared.map(|(order, _, preparation)| (*order, *preparation)).collect();
-        preparations.push(Curve { name: format!("{kind}, period n"), points });
+        preparations.push(Curve { name: format!("{method}, period n"), points });
     }
     let chart = |title: &str, mut curves: Vec<Curve>, caption: Caption| {
         curves.retain(|curve| !curve.points.is_empty());
@@ -119,12 +119,12 @@ fn numeric(subject: Subject<'_>, period: f64) -> Option<(Recurrence, Observation
 /// One way on the period that begins after so many.
 fn on_period(
     subject: Subject<'_>,
-    kind: Method,
+    method: Method,
     (order, period): (usize, f64),
     settings: Settings,
 ) -> Result<Measured, ProblemError> {
     let [from, to] = [order as f64 * period, (order as f64 + 1.0) * period];
     let question = subject.between(from, to)?;
     let reference = Reference::new(&question, &Sampling { points: 64, seed: 1 }.times(from, to))?;
-    measure((subject, question.signal.window()), (kind, None), &reference, settings)
+    measure((subject, question.signal.window()), (method, None), &reference, settings)
 }

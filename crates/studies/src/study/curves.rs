@@ -28,17 +28,17 @@ const CEILING: f64 = 100.0;
 
 /// A curve for each method, of what `points` makes of its errors; what a method refused is a remark.
 pub(super) fn by_method(
-    kinds: &[Method],
+    methods: &[Method],
     question: &Question<'_>,
     reference: &Reference,
     caption: &mut Caption,
     points: impl Fn(&[f64]) -> Vec<(f64, f64)>,
 ) -> Vec<Curve> {
     let mut curves = Vec::new();
-    for kind in kinds {
-        match errors(question, *kind, reference) {
-            Ok(errors) => curves.push(Curve { name: kind.to_string(), points: points(&errors) }),
-            Err(reason) => caption.remarks.push(format!("{kind} is left out: {reason}.")),
+    for method in methods {
+        match errors(question, *method, reference) {
+            Ok(errors) => curves.push(Curve { name: method.to_string(), points: points(&errors) }),
+            Err(reason) => caption.remarks.push(format!("{method} is left out: {reason}.")),
         }
     }
     curves
@@ -106,14 +106,14 @@ pub fn over_order(
     orders: &[usize],
     mut caption: Caption,
 ) -> Result<Curves, PlotError> {
-    let kinds = &DOUBLES[..5];
-    let rows = super::errors_by_order(subject, period, orders, kinds);
+    let methods = &DOUBLES[..5];
+    let rows = super::errors_by_order(subject, period, orders, methods);
     let mut curves = Vec::new();
-    for (kind, row) in kinds.iter().zip(rows) {
-        caption.remarks.extend(row.refusal.map(|refusal| format!("{kind}: {refusal}.")));
+    for (method, row) in methods.iter().zip(rows) {
+        caption.remarks.extend(row.refusal.map(|refusal| format!("{method}: {refusal}.")));
         let points = orders.iter().zip(row.errors);
         let points = points.filter_map(|(order, error)| Some((*order as f64, error?))).collect();
-        curves.push(Curve { name: kind.to_string(), points });
+        curves.push(Curve { name: method.to_string(), points });
     }
     curves.retain(|curve: &Curve| !curve.points.is_empty());
     levelled("Error at high orders", Axis::logarithmic("order n"), curves, caption)
@@ -135,8 +135,8 @@ pub fn near_jump(
     let distance = |i: usize| 10f64.powf(-4.0 + 3.8 * i as f64 / PLACES as f64) * (next - at);
     let times: Vec<f64> = (0..PLACES).map(|i| at + distance(i)).collect();
     let reference = Reference::new(question, &times).map_err(|_| empty(title))?;
-    let kinds = [30, 300, 3000].map(|count| Method::Modes { count });
-    let curves = by_method(&kinds, question, &reference, &mut caption, |errors| {
+    let methods = [30, 300, 3000].map(|count| Method::Modes { count });
+    let curves = by_method(&methods, question, &reference, &mut caption, |errors| {
         times.iter().zip(errors).map(|(t, e)| (t - at, *e)).collect()
     });
     let axis = Axis::logarithmic("time after the jump").unit(unit);

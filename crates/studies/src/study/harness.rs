@@ -45,7 +45,7 @@ impl Default for Settings {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Measured {
     /// Which way.
-    pub kind: Method,
+    pub method: Method,
     /// The largest error, in parts of the largest value.
     pub error: f64,
     /// The proven bound, in parts of the largest value, half a unit in the last place included.
@@ -71,23 +71,23 @@ pub fn worst(errors: &[f64]) -> f64 {
 /// [`WayError`], where the question is none for this way.
 pub fn errors(
     question: &Question<'_>,
-    kind: Method,
+    method: Method,
     reference: &Reference,
 ) -> Result<Vec<f64>, WayError> {
-    let way = Way::new(kind, question, None)?;
+    let way = Way::new(method, question, None)?;
     Ok(reference.errors(&way.values(reference.times())?))
 }
 
 /// The time of a preparation and the first values, when nothing is known of the signal.
 fn from_scratch(
     question: &Question<'_>,
-    (kind, tolerance): (Method, Option<f64>),
+    (method, tolerance): (Method, Option<f64>),
     reference: &Reference,
 ) -> Result<Duration, WayError> {
     // Whether there is a closed form is part of the question.
     let _ = question.signal.closed_form();
     let begin = Instant::now();
-    let way = Way::new(kind, question, tolerance)?;
+    let way = Way::new(method, question, tolerance)?;
     std::hint::black_box(way.values(std::hint::black_box(reference.times()))?);
     Ok(begin.elapsed())
 }
@@ -100,7 +100,7 @@ fn from_scratch(
 /// [`ProblemError`], where the question is none for this way.
 pub fn measure(
     (subject, window): (Subject<'_>, [&Rational; 2]),
-    (kind, tolerance): (Method, Option<f64>),
+    (method, tolerance): (Method, Option<f64>),
     reference: &Reference,
     settings: Settings,
 ) -> Result<Measured, ProblemError> {
@@ -108,13 +108,13 @@ pub fn measure(
     let mut first = Duration::MAX;
     let begin = Instant::now();
     for _ in 0..settings.runs.max(1) {
-        first = first.min(from_scratch(&anew()?, (kind, tolerance), reference)?);
+        first = first.min(from_scratch(&anew()?, (method, tolerance), reference)?);
         if begin.elapsed() > 10 * settings.time {
             break;
         }
     }
     let question = anew()?;
-    let way = Way::new(kind, &question, tolerance)?;
+    let way = Way::new(method, &question, tolerance)?;
     let values = way.values(reference.times())?;
     let mut least = Duration::MAX;
     let begin = Instant::now();
@@ -132,7 +132,7 @@ pub fn measure(
     let scale = if reference.scale() == 0.0 { 1.0 } else { reference.scale() };
     let half_ulp = f64::EPSILON / 2.0;
     Ok(Measured {
-        kind,
+        method,
         error: worst(&reference.errors(&values)),
         bound: way.bound().map(|bound| bound / scale + half_ulp),
         preparation: first.saturating_sub(least).as_secs_f64(),

@@ -23,7 +23,7 @@ pub struct Loss {
 /// not, each order is measured.
 pub fn first_losses(
     subject: Subject<'_>,
-    kind: Method,
+    method: Method,
     (parameter, period): (f64, f64),
     (orders, known): (&[usize], &[Option<f64>]),
 ) -> Loss {
@@ -32,7 +32,7 @@ pub fn first_losses(
         let place = known.iter().position(is_lost)?;
         let before = place.checked_sub(1).map_or(0, |place| orders[place]);
         let between: Vec<usize> = (before + 1..orders[place]).collect();
-        let row = errors_by_order(subject, period, &between, &[kind]).swap_remove(0);
+        let row = errors_by_order(subject, period, &between, &[method]).swap_remove(0);
         let found = row.errors.iter().position(is_lost).map(|place| between[place]);
         Some(found.unwrap_or(orders[place]))
     };
@@ -41,7 +41,7 @@ pub fn first_losses(
 
 /// Losses as a chart over the parameter, and as a small table.
 pub fn losses(
-    kind: Method,
+    method: Method,
     parameter: &str,
     last: usize,
     rows: &[Loss],
@@ -56,7 +56,7 @@ pub fn losses(
         curve("all digits lost: error 1", |loss| loss.all),
     ];
     curves.retain(|curve| !curve.points.is_empty());
-    let title = format!("First order at which {kind} has lost digits");
+    let title = format!("First order at which {method} has lost digits");
     let (x, y) = (Axis::logarithmic(parameter), Axis::logarithmic("order n"));
     let chart = Curves::new(&title, x, y, curves, caption)?;
     let told = |order: Option<usize>| match order {

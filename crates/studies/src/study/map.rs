@@ -50,7 +50,7 @@ pub fn errors_by_order(
     subject: Subject<'_>,
     period: f64,
     orders: &[usize],
-    kinds: &[Method],
+    methods: &[Method],
 ) -> Vec<OrderRow> {
     let until = |orders: &[usize]| {
         subject.between(0.0, (orders.last().copied().unwrap_or(0) as f64 + 1.0) * period)
@@ -61,15 +61,15 @@ pub fn errors_by_order(
         Ok(reference) => reference,
         Err(refusal) => {
             let refused = OrderRow { errors: vec![None; orders.len()], refusal: Some(refusal) };
-            return vec![refused; kinds.len()];
+            return vec![refused; methods.len()];
         }
     };
-    let row = |kind: &Method| {
+    let row = |method: &Method| {
         let mut refusal = None;
         for known in (1..=orders.len()).rev() {
             let known_times = &times[..known * 2 * TIMES];
             let values = until(&orders[..known])
-                .and_then(|question| Ok(Way::new(*kind, &question, None)?.values(known_times)?));
+                .and_then(|question| Ok(Way::new(*method, &question, None)?.values(known_times)?));
             match values {
                 Ok(values) => {
                     let errors = reference.first_errors(&values);
@@ -85,7 +85,7 @@ pub fn errors_by_order(
         }
         OrderRow { errors: vec![None; orders.len()], refusal }
     };
-    kinds.iter().map(row).collect()
+    methods.iter().map(row).collect()
 }
 
 /// A map from its rows, each for one value of the parameter, ascending.
@@ -93,7 +93,7 @@ pub fn errors_by_order(
 /// # Errors
 /// [`PlotError`], where there are no rows.
 pub fn order_map(
-    kind: Method,
+    method: Method,
     parameter: &str,
     orders: &[usize],
     rows: &[(f64, Vec<Option<f64>>)],
@@ -104,7 +104,8 @@ pub fn order_map(
     let cells = rows.iter().flat_map(|(_, row)| row.iter().copied()).collect();
     let x = (Axis::logarithmic("order n"), orders);
     let y = (Axis::logarithmic(parameter), values);
-    let map = Map::new(&format!("Error of {kind} by order and {parameter}"), x, y, cells, caption)?;
+    let map =
+        Map::new(&format!("Error of {method} by order and {parameter}"), x, y, cells, caption)?;
     let half = Level { value: HALF, name: "8 digits lost".to_owned() };
     let useless = Level { value: USELESS, name: "useful no longer".to_owned() };
     let all = Level { value: 1.0, name: "all digits lost".to_owned() };

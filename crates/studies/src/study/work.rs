@@ -62,7 +62,7 @@ impl Outcome {
     fn line(&self) -> String {
         match self.step.0 {
             Method::Leapfrog { courant, .. } => format!("leapfrog, CFL {courant}"),
-            kind => kind.name().to_owned(),
+            method => method.name().to_owned(),
         }
     }
 
@@ -82,8 +82,8 @@ impl Outcome {
 }
 
 /// Whether a step takes long.
-fn is_heavy(kind: Method) -> bool {
-    match kind {
+fn is_heavy(method: Method) -> bool {
+    match method {
         Method::Modes { count } => count > 1_000,
         Method::Leapfrog { cells, .. } => cells > 100,
         Method::Steps { tolerance } => tolerance < 1e-6,
@@ -99,13 +99,13 @@ pub fn ladder(
     tick: impl Fn(&Method),
 ) -> Vec<Outcome> {
     let outcome = |step: Step| {
-        let (kind, tolerance) = step;
-        tick(&kind);
+        let (method, tolerance) = step;
+        tick(&method);
         let absolute = tolerance.map(|tolerance| tolerance * reference.scale());
-        let result = measure(asked, (kind, absolute), reference, settings);
+        let result = measure(asked, (method, absolute), reference, settings);
         Outcome { step, result }
     };
-    LADDER.into_iter().filter(|(kind, _)| !(quick && is_heavy(*kind))).map(outcome).collect()
+    LADDER.into_iter().filter(|(method, _)| !(quick && is_heavy(*method))).map(outcome).collect()
 }
 
 /// The diagram and the table of outcomes. Ways that refused are named in the caption, with the reason.
@@ -122,7 +122,7 @@ pub fn work_precision(
     let mut rows = Vec::new();
     let slowest = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
     let slowest = slowest
-        .filter(|measured| matches!(measured.kind, Method::Certified))
+        .filter(|measured| matches!(measured.method, Method::Certified))
         .map(|measured| measured.seconds)
         .next();
     caption.remarks.push(format!(

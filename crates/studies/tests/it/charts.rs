@@ -55,8 +55,8 @@ fn expanded_formulas_lose_digits_with_time_and_order() {
     with_wave(8.0, |subject, _| {
         let chart = over_order(subject, 2.0, &[5, 40], Caption::default()).unwrap();
         assert!(last(&chart, "expanded") > 1e-3 && last(&chart, "double-double") < 1e-15);
-        let kinds = [Method::Expanded, Method::Compiled, Method::Rigid];
-        let rows = errors_by_order(subject, 2.0, &[1, 30], &kinds);
+        let methods = [Method::Expanded, Method::Compiled, Method::Rigid];
+        let rows = errors_by_order(subject, 2.0, &[1, 30], &methods);
         let [expanded, compiled, rigid] = &rows[..] else { panic!("a row for each") };
         assert!(expanded.errors[0].unwrap() < 1e-14 && expanded.errors[1].unwrap() > 1e-8);
         assert!(compiled.errors.iter().all(|error| error.unwrap() < 1e-15));
@@ -103,7 +103,7 @@ fn models_miss_jumps_and_keep_to_the_courant_number() {
 #[test]
 fn the_ladder_keeps_its_bounds() {
     // Tolerances of one way descend, so that its line goes from coarse to fine.
-    let compiled = LADDER.iter().filter(|(kind, _)| *kind == Method::Compiled);
+    let compiled = LADDER.iter().filter(|(method, _)| *method == Method::Compiled);
     let tolerances: Vec<f64> = compiled.filter_map(|(_, tolerance)| *tolerance).collect();
     assert!(tolerances.is_sorted_by(|a, b| a > b) && tolerances.len() > 5);
     with_wave(8.0, |subject, question| {
@@ -118,9 +118,9 @@ fn the_ladder_keeps_its_bounds() {
         assert!(outcomes[0].result.is_err());
         let mut measured = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
         assert!(measured.all(|way| way.bound.is_none_or(|bound| way.error <= bound)));
-        let measured = |kind, seconds| Outcome {
-            step: (kind, None),
-            result: Ok(Measured { kind, error: 1e-16, bound: None, preparation: 0.0, seconds }),
+        let measured = |method, seconds| Outcome {
+            step: (method, None),
+            result: Ok(Measured { method, error: 1e-16, bound: None, preparation: 0.0, seconds }),
         };
         let outcomes = [measured(Method::Compiled, 1e-9), measured(Method::Certified, 1e-6)];
         let (chart, table) =

@@ -90,10 +90,10 @@ fn orders_of_loss_are_the_first_ones() {
     let subject = Subject { problem: &problem, quantity: "f" };
     let all: Vec<usize> = (1..=60).collect();
     let few = [1, 5, 10, 15, 20, 30, 40, 60];
-    let kind = Method::Expanded;
-    let row = |orders: &[usize]| errors_by_order(subject, 2.0, orders, &[kind]).swap_remove(0);
+    let method = Method::Expanded;
+    let row = |orders: &[usize]| errors_by_order(subject, 2.0, orders, &[method]).swap_remove(0);
     let every = row(&all).errors;
-    let loss = first_losses(subject, kind, (1.0, 2.0), (&few, &row(&few).errors));
+    let loss = first_losses(subject, method, (1.0, 2.0), (&few, &row(&few).errors));
     let first = |level: f64| every.iter().position(|error| error.unwrap() >= level).map(|i| all[i]);
     assert_eq!(loss, Loss { parameter: 1.0, half: first(1e-8), all: first(1.0) });
     // Naive Horner in s, μ and E, measured by other means, loses them at 24 and 46.
@@ -110,8 +110,8 @@ fn refused_periods_leave_the_others() {
     let problem = Problem::of_text("two poles", text, &Default::default()).unwrap();
     let subject = Subject { problem: &problem, quantity: "f" };
     // With two poles `expanded` sums 300 echoes at most, and `stable` none.
-    let kinds = [Method::Stable(StablePrecision::Double), Method::Expanded];
-    let [stable, expanded] = &errors_by_order(subject, 2.0, &[1, 5, 310], &kinds)[..] else {
+    let methods = [Method::Stable(StablePrecision::Double), Method::Expanded];
+    let [stable, expanded] = &errors_by_order(subject, 2.0, &[1, 5, 310], &methods)[..] else {
         panic!("two rows")
     };
     assert_eq!(stable.errors, [None; 3]);
