@@ -84,9 +84,9 @@ fn main() {
             let stable = Summed::new(signal, Summation::Stable(precision)).unwrap();
             print(name, what, value(&stable) / ECHOES);
         }
-        let march = |proven| seconds(|| Marched::new(signal, proven).unwrap());
-        let (plain, proven) = (march(false), march(true));
-        let march = Marched::new(signal, false).unwrap();
+        let plain = seconds(|| Marched::new(signal).unwrap());
+        let proven = seconds(|| Marched::proven(signal).unwrap());
+        let march = Marched::new(signal).unwrap();
         print("COEFFICIENT", "a coefficient of a march", value(&march) / COEFFICIENTS);
         print("PROVEN_COEFFICIENT", "the same with its bound", (proven - plain) / COEFFICIENTS);
     });
@@ -102,7 +102,7 @@ fn main() {
         print("TERM", "a term of a piece without a march", made / (PIECES * n * TERMS * n));
     });
     with_signal(TWO_POLES, None, &to, |signal| {
-        let march = Marched::new(signal, false).unwrap();
+        let march = Marched::new(signal).unwrap();
         print("WAVE", "a wave on a period", value(&march) / (2.0 * f64::from(ORDER + 1)));
     });
 }

@@ -7,7 +7,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use std::cell::LazyCell;
 use std::hint::black_box;
 use wavestep::evaluate::{
-    Certified, Compiled, Evaluator, Marched, Signal, StablePrecision, Summation, Summed,
+    Certified, Compiled, Evaluator, Marched, MethodError, Signal, StablePrecision, Summation,
+    Summed,
 };
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_kernels::{Level, Piece, Table};
@@ -109,10 +110,13 @@ fn from_scratch(criterion: &mut Criterion) {
                 method.values(&times, black_box(&mut values)).unwrap();
             });
         });
-        for (name, proven) in [("marched", true), ("marched, no bound", false)] {
+        type Made = fn(&dyn Signal) -> Result<Marched, MethodError>;
+        for (name, made) in
+            [("marched", Marched::proven as Made), ("marched, no bound", Marched::new)]
+        {
             group.bench_function(name, |b| {
                 b.iter(|| {
-                    let method = Marched::new(signal, proven).unwrap();
+                    let method = made(signal).unwrap();
                     method.values(&times, black_box(&mut values)).unwrap();
                 });
             });

@@ -30,7 +30,7 @@ impl Question<'_> {
         const SAMPLES: i64 = 40;
         // Tolerances are relative to this: it does not rest on a march that has no proof at all.
         Taps::of(self.signal.closed_form().ok()?).ok()?;
-        let marched = Marched::new(&*self.signal, false).ok()?;
+        let marched = Marched::new(&*self.signal).ok()?;
         let [from, to] = self.signal.window();
         let part = (to - from) / Rational::from_integer(SAMPLES.into());
         let at = |i: i64| from + &part * Rational::from_integer(i.into());

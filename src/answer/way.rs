@@ -83,7 +83,8 @@ impl<'a> Way<'a> {
         let evaluator: Box<dyn Evaluator + 'a> = match method {
             Method::Certified => Box::new(Certified::new(signal)?),
             Method::Compiled => Box::new(Compiled::new(signal, tolerance)?),
-            Method::Marched { proven } => Box::new(Marched::new(signal, proven)?),
+            Method::Marched { proven: true } => Box::new(Marched::proven(signal)?),
+            Method::Marched { proven: false } => Box::new(Marched::new(signal)?),
             Method::Stable(precision) => {
                 Box::new(Summed::new(signal, Summation::Stable(precision))?)
             }

@@ -28,6 +28,13 @@ pub(crate) fn write_flat(terms: &[Term], notation: Notation) -> String {
     write(terms, notation).text().to_owned()
 }
 
+/// Whether other factors stand beside one.
+#[derive(Clone, Copy)]
+struct Beside {
+    before: bool,
+    after: bool,
+}
+
 struct Writer<'a> {
     notation: Notation,
     names: &'a Names,
@@ -82,7 +89,7 @@ impl<'a> Writer<'a> {
             if i > 0 {
                 self.push(self.notation.times(&factors[i - 1], factor));
             }
-            let last = i + 1 == factors.len();
+            let beside = Beside { before: i > 0, after: i + 1 < factors.len() };
             match factor {
                 Tree::Sum(terms) | Tree::Bracket(terms) => {
                     let (open, close) = self.notation.brackets(factor);
@@ -90,8 +97,8 @@ impl<'a> Writer<'a> {
                     self.sum(terms, depth + 1);
                     self.push(close);
                 }
-                Tree::Monomial(monomial) => self.monomial(monomial, i == 0, last),
-                Tree::Symbol(symbol) => self.power(symbol, 1, i == 0, last),
+                Tree::Monomial(monomial) => self.monomial(monomial, beside),
+                Tree::Symbol(symbol) => self.power(symbol, 1, beside),
                 other => {
                     let text = self.flat(other);
                     self.push(&text);
@@ -100,12 +107,12 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A number and powers; `first` and `last` say that no factor stands before, and none after.
-    fn monomial(&mut self, monomial: &Monomial, mut first: bool, last: bool) {
+    /// A number and powers.
+    fn monomial(&mut self, monomial: &Monomial, Beside { mut before, after }: Beside) {
         let has_number = !monomial.coefficient.is_one();
         if has_number {
             self.push(&self.notation.number(&monomial.coefficient));
-            first = false;
+            before = true;
         }
         let mut powers = monomial.powers().peekable();
         let mut separated = !has_number;
@@ -114,17 +121,18 @@ impl<'a> Writer<'a> {
                 self.push(self.notation.times_symbol());
             }
             separated = false;
-            self.power(symbol, exponent, first, last && powers.peek().is_none());
-            first = false;
+            let after = after || powers.peek().is_some();
+            self.power(symbol, exponent, Beside { before, after });
+            before = true;
         }
     }
 
     /// A power of a symbol. A compound name is bracketed where a factor follows, and after a factor
     /// where it begins with a number or a sign.
-    fn power(&mut self, symbol: &Symbol, exponent: u32, first: bool, last: bool) {
+    fn power(&mut self, symbol: &Symbol, exponent: u32, beside: Beside) {
         let n = self.notation;
         if let Some(name) = self.names.get(symbol).filter(|name| name.compound && exponent == 1) {
-            let brackets = !last || (name.leads && !first);
+            let brackets = beside.after || (name.leads && beside.before);
             let text = n.choose(&name.text, &name.latex);
             return self.push(&if brackets { n.enclosed(text) } else { text.to_owned() });
         }

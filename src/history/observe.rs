@@ -9,7 +9,7 @@ use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::history::unit;
 use crate::history::moment::Moment;
-use crate::history::part::{Part, Signal, Source};
+use crate::history::part::{NodeQuantity, Part, Source};
 use crate::network::{
     Elements, Energy, Field, Lump, Lumped, Network, Reading, Section, Side, Term, Window,
 };
@@ -51,7 +51,8 @@ impl Engine {
         factor: &Number,
     ) -> Outcome<Vec<Part>> {
         let bits = self.cut.bits;
-        let one = |node, signal| Ok(vec![Part::of(Source::Node { node, signal }, factor.clone())]);
+        let one =
+            |node, quantity| Ok(vec![Part::of(Source::Node { node, quantity }, factor.clone())]);
         match reading {
             Reading::InBar(field, section) => Ok(self.in_bar(*field, section, factor)),
             Reading::Momentum(bar) => {
@@ -67,16 +68,16 @@ impl Engine {
             }
             Reading::Velocity(face) => {
                 let node = face.lump().node;
-                one(node, Signal::Velocity(self.nodes[node].run_beside(*face)))
+                one(node, NodeQuantity::Velocity(self.nodes[node].run_beside(*face)))
             }
             Reading::Displacement(face) => {
                 let node = face.lump().node;
-                one(node, Signal::Displacement(self.nodes[node].run_beside(*face)))
+                one(node, NodeQuantity::Displacement(self.nodes[node].run_beside(*face)))
             }
-            Reading::Compression(lump) => one(lump.node, Signal::Compression(lump.place)),
+            Reading::Compression(lump) => one(lump.node, NodeQuantity::Compression(lump.place)),
             Reading::Force(lump) => {
                 if let Some(place) = self.contact_of_spring(*lump) {
-                    return one(lump.node, Signal::Force(place));
+                    return one(lump.node, NodeQuantity::Force(place));
                 }
                 let mut parts = Vec::new();
                 for term in elements.force(*lump).into_iter().flatten() {
@@ -122,7 +123,7 @@ impl Engine {
         }
         let contact = if side == 1 { own.contact_right_of(run) } else { own.contact_left_of(run) };
         match contact {
-            Some(place) => Some(Some(Source::Node { node, signal: Signal::Force(place) })),
+            Some(place) => Some(Some(Source::Node { node, quantity: NodeQuantity::Force(place) })),
             None if own.links.is_empty() && [own.left, own.right][side] == Side::Free => Some(None),
             None => None,
         }

@@ -21,13 +21,13 @@ pub(crate) enum Source {
     /// A wave in a bar, to the right (0) or to the left (1), so long after it entered; without a delay what
     /// it was before the start, which comes for ever from the far side of an endless bar.
     Wave { bar: usize, direction: usize, delay: Option<Fraction> },
-    /// What a node does.
-    Node { node: usize, signal: Signal },
+    /// What changes at a node.
+    Node { node: usize, quantity: NodeQuantity },
 }
 
-/// What a node does.
+/// What changes at a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Signal {
+pub(crate) enum NodeQuantity {
     /// The velocity of a run.
     Velocity(usize),
     /// The displacement of a run since the start.
@@ -56,12 +56,12 @@ impl Part {
 }
 
 impl Cell {
-    fn series(&self, signal: Signal) -> &Series {
-        match signal {
-            Signal::Velocity(run) => &self.velocities[run],
-            Signal::Displacement(run) => &self.displacements[run],
-            Signal::Compression(place) => &self.compressions[place],
-            Signal::Force(place) => &self.forces[place],
+    fn series(&self, quantity: NodeQuantity) -> &Series {
+        match quantity {
+            NodeQuantity::Velocity(run) => &self.velocities[run],
+            NodeQuantity::Displacement(run) => &self.displacements[run],
+            NodeQuantity::Compression(place) => &self.compressions[place],
+            NodeQuantity::Force(place) => &self.forces[place],
         }
     }
 }
@@ -73,9 +73,9 @@ impl Engine {
     /// As [`Engine::cell`].
     pub fn value_of(&self, part: &Part, moment: &Moment, limit: Limit) -> Outcome<Number> {
         let value = match &part.source {
-            Source::Node { node, signal } => {
+            Source::Node { node, quantity } => {
                 let (start, cell) = self.cell(*node, moment, limit)?;
-                cell.series(*signal).value(&self.clock.since(start, moment)?, &self.cut)
+                cell.series(*quantity).value(&self.clock.since(start, moment)?, &self.cut)
             }
             Source::Wave { bar, direction, delay: None } => {
                 let length = match &part.over {
@@ -112,9 +112,9 @@ impl Engine {
     /// As [`Engine::cell`].
     pub fn series_of(&self, part: &Part, now: &Moment) -> Outcome<Series> {
         let series = match &part.source {
-            Source::Node { node, signal } => {
+            Source::Node { node, quantity } => {
                 let (start, cell) = self.cell(*node, now, Limit::Right)?;
-                cell.series(*signal).shift(&self.clock.since(start, now)?, &self.cut)
+                cell.series(*quantity).shift(&self.clock.since(start, now)?, &self.cut)
             }
             Source::Wave { bar, direction, delay: Some(delay) } => {
                 let track = &self.waves[*bar][*direction];
@@ -155,19 +155,24 @@ impl Engine {
     pub fn is_continuous(&self, part: &Part) -> bool {
         match &part.source {
             Source::Wave { delay, .. } => part.over != Window::Now || delay.is_none(),
-            Source::Node { signal: Signal::Displacement(_), .. } => true,
-            Source::Node { node, signal: Signal::Velocity(run) } => {
+            Source::Node { quantity: NodeQuantity::Displacement(_), .. } => true,
+            Source::Node { node, quantity: NodeQuantity::Velocity(run) } => {
                 let mut attached = self.nodes[*node].attached(*run);
                 attached.any(|own| matches!(own.law, ElementLaw::Mass { .. }))
             }
-            Source::Node { signal: Signal::Compression(_) | Signal::Force(_), .. } => false,
+            Source::Node {
+                quantity: NodeQuantity::Compression(_) | NodeQuantity::Force(_),
+                ..
+            } => false,
         }
     }
 
     /// Whether a part is known to be exactly zero just before an instant: the force of a contact that
     /// opens since it came to zero.
     pub fn vanishes_before(&self, part: &Part, moment: &Moment) -> bool {
-        let Source::Node { node, signal: Signal::Force(place) } = part.source else { return false };
+        let Source::Node { node, quantity: NodeQuantity::Force(place) } = part.source else {
+            return false;
+        };
         let contact = self.nodes[node].contacts().nth(place).expect("a contact of the node").0;
         let mut happenings = self.happenings.iter().filter(|own| own.contact == contact);
         happenings.any(|own| own.cause == Cause::Crossing && !own.closes && own.moment == *moment)
@@ -176,7 +181,9 @@ impl Engine {
     /// What the derivative of a part is a multiple of, where that is the force of one contact: of the
     /// velocity of a mass on which nothing else acts.
     pub fn slope_of(&self, part: &Part) -> Option<Part> {
-        let Source::Node { node, signal: Signal::Velocity(run) } = part.source else { return None };
+        let Source::Node { node, quantity: NodeQuantity::Velocity(run) } = part.source else {
+            return None;
+        };
         let own = &self.nodes[node];
         let is_mass = |law: &ElementLaw<Number>| matches!(law, ElementLaw::Mass { .. });
         let acted = own.attached(run).next().is_none()
@@ -187,7 +194,7 @@ impl Engine {
         if links > 1 {
             return None;
         }
-        let source = Source::Node { node, signal: Signal::Force(place) };
+        let source = Source::Node { node, quantity: NodeQuantity::Force(place) };
         (!acted).then(|| Part { source, ..part.clone() })
     }
 

@@ -1,4 +1,4 @@
-//! A signal over time, cell by cell.
+//! A function of time, cell by cell.
 
 use crate::ball::Number;
 use crate::enclosure::EnclosureError;
@@ -20,7 +20,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    /// A signal that is constant for a time before the start.
+    /// What is constant for a time before the start.
     ///
     /// # Errors
     /// As [`Clock::number`].

@@ -1,10 +1,12 @@
-//! Values of a wave or an observable at times: with proven digits, or in doubles.
+//! Values of a wave or an observable at times, with proven digits or in doubles, and fields along the
+//! bars.
 
 use super::error::equivalent_spring;
 use super::{Kind, Problem, ProblemError, Wanted};
 use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, Way, WayError};
 use crate::evaluate::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use crate::expression::Fraction;
+use crate::field::FieldEvaluator;
 use crate::model::ModelError;
 use crate::signal::{self, Purpose};
 use num_traits::Signed as _;
@@ -127,6 +129,11 @@ impl Problem {
         }
     }
 
+    /// Velocity, strain, displacement and force along the bars until a time.
+    pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
+        Ok(signal::fields_of_scene(self.network()?, last)?)
+    }
+
     /// The time at which so many periods of a quantity are over, and a local time has passed on the next.
     pub fn time_on_period(
         &self,
@@ -167,19 +174,19 @@ impl Problem {
         limit: Limit,
         accuracy: Accuracy,
     ) -> Result<Doubles, ProblemError> {
-        let Accuracy::Method(kind, None) = accuracy else {
+        let Accuracy::Method(method, None) = accuracy else {
             return Err(self.not_certified(accuracy));
         };
         let scaled = self.scaled()?;
         let place = wanted.place().expect("an observable of the scene");
-        let way = Way::of_model(kind, scaled, place).map_err(|error| match error {
+        let way = Way::of_model(method, scaled, place).map_err(|error| match error {
             WayError::Model(error @ ModelError::Refused { .. }) => {
                 ProblemError::ModelOfLocalContact(error)
             }
             error => error.into(),
         })?;
         let values = way.exact_values(times, limit)?;
-        let tested = match kind {
+        let tested = match method {
             Method::Steps { tolerance } => {
                 Some(Remark::Tested(Tested { contact: self.local_contact(), tolerance }))
             }
@@ -187,7 +194,7 @@ impl Problem {
         };
         let spring = equivalent_spring(scaled).map(Remark::NearSpring);
         let remarks = tested.into_iter().chain([Remark::Law]).chain(spring).collect();
-        Ok(Doubles { method: kind, law: way.law(), bound: way.bound(), values, remarks })
+        Ok(Doubles { method, law: way.law(), bound: way.bound(), values, remarks })
     }
 
     /// The name of the local contact.

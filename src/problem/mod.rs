@@ -11,7 +11,6 @@ mod derive;
 mod equal;
 mod error;
 mod evaluate;
-mod find;
 mod given;
 mod lock;
 mod times;

@@ -91,6 +91,15 @@ const PASSAGES: i64 = 2;
 
 #[doc(hidden)]
 impl Problem {
+    /// Refuses stated equations with a symbol that has no value.
+    pub(super) fn has_numbers(&self) -> Result<(), ProblemError> {
+        let Kind::Equations(solution) = &self.kind else { return Ok(()) };
+        match solution.recurrence().symbols().next() {
+            Some(symbol) => Err(EvaluateError::MissingValue(symbol.clone()).into()),
+            None => Ok(()),
+        }
+    }
+
     /// The usual length of a window: some periods, exactly where a period is rational, else a round number
     /// near them.
     pub fn usual_length(&self) -> Result<Rational, ProblemError> {

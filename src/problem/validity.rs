@@ -1,8 +1,8 @@
-//! How long forms with closed contacts are true.
+//! What contacts do, and how long forms with closed contacts are true.
 
-use super::{Kind, Problem};
+use super::{Kind, Problem, ProblemError};
 use crate::evaluate::Value;
-use crate::history::Validity;
+use crate::history::{History, Validity};
 use crate::network::Network;
 use crate::scene::{Element, Joint, Kind as ElementKind, Scene};
 use wavestep_polynomial::Rational;
@@ -37,6 +37,23 @@ pub struct Pressed {
 
 #[doc(hidden)]
 impl Problem {
+    /// What contacts do until a time; without one until nothing can meet again, at most for a hundred of
+    /// the longest travel times.
+    pub fn history(
+        &self,
+        until: Option<&Rational>,
+        digits: usize,
+    ) -> Result<History, ProblemError> {
+        if let Kind::Equations(_) = &self.kind {
+            return Err(ProblemError::EquationsHaveNoContacts);
+        }
+        let network = self.network()?;
+        match self.with_contacts() {
+            Some(_) => Ok(History::of(network, until, digits)?),
+            None => Err(ProblemError::NoContact),
+        }
+    }
+
     /// How long forms with closed contacts are true; `None` where there are no contacts.
     pub fn holds(&self, digits: usize) -> Option<Holds> {
         let network = self.with_contacts()?;

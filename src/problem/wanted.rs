@@ -5,7 +5,7 @@ use crate::expression::{Expression, Fraction, Root};
 use crate::language;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::{Observation, ObservedWave};
-use crate::scene::{Dimension, Scene};
+use crate::scene::{Dimension, Measure, Scene};
 
 /// A wave or an observable of a problem.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -117,6 +117,15 @@ impl Problem {
             Kind::LocalContact(scaled) => of_model(scaled.scene(), &known),
         };
         found.ok_or_else(|| self.unknown(name))
+    }
+
+    /// What an observable measures; none where its terms differ, or where it is a wave.
+    pub fn measure(&self, wanted: &Wanted) -> Option<Measure> {
+        let mut observables = self.scaled().ok()?.scene().observables.iter();
+        let own = observables.find(|own| own.name == wanted.name())?;
+        let mut measures = own.terms.iter().map(|term| term.measure);
+        let first = measures.next()?;
+        measures.all(|other| other == first).then_some(first)
     }
 
     /// Why nothing is known of this name.

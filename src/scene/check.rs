@@ -347,7 +347,7 @@ impl Check<'_> {
         let Seen { measure, place, .. } = seen;
         let Some(element) = place.element() else { return self.of_line(seen) };
         let kind = &self.scene.elements[element].kind;
-        if !is_measurable(*measure, kind, matches!(place, Place::Element(_))) {
+        if !is_measurable(*measure, kind, place) {
             return Some(Mistake::NotMeasurable);
         }
         let Kind::Bar(bar) = kind else { return None };
@@ -415,16 +415,17 @@ fn is_infinite(measure: Measure, bar: &Bar) -> bool {
 }
 
 /// Whether an element as a whole, or a section of it, has a measure.
-fn is_measurable(measure: Measure, kind: &Kind, whole: bool) -> bool {
+fn is_measurable(measure: Measure, kind: &Kind, place: &Place) -> bool {
     use Measure::{Compression, Displacement, Energy, Force, Momentum, Velocity};
-    match (kind, whole) {
-        (Kind::Bar(_), false) => !matches!(measure, Compression | Energy | Momentum),
-        (_, false) => false,
-        (Kind::Bar(_), true) => matches!(measure, Energy | Momentum),
-        (Kind::Mass(_), true) => matches!(measure, Velocity | Displacement | Energy | Momentum),
-        (Kind::Spring(_), true) => matches!(measure, Force | Compression | Energy),
-        (Kind::Hertz(_), true) => matches!(measure, Force | Compression),
-        (Kind::Support(_), true) => matches!(measure, Force | Energy),
-        (Kind::Load(_), true) => false,
+    match (kind, place) {
+        (Kind::Bar(_), Place::Element(_)) => matches!(measure, Energy | Momentum),
+        (Kind::Bar(_), _) => !matches!(measure, Compression | Energy | Momentum),
+        (Kind::Mass(_), Place::Element(_)) => {
+            matches!(measure, Velocity | Displacement | Energy | Momentum)
+        }
+        (Kind::Spring(_), Place::Element(_)) => matches!(measure, Force | Compression | Energy),
+        (Kind::Hertz(_), Place::Element(_)) => matches!(measure, Force | Compression),
+        (Kind::Support(_), Place::Element(_)) => matches!(measure, Force | Energy),
+        _ => false,
     }
 }

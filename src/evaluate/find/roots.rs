@@ -185,7 +185,7 @@ impl Search<'_> {
         }
         let end = before.expect("a window has a stretch that is no instant");
         match (end.vanishes, end.last) {
-            (true, _) => self.close_interval(&mut all, known(&self.window[1]), true),
+            (true, _) => end_interval(&mut all, known(&self.window[1]), Some(Ordering::Equal)),
             (false, Some(Ordering::Equal)) => {
                 all.push(Root::End { time: known(&self.window[1]) });
             }
@@ -235,7 +235,7 @@ impl Search<'_> {
         match (before.vanishes, now.vanishes) {
             (true, true) => return Ok(()),
             (true, false) => {
-                self.close_interval(all, time()?, now.first == equal);
+                end_interval(all, time()?, now.first);
                 if now.first.is_some() {
                     return Ok(());
                 }
@@ -286,12 +286,6 @@ impl Search<'_> {
         let limit_bits = question.target.limit_bits;
         let limit = |bits| self.limit(stretch, 0, side, bits);
         Ok(Value::certify(question.digits, limit_bits, limit)?.exact_if_known())
-    }
-
-    fn close_interval(&self, all: &mut [Root], end: Value, whole: bool) {
-        if let Some(Root::Interval { to, closed, .. }) = all.last_mut() {
-            (*to, *closed) = (end, whole);
-        }
     }
 
     /// Whether the observable is constant on a stretch: coefficient by coefficient, its derivative
@@ -417,5 +411,12 @@ impl Search<'_> {
         }
         all.push(Root::Undecided { from, to, range, crosses });
         Ok(())
+    }
+}
+
+/// Ends the interval of roots that is last; its end belongs to it where the signal has the value there.
+fn end_interval(all: &mut [Root], end: Value, there: Option<Ordering>) {
+    if let Some(Root::Interval { to, closed, .. }) = all.last_mut() {
+        (*to, *closed) = (end, there == Some(Ordering::Equal));
     }
 }

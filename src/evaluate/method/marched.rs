@@ -16,6 +16,7 @@ use crate::evaluate::signal::{Limit, Signal};
 use crate::evaluate::taps::{Extra, NoTaps, Taps};
 use crate::evaluate::transforms::value_at;
 use crate::expression::{Field as _, Fraction, Root, Transform};
+use wavestep_kernels::march::Bounds;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Bits of the sum of the waves and what is added, whatever their sizes.
@@ -55,8 +56,7 @@ struct Extras {
 }
 
 impl Marched {
-    /// The waves until the end of the window; where `proven`, they are marched through at once and
-    /// a bound is proven, where there is one pole and one lag.
+    /// The waves until the end of the window, without a bound.
     ///
     /// # Errors
     /// [`MethodError::NoTaps`], where arrivals lie on no common grid; [`MethodError::TooManyPeriods`];
@@ -64,15 +64,28 @@ impl Marched {
     ///
     /// # Cost
     /// With one pole and one lag some hundred operations a coefficient for each period, of which there
-    /// are about `√(2nD)`; two or three times as many with a bound. Otherwise that for each term of each step.
-    pub fn new(signal: &dyn Signal, proven: bool) -> Result<Marched, MethodError> {
+    /// are about `√(2nD)`. Otherwise that for each term of each step.
+    pub fn new(signal: &dyn Signal) -> Result<Marched, MethodError> {
+        Marched::of_signal(signal, Bounds::None)
+    }
+
+    /// The same, with a bound where there is one pole and one lag: the waves are then marched through at
+    /// once, with two or three times as many operations.
+    ///
+    /// # Errors
+    /// As [`Marched::new`].
+    pub fn proven(signal: &dyn Signal) -> Result<Marched, MethodError> {
+        Marched::of_signal(signal, Bounds::Proven)
+    }
+
+    fn of_signal(signal: &dyn Signal, bounds: Bounds) -> Result<Marched, MethodError> {
         let (form, window) = (signal.closed_form()?, signal.window());
         let taps = match Taps::of(form) {
             Ok(taps) => taps,
             Err(NoTaps::NoGrid) => return Err(NoTaps::NoGrid.into()),
             Err(_) => return Marched::of_waves(form, window),
         };
-        match Marched::of_response(taps, form, window, proven) {
+        match Marched::of_response(taps, form, window, bounds) {
             // Growing reflections have no certificate; their waves have values as others have.
             Err(error @ (MethodError::Reflection(_) | MethodError::March(_))) => {
                 Marched::of_waves(form, window).map_err(|_| error)
@@ -86,7 +99,7 @@ impl Marched {
         taps: Taps,
         signal: &ClosedForm,
         [from, to]: [&Rational; 2],
-        proven: bool,
+        bounds: Bounds,
     ) -> Result<Marched, MethodError> {
         let numbers = Numbers::new(signal.recurrence().constants());
         let reflection = reflection(&taps, &numbers)?;
@@ -96,7 +109,8 @@ impl Marched {
         let seen = taps.into_iter().map(|tap| Delayed { delay: tap.delay, since: tap.since });
         let seen: Vec<Delayed> = seen.collect();
         let last = clock.last_period(&seen, to)?;
-        let march = Response::new(reflection, weights, proven.then_some(last))?;
+        let proven_to = matches!(bounds, Bounds::Proven).then_some(last);
+        let march = Response::new(reflection, weights, proven_to)?;
         let local = signal.recurrence().statement().local.clone();
         let extras = Extras { functions, local, unit: signal.unit().clone() };
         let (from, to) = (from.clone(), to.clone());

@@ -149,6 +149,6 @@ fn too_many_periods_are_refused() {
     let problem = Problem::builtin("rigid-mass").unwrap().with("mu", "1").unwrap();
     let far = BigRational::from_integer(100_000_000_i64.into());
     let question = problem.question("f", [exact(0.0), far]).unwrap();
-    let refused = Marched::new(&*question.signal, false).err().expect("a refusal");
+    let refused = Marched::new(&*question.signal).err().expect("a refusal");
     assert!(matches!(refused, MethodError::TooManyPeriods { limit: 10_000_000, .. }), "{refused}");
 }

@@ -70,7 +70,10 @@ impl Subject<'_> {
     }
 
     pub fn marched(&self, proven: bool) -> Result<Marched, MethodError> {
-        Marched::new(self.signal(), proven)
+        match proven {
+            true => Marched::proven(self.signal()),
+            false => Marched::new(self.signal()),
+        }
     }
 
     fn title(text: &str, quantity: &str, values: Values<'_>) -> String {
