@@ -240,11 +240,7 @@ fn remedy(error: &ProblemError) -> Option<String> {
         }
         ProblemError::Digits(_) => format!("ask for 1 to {MAX_DIGITS} digits"),
         ProblemError::OutsidePeriod(times) => format!("give a time from 0 to below {}", times[1]),
-        ProblemError::LocalContact { contact, spring } => {
-            let spring = match spring {
-                Some(spring) => format!("the equivalent one is `{spring}`"),
-                None => format!("`spring {contact} {{ stiffness = … }}`"),
-            };
+        ProblemError::LocalContact { spring, .. } => {
             format!("ask for values, or put a spring in its place: {spring}")
         }
         error => return usual_remedy(error).map(str::to_owned),

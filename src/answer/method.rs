@@ -10,7 +10,6 @@ use std::str::FromStr;
 /// use wavestep::Method;
 ///
 /// assert_eq!("steps:1e-12".parse::<Method>()?, Method::Steps { tolerance: 1e-12 });
-/// assert!("modes:10".parse::<Method>()?.is_model());
 /// assert_eq!(Method::Marched { proven: true }.to_string(), "marched");
 /// # Ok::<(), wavestep::Error>(())
 /// ```
@@ -74,18 +73,6 @@ impl Method {
         ("leapfrog:CELLS,CFL", "model: finite differences [default: 400,1]"),
         ("steps:TOL", "model: method of steps with an adaptive solver [default: 1e-10]"),
     ];
-
-    /// Whether it is a model that leaves something out.
-    pub fn is_model(&self) -> bool {
-        matches!(
-            self,
-            Method::Rigid
-                | Method::Third
-                | Method::Modes { .. }
-                | Method::Leapfrog { .. }
-                | Method::Steps { .. }
-        )
-    }
 
     /// The name without settings.
     pub fn name(&self) -> &'static str {

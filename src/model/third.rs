@@ -38,8 +38,6 @@ pub enum StartingVelocity {
 #[derive(Clone, Debug)]
 pub struct ThirdOfMass {
     line: Line,
-    /// The velocity of the striking mass.
-    velocity: f64,
     /// The velocity at the start.
     start: f64,
     /// `ω = √(k/(M + m/3))`
@@ -92,7 +90,6 @@ impl ThirdOfMass {
         let whole = mass + bar.mass() / 3.0;
         let (time, strain) = line.units_of(scene.as_ref(), 0)?;
         Ok(ThirdOfMass {
-            velocity,
             start: match start {
                 StartingVelocity::Kept => velocity,
                 StartingVelocity::ByMomentum => momentum / whole,
@@ -110,17 +107,12 @@ impl ThirdOfMass {
         std::f64::consts::TAU / self.frequency * self.time
     }
 
-    /// The largest strain `(v_0/c) √(1/μ + 1/3)`, without its sign.
+    /// The largest strain `(v_0/c) √(1/μ + 1/3)`, without its sign. The front of strain `V/c` added gives the
+    /// better estimate of equation 6.86.
     pub fn largest_strain(&self) -> f64 {
         // u/L = v_0/(ω L) in the scale of the line, where L is c τ.
         let travel = self.line.bars[0].travel.expect("finite");
         (self.start / (self.frequency * travel)).abs() * self.strain
-    }
-
-    /// The better estimate of equation 6.86, `(V/c) [1 + √(1/μ + 1/3)]` where the velocity is kept:
-    /// the front of strain `V/c` is added.
-    pub fn largest_strain_with_front(&self) -> f64 {
-        self.velocity.abs() * self.strain + self.largest_strain()
     }
 }
 

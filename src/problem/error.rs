@@ -48,8 +48,8 @@ pub enum ProblemError {
     #[error("{}", NetworkError::NotLinear(contact.clone()))]
     LocalContact {
         contact: String,
-        /// The spring nearest to it, as a scene states it.
-        spring: Option<String>,
+        /// The spring to put in its place, as the remedy tells it: the equivalent one where it is known.
+        spring: String,
     },
     #[error("where contacts open there are no periods and no counted echoes")]
     NoPeriodsWhereContactsOpen,
@@ -172,7 +172,11 @@ impl ProblemError {
     pub(super) fn local_contact(scaled: &ScaledScene) -> ProblemError {
         let contact = scaled.local_contact().map(|contact| &scaled.scene().elements[contact].name);
         let contact = contact.cloned().unwrap_or_default();
-        ProblemError::LocalContact { contact, spring: equivalent_spring(scaled) }
+        let spring = match equivalent_spring(scaled) {
+            Some(spring) => format!("the equivalent one is `{spring}`"),
+            None => format!("`spring {contact} {{ stiffness = … }}`"),
+        };
+        ProblemError::LocalContact { contact, spring }
     }
 }
 

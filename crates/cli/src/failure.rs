@@ -180,11 +180,7 @@ fn in_options(cause: &ProblemError) -> Option<String> {
             WayError::Model(ModelError::MissingValue(symbol)) => set(symbol),
             error => for_way(error)?.to_owned(),
         },
-        ProblemError::LocalContact { contact, spring } => {
-            let spring = match spring {
-                Some(spring) => format!("the equivalent one is `{spring}`"),
-                None => format!("`spring {contact} {{ stiffness = … }}`"),
-            };
+        ProblemError::LocalContact { spring, .. } => {
             format!("ask for values, with `eval`, or put a spring in its place: {spring}")
         }
         ProblemError::ObservableIsNoWave(name) => {

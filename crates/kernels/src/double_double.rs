@@ -90,15 +90,6 @@ pub struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// The relative error of a sum, at most `3 ε² + 13 ε³ < 3.0001 · 2⁻¹⁰⁶`: theorem 3.1 (for
-    /// `AccurateDWPlusDW`) of M. Joldes, J.-M. Muller and V. Popescu, *Tight and rigorous error
-    /// bounds for basic building blocks of double-word arithmetic*, ACM TOMS 44 (2017).
-    pub const SUM_ERROR: f64 = 3.0001 * UNIT * UNIT;
-
-    /// The relative error of a product, at most `7 ε²`, if nothing under- or overflows: theorem 5.1
-    /// (for `DWTimesDW1`) of the same paper.
-    pub const PRODUCT_ERROR: f64 = 7.0 * UNIT * UNIT;
-
     pub(crate) const ZERO: Self = Self { high: 0.0, low: 0.0 };
     pub(crate) const ONE: Self = Self { high: 1.0, low: 0.0 };
 
@@ -133,7 +124,7 @@ impl DoubleDouble {
     }
 
     /// The product with a double; relative error at most `2 ε²`: theorem 4.1 (for `DWTimesFP1`) of the
-    /// same paper.
+    /// paper named at [`add`](Self::add).
     #[inline(always)]
     pub(crate) fn times(self, factor: f64) -> Self {
         let (product, error) = two_product(self.high, factor);
@@ -141,7 +132,7 @@ impl DoubleDouble {
         Self::quick(high, low + error)
     }
 
-    /// The quotient by a double; relative error at most `3 ε²`: `DWDivFP3` of the same paper.
+    /// The quotient by a double; relative error at most `3 ε²`: `DWDivFP3` of that paper.
     #[inline(always)]
     pub(crate) fn over(self, divisor: f64) -> Self {
         let quotient = self.high / divisor;
@@ -174,6 +165,9 @@ impl std::ops::Neg for DoubleDouble {
 impl std::ops::Add for DoubleDouble {
     type Output = Self;
 
+    /// The sum; relative error at most `3 ε² + 13 ε³ < 3.0001 · 2⁻¹⁰⁶`: theorem 3.1 (for
+    /// `AccurateDWPlusDW`) of M. Joldes, J.-M. Muller and V. Popescu, *Tight and rigorous error
+    /// bounds for basic building blocks of double-word arithmetic*, ACM TOMS 44 (2017).
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         let (high, high_error) = two_sum(self.high, other.high);
@@ -195,6 +189,8 @@ impl std::ops::Sub for DoubleDouble {
 impl std::ops::Mul for DoubleDouble {
     type Output = Self;
 
+    /// The product; relative error at most `7 ε²`, if nothing under- or overflows: theorem 5.1 (for
+    /// `DWTimesDW1`) of the paper named at [`add`](Self::add).
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (product, error) = two_product(self.high, other.high);
