@@ -233,7 +233,7 @@ fn methods_that_sum_waves_refuse_energies() {
             let refused = Summed::new(&*signal, summation).err();
             assert_eq!(refused, Some(MethodError::Evaluate(EvaluateError::NotLinear)));
         }
-        let refused = Marched::new(&*signal, false).err();
+        let refused = Marched::new(&*signal).err();
         assert_eq!(refused, Some(MethodError::Evaluate(EvaluateError::NotLinear)));
     }
 }
