@@ -46,7 +46,7 @@ pub enum Method {
         /// Courant's number.
         courant: f64,
     },
-    /// The method of steps with an adaptive solver.
+    /// The method of steps by collocation, with this relative tolerance.
     Steps {
         /// Its relative tolerance.
         tolerance: f64,
@@ -71,7 +71,7 @@ impl Method {
         ("third", "model: a spring with a third of the bar's mass"),
         ("modes:N", "model: N modes of vibration [default: 1000]"),
         ("leapfrog:CELLS,CFL", "model: finite differences [default: 400,1]"),
-        ("steps:TOL", "model: method of steps with an adaptive solver [default: 1e-10]"),
+        ("steps:TOL", "model: method of steps by collocation, relative tolerance [default: 1e-10]"),
     ];
 
     /// The name without settings.

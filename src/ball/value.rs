@@ -178,10 +178,7 @@ impl Value {
                 fraction if fraction.len() <= MAX_FRACTION => format!("{decimal} = {fraction}"),
                 _ => decimal.to_string(),
             },
-            (Value::Certified { ball, .. }, (decimal, _)) if decimal.is_zero() => {
-                format!("0 ± {:e}", ball.to_decimal(1).radius())
-            }
-            (Value::Certified { .. }, (decimal, _)) => decimal.to_string(),
+            (Value::Certified { .. }, _) => self.to_string(),
             (Value::Enclosed(ball), _) => ball.to_decimal(digits).to_string(),
         }
     }
@@ -192,6 +189,9 @@ impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Value::Exact(value) => value.fmt(f),
+            Value::Certified { decimal, ball } if decimal.is_zero() => {
+                write!(f, "0 ± {:e}", ball.to_decimal(1).radius())
+            }
             Value::Certified { decimal, .. } => decimal.fmt(f),
             Value::Enclosed(ball) => ball.fmt(f),
         }

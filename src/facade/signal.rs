@@ -114,7 +114,8 @@ impl Signal<'_> {
     /// As [`at`](Signal::at); also where no double is near enough.
     ///
     /// # Cost
-    /// A window is compiled once, in about a second after a thousand periods; then a few nanoseconds a value.
+    /// Each call compiles a window of its own, in about a second after a thousand periods; then a few
+    /// nanoseconds a value. Pass all times together.
     pub fn values<T: Clone + Into<Given>>(
         &self,
         times: &[T],

@@ -40,8 +40,6 @@ pub struct Periods {
     pub factors: Vec<String>,
     /// The waves in the order in which they are solved for, and how.
     pub steps: Vec<(String, Solved)>,
-    /// What is observed and linear.
-    pub observables: Vec<String>,
     /// The waves that decay together, and their rates.
     pub coupled: Vec<(Vec<String>, Vec<String>)>,
     /// How it was derived, until which period.
@@ -112,12 +110,6 @@ impl Problem {
             steps: steps.map(|step| (name(step.wave), solved(step.start.is_some()))).collect(),
             coupled: coupled
                 .map(|own| (own.waves.iter().copied().map(name).collect(), rates(recurrence, own)))
-                .collect(),
-            observables: recurrence
-                .statement()
-                .observables
-                .iter()
-                .map(|observable| observable.name.clone())
                 .collect(),
             general: shown
                 .iter()

@@ -36,7 +36,7 @@ pub fn run(options: &Check) -> Result<String, Failure> {
                  derived echo by echo: {echoes} echoes"
             );
         }
-        Checked::Periods(periods) => add_periods(&mut report, &periods),
+        Checked::Periods(periods) => add_periods(&mut report, &periods, &problem.observables()),
     }
     Ok(report)
 }
@@ -47,7 +47,7 @@ fn add_observables<T: std::borrow::Borrow<str>>(report: &mut String, observables
     }
 }
 
-fn add_periods(report: &mut String, found: &Periods) {
+fn add_periods(report: &mut String, found: &Periods, observables: &[&str]) {
     for (symbol, condition) in &found.symbols {
         let condition = condition.as_ref().map_or_else(String::new, |known| format!(" {known}"));
         let _ = writeln!(report, "  symbol {symbol}{condition}");
@@ -66,7 +66,7 @@ fn add_periods(report: &mut String, found: &Periods) {
         let (waves, rates) = (waves.join(", "), rates.join(", "));
         let _ = writeln!(report, "  coupled: {waves}, with the rates {rates}");
     }
-    add_observables(report, &found.observables);
+    add_observables(report, observables);
     let _ = match found.derived {
         (Derivations::InTwoWays, last) => {
             writeln!(report, "  derived in two ways, equal on periods 0 to {last}")
