@@ -372,8 +372,9 @@ fn remedy_of_way(error: &WayError) -> String {
         WayError::NeedsRecurrence(_) => "use the method of steps",
         WayError::NeedsScene(_) => DESCRIBE,
         WayError::LeftLimit(_) => "ask for the limit from the right",
-        WayError::NoNumber(..) => "use the method certified",
-        WayError::NotMet { .. } => "ask for digits instead",
+        WayError::NoNumber(..) | WayError::TooSmall(_) | WayError::NotMet { .. } => {
+            "ask for digits instead"
+        }
     };
     usual.to_owned()
 }

@@ -108,6 +108,10 @@ pub fn doubles(
     Ok(Doubles { method: way.method(), law: way.law(), bound: way.bound(), values, remarks })
 }
 
+/// What values of a window have to reach for a tolerance to be relative to them: sizes below `2^−1000` are
+/// told as `2^−1000`, and doubles have fewer than 53 bits below `2^−1022`.
+const LEAST_SCALE: f64 = f64::from_bits((1023 - 900) << 52);
+
 /// The choice of a method, and what is to be known of it.
 struct Choice<'p, 'a> {
     question: &'p Question<'a>,
@@ -132,6 +136,7 @@ impl<'p> Choice<'p, '_> {
             relative => match self.scale()? {
                 // Where all is zero any tolerance is met.
                 0.0 => f64::MIN_POSITIVE.max(relative.absolute(1.0)),
+                scale if scale < LEAST_SCALE => return Err(WayError::TooSmall(scale)),
                 scale => relative.absolute(scale),
             },
         })

@@ -36,6 +36,9 @@ pub enum WayError {
     /// A method gives no number at a time.
     #[error("{} gives no number at {}", .0, in_decimals(.1))]
     NoNumber(Method, Rational),
+    /// A tolerance is relative to values so small that doubles near them are too coarse, or are zero.
+    #[error("the largest value on the window, at most {0:e}, is too small for doubles")]
+    TooSmall(f64),
     /// No method is proven to be good enough.
     #[error("no double is proven to be within {tolerance}")]
     NotMet {

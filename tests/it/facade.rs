@@ -176,3 +176,27 @@ fn every_scene_has_a_surface() -> Result<(), Error> {
     }
     Ok(())
 }
+
+/// A tolerance relative to values that doubles cannot tell from zero is refused, and digits answer.
+#[test]
+fn tolerances_of_tiny_values_are_refused() -> Result<(), Error> {
+    for velocity in ["1e-200", "1e-305", "1e-400"] {
+        let text = format!(
+            "scene \"Tiny\"\nbar a {{ impedance = 1, travel = 1, velocity = {velocity} }}\n\
+             bar b {{ impedance = 1, travel = 2 }}\nline free - a - b - free\n\
+             observe v = velocity(b.left)\nobserve e = energy(b)"
+        );
+        let problem = Problem::read("tiny", &text)?;
+        for (name, is_told) in [("v", velocity == "1e-200"), ("e", false)] {
+            let signal = problem.signal(name)?;
+            assert!(signal.at("1/2", 20)?.bounds()[0] > ratio(0, 1), "{name}");
+            for tolerance in [Tolerance::Relative(1e-9), Tolerance::Ulps(1.0)] {
+                let doubles = signal.values(&["1/2"], tolerance);
+                assert_eq!(doubles.is_ok(), is_told, "{name} {velocity}: {doubles:?}");
+            }
+            // In the unit of the values zero is near enough.
+            assert!(signal.values(&["1/2"], Tolerance::Absolute(1e-9)).is_ok());
+        }
+    }
+    Ok(())
+}

@@ -278,8 +278,9 @@ fn for_way(error: &WayError) -> Option<&'static str> {
         WayError::Method(_) => "ask for a shorter window, or use --method certified",
         WayError::NeedsRecurrence(_) => STEPS,
         WayError::LeftLimit(_) => "leave out --side left",
-        WayError::NoNumber(..) => "use --method certified",
-        WayError::NotMet { .. } => "ask for digits instead: --digits 25",
+        WayError::NoNumber(..) | WayError::TooSmall(_) | WayError::NotMet { .. } => {
+            "ask for digits instead: --digits 25"
+        }
         _ => return None,
     })
 }
