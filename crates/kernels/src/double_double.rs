@@ -190,7 +190,7 @@ impl std::ops::Mul for DoubleDouble {
     type Output = Self;
 
     /// The product; relative error at most `7 ε²`, if nothing under- or overflows: theorem 5.1 (for
-    /// `DWTimesDW1`) of the paper named at [`add`](Self::add).
+    /// `DWTimesDW1`) of the paper named at `add`.
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (product, error) = two_product(self.high, other.high);
