@@ -5,7 +5,7 @@ use crate::expression::sum::Expression;
 use num_traits::{Signed, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
-use wavestep_polynomial::{Polynomial, Rational, Symbol};
+use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 
 /// How a symbol compares with a number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -94,7 +94,7 @@ pub struct Assumptions {
 pub enum NotInvertible {
     #[error("division by zero")]
     Zero,
-    /// This factor would have to be declared non-zero first.
+    /// This irreducible factor would have to be declared non-zero first.
     #[error("division by {0}, which is not known to be non-zero")]
     Undeclared(Polynomial),
     /// A sum of exponentials, which may vanish somewhere.
@@ -127,21 +127,6 @@ impl Assumptions {
     pub fn declare_bounds(&mut self, symbol: Symbol, lower: Rational, upper: Rational) {
         assert!(lower.is_positive() && lower <= upper, "bounds in order, and positive");
         self.bounds.insert(symbol, (lower, upper));
-    }
-
-    /// Whether a polynomial is positive between the bounds of its symbols: terms with positive
-    /// coefficients at the lower ones, and others at the upper ones, have a positive sum.
-    fn is_positive_within_bounds(&self, p: &Polynomial) -> bool {
-        let bounds = p.symbols().iter().map(|symbol| self.bounds.get(symbol));
-        let Some(bounds) = bounds.collect::<Option<Vec<_>>>() else { return false };
-        let least = p.terms().map(|(exponents, coefficient)| {
-            let factors = bounds.iter().zip(exponents).map(|((lower, upper), power)| {
-                let bound = if coefficient.is_positive() { lower } else { upper };
-                bound.pow(i32::try_from(*power).expect("powers are small"))
-            });
-            factors.fold(coefficient.clone(), |product, factor| product * factor)
-        });
-        least.sum::<Rational>().is_positive()
     }
 
     /// Declares the square of a symbol, free of the symbol itself.
@@ -188,8 +173,8 @@ impl Assumptions {
         self.factors.iter()
     }
 
-    /// The inverse of `c · e^λ`, where `c` is a product of declared factors, a number, and at most
-    /// one irreducible factor that is certainly positive or certainly negative.
+    /// The inverse of `c · e^λ`, where `c` is a product of declared factors, a number, and what is certainly
+    /// positive or certainly negative.
     ///
     /// An algebraic number that is not zero can always be inverted. Where `c` holds square roots and
     /// symbols, it is its norm that must be such a product, or a power of one.
@@ -253,11 +238,14 @@ impl Assumptions {
             let (multiplier, norm) = rest.norm();
             inverse = &inverse * &(&Fraction::from(multiplier) * &self.invert_norm(&norm)?);
         } else {
-            let rest = Fraction::from(rest);
-            let known = self.is_positive(&rest) || self.is_positive(&-&rest);
-            let reciprocal = Fraction::reciprocal(rest.numerator()).ok().filter(|_| known);
-            let undeclared = || NotInvertible::Undeclared(rest.numerator().primitive_part().1);
-            inverse = &inverse * &reciprocal.ok_or_else(undeclared)?;
+            let undeclared = |p: &Polynomial| NotInvertible::Undeclared(p.primitive_part().1);
+            let reciprocal = Fraction::reciprocal(&rest).map_err(|_| undeclared(&rest))?;
+            if !self.has_one_sign(&rest)
+                && let Some((factor, _)) = reciprocal.factors().find(|(p, _)| !self.has_one_sign(p))
+            {
+                return Err(undeclared(factor));
+            }
+            inverse = &inverse * &reciprocal;
         }
         Ok(inverse)
     }
@@ -273,6 +261,11 @@ impl Assumptions {
         }
     }
 
+    /// Whether a polynomial is certainly positive or certainly negative.
+    fn has_one_sign(&self, p: &Polynomial) -> bool {
+        self.is_positive_polynomial(p) || self.is_positive_polynomial(&-p)
+    }
+
     /// Whether the value is certainly positive under the conditions: a quotient of polynomials
     /// that, written in the distances of the symbols from their bounds, have positive coefficients
     /// only, and at least one term that cannot vanish.
@@ -281,26 +274,50 @@ impl Assumptions {
         positive(value.numerator()) && value.factors().all(|(factor, _)| positive(factor))
     }
 
+    /// Symbols without an upper bound are written as `bound ± x` with `x ≥ 0`. The coefficients of their
+    /// powers hold symbols and roots that lie between positive numbers: there a term with a positive
+    /// coefficient is least at the lower ones, any other at the upper ones.
     fn is_positive_polynomial(&self, p: &Polynomial) -> bool {
-        if !p.symbols().is_empty() && self.is_positive_within_bounds(p) {
-            return true;
-        }
         let mut in_distances = p.clone();
+        let mut bounds = BTreeMap::new();
         for symbol in p.symbols() {
             let condition = self.conditions.get(symbol).and_then(Option::as_ref);
-            let Some(value) = condition.and_then(|condition| condition.half_line(symbol)) else {
+            if let Some(between) = self.bounds.get(symbol).cloned().or_else(|| root_bounds(symbol))
+            {
+                bounds.insert(symbol.clone(), between);
+            } else if let Some(half_line) = condition.and_then(|known| known.half_line(symbol)) {
+                in_distances = in_distances.substitute(symbol, &half_line);
+            } else {
                 return false;
-            };
-            in_distances = in_distances.substitute(symbol, &value);
+            }
+        }
+        let mut least: BTreeMap<Vec<(&Symbol, u32)>, Rational> = BTreeMap::new();
+        for (exponents, coefficient) in in_distances.terms() {
+            let powers = in_distances.symbols().iter().zip(exponents.iter().copied());
+            let powers = powers.filter(|(_, power)| *power > 0);
+            let (bounded, free): (Vec<_>, Vec<_>) =
+                powers.partition(|(x, _)| bounds.contains_key(x));
+            let least_term = bounded.iter().fold(coefficient, |product, (symbol, power)| {
+                let (lower, upper) = &bounds[symbol];
+                let bound = if product.is_positive() { lower } else { upper };
+                product * bound.pow(i32::try_from(*power).expect("powers are small"))
+            });
+            *least.entry(free).or_default() += least_term;
         }
         let strict = |x: &Symbol| {
             self.conditions.get(x).and_then(Option::as_ref).is_some_and(Condition::is_strict)
         };
-        let symbols = in_distances.symbols();
-        let cannot_vanish = |exponents: &[u32]| {
-            symbols.iter().zip(exponents).all(|(symbol, e)| *e == 0 || strict(symbol))
-        };
-        in_distances.terms().all(|(_, coefficient)| coefficient.is_positive())
-            && in_distances.terms().any(|(exponents, _)| cannot_vanish(exponents))
+        let cannot_vanish = |free: &[(&Symbol, u32)]| free.iter().all(|(symbol, _)| strict(symbol));
+        least.values().all(|coefficient| !coefficient.is_negative())
+            && least.iter().any(|(free, c)| c.is_positive() && cannot_vanish(free))
     }
+}
+
+/// Numbers between which a real square root lies, less than 2⁻⁶⁴ apart.
+fn root_bounds(root: &Symbol) -> Option<(Rational, Rational)> {
+    let square = root.square().filter(|square| *square > 0)?;
+    let lower: Integer = (Integer::from(square) << 128_u32).sqrt();
+    let upper = &lower + 1;
+    let scale = Integer::from(1) << 64_u32;
+    Some((Rational::new(lower, scale.clone()), Rational::new(upper, scale)))
 }

@@ -12,8 +12,7 @@ use wavestep_polynomial::{Integer, Polynomial, Rational, Symbol};
 /// p / Π_i d_i^{k_i}
 /// ```
 ///
-/// Each `d_i` is *primitive* (coprime integer coefficients, the leading one positive) and linear
-/// in some symbol with a coefficient that shares no factor with the rest, hence irreducible.
+/// Each `d_i` is *primitive* (coprime integer coefficients, the leading one positive) and irreducible.
 /// Exact division then cancels all that can be cancelled, and no general gcd is needed.
 ///
 /// Square roots stand in numerators only: a fraction with roots is a combination of their products,
@@ -31,8 +30,7 @@ pub struct Fraction {
     factors: BTreeMap<Polynomial, u32>,
 }
 
-/// A polynomial that cannot be divided by: zero, or not a product of symbols and at most one
-/// further factor that is linear in some symbol, or a quadratic that has no factors.
+/// A polynomial that cannot be divided by: zero, or one whose factors are not found.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{}", self.message())]
 pub struct NotAUnit(pub Polynomial);
@@ -41,7 +39,7 @@ impl NotAUnit {
     fn message(&self) -> String {
         match self.0.is_zero() {
             true => "division by zero".to_owned(),
-            false => format!("cannot divide by {}: it is not linear in any symbol", self.0),
+            false => format!("cannot divide by {}: its factors are not found", self.0),
         }
     }
 }
@@ -63,8 +61,7 @@ impl Fraction {
         Polynomial::symbol(x).into()
     }
 
-    /// `1/p`, where `p` is a constant times symbols times at most one factor that is linear in
-    /// some symbol with a constant or a single term as its coefficient.
+    /// `1/p`, where `p` is zero neither nor so long that its irreducible factors are not found.
     ///
     /// Where `p` holds square roots, the denominator is rationalised, `1/p = m/(p m)` with
     /// [`Polynomial::norm`], and it is `p m` that must be such a product, or a power of one whose
@@ -88,11 +85,10 @@ impl Fraction {
                 factors.insert(symbol, lowest);
             }
         }
-        if !rest.is_one() {
-            if !is_irreducible(&rest) {
-                return Err(NotAUnit(p.clone()));
-            }
+        if is_irreducible(&rest) {
             factors.insert(rest, 1);
+        } else {
+            factors.extend(rest.factors().ok_or_else(|| NotAUnit(p.clone()))?);
         }
         Ok(Fraction { numerator: Polynomial::constant(&content.recip()), factors })
     }
@@ -243,9 +239,9 @@ fn reciprocal_of_power(p: &Polynomial) -> Option<Fraction> {
     })
 }
 
-/// Whether a primitive polynomial is linear in some symbol, with a single term as that symbol's
-/// coefficient, no symbol of which divides the rest: then it has no factors but itself. So it is with
-/// quadratics whose discriminant is no square.
+/// Whether a primitive polynomial is soon known to be irreducible: where it is linear in some symbol, with
+/// a single term as that symbol's coefficient, no symbol of which divides the rest, and where it is a
+/// quadratic whose discriminant is no square.
 fn is_irreducible(p: &Polynomial) -> bool {
     is_irreducible_quadratic(p)
         || p.symbols().iter().any(|x| match &p.coefficients(x)[..] {

@@ -587,8 +587,8 @@ impl<'a> Lowering<'a> {
                     .error(format!("`{factor}` may be zero"), span, "divided by here")
                     .with_remedy(format!("state that it is not, with `nonzero {factor}`")),
                 Err(_) => self
-                    .error("this cannot be divided by", span, "not linear in any symbol")
-                    .with_remedy("divide by a product of factors that are linear in a symbol each"),
+                    .error("this cannot be divided by", span, "its factors are not found")
+                    .with_remedy("divide by its factors one by one"),
             },
             NotInvertible::SumOfExponentials => self
                 .error("division by a sum of exponentials", span, "a sum of exponentials")

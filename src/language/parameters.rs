@@ -93,10 +93,7 @@ pub(super) fn nonzero(
     }
     let (label, remedy) = match value.is_zero() {
         true => ("this is zero", "check its signs, or remove the statement"),
-        false => (
-            "not linear in any symbol",
-            "declare factors that are linear in some symbol, one a statement",
-        ),
+        false => ("its factors are not found", "declare its factors, one a statement"),
     };
     Err(scope.error("this cannot be declared non-zero", tree.span, label).with_remedy(remedy))
 }

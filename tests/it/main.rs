@@ -1,5 +1,6 @@
 //! The library, a module a capability.
 
+mod answers;
 mod derivations;
 mod energies;
 mod evaluate;

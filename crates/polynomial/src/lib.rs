@@ -5,6 +5,7 @@ mod binomial;
 mod calculus;
 mod decimal;
 mod division;
+mod factor;
 mod integer;
 mod ordinary;
 mod polynomial;

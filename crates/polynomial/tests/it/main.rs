@@ -2,6 +2,7 @@
 
 mod calculus;
 mod division;
+mod factors;
 mod ordinary;
 mod ring;
 mod roots;

@@ -1,0 +1,379 @@
+//! Irreducible factors over the rationals.
+//!
+//! Kronecker's substitution `x_i → x^{D_1 ⋯ D_{i−1}}`, with `D_i` above the degree in `x_i`, leaves one
+//! variable and can be undone: a factor's image is a product of factors of the image. These are found by
+//! Zassenhaus's method modulo one prime that is more than twice as large as any coefficient of a factor
+//! (Mignotte's bound), so that nothing has to be lifted.
+
+use crate::polynomial::Polynomial;
+use crate::symbol::Symbol;
+use num_bigint::BigInt;
+use num_integer::Integer as _;
+use num_rational::BigRational;
+use num_traits::{One, Signed, Zero};
+
+/// `2^e − 1` is prime for these `e`.
+const MERSENNE: [u32; 6] = [61, 127, 521, 1279, 2203, 4253];
+
+/// The highest degree of an image, and the most parts whose products are tried.
+const MAX_DEGREE: usize = 60;
+const MAX_PARTS: usize = 14;
+
+/// How many polynomials `x + c` are tried to separate two factors: each fails about every other time.
+const MAX_SHIFTS: i64 = 200;
+
+impl Polynomial {
+    /// The irreducible factors over the rationals, primitive, with their powers; none for a number.
+    /// `None` for 0, where square roots occur, and where the search would be long.
+    pub fn factors(&self) -> Option<Vec<(Polynomial, u32)>> {
+        if self.is_zero() || self.roots().next().is_some() {
+            return None;
+        }
+        let (_, mut rest) = self.primitive_part();
+        let mut found: Vec<(Polynomial, u32)> = Vec::new();
+        let mut add = |factor: Polynomial| match found.iter_mut().find(|(own, _)| *own == factor) {
+            Some((_, power)) => *power += 1,
+            None => found.push((factor, 1)),
+        };
+        if rest.is_one() {
+            return Some(Vec::new());
+        }
+        if rest.total_degree() == 1 || rest.stays_irreducible() {
+            return Some(vec![(rest, 1)]);
+        }
+        let image = Image::of(&rest)?;
+        let parts = integer_factors(&image.coefficients(&rest))?;
+        if parts.len() > MAX_PARTS {
+            return None;
+        }
+        gather(parts, |some| {
+            let product = some.iter().fold(vec![BigInt::one()], |p, part| product(&p, part));
+            let Some(factor) = image.preimage(&product) else { return false };
+            let quotient = rest.divide(&factor);
+            let divides = quotient.is_some();
+            if let Some(quotient) = quotient {
+                rest = quotient;
+                add(factor);
+            }
+            divides
+        });
+        if rest.as_constant().is_none() {
+            add(rest.primitive_part().1);
+        }
+        Some(found)
+    }
+
+    /// Whether it keeps its degree in a symbol and is irreducible where the others have certain values.
+    /// Then it has no factors with that symbol but itself; nor any without, where one coefficient is a
+    /// number.
+    fn stays_irreducible(&self) -> bool {
+        self.symbols().len() > 1
+            && self.symbols().iter().any(|x| {
+                if self.coefficients(x).iter().all(|(_, c)| c.as_constant().is_none()) {
+                    return false;
+                }
+                let others = self.symbols().iter().filter(|y| *y != x);
+                let values = [3, 7, 13, 29].iter().cycle();
+                let special = others.zip(values).fold(self.clone(), |p, (y, value)| {
+                    let value = BigRational::from_integer(BigInt::from(*value));
+                    p.substitute(y, &Polynomial::constant(&value))
+                });
+                let factors = special.factors();
+                special.degree(x) == self.degree(x)
+                    && factors.is_some_and(|all| matches!(all[..], [(_, 1)]))
+            })
+    }
+}
+
+/// Takes products of parts off what they are the product of, those of few parts first: `take` tells
+/// whether one was. What is left when all were tried has no factors but itself.
+fn gather<T>(mut parts: Vec<T>, mut take: impl FnMut(&[&T]) -> bool) {
+    let mut size = 1;
+    while 2 * size <= parts.len() {
+        let chosen = |mask: u32| (0..parts.len()).filter(move |i| mask >> i & 1 == 1);
+        let masks = (0..1_u32 << parts.len()).filter(|mask| mask.count_ones() as usize == size);
+        let found = masks.into_iter().find(|mask| {
+            let some: Vec<&T> = chosen(*mask).map(|i| &parts[i]).collect();
+            take(&some)
+        });
+        match found {
+            Some(mask) => {
+                let mut place = 0;
+                parts.retain(|_| {
+                    place += 1;
+                    mask >> (place - 1) & 1 == 0
+                });
+            }
+            None => size += 1,
+        }
+    }
+}
+
+/// Kronecker's substitution: each symbol with its degree, and the power of the one variable it becomes.
+struct Image {
+    symbols: Vec<(Symbol, usize, usize)>,
+}
+
+impl Image {
+    fn of(p: &Polynomial) -> Option<Image> {
+        let mut stride = 1_usize;
+        let mut symbols = Vec::new();
+        for x in p.symbols() {
+            let degree = p.degree(x) as usize;
+            symbols.push((x.clone(), degree, stride));
+            stride = stride.checked_mul(degree + 1)?;
+        }
+        (stride <= MAX_DEGREE + 1).then_some(Image { symbols })
+    }
+
+    /// The integer coefficients of the image of a primitive polynomial, the lowest power first.
+    fn coefficients(&self, p: &Polynomial) -> Vec<BigInt> {
+        let mut coefficients = Vec::new();
+        for (exponents, value) in p.terms() {
+            let steps = exponents.iter().zip(&self.symbols);
+            let place = steps.map(|(e, (_, _, stride))| *e as usize * stride).sum();
+            if coefficients.len() <= place {
+                coefficients.resize(place + 1, BigInt::zero());
+            }
+            coefficients[place] = value.to_integer();
+        }
+        coefficients
+    }
+
+    /// The primitive polynomial with this image; `None` for a number, and where there is none.
+    fn preimage(&self, image: &[BigInt]) -> Option<Polynomial> {
+        let size = self.symbols.iter().map(|(_, degree, _)| degree + 1).product();
+        if image.len() > size {
+            return None;
+        }
+        let terms = image.iter().enumerate().map(|(place, value)| {
+            let digit = |(x, degree, stride): &(Symbol, usize, usize)| {
+                (x.clone(), (place / stride % (degree + 1)) as u32)
+            };
+            let powers: Vec<(Symbol, u32)> = self.symbols.iter().map(digit).collect();
+            let powers: Vec<(&Symbol, u32)> = powers.iter().map(|(x, e)| (x, *e)).collect();
+            Polynomial::monomial(&BigRational::from_integer(value.clone()), &powers)
+        });
+        let sum: Polynomial = terms.sum();
+        sum.as_constant().is_none().then(|| sum.primitive_part().1)
+    }
+}
+
+/// The irreducible factors of a primitive polynomial with integer coefficients, each as often as it
+/// divides; primitive but for their signs.
+fn integer_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
+    let mut rest = p.to_vec();
+    let mut found = Vec::new();
+    for factor in square_free_factors(p)? {
+        while let Some(quotient) = quotient(&rest, &factor) {
+            rest = quotient;
+            found.push(factor.clone());
+        }
+    }
+    Some(found)
+}
+
+/// The different irreducible factors.
+fn square_free_factors(p: &[BigInt]) -> Option<Vec<Vec<BigInt>>> {
+    let degree = p.len() - 1;
+    if degree == 0 {
+        return Some(Vec::new());
+    }
+    let lead = p[degree].abs();
+    let norm: BigInt = p.iter().map(BigInt::abs).sum();
+    // Coefficients of factors are at most 2^n ‖p‖ (Mignotte); those here are multiplied by the leading one.
+    let bound = (norm * &lead) << (degree + 1);
+    let slope = derivative(p);
+    for prime in MERSENNE.map(|e| (BigInt::one() << e) - 1).into_iter().filter(|p| *p > bound) {
+        let prime = Prime(prime);
+        let whole = |factor: &[BigInt]| primitive(&prime.balanced(factor, &lead));
+        // p over what it shares with its derivative has every factor once.
+        let Some(single) = quotient(p, &whole(&prime.gcd(p, &slope))) else { continue };
+        let monic = prime.monic(&single);
+        if prime.gcd(&monic, &derivative(&monic)).len() > 1 {
+            continue;
+        }
+        let parts = prime.factors(monic)?;
+        if parts.len() > MAX_PARTS {
+            return None;
+        }
+        let mut rest = single;
+        let mut found = Vec::new();
+        gather(parts, |some| {
+            let product = some.iter().fold(vec![BigInt::one()], |p, part| product(&p, part));
+            let factor = whole(&product);
+            let quotient = quotient(&rest, &factor);
+            let divides = quotient.is_some();
+            if let Some(quotient) = quotient {
+                rest = quotient;
+                found.push(factor);
+            }
+            divides
+        });
+        if rest.len() > 1 {
+            found.push(rest);
+        }
+        return Some(found);
+    }
+    None
+}
+
+fn derivative(p: &[BigInt]) -> Vec<BigInt> {
+    p.iter().enumerate().skip(1).map(|(j, c)| c * j).collect()
+}
+
+fn product(p: &[BigInt], q: &[BigInt]) -> Vec<BigInt> {
+    let mut product = vec![BigInt::zero(); (p.len() + q.len()).saturating_sub(1)];
+    for (i, a) in p.iter().enumerate() {
+        for (j, b) in q.iter().enumerate() {
+            product[i + j] += a * b;
+        }
+    }
+    product
+}
+
+/// The quotient where it has integer coefficients, of divisors that are no number.
+fn quotient(p: &[BigInt], divisor: &[BigInt]) -> Option<Vec<BigInt>> {
+    let (lead, lower) = divisor.split_last()?;
+    let mut rest = p.to_vec();
+    let mut quotient = vec![BigInt::zero(); (p.len() + 1).checked_sub(divisor.len())?];
+    for place in (0..quotient.len()).rev() {
+        let (factor, remainder) = rest[place + lower.len()].div_rem(lead);
+        if !remainder.is_zero() {
+            return None;
+        }
+        lower.iter().enumerate().for_each(|(j, c)| rest[place + j] -= c * &factor);
+        quotient[place] = factor;
+    }
+    rest[..lower.len()].iter().all(BigInt::is_zero).then_some(quotient)
+}
+
+fn primitive(p: &[BigInt]) -> Vec<BigInt> {
+    let content = p.iter().fold(BigInt::zero(), |g, c| g.gcd(c));
+    p.iter().map(|c| c / &content).collect()
+}
+
+/// Polynomials with coefficients modulo a prime, without zeros at the end.
+struct Prime(BigInt);
+
+impl Prime {
+    fn reduced(&self, p: impl IntoIterator<Item = BigInt>) -> Vec<BigInt> {
+        let mut reduced: Vec<BigInt> = p.into_iter().map(|c| c.mod_floor(&self.0)).collect();
+        while reduced.last().is_some_and(BigInt::is_zero) {
+            reduced.pop();
+        }
+        reduced
+    }
+
+    fn scaled(&self, p: &[BigInt], by: &BigInt) -> Vec<BigInt> {
+        self.reduced(p.iter().map(|c| c * by))
+    }
+
+    fn monic(&self, p: &[BigInt]) -> Vec<BigInt> {
+        let p = self.reduced(p.iter().cloned());
+        match p.last() {
+            Some(lead) => self.scaled(&p, &lead.modpow(&(&self.0 - 2), &self.0)),
+            None => p,
+        }
+    }
+
+    /// `factor · p` with coefficients as near to zero as can be.
+    fn balanced(&self, p: &[BigInt], factor: &BigInt) -> Vec<BigInt> {
+        let half: BigInt = &self.0 >> 1;
+        let near = |c: BigInt| if c > half { c - &self.0 } else { c };
+        self.scaled(p, factor).into_iter().map(near).collect()
+    }
+
+    /// Quotient and remainder by a monic polynomial.
+    fn divide(&self, p: Vec<BigInt>, divisor: &[BigInt]) -> [Vec<BigInt>; 2] {
+        let mut rest = p;
+        let mut quotient = Vec::new();
+        while rest.len() >= divisor.len() {
+            let factor = rest.pop().expect("it is as long as the divisor").mod_floor(&self.0);
+            let place = rest.len() + 1 - divisor.len();
+            for (j, c) in divisor[..divisor.len() - 1].iter().enumerate() {
+                rest[place + j] -= c * &factor;
+            }
+            quotient.push(factor);
+        }
+        quotient.reverse();
+        [quotient, self.reduced(rest)]
+    }
+
+    fn gcd(&self, p: &[BigInt], q: &[BigInt]) -> Vec<BigInt> {
+        let (mut p, mut q) = (self.monic(p), self.monic(q));
+        while !q.is_empty() {
+            let [_, rest] = self.divide(p, &q);
+            p = std::mem::replace(&mut q, self.monic(&rest));
+        }
+        p
+    }
+
+    fn power(&self, base: &[BigInt], exponent: &BigInt, modulo: &[BigInt]) -> Vec<BigInt> {
+        let times = |p: &[BigInt], q: &[BigInt]| {
+            let [_, rest] = self.divide(product(p, q), modulo);
+            rest
+        };
+        let mut power = vec![BigInt::one()];
+        for bit in (0..exponent.bits()).rev() {
+            power = times(&power, &power);
+            if exponent.bit(bit) {
+                power = times(&power, base);
+            }
+        }
+        power
+    }
+
+    /// The irreducible factors of a monic polynomial without multiple ones: those of degree `d` divide
+    /// `x^{P^d} − x`, and no smaller such power.
+    fn factors(&self, p: Vec<BigInt>) -> Option<Vec<Vec<BigInt>>> {
+        let x = [BigInt::zero(), BigInt::one()];
+        let (mut rest, mut power, mut found) = (p, x.to_vec(), Vec::new());
+        let mut degree = 1;
+        while 2 * degree < rest.len() {
+            power = self.power(&power, &self.0, &rest);
+            let mut difference = power.clone();
+            difference.resize(difference.len().max(2), BigInt::zero());
+            difference[1] -= 1;
+            let common = self.gcd(&difference, &rest);
+            if common.len() > 1 {
+                [rest, _] = self.divide(rest, &common);
+                [_, power] = self.divide(power, &rest);
+                found.extend(self.separated(common, degree)?);
+            }
+            degree += 1;
+        }
+        if rest.len() > 1 {
+            found.push(rest);
+        }
+        Some(found)
+    }
+
+    /// The factors of a product of irreducible ones of one degree: for each of them `(x + c)^{(P^d−1)/2}`
+    /// is 1 or −1 (Cantor and Zassenhaus).
+    fn separated(&self, p: Vec<BigInt>, degree: usize) -> Option<Vec<Vec<BigInt>>> {
+        let exponent: BigInt = (self.0.pow(degree as u32) - 1) >> 1;
+        let mut parts = vec![p];
+        for shift in 0..MAX_SHIFTS {
+            if parts.iter().all(|part| part.len() == degree + 1) {
+                return Some(parts);
+            }
+            let mut finer = Vec::new();
+            for part in parts {
+                let mut power = self.power(&[shift.into(), BigInt::one()], &exponent, &part);
+                power.resize(power.len().max(1), BigInt::zero());
+                power[0] -= 1;
+                let common = self.gcd(&power, &part);
+                if common.len() > 1 && common.len() < part.len() {
+                    let [other, _] = self.divide(part, &common);
+                    finer.push(other);
+                    finer.push(common);
+                } else {
+                    finer.push(part);
+                }
+            }
+            parts = finer;
+        }
+        None
+    }
+}

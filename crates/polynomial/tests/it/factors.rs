@@ -1,0 +1,76 @@
+//! Irreducible factors: unique, and what multiplies to the polynomial.
+
+use crate::support::*;
+use proptest::prelude::*;
+use wavestep_polynomial::Polynomial;
+
+fn factors(text: &str) -> Vec<(String, u32)> {
+    let factors = read(text).factors().expect("they are found");
+    let mut told: Vec<_> = factors.into_iter().map(|(p, power)| (p.to_string(), power)).collect();
+    told.sort();
+    told
+}
+
+#[test]
+fn factors_of_known_polynomials() {
+    let one = |text: &str| vec![(text.to_owned(), 1)];
+    assert_eq!(factors("7/2"), []);
+    assert_eq!(factors("s^3 + s^2 + 1"), one("s^3 + s^2 + 1"));
+    assert_eq!(
+        factors("4*s^3 + 17*s^2 + 20*s + 4"),
+        [("4*s + 1".to_owned(), 1), ("s + 2".to_owned(), 2)]
+    );
+    assert_eq!(factors("s^2 + 2*s + 1"), [("s + 1".to_owned(), 2)]);
+    // These have factors modulo every prime.
+    assert_eq!(factors("s^4 + 1"), one("s^4 + 1"));
+    assert_eq!(
+        factors("s^8 - 40*s^6 + 352*s^4 - 960*s^2 + 576"),
+        one("s^8 - 40*s^6 + 352*s^4 - 960*s^2 + 576")
+    );
+    assert_eq!(factors("s^12 - 1").len(), 6);
+    assert_eq!(factors("s^2 - b^2"), [("b + s".to_owned(), 1), ("b - s".to_owned(), 1)]);
+    assert_eq!(factors("b^2*s^2 + b*s^2 + mu*b + mu + b^3 + b^2").len(), 2);
+    assert_eq!(factors("b^3 + mu*b + s + 2"), one("b^3 + mu*b + s + 2"));
+    assert!(read("0").factors().is_none());
+}
+
+/// Factors in one order.
+fn sorted(p: &Polynomial) -> Option<Vec<(Polynomial, u32)>> {
+    let mut factors = p.factors()?;
+    factors.sort();
+    Some(factors)
+}
+
+/// Small polynomials in two symbols, no number.
+fn small() -> impl Strategy<Value = Polynomial> {
+    let term = (-3_i64..4, 0_u32..3, 0_u32..2);
+    let sum = prop::collection::vec(term, 1..4).prop_map(|terms| {
+        let term = |(c, s, b): &(i64, u32, u32)| {
+            monomial(&(rational(*c, 1), vec![(symbol("s"), *s), (symbol("b"), *b)]))
+        };
+        terms.iter().map(term).sum::<Polynomial>()
+    });
+    sum.prop_filter("no number", |p| p.as_constant().is_none())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+    #[test]
+    fn factorisation_is_unique(p in small(), q in small()) {
+        let (Some(of_p), Some(of_q), Some(of_both)) = (sorted(&p), sorted(&q), sorted(&(&p * &q)))
+        else { return Ok(()) };
+        let multiplied = of_both.iter().fold(Polynomial::one(), |product, (factor, power)| {
+            &product * &factor.pow(*power)
+        });
+        prop_assert_eq!(&multiplied, &(&p * &q).primitive_part().1);
+        let mut merged = of_p;
+        for (factor, power) in of_q {
+            match merged.iter_mut().find(|(own, _)| *own == factor) {
+                Some((_, own)) => *own += power,
+                None => merged.push((factor, power)),
+            }
+        }
+        merged.sort();
+        prop_assert_eq!(of_both, merged);
+    }
+}
