@@ -35,8 +35,9 @@ pub(crate) enum Known {
 pub struct Instant {
     /// The scene, by its address.
     pub(crate) scene: usize,
-    /// The event that it is counted from, with the address of what was followed; `None` for the start.
-    pub(crate) event: Option<(usize, usize)>,
+    /// The event that it is counted from: the precision in bits with which the scene was followed, and the
+    /// number of the event, which are the same whenever it is followed again; `None` for the start.
+    pub(crate) event: Option<(u64, usize)>,
     /// The delay since then, in the scale of the scene.
     pub(crate) delay: Fraction,
 }

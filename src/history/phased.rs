@@ -397,11 +397,10 @@ impl Signal for FollowedSignal<'_> {
     }
 
     fn instant(&self, stretch: usize) -> Option<Instant> {
-        // Events are numbered by the engine: all signals of one follower have to tell of the same one.
+        // All signals of one follower have to tell of the same engine.
         let known = self.followed(0).ok()?;
         let Moment { event, delay } = &known.piece(stretch).ends[0];
-        let address = Rc::as_ptr(&known.engine).addr();
-        let event = event.map(|event| (address, event));
+        let event = event.map(|event| (known.engine.cut.bits, event));
         let scene = std::ptr::from_ref(self.follower.network).addr();
         Some(Instant { scene, event, delay: delay.clone() })
     }
