@@ -346,7 +346,8 @@ fn first_double(signal: &dyn Signal, stretch: usize) -> Result<f64, EvaluateErro
         return Ok(at_or_after(&time));
     }
     let follows = |double: f64| -> Result<bool, EvaluateError> {
-        Ok(signal.begins(stretch, &rational(double))? != Ordering::Greater)
+        let time = signal.scaled_time(&rational(double));
+        Ok(signal.begins(stretch, &time)? != Ordering::Greater)
     };
     let mut double = signal.time(stretch, Limit::Right, 128)?.midpoint().to_double();
     while !follows(double)? {

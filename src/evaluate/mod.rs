@@ -24,7 +24,6 @@ pub use crate::ball::Value;
 pub use arrivals::{Arrival, arrivals};
 pub(crate) use cells::scale;
 pub use cells::{first_doubles, reaching_a_double};
-pub(crate) use closed::Waves;
 pub use closed::{ClosedForm, ClosedSignal};
 pub use digits::{digits, value};
 pub use error::EvaluateError;

@@ -14,6 +14,8 @@ use wavestep_polynomial::Rational;
 pub enum At<'a> {
     /// A time of the user's.
     Time(&'a Rational),
+    /// A time in the scale of the scene, which may be no rational number in the user's.
+    Scaled(&'a Fraction),
     /// The limit at an end of the stretch: on the right side of its first time, the left of its last.
     End(Limit),
 }
@@ -95,11 +97,11 @@ pub(crate) fn has_begun(begins: Ordering, side: Limit) -> bool {
 
 /// The last of some stretches that has begun at a time, or the first; `begins` compares the beginning of
 /// one with that time.
-pub(crate) fn last_begun(
+pub(crate) fn last_begun<E>(
     count: usize,
     side: Limit,
-    begins: impl Fn(usize) -> Result<Ordering, EvaluateError>,
-) -> Result<usize, EvaluateError> {
+    begins: impl Fn(usize) -> Result<Ordering, E>,
+) -> Result<usize, E> {
     let (mut low, mut high) = (0, count);
     while high - low > 1 {
         let middle = low.midpoint(high);
@@ -148,8 +150,11 @@ pub trait Signal {
     /// How many stretches there are, with numbers from 0 on; to tell that, all breaks are found.
     fn count(&self) -> Result<usize, EvaluateError>;
 
-    /// How the beginning of a stretch compares with a time.
-    fn begins(&self, stretch: usize, at: &Rational) -> Result<Ordering, EvaluateError>;
+    /// A time of the user's in the scale of the scene.
+    fn scaled_time(&self, time: &Rational) -> Fraction;
+
+    /// How the beginning of a stretch compares with a time in the scale of the scene.
+    fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError>;
 
     /// The stretch of a time: for the limit from the left the one that ends there, which is not known
     /// where the window begins.
@@ -164,7 +169,8 @@ pub trait Signal {
         if at == from && side == Limit::Left {
             return Ok(None);
         }
-        last_begun(self.count()?, side, |stretch| self.begins(stretch, at)).map(Some)
+        let at = self.scaled_time(at);
+        last_begun(self.count()?, side, |stretch| self.begins(stretch, &at)).map(Some)
     }
 
     /// Whether a stretch is the last instant of the window alone.

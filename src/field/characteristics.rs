@@ -4,8 +4,8 @@
 //! more where it varies; where two strips cross, a field is constant or nearly so. What is constant
 //! between fronts is thus drawn exactly, and nothing is smeared across them.
 
-use super::entering::{Entering, Heading, Instant, Order};
-use super::{FieldError, FieldEvaluator};
+use super::wave::{Entering, Heading, Instant, Order};
+use super::{FIRST_BITS, FieldError, FieldEvaluator, MAX_BITS};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
@@ -67,23 +67,19 @@ pub struct BarWaves {
     pub left_fronts: Vec<Front>,
 }
 
-/// The precision of what is drawn.
-const BITS: u64 = 192;
-
-/// The highest precision, and the absolute accuracy of what is drawn, in bits.
-const MAX_BITS: u64 = 1 << 14;
+/// The absolute accuracy of what is drawn, in bits.
 const FINE_BITS: i64 = 48;
 
 /// Jumps below this part of the largest value are no fronts.
 const VISIBLE: f64 = 1e-9;
 
-impl FieldEvaluator {
+impl FieldEvaluator<'_> {
     /// The waves of all bars on a window of time, in strips: at least `strips` of them for the window
     /// where a wave is not constant. Of an endless bar as much is drawn as the others are long together,
     /// or as waves have reached.
     ///
     /// # Errors
-    /// [`FieldError::Evaluate`], also for an empty window.
+    /// [`FieldError::Signal`], also for an empty window, and one that ends after the last time.
     pub fn waves(
         &self,
         [from, to]: [&Rational; 2],
@@ -91,6 +87,9 @@ impl FieldEvaluator {
     ) -> Result<Vec<BarWaves>, FieldError> {
         if from >= to || *from < Rational::default() {
             return Err(EvaluateError::EmptyWindow.into());
+        }
+        if to > self.last() {
+            return Err(EvaluateError::AfterLast.into());
         }
         let mut found = Vec::with_capacity(self.bars.len());
         for (place, bar) in self.bars.iter().enumerate() {
@@ -160,11 +159,11 @@ impl FieldEvaluator {
     }
 
     fn double(&self, value: &Root) -> Result<f64, FieldError> {
-        Ok(self.numbers.enclose_root(value, BITS)?.to_double().0)
+        Ok(self.numbers.enclose_root(value, FIRST_BITS)?.to_double().0)
     }
 
     pub(super) fn double_of(&self, value: &Fraction) -> Result<f64, FieldError> {
-        Ok(self.numbers.enclose(value, BITS)?.to_double().0)
+        Ok(self.numbers.enclose(value, FIRST_BITS)?.to_double().0)
     }
 
     /// A wave in strips, from one travel time before the window to its end, and its fronts.
@@ -176,13 +175,10 @@ impl FieldEvaluator {
         strips: usize,
     ) -> Result<(Vec<Strip>, Vec<Front>), FieldError> {
         let scaled = |time: &Rational| self.network().scaled_time(time);
-        let second = self.numbers.enclose(&scaled(&Rational::from_integer(1.into())), BITS)?;
-        let per_second = second.reciprocal(BITS).map_err(EvaluateError::Ball)?;
-        let drawn = DrawnWave { fields: self, wave, per_second };
+        let drawn = DrawnWave { fields: self, wave, unit: self.time_unit(FIRST_BITS)? };
         let (first, last) = (&scaled(from) - span, scaled(to));
         let mut ends = vec![first.clone()];
-        let breaks = self.waves.breaks(wave, &first..=&last)?;
-        ends.extend(breaks.into_iter().filter(|at| *at != first));
+        ends.extend(self.fronts(wave, [&first, &last])?.into_iter().filter(|at| *at != first));
         ends.push(last.clone());
         ends.dedup();
         let density = strips as f64 / (drawn.seconds(&last)? - drawn.seconds(&first)?);
@@ -201,16 +197,16 @@ impl FieldEvaluator {
 
 /// A wave to be drawn.
 struct DrawnWave<'a> {
-    fields: &'a FieldEvaluator,
+    fields: &'a FieldEvaluator<'a>,
     wave: Entering,
-    /// Converts times in the scale of the scene to seconds.
-    per_second: Ball,
+    /// One in the scale of the scene in seconds.
+    unit: Ball,
 }
 
 impl DrawnWave<'_> {
     fn seconds(&self, time: &Fraction) -> Result<f64, FieldError> {
-        let ball = self.fields.numbers.enclose(time, BITS)?;
-        Ok(ball.multiply(&self.per_second, BITS).to_double().0)
+        let ball = self.fields.numbers.enclose(time, FIRST_BITS)?;
+        Ok(ball.multiply(&self.unit, FIRST_BITS).to_double().0)
     }
 
     /// Late waves are small differences of large terms, so the precision grows until everything that can
@@ -219,7 +215,7 @@ impl DrawnWave<'_> {
         let fine = Magnitude::power_of_two(-FINE_BITS);
         let attempt = |bits| {
             let instant = Instant { at, side, is_drawn: true };
-            let ball = self.fields.waves.enclose(self.wave, order, instant, bits)?;
+            let ball = self.fields.wave(self.wave, order, instant, bits)?;
             if *ball.radius() > fine {
                 let best = Box::new(ball);
                 let error = EvaluateError::AccuracyNotReached { best, bits };
@@ -228,7 +224,7 @@ impl DrawnWave<'_> {
             let value = if ball.contains_zero() { 0.0 } else { ball.to_double().0 };
             Ok(Attempt::Done(value))
         };
-        Precisions::doubling(BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
+        Precisions::doubling(FIRST_BITS, MAX_BITS).raise(attempt).and_then(Attempt::done)
     }
 
     /// Adds the strips between two breaks: one where the wave is constant, joined with the one before if

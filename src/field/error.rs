@@ -4,6 +4,7 @@ use crate::ball::Ball;
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
 use crate::network::NetworkError;
+use crate::signal::SignalError;
 use wavestep_polynomial::Rational;
 
 /// Why fields cannot be given.
@@ -33,7 +34,7 @@ pub enum FieldError {
     NegativeReach(Rational),
     /// A wave cannot be evaluated.
     #[error(transparent)]
-    Evaluate(#[from] EvaluateError),
+    Signal(#[from] SignalError),
     /// The precision allowed does not tell whether an instant comes before or after a break of a wave
     /// of which only an enclosure is known.
     #[error(
@@ -49,14 +50,20 @@ pub enum FieldError {
     },
 }
 
+impl From<EvaluateError> for FieldError {
+    fn from(error: EvaluateError) -> FieldError {
+        FieldError::Signal(error.into())
+    }
+}
+
 impl From<EnclosureError> for FieldError {
     fn from(error: EnclosureError) -> FieldError {
-        FieldError::Evaluate(error.into())
+        EvaluateError::from(error).into()
     }
 }
 
 impl From<NetworkError> for FieldError {
     fn from(error: NetworkError) -> FieldError {
-        FieldError::Evaluate(EvaluateError::Network(Box::new(error)))
+        EvaluateError::from(error).into()
     }
 }

@@ -12,20 +12,18 @@
 //! `(F(t − a_0) − F(t − a_1))/(a_1 − a_0)`: an integral over time, so averages need no quadrature. That
 //! of `F(t − a)` follows in the same way from `∫F dt`.
 
-use super::entering::{ClosedContacts, Entering, EnteringWaves, Heading, Instant, Order};
 use super::fields::{BarFields, Bounded, Fields};
-use super::{FieldError, Mesh, Sampling};
+use super::wave::{Drawn, Entering, Heading, Instant, Order};
+use super::{FIRST_BITS, FieldError, MAX_BITS, Mesh, Sampling};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
 use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar, Network};
 use crate::scene::Kind;
+use crate::signal::{self, EnteringWave};
+use std::cell::OnceCell;
 use wavestep_polynomial::Rational;
-
-/// The precision tried first, and the highest.
-const FIRST_BITS: u64 = 128;
-const MAX_BITS: u64 = 1 << 14;
 
 /// Radii so far below the largest value need no more bits: a double has 53.
 const SPARE_BITS: i64 = 75;
@@ -34,10 +32,12 @@ const SPARE_BITS: i64 = 75;
 const NEGLIGIBLE_BITS: i64 = 400;
 
 /// The fields of a scene in numbers, up to a last time.
-pub struct FieldEvaluator {
-    network: Network,
-    pub(super) bars: Vec<FieldBar>,
-    pub(super) waves: Box<dyn EnteringWaves>,
+pub struct FieldEvaluator<'a> {
+    network: &'a Network,
+    pub(super) bars: &'a [FieldBar],
+    /// Of each bar the waves to the right and to the left; none for what comes from afar.
+    pub(super) waves: Vec<[Option<EnteringWave<'a>>; 2]>,
+    pub(super) drawn: OnceCell<Vec<[Option<Drawn>; 2]>>,
     pub(super) numbers: Numbers,
     last: Rational,
     /// The length of endless bars in pictures.
@@ -68,36 +68,25 @@ pub(super) fn delays(bar: &FieldBar, span: &Fraction, place: Fraction) -> [Fract
     }
 }
 
-impl FieldEvaluator {
-    /// For times up to `last`. Contacts stay closed;
-    /// [`field_evaluator`](crate::history::field_evaluator) follows those that open.
+impl<'a> FieldEvaluator<'a> {
+    /// For times up to `last`.
     ///
     /// # Errors
-    /// [`FieldError::Evaluate`] where a symbol has no value, or too many echoes arrive until then;
-    /// [`FieldError::Negative`].
-    pub fn new(network: &Network, last: &Rational) -> Result<FieldEvaluator, FieldError> {
-        FieldEvaluator::with(network, last, |network, bars| {
-            Ok(Box::new(ClosedContacts::new(network, bars, last)?))
-        })
-    }
-
-    /// From the waves that `waves` makes of a network and its bars, for times up to `last`.
-    ///
-    /// # Errors
-    /// [`FieldError::Negative`]; [`FieldError::Evaluate`] where the bars have no fields; as the waves.
-    pub(crate) fn with(
-        network: &Network,
-        last: &Rational,
-        waves: impl FnOnce(&Network, &[FieldBar]) -> Result<Box<dyn EnteringWaves>, FieldError>,
-    ) -> Result<FieldEvaluator, FieldError> {
+    /// [`FieldError::Negative`]; [`FieldError::Signal`] where a symbol has no value, or waves cannot be
+    /// followed until then.
+    pub fn new(network: &'a Network, last: &Rational) -> Result<FieldEvaluator<'a>, FieldError> {
         if *last < Rational::default() {
             return Err(FieldError::Negative(last.clone()));
         }
-        let mut network = network.clone();
-        let bars = network.field_bars()?;
-        let waves = waves(&network, &bars)?;
-        let numbers = Numbers::new(&network.model().constants);
-        Ok(FieldEvaluator { network, bars, waves, numbers, last: last.clone(), reach: None })
+        Ok(FieldEvaluator {
+            waves: signal::entering_waves(network, last)?,
+            bars: &network.field_bars()?.bars,
+            network,
+            drawn: OnceCell::new(),
+            numbers: Numbers::new(&network.model().constants),
+            last: last.clone(),
+            reach: None,
+        })
     }
 
     /// The same, with this length of endless bars in pictures: in [`waves`](Self::waves) and
@@ -105,7 +94,7 @@ impl FieldEvaluator {
     ///
     /// # Errors
     /// [`FieldError::NegativeReach`] for a length that is not above zero.
-    pub fn looking(self, reach: &Rational) -> Result<FieldEvaluator, FieldError> {
+    pub fn looking(self, reach: &Rational) -> Result<FieldEvaluator<'a>, FieldError> {
         match *reach > Rational::default() {
             true => Ok(FieldEvaluator { reach: Some(reach.clone()), ..self }),
             false => Err(FieldError::NegativeReach(reach.clone())),
@@ -118,8 +107,8 @@ impl FieldEvaluator {
     }
 
     /// The scene.
-    pub fn network(&self) -> &Network {
-        &self.network
+    pub fn network(&self) -> &'a Network {
+        self.network
     }
 
     pub(super) fn last(&self) -> &Rational {
@@ -246,7 +235,7 @@ impl FieldEvaluator {
     }
 
     /// A wave at a point.
-    fn wave(
+    fn wave_at(
         &self,
         wave: Entering,
         order: Order,
@@ -255,7 +244,7 @@ impl FieldEvaluator {
     ) -> Result<Ball, FieldError> {
         let at = at - &point.delays[wave.heading as usize];
         let instant = Instant { at: &at, side, is_drawn: point.is_drawn };
-        self.waves.enclose(wave, order, instant, bits)
+        self.wave(wave, order, instant, bits)
     }
 
     pub(super) fn at_points(
@@ -272,7 +261,7 @@ impl FieldEvaluator {
                 // A delay that grows with x looks back in time as x grows.
                 let grows = heading == Heading::Right || self.bars[bar].extent == Extent::ToTheLeft;
                 let side = if grows == point.from_larger { Limit::Left } else { Limit::Right };
-                self.wave(Entering { bar, heading }, order, (at, point, side), bits)
+                self.wave_at(Entering { bar, heading }, order, (at, point, side), bits)
             };
             let both = |order| -> Result<[Ball; 2], FieldError> {
                 Ok([wave(Heading::Right, order)?, wave(Heading::Left, order)?])
@@ -304,7 +293,7 @@ impl FieldEvaluator {
             for (place, order) in [Order::Integral, Order::DoubleIntegral].into_iter().enumerate() {
                 // Integrals are continuous, so the side does not matter.
                 let at = |point| {
-                    self.wave(Entering { bar, heading }, order, (at, point, Limit::Right), bits)
+                    self.wave_at(Entering { bar, heading }, order, (at, point, Limit::Right), bits)
                 };
                 let integrals: Vec<Ball> = points.iter().map(at).collect::<Result<_, _>>()?;
                 let mean =
@@ -353,7 +342,7 @@ struct State {
 
 impl State {
     fn new(
-        evaluator: &FieldEvaluator,
+        evaluator: &FieldEvaluator<'_>,
         bar: &FieldBar,
         at: &Fraction,
         bits: u64,

@@ -7,17 +7,20 @@
 //! Values come with proven bounds. At a front, where a field jumps, the side is stated.
 
 mod characteristics;
-mod entering;
 mod error;
 mod evaluator;
 mod fields;
 mod mesh;
 mod profile;
+mod wave;
 
 pub use characteristics::{BarWaves, Front, Strip};
-pub(crate) use entering::{Entering, EnteringWaves, Heading, Instant, Order};
 pub use error::FieldError;
 pub use evaluator::FieldEvaluator;
 pub use fields::{BarFields, Bounded, Fields, Quantity};
 pub use mesh::{Mesh, Sampling};
 pub use profile::Profile;
+
+/// The precision tried first, and the highest.
+const FIRST_BITS: u64 = 192;
+const MAX_BITS: u64 = 1 << 14;

@@ -1,7 +1,7 @@
 //! Fields along a bar as a person would draw them: exact at the fronts, from both sides.
 
-use super::entering::{Entering, Heading};
 use super::evaluator::{MeshPoint, delays};
+use super::wave::{Entering, Heading};
 use super::{FieldError, FieldEvaluator};
 use crate::evaluate::EvaluateError;
 use crate::expression::Fraction;
@@ -24,7 +24,7 @@ pub struct Profile {
     pub stretches: Vec<Vec<(f64, [f64; 4])>>,
 }
 
-impl FieldEvaluator {
+impl FieldEvaluator<'_> {
     /// The fields along all bars, at about `points` places of each. Of an endless bar as much is drawn as
     /// the others are long together, or as waves have reached by the last time.
     ///
@@ -58,7 +58,9 @@ impl FieldEvaluator {
         let mut places = vec![Fraction::zero(), span.clone()];
         for heading in [Heading::Right, Heading::Left] {
             let grows = heading == Heading::Right || bar.extent == Extent::ToTheLeft;
-            for delay in self.fronts(Entering { bar: bar_place, heading }, &at, &span)? {
+            let wave = Entering { bar: bar_place, heading };
+            for entered in self.fronts(wave, [&(&at - &span), &at])? {
+                let delay = &at - &entered;
                 places.push(if grows { delay } else { &span - &delay });
             }
         }
@@ -96,16 +98,5 @@ impl FieldEvaluator {
             profile.stretches.push(stretch);
         }
         Ok(profile)
-    }
-
-    /// The delays of the fronts of a wave that are within a bar.
-    fn fronts(
-        &self,
-        wave: Entering,
-        at: &Fraction,
-        span: &Fraction,
-    ) -> Result<Vec<Fraction>, FieldError> {
-        let breaks = self.waves.breaks(wave, &(at - span)..=at)?;
-        Ok(breaks.into_iter().map(|entered| at - &entered).collect())
     }
 }

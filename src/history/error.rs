@@ -3,7 +3,6 @@
 use crate::ball::{Ball, BallError};
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
-use crate::field::FieldError;
 use crate::scene::Mistake;
 use wavestep_polynomial::Symbol;
 
@@ -55,12 +54,6 @@ pub enum HistoryError {
     /// A value that is not enclosed.
     #[error(transparent)]
     Evaluate(Box<EvaluateError>),
-    /// A window that does not end after it begins, at or after time 0.
-    #[error("the window is empty, or begins before time 0")]
-    EmptyWindow,
-    /// Fields along the bars cannot be given.
-    #[error(transparent)]
-    Field(Box<FieldError>),
 }
 
 /// What is not followed through the openings of contacts.

@@ -7,9 +7,9 @@
 //!
 //! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what
 //! is taken from it, `crossing` for the proof that nothing is passed over, `observe` and `phased` for what is
-//! seen of it, `waves` for the fields along the bars, `validity` for how long closed contacts are true,
-//! `closed_form` for instants in closed form, `series` for the arithmetic, `energy` for what a wave holds,
-//! `body` for energies and momenta of bodies and for why they never meet again.
+//! seen of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form,
+//! `series` for the arithmetic, `energy` for what a wave holds, `body` for energies and momenta of bodies
+//! and for why they never meet again.
 
 mod body;
 mod closed_form;
@@ -30,11 +30,9 @@ mod reading;
 mod series;
 mod track;
 mod validity;
-mod waves;
 
 pub use error::{HistoryError, NotFollowed, Question};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
 pub use phased::FollowedSignal;
 pub(crate) use phased::Follower;
 pub use validity::Validity;
-pub use waves::field_evaluator;

@@ -120,18 +120,6 @@ impl Clock {
         self.time(moment).map_or(f64::NAN, |time| time.ball(64).to_double().0)
     }
 
-    /// An exact instant, or a number in the middle of its enclosure. Those of one event and different
-    /// delays are as far apart as the instants are.
-    pub fn stand_in(&self, moment: &Moment) -> Fraction {
-        match moment.event {
-            None => moment.delay.clone(),
-            Some(event) => {
-                let event = Rational::from(self.events[event].midpoint());
-                &Fraction::constant(&event) + &moment.delay
-            }
-        }
-    }
-
     /// The instant after a time that has passed since a moment: exact where the time is.
     pub fn later(&mut self, from: &Moment, by: &Number) -> Result<Moment, EnclosureError> {
         match by.exact() {

@@ -66,6 +66,8 @@ impl Piece {
 struct Followed {
     engine: Rc<Engine>,
     parts: Vec<Part>,
+    /// How many times their sum is integrated.
+    integrated: usize,
     /// Made when stretches are first asked for.
     pieces: OnceCell<Vec<Piece>>,
     /// The unit of time, and one over it.
@@ -119,8 +121,13 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// The parts of what is seen, at the precision of an engine.
-type Seen<'a> = Box<dyn Fn(&Engine) -> Result<Vec<Part>, HistoryError> + 'a>;
+/// What is seen of a scene.
+struct Seen<'a> {
+    /// The parts it is the sum of, at the precision of an engine.
+    parts: Box<dyn Fn(&Engine) -> Result<Vec<Part>, HistoryError> + 'a>,
+    /// How many times their sum is integrated over time from the beginning of the window on.
+    integrated: usize,
+}
 
 /// An observable of a scene whose contacts open, on a window of the user's time.
 pub struct FollowedSignal<'a> {
@@ -136,7 +143,7 @@ impl<'a> FollowedSignal<'a> {
     /// Follows the scene until the end of the window, to see an observable that is linear in the motion.
     ///
     /// # Errors
-    /// As [`History::of`]; [`HistoryError::EmptyWindow`]; [`HistoryError::Refused`] for places that are no
+    /// As [`History::of`]; [`EvaluateError::EmptyWindow`]; [`HistoryError::Refused`] for places that are no
     /// exact share of a travel time.
     ///
     /// # Cost
@@ -153,7 +160,8 @@ impl<'a> FollowedSignal<'a> {
         });
         let (terms, unit) =
             found.ok_or_else(|| HistoryError::NoObservable(observable.to_owned()))?;
-        let seen = Box::new(|engine: &Engine| engine.parts(network, terms, unit));
+        let parts = Box::new(|engine: &Engine| engine.parts(network, terms, unit));
+        let seen = Seen { parts, integrated: 0 };
         FollowedSignal::seen(&follower(network, window)?, seen, window)
     }
 
@@ -168,17 +176,32 @@ impl<'a> FollowedSignal<'a> {
         window: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
         let (network, squared) = (follower.network, squared.clone());
-        let seen = Box::new(move |engine: &Engine| match &squared {
+        let parts = Box::new(move |engine: &Engine| match &squared {
             Squared::Reading(reading) => {
                 engine.reading(engine.elements(network), reading, &Number::one())
             }
-            Squared::Entering { bar, direction } => {
-                let delay = Some(Fraction::zero());
-                let source = Source::Wave { bar: *bar, direction: *direction, delay };
-                Ok(vec![Part::of(source, Number::one())])
-            }
+            Squared::Entering { bar, direction } => Ok(vec![entering(*bar, *direction)]),
         });
-        let signal = FollowedSignal::seen(follower, seen, window)?;
+        let signal = FollowedSignal::seen(follower, Seen { parts, integrated: 0 }, window)?;
+        Ok(FollowedSignal { most_bits: MAX_HISTORY_BITS, ..signal })
+    }
+
+    /// What a wave that enters a bar, to the right (0) or to the left (1), adds to its state at the start,
+    /// integrated so many times from the beginning of the window on; in the scale of the scene.
+    ///
+    /// # Errors
+    /// As [`FollowedSignal::new`].
+    pub(crate) fn entering(
+        follower: &Rc<Follower<'a>>,
+        (bar, direction): (usize, usize),
+        integrated: usize,
+        window: [&Rational; 2],
+    ) -> Result<Self, HistoryError> {
+        let parts = Box::new(move |_: &Engine| {
+            let before = Source::Wave { bar, direction, delay: None };
+            Ok(vec![entering(bar, direction), Part::of(before, Number::integer(-1))])
+        });
+        let signal = FollowedSignal::seen(follower, Seen { parts, integrated }, window)?;
         Ok(FollowedSignal { most_bits: MAX_HISTORY_BITS, ..signal })
     }
 
@@ -228,6 +251,18 @@ impl<'a> FollowedSignal<'a> {
         self.followed(bits.min(self.most_bits))
     }
 
+    /// The value at a time, where it is read off stretches.
+    fn integral(&self, at: &Rational, limit: Limit) -> Result<Point<'_>, EvaluateError> {
+        let Some(stretch) = self.stretch_at(at, limit)? else {
+            return Ok(Point::exact(Rational::zero()));
+        };
+        if let Some(value) = self.exact(stretch, At::Time(at))? {
+            return Ok(Point::exact(value));
+        }
+        let at = at.clone();
+        Ok(undecided_point(move |bits| self.enclose(stretch, 0, At::Time(&at), bits)))
+    }
+
     /// The time from the first instant of a piece.
     fn since(
         &self,
@@ -239,13 +274,28 @@ impl<'a> FollowedSignal<'a> {
         let number = match at {
             At::End(Limit::Right) => return Ok(Number::zero()),
             At::End(Limit::Left) => followed.engine.clock.since(from, to)?,
-            At::Time(time) => followed
-                .engine
-                .clock
-                .since(from, &Moment::at(self.follower.network.scaled_time(time)))?,
+            At::Time(time) => {
+                followed.engine.clock.since(from, &Moment::at(self.scaled_time(time)))?
+            }
+            At::Scaled(time) => followed.engine.clock.since(from, &Moment::at(time.clone()))?,
         };
         Ok(number)
     }
+}
+
+/// A value of which enclosures alone are known.
+fn undecided_point<'a>(enclose: impl Fn(u64) -> Result<Ball, EvaluateError> + 'a) -> Point<'a> {
+    Point {
+        known: Known::Unknown,
+        negligible: Magnitude::power_of_two(-NEGLIGIBLE_BITS),
+        most_bits: MAX_HISTORY_BITS,
+        ..Point::irrational(enclose)
+    }
+}
+
+/// A wave as it enters a bar.
+fn entering(bar: usize, direction: usize) -> Part {
+    Part::of(Source::Wave { bar, direction, delay: Some(Fraction::zero()) }, Number::one())
 }
 
 /// The scene of a window, followed until its end.
@@ -254,7 +304,7 @@ fn follower<'a>(
     [from, to]: [&Rational; 2],
 ) -> Result<Rc<Follower<'a>>, HistoryError> {
     match to < from || *from < Rational::zero() {
-        true => Err(HistoryError::EmptyWindow),
+        true => Err(EvaluateError::EmptyWindow.into()),
         false => Follower::new(network, to),
     }
 }
@@ -265,10 +315,11 @@ impl Followed {
         engine: Rc<Engine>,
         seen: &Seen<'_>,
     ) -> Result<Followed, HistoryError> {
-        let parts = seen(&engine)?;
+        let parts = (seen.parts)(&engine)?;
         let time = engine.unit(network, Dimension::TIME)?;
         let inverse = time.reciprocal(engine.cut.bits)?;
-        Ok(Followed { engine, parts, pieces: OnceCell::new(), unit: [time, inverse] })
+        let (integrated, pieces) = (seen.integrated, OnceCell::new());
+        Ok(Followed { engine, parts, integrated, pieces, unit: [time, inverse] })
     }
 
     fn pieces(&self, network: &Network, window: &[Rational; 2]) -> Result<&[Piece], HistoryError> {
@@ -292,6 +343,7 @@ impl Followed {
                 _ => pieces.push(Piece { ends: [start.clone(), end.clone()], series, size }),
             }
         }
+        (0..self.integrated).try_for_each(|_| integrate(&mut pieces, engine))?;
         Ok(self.pieces.get_or_init(|| pieces))
     }
 
@@ -307,6 +359,18 @@ impl Followed {
             Cow::Owned(slope.combine(inverse, &Series::zero(), &Number::zero(), cut.bits))
         })
     }
+}
+
+/// Replaces a function by its integral from the first instant on.
+fn integrate(pieces: &mut [Piece], engine: &Engine) -> Result<(), HistoryError> {
+    let mut sum = Number::zero();
+    for piece in pieces {
+        piece.size = piece.size.max(sum.magnitude());
+        piece.series = piece.series.integral(sum, &engine.cut);
+        let length = engine.clock.since(&piece.ends[0], &piece.ends[1])?;
+        sum = piece.series.value(&length, &engine.cut);
+    }
+    Ok(())
 }
 
 /// The sum of parts from an instant on, and of their sizes.
@@ -358,7 +422,10 @@ impl Signal for FollowedSignal<'_> {
     }
 
     fn point(&self, at: &Rational, limit: Limit) -> Result<Point<'_>, EvaluateError> {
-        let moment = Moment::at(self.follower.network.scaled_time(at));
+        if self.seen.integrated > 0 {
+            return self.integral(at, limit);
+        }
+        let moment = Moment::at(self.scaled_time(at));
         let value = move |bits: u64| -> Result<Number, EvaluateError> {
             let mut first = self.known.borrow().engine.cut.bits;
             if bits > first {
@@ -383,13 +450,7 @@ impl Signal for FollowedSignal<'_> {
             }
             Number::Enclosed(_) => {}
         }
-        let enclose = move |bits| Ok(value(bits)?.ball(bits));
-        Ok(Point {
-            known: Known::Unknown,
-            negligible: Magnitude::power_of_two(-NEGLIGIBLE_BITS),
-            most_bits: MAX_HISTORY_BITS,
-            ..Point::irrational(enclose)
-        })
+        Ok(undecided_point(move |bits| Ok(value(bits)?.ball(bits))))
     }
 
     fn most_bits(&self) -> u64 {
@@ -425,14 +486,19 @@ impl Signal for FollowedSignal<'_> {
         Ok(pieces.map_err(|error| error.of_value(known.engine.cut.bits))?.len())
     }
 
-    fn begins(&self, stretch: usize, at: &Rational) -> Result<Ordering, EvaluateError> {
-        let at = Moment::at(self.follower.network.scaled_time(at));
+    fn scaled_time(&self, time: &Rational) -> Fraction {
+        self.follower.network.scaled_time(time)
+    }
+
+    fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError> {
+        let at = Moment::at(at.clone());
         let attempt = |bits| {
             let followed = self.cut(bits)?;
             let order = followed.engine.clock.compare(&followed.piece(stretch).ends[0], &at);
             Ok(order.map_or_else(|error| Attempt::NotYet(error.of_value(bits)), Attempt::Done))
         };
-        Precisions::whole_doublings(FIRST_BITS, SEARCH_BITS).raise(attempt).and_then(Attempt::done)
+        let precisions = Precisions::whole_doublings(FIRST_BITS, self.most_bits);
+        precisions.raise(attempt).and_then(Attempt::done)
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
@@ -490,7 +556,7 @@ impl Signal for FollowedSignal<'_> {
         // A finer history may be known than is asked for.
         let cut = &Truncation { bits: followed.engine.cut.bits.min(bits), ..followed.engine.cut };
         let at = self.since(&followed, stretch, At::Time(middle))?;
-        let h = followed.engine.clock.number(&self.follower.network.scaled_time(half))?;
+        let h = followed.engine.clock.number(&self.scaled_time(half))?;
         let series = followed.derivative(stretch, order);
         let (near, remainder) = series.about(&at, &h.magnitude(), terms, cut);
         let mut power = Number::one();

@@ -8,6 +8,7 @@ use crate::expression::{Expression, Fraction};
 use crate::network::clocks::Clocks;
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
+use crate::network::fields::FieldBars;
 use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
 use crate::network::observed::Observed;
@@ -53,6 +54,8 @@ pub struct Network {
     pub(crate) observables: Vec<Observed>,
     /// The recurrence, once it was asked for.
     pub(super) derived: OnceLock<Result<Recurrence, NetworkError>>,
+    /// The bars with their waves, once fields were asked for.
+    pub(super) fields: OnceLock<Result<Box<FieldBars>, NetworkError>>,
 }
 
 impl ScaledScene {
@@ -68,6 +71,7 @@ impl ScaledScene {
             integrals: Vec::new(),
             observables: Vec::new(),
             derived: OnceLock::new(),
+            fields: OnceLock::new(),
         };
         network.name_waves();
         network.set_observables()?;

@@ -1,22 +1,17 @@
-//! The fields in the bars of a scene, as waves: what a wave is called, how far its clock is ahead, and
-//! what velocities, strains and lengths are in its scale.
+//! The bars of a scene with the waves that enter them, of which fields are made, and what velocities,
+//! strains and lengths are in the scale of the scene.
 
-use crate::expression::{Fraction, Root};
+use crate::expression::{Expression, Fraction, Root};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::unit;
 use crate::network::model::{ModelBar, bar_roots};
-use crate::recurrence::WaveIndex;
+use crate::network::observe::seen;
+use crate::recurrence::Observation;
 use crate::scene::{ElementIndex, Kind, Measure};
 
-/// One of the two waves of a bar.
-#[derive(Clone, Debug)]
-pub(crate) struct Way {
-    /// The wave, its integral over time, and the integral of that.
-    pub waves: [WaveIndex; 3],
-    /// How far its clock is ahead.
-    pub lead: Fraction,
-}
+/// A wave as it enters a bar, its integral over time since the start, and the integral of that.
+pub(crate) type Entering = [Observation; 3];
 
 /// Where a bar ends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,56 +30,70 @@ pub(crate) struct FieldBar {
     pub element: ElementIndex,
     pub extent: Extent,
     pub data: ModelBar,
-    /// The wave to the right, which is seen at the left end first.
-    pub right: Option<Way>,
-    /// The wave to the left.
-    pub left: Option<Way>,
+    /// The wave to the right, which enters at the left end, and the one to the left; none for what comes
+    /// from the far side of an endless bar.
+    pub entering: [Option<Entering>; 2],
     /// The units of velocity, strain, displacement and force, in those of the user.
     pub units: [Root; 4],
     /// The way of a wave in a time of 1.
     pub reach: Root,
 }
 
+/// The bars of a scene, from left to right, and its network with the integrals of their waves.
+#[derive(Clone, Debug)]
+pub(crate) struct FieldBars {
+    pub network: Network,
+    pub bars: Vec<FieldBar>,
+}
+
 impl Network {
-    /// The bars from left to right. Integrals of their waves are followed from now on.
-    pub(crate) fn field_bars(&mut self) -> Result<Vec<FieldBar>, NetworkError> {
-        let mut bars = Vec::new();
-        for (place, element) in self.scaled.layout.bars.clone().into_iter().enumerate() {
-            let Kind::Bar(bar) = &self.scaled.scene.elements[element].kind else {
-                unreachable!("a bar of the line")
-            };
-            let (impedance, _, stiffness) = bar_roots(&bar.body)?;
-            let speed = stiffness.over(&impedance)?;
-            let scale = self.scaled.model.scale.clone();
-            let in_bar = |measure| unit(&scale, measure, Some(&bar.body));
-            let units = [
-                in_bar(Measure::Velocity)?,
-                in_bar(Measure::Strain)?,
-                in_bar(Measure::Displacement)?,
-                in_bar(Measure::Force)?,
-            ];
-            let [left, right] = self.scaled.layout.ends[place];
-            let extent = match (left, right) {
-                (Some(_), None) => Extent::ToTheRight,
-                (None, Some(_)) => Extent::ToTheLeft,
-                _ => Extent::Finite,
-            };
-            bars.push(FieldBar {
-                element,
-                extent,
-                data: self.scaled.model.bars[&element].clone(),
-                right: self.way(Role::Right(element), left),
-                left: self.way(Role::Left(element), right),
-                units,
-                reach: speed.times(&scale.time),
-            });
-        }
-        Ok(bars)
+    /// The bars with their waves. They are worked out once.
+    pub(crate) fn field_bars(&self) -> Result<&FieldBars, NetworkError> {
+        let made = self.fields.get_or_init(|| self.clone().into_field_bars().map(Box::new));
+        made.as_deref().map_err(NetworkError::clone)
     }
 
-    fn way(&mut self, role: Role, node: Option<usize>) -> Option<Way> {
+    fn into_field_bars(mut self) -> Result<FieldBars, NetworkError> {
+        let places = 0..self.scaled.layout.bars.len();
+        let bars = places.map(|place| self.field_bar(place)).collect::<Result<_, _>>()?;
+        Ok(FieldBars { network: self, bars })
+    }
+
+    fn field_bar(&mut self, place: usize) -> Result<FieldBar, NetworkError> {
+        let element = self.scaled.layout.bars[place];
+        let Kind::Bar(bar) = &self.scaled.scene.elements[element].kind else {
+            unreachable!("a bar of the line")
+        };
+        let (impedance, _, stiffness) = bar_roots(&bar.body)?;
+        let speed = stiffness.over(&impedance)?;
+        let scale = &self.scaled.model.scale;
+        let in_bar = |measure| unit(scale, measure, Some(&bar.body));
+        let units = [
+            in_bar(Measure::Velocity)?,
+            in_bar(Measure::Strain)?,
+            in_bar(Measure::Displacement)?,
+            in_bar(Measure::Force)?,
+        ];
+        let reach = speed.times(&scale.time);
+        let ends = self.scaled.layout.ends[place];
+        let extent = match ends {
+            [Some(_), None] => Extent::ToTheRight,
+            [None, Some(_)] => Extent::ToTheLeft,
+            _ => Extent::Finite,
+        };
+        let data = self.scaled.model.bars[&element].clone();
+        let right = self.entering(Role::Right(element), ends[0]);
+        let entering = [right, self.entering(Role::Left(element), ends[1])];
+        Ok(FieldBar { element, extent, data, entering, units, reach })
+    }
+
+    fn entering(&mut self, role: Role, node: Option<usize>) -> Option<Entering> {
         let (wave, lead) = (self.wave(role)?, self.clocks.leads[node?].clone());
         let integral = self.integral(wave);
-        Some(Way { waves: [wave, integral, self.integral(integral)], lead })
+        let waves = [wave, integral, self.integral(integral)];
+        Some(waves.map(|wave| Observation {
+            waves: vec![seen(wave, -&lead, &Fraction::one())],
+            forcing: Expression::zero(),
+        }))
     }
 }

@@ -36,7 +36,7 @@ pub use delay::Lattice;
 pub(crate) use equations::WaveRole;
 pub use equations::{Network, Role};
 pub use error::NetworkError;
-pub(crate) use fields::{Extent, FieldBar, Way};
+pub(crate) use fields::{Extent, FieldBar, FieldBars};
 pub(crate) use laws::{Law, Rule};
 pub(crate) use layout::{Contact, Contacts, Layout};
 pub(crate) use measures::{Measured, MeasuredValue, unit};

@@ -251,7 +251,7 @@ fn constant(value: &Fraction) -> Observation {
     Observation { waves: Vec::new(), forcing: value.clone().into() }
 }
 
-fn seen(wave: WaveIndex, delay: Fraction, coefficient: &Fraction) -> ObservedWave {
+pub(super) fn seen(wave: WaveIndex, delay: Fraction, coefficient: &Fraction) -> ObservedWave {
     ObservedWave { coefficient: coefficient.clone().into(), wave, slope: false, delay }
 }
 

@@ -214,7 +214,6 @@ impl From<SignalError> for ProblemError {
         match error {
             SignalError::Closed(error) => error.into(),
             SignalError::Followed(error) => error.into(),
-            SignalError::Field(error) => error.into(),
         }
     }
 }
@@ -235,7 +234,6 @@ impl From<HistoryError> for ProblemError {
     fn from(error: HistoryError) -> ProblemError {
         match error {
             HistoryError::Evaluate(error) => (*error).into(),
-            HistoryError::Field(error) => (*error).into(),
             error => ProblemError::History(error),
         }
     }
@@ -244,7 +242,7 @@ impl From<HistoryError> for ProblemError {
 impl From<FieldError> for ProblemError {
     fn from(error: FieldError) -> ProblemError {
         match error {
-            FieldError::Evaluate(error) => error.into(),
+            FieldError::Signal(error) => error.into(),
             error => ProblemError::Field(Box::new(error)),
         }
     }

@@ -130,8 +130,8 @@ impl Problem {
     }
 
     /// Velocity, strain, displacement and force along the bars until a time.
-    pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator, ProblemError> {
-        Ok(signal::fields_of_scene(self.network()?, last)?)
+    pub fn field_evaluator(&self, last: &Rational) -> Result<FieldEvaluator<'_>, ProblemError> {
+        Ok(FieldEvaluator::new(self.network()?, last)?)
     }
 
     /// The time at which so many periods of a quantity are over, and a local time has passed on the next.

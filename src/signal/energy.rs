@@ -85,7 +85,7 @@ fn squared<'a>(
     let windows = terms.iter().zip(reaches.iter().map(|from| [from, to]));
     if !network.scene().contacts_open {
         let squared: Vec<_> = windows.map(|(term, window)| (&term.of, window)).collect();
-        let signals = ClosedSignal::squared(network, &squared, to)?.into_iter();
+        let signals = ClosedSignal::several(network, &squared, to)?.into_iter();
         return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());
     }
     let follower = Follower::new(network, to)?;

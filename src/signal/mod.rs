@@ -9,9 +9,9 @@ mod energy;
 mod operations;
 
 use crate::evaluate::{ClosedSignal, EvaluateError, Signal};
-use crate::field::{FieldError, FieldEvaluator};
-use crate::history::{FollowedSignal, HistoryError, field_evaluator};
-use crate::network::{Network, Observed, ObservedValue};
+use crate::history::{FollowedSignal, Follower, HistoryError};
+use crate::network::{FieldBars, Network, Observed, ObservedValue};
+use num_traits::Zero as _;
 use wavestep_polynomial::Rational;
 
 /// Why there is no signal.
@@ -23,9 +23,6 @@ pub enum SignalError {
     /// The scene cannot be followed.
     #[error(transparent)]
     Followed(#[from] HistoryError),
-    /// There are no fields along its bars.
-    #[error(transparent)]
-    Field(#[from] FieldError),
 }
 
 /// What is asked of a signal, which decides what is prepared.
@@ -66,13 +63,47 @@ pub fn of_scene<'a>(
     })
 }
 
-/// Velocity, strain, displacement and force along the bars of a scene until a time.
+/// A wave as it enters a bar, without the state at the start, its integral over time since then, and the
+/// integral of that.
+pub(crate) type EnteringWave<'a> = [Box<dyn Signal + 'a>; 3];
+
+/// Of each bar of a scene the waves to the right and to the left in its scale, until a time of the user's;
+/// none for what comes from the far side of an endless bar.
 ///
 /// # Errors
-/// [`SignalError`], where the scene cannot be followed, and for a time before the start.
-pub fn fields_of_scene(network: &Network, last: &Rational) -> Result<FieldEvaluator, SignalError> {
-    Ok(match network.scene().contacts_open {
-        true => field_evaluator(network, last)?,
-        false => FieldEvaluator::new(network, last)?,
-    })
+/// [`SignalError`], where the scene has no such signals.
+pub(crate) fn entering_waves<'a>(
+    network: &'a Network,
+    last: &Rational,
+) -> Result<Vec<[Option<EnteringWave<'a>>; 2]>, SignalError> {
+    let window = [&Rational::zero(), last];
+    let follower = match network.scene().contacts_open {
+        true => Some(Follower::new(network, last)?),
+        false => None,
+    };
+    let FieldBars { network: own, bars } = network.field_bars().map_err(EvaluateError::from)?;
+    let mut signals: Vec<Box<dyn Signal + 'a>> = Vec::new();
+    match follower {
+        Some(follower) => {
+            for (bar, place) in bars.iter().zip(0..) {
+                for (direction, wave) in bar.entering.iter().enumerate() {
+                    for integrated in 0..wave.as_ref().map_or(0, |levels| levels.len()) {
+                        let wave = (place, direction);
+                        let signal = FollowedSignal::entering(&follower, wave, integrated, window)?;
+                        signals.push(Box::new(signal));
+                    }
+                }
+            }
+        }
+        None => {
+            let levels = bars.iter().flat_map(|bar| bar.entering.iter().flatten().flatten());
+            let observed: Vec<_> = levels.map(|level| (level, window)).collect();
+            let closed = ClosedSignal::several(own, &observed, last)?.into_iter();
+            signals.extend(closed.map(|signal| Box::new(signal) as Box<dyn Signal>));
+        }
+    }
+    let mut signals = signals.into_iter();
+    let mut next = |_| signals.next().expect("one for each level");
+    let mut wave = |levels: &Option<_>| levels.as_ref().map(|_| [0, 1, 2].map(&mut next));
+    Ok(bars.iter().map(|bar| bar.entering.each_ref().map(&mut wave)).collect())
 }

@@ -5,11 +5,11 @@
 use wavestep::evaluate::{Limit, Value, value};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Mesh, Profile, Quantity};
-use wavestep::history::{EventKind, History, HistoryError, field_evaluator};
+use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
-use wavestep::scene::{Kind, Measure, Observable, Place, Position, Seen};
-use wavestep::signal::{Purpose, of_scene};
+use wavestep::scene::{Kind, Measure, Observable, Place, Position, Scene, Seen};
+use wavestep::signal::{Purpose, SignalError, of_scene};
 
 type Rational = wavestep_polynomial::Rational;
 
@@ -143,7 +143,7 @@ fn nodes_agree_with_the_history() {
     for (name, values, until) in SCENES {
         let network = built_in(name, values);
         let times = times(&network, until);
-        let evaluator = field_evaluator(&network, &number(until)).unwrap();
+        let evaluator = FieldEvaluator::new(&network, &number(until)).unwrap();
         let mesh = Mesh::new(5).unwrap();
         let fields: Vec<_> = times.iter().map(|time| evaluator.at(time, &mesh).unwrap()).collect();
         let bars = evaluator.bars().map(|bar| bar_of(&network, bar)).enumerate();
@@ -178,7 +178,7 @@ fn nodes_agree_with_the_history() {
 fn endless_bars_agree_with_the_history() {
     let network = built_in("bars-that-part", &[("r", "1/2")]);
     let times = times(&network, "5");
-    let evaluator = field_evaluator(&network, &number("5")).unwrap();
+    let evaluator = FieldEvaluator::new(&network, &number("5")).unwrap();
     let element = bar_of(&network, "long");
     let mesh = Mesh::new(5).unwrap().only("long").reaching(&number("3")).unwrap();
     for (quantity, measure) in MEASURES {
@@ -204,7 +204,7 @@ fn averages_are_those_of_the_balances() {
     for (name, values, until) in SCENES {
         let network = built_in(name, values);
         let times = times(&network, until);
-        let evaluator = field_evaluator(&network, &number(until)).unwrap();
+        let evaluator = FieldEvaluator::new(&network, &number(until)).unwrap();
         let mesh = Mesh::new(4).unwrap();
         let waves = evaluator.waves([&Rational::default(), &number(until)], 1).unwrap();
         for (place, bar) in waves.iter().enumerate().filter(|(_, bar)| !bar.is_endless) {
@@ -256,9 +256,11 @@ fn closed_contacts_have_the_same_fields() {
     for (name, values, until) in SCENES {
         let network = built_in(name, values);
         let last = number(until);
+        let scene = Scene { contacts_open: false, ..network.scene().clone() };
+        let shut = Network::new(&scene).unwrap();
         let (open, closed) = (
-            field_evaluator(&network, &last).unwrap(),
             FieldEvaluator::new(&network, &last).unwrap(),
+            FieldEvaluator::new(&shut, &last).unwrap(),
         );
         let first = instants(&network, &last)[0];
         let differs = |time: &Rational, mesh: &Mesh| {
@@ -304,7 +306,7 @@ fn closed_contacts_have_the_same_fields() {
 #[test]
 fn the_striker_of_equal_bars_comes_to_rest() {
     let network = built_in("bars-of-equal-length", &[]);
-    let evaluator = field_evaluator(&network, &number("20")).unwrap();
+    let evaluator = FieldEvaluator::new(&network, &number("20")).unwrap();
     let (nodes, means) = (Mesh::new(8).unwrap(), Mesh::new(8).unwrap().averages());
     for time in ["2", "17/8", "3", "77/9", "20"] {
         let time = number(time);
@@ -326,7 +328,7 @@ fn the_striker_of_equal_bars_comes_to_rest() {
 #[test]
 fn a_release_is_a_front() {
     let network = built_in("saint-venant", &[("mu", "1")]);
-    let evaluator = field_evaluator(&network, &number("6")).unwrap();
+    let evaluator = FieldEvaluator::new(&network, &number("6")).unwrap();
     let release = 3.0 + (-2.0_f64).exp() / 2.0;
     let waves = evaluator.waves([&number("0"), &number("6")], 60).unwrap();
     let fronts = &waves[0].right_fronts;
@@ -366,7 +368,7 @@ fn an_impact_at_an_enclosed_instant_is_a_front() {
     assert!(matches!(closing.time, Value::Certified { .. }));
     let time = Rational::new(((struck * 1000.0) as i64 + 400).into(), 1000.into());
     let told = double_of(&time);
-    let evaluator = field_evaluator(&network, &time).unwrap();
+    let evaluator = FieldEvaluator::new(&network, &time).unwrap();
     let profile = evaluator.profiles(&time, 50).unwrap().remove(0);
     let place = told - struck;
     let at = profile.stretches.iter().position(|stretch| (stretch[0].0 - place).abs() < 1e-12);
@@ -385,14 +387,14 @@ fn an_impact_at_an_enclosed_instant_is_a_front() {
 #[test]
 fn what_cannot_be_given_is_refused() {
     let network = built_in("saint-venant", &[("mu", "1")]);
-    let early = field_evaluator(&network, &number("-1")).err().unwrap();
-    assert!(
-        matches!(&early, HistoryError::Field(error) if matches!(**error, FieldError::Negative(_)))
-    );
+    let early = FieldEvaluator::new(&network, &number("-1")).err().unwrap();
+    assert!(matches!(early, FieldError::Negative(_)));
     assert!(early.to_string().contains("before the start"));
-    let symbolic = field_evaluator(&built_in("saint-venant", &[]), &number("1")).err().unwrap();
-    assert!(matches!(symbolic, HistoryError::MissingValue(_)));
-    let evaluator = field_evaluator(&network, &number("1")).unwrap();
+    let symbolic = built_in("saint-venant", &[]);
+    let symbolic = FieldEvaluator::new(&symbolic, &number("1")).err().unwrap();
+    let missing = |error: &_| matches!(error, SignalError::Followed(HistoryError::MissingValue(_)));
+    assert!(matches!(&symbolic, FieldError::Signal(error) if missing(error)));
+    let evaluator = FieldEvaluator::new(&network, &number("1")).unwrap();
     let mesh = Mesh::new(2).unwrap();
     assert!(
         evaluator.at(&number("2"), &mesh).is_err() && evaluator.at(&number("1"), &mesh).is_ok()

@@ -262,9 +262,4 @@ impl ClosedForm {
         }
         demand
     }
-
-    /// On a lattice, the echoes that can arrive: their numbers and delays.
-    pub(crate) fn scattered(&self) -> Option<&[(usize, Fraction)]> {
-        self.lattice.as_ref().map(|lattice| &lattice.arrivals[..])
-    }
 }

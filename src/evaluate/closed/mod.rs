@@ -15,8 +15,6 @@ mod scene;
 mod signal;
 mod stretch;
 mod values;
-mod waves;
 
 pub use form::ClosedForm;
 pub use signal::ClosedSignal;
-pub(crate) use waves::Waves;

@@ -57,12 +57,17 @@ enum Source<'a> {
         /// Those of its recurrence, where all that is observed has a closed form without units.
         exact: OnceCell<Option<Box<ExactEchoes<'static>>>>,
         /// Those until the end of the window.
-        echoes: Shared<'a>,
+        echoes: Rc<Shared<'a>>,
     },
 }
 
 /// Echoes that several signals of a scene may be seen in.
-type Shared<'a> = Rc<OnceCell<SceneEchoes<'a>>>;
+#[derive(Default)]
+struct Shared<'a> {
+    /// What the signals see, where they are several.
+    seen: Vec<Observation>,
+    made: OnceCell<SceneEchoes<'a>>,
+}
 
 impl<'a> ClosedSignal<'a> {
     /// A wave or observable of a recurrence.
@@ -96,25 +101,22 @@ impl<'a> ClosedSignal<'a> {
         ClosedSignal::new(Source::Scene { network, value, unit, exact, echoes }, window)
     }
 
-    /// What energies of a scene are the squares of, in its own scale, on windows with one end; echoes are
-    /// worked out once for all of them.
+    /// Several observations of a scene in its own scale, on windows with one end: waves are solved and
+    /// echoes worked out once for all of them.
     ///
     /// # Errors
     /// As [`ClosedForm::of_scene`]; [`EvaluateError::EmptyWindow`].
-    pub(crate) fn squared(
+    pub(crate) fn several(
         network: &'a Network,
-        squared: &[(&Observation, [&Rational; 2])],
+        observed: &[(&Observation, [&Rational; 2])],
         until: &Rational,
     ) -> Result<Vec<Self>, EvaluateError> {
-        let waves = squared.iter().flat_map(|(of, _)| of.waves.iter().cloned()).collect();
+        let seen: Vec<Observation> = observed.iter().map(|(of, _)| (*of).clone()).collect();
+        let waves = seen.iter().flat_map(|of| of.waves.iter().cloned()).collect();
         let all = Observation { waves, forcing: Expression::zero() };
         let unit = Root::from(Fraction::one());
         let form = ClosedForm::of_scene(network, &all, unit.clone(), until)?;
-        let echoes = SceneEchoes::new(network, &network.scaled_time(until))?;
-        for (of, _) in squared {
-            echoes.want_until_last(echoes.numbers(), of)?;
-        }
-        let echoes = Rc::new(OnceCell::from(echoes));
+        let echoes = Rc::new(Shared { seen, made: OnceCell::new() });
         let signal = |(of, window): &(&Observation, [&Rational; 2])| {
             let (value, unit) = (Box::new((*of).clone()), unit.clone());
             let (exact, echoes) = (OnceCell::from(None), Rc::clone(&echoes));
@@ -122,7 +124,7 @@ impl<'a> ClosedSignal<'a> {
             let form = OnceCell::from(form.part(of));
             Ok(ClosedSignal { form, ..ClosedSignal::new(source, *window)? })
         };
-        squared.iter().map(signal).collect()
+        observed.iter().map(signal).collect()
     }
 
     fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
@@ -174,9 +176,10 @@ impl<'a> ClosedSignal<'a> {
     }
 
     /// A time in the scale of the waves.
-    fn scaled(&self, stretch: usize, at: At<'_>) -> Cow<'_, Fraction> {
+    fn scaled<'s>(&'s self, stretch: usize, at: At<'s>) -> Cow<'s, Fraction> {
         match at {
-            At::Time(time) => Cow::Owned(self.known_form().slowness().scale(time)),
+            At::Time(time) => Cow::Owned(self.scaled_time(time)),
+            At::Scaled(time) => Cow::Borrowed(time),
             At::End(Limit::Right) => Cow::Borrowed(self.stretch(stretch).from()),
             At::End(Limit::Left) => Cow::Borrowed(self.stretch(stretch).to()),
         }
@@ -224,13 +227,16 @@ impl<'a> ClosedSignal<'a> {
     fn scene_echoes<'s>(
         &self,
         network: &'a Network,
-        echoes: &'s Shared<'a>,
+        Shared { seen, made }: &'s Shared<'a>,
     ) -> Result<&'s SceneEchoes<'a>, EvaluateError> {
-        if let Some(known) = echoes.get() {
+        if let Some(known) = made.get() {
             return Ok(known);
         }
-        let made = SceneEchoes::new(network, &network.scaled_time(&self.window[1]))?;
-        Ok(echoes.get_or_init(|| made))
+        let echoes = SceneEchoes::new(network, &network.scaled_time(&self.window[1]))?;
+        for observation in seen {
+            echoes.want_until_last(echoes.numbers(), observation)?;
+        }
+        Ok(made.get_or_init(|| echoes))
     }
 }
 
@@ -296,7 +302,7 @@ impl Signal for ClosedSignal<'_> {
 
     fn echoes(&self) -> Option<(usize, usize)> {
         let Source::Scene { echoes, .. } = &self.source else { return None };
-        echoes.get()?.work()
+        echoes.made.get()?.work()
     }
 
     fn instant(&self, stretch: usize) -> Option<Instant> {
@@ -329,9 +335,15 @@ impl Signal for ClosedSignal<'_> {
         Ok(self.stretches.get_or_init(|| stretches).len())
     }
 
-    fn begins(&self, stretch: usize, at: &Rational) -> Result<Ordering, EvaluateError> {
-        let (form, from) = (self.known_form(), self.stretch(stretch).from());
-        Ok(form.numbers().compare(from, &form.slowness().scale(at))?)
+    fn scaled_time(&self, time: &Rational) -> Fraction {
+        match &self.source {
+            Source::Recurrence { .. } => Fraction::constant(time),
+            Source::Scene { network, .. } => network.scaled_time(time),
+        }
+    }
+
+    fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError> {
+        Ok(self.known_form().numbers().compare(self.stretch(stretch).from(), at)?)
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
@@ -398,7 +410,7 @@ impl Signal for ClosedSignal<'_> {
 
     fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
         let side = match at {
-            At::Time(_) => Limit::Right,
+            At::Time(_) | At::Scaled(_) => Limit::Right,
             At::End(side) => side,
         };
         self.exact_value(&self.scaled(stretch, at), side)

@@ -61,21 +61,25 @@ impl ClosedForm {
     ) -> Result<(), EvaluateError> {
         let field = self.numbers.field(bits);
         let unit = ComplexBall::from(self.numbers.enclose_root(&self.unit, bits)?);
+        let in_unit = |seen: &ObservedWave| -> Result<ComplexBall, EvaluateError> {
+            Ok(field.embed(&seen.coefficient)?.multiply(&unit, bits))
+        };
+        let waves = &self.observation.waves;
+        let coefficients: Vec<_> = waves.iter().map(in_unit).collect::<Result<_, _>>()?;
         for part in &stretch.parts {
-            let ObservedWave { coefficient, slope, .. } = &self.observation.waves[part.seen];
-            let coefficient = field.embed(coefficient)?.multiply(&unit, bits);
+            let (coefficient, slope) = (&coefficients[part.seen], waves[part.seen].slope);
             let function = self.function(part, bits)?;
             if function.is_zero() {
                 continue;
             }
-            match derivative + usize::from(*slope) {
-                0 => add(&function, &part.origin, &coefficient)?,
+            match derivative + usize::from(slope) {
+                0 => add(&function, &part.origin, coefficient)?,
                 times => {
                     let mut slope = function.differentiated(&field)?;
                     for _ in 1..times {
                         slope = slope.differentiated(&field)?;
                     }
-                    add(&slope, &part.origin, &coefficient)?;
+                    add(&slope, &part.origin, coefficient)?;
                 }
             }
         }

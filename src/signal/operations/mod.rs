@@ -70,6 +70,13 @@ impl<'a> Scale<'a> {
         Mark { exact, instant: Some(self.instant(self.network.scaled_time(time))), enclose }
     }
 
+    /// A time of the scene.
+    fn mark_scaled<'m>(&'m self, time: &'m Fraction) -> Mark<'m> {
+        let (exact, instant) = (self.exact_time(time), self.instant(time.clone()));
+        let enclose = Box::new(|bits| self.time(time, bits));
+        Mark { exact, instant: Some(instant), enclose }
+    }
+
     /// A length of time of the scene in the user's, where that is a rational number.
     fn exact_time(&self, length: &Fraction) -> Option<Rational> {
         Some(length.as_constant()? / self.slowness().as_constant()?)
@@ -290,9 +297,10 @@ impl<'a, R: Rule> Operation<'a, R> {
         }
     }
 
-    fn mark(&self, stretch: usize, at: At<'_>) -> Mark<'_> {
+    fn mark<'s>(&'s self, stretch: usize, at: At<'s>) -> Mark<'s> {
         match at {
             At::Time(time) => self.scale.mark(time),
+            At::Scaled(time) => self.scale.mark_scaled(time),
             At::End(Limit::Right) => self.beginning(stretch),
             At::End(Limit::Left) if stretch + 1 < self.known().len() => self.beginning(stretch + 1),
             At::End(Limit::Left) => self.scale.mark(&self.window[1]),
@@ -373,8 +381,12 @@ impl<R: Rule> Signal for Operation<'_, R> {
         Ok(self.steps()?.len())
     }
 
-    fn begins(&self, stretch: usize, at: &Rational) -> Outcome<Ordering> {
-        self.beginning(stretch).compare(&self.scale.mark(at))
+    fn scaled_time(&self, time: &Rational) -> Fraction {
+        self.scale.network.scaled_time(time)
+    }
+
+    fn begins(&self, stretch: usize, at: &Fraction) -> Outcome<Ordering> {
+        self.beginning(stretch).compare(&self.scale.mark_scaled(at))
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
@@ -445,6 +457,7 @@ impl<R: Rule> Signal for Operation<'_, R> {
         let network = self.scale.network;
         let at = match at {
             At::Time(time) => network.scaled_time(time),
+            At::Scaled(time) => time.clone(),
             At::End(Limit::Left) if stretch + 1 == self.known().len() => {
                 network.scaled_time(&self.window[1])
             }

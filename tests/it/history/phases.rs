@@ -2,7 +2,7 @@
 
 use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped};
 use wavestep::evaluate::{EvaluateError, Goal, Limit, Place, Root, Search, Value};
-use wavestep::history::{EventKind, FollowedSignal, History, HistoryError};
+use wavestep::history::{EventKind, FollowedSignal, History};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
 
@@ -103,7 +103,7 @@ fn empty_windows_are_refused() {
     };
     let instant = FollowedSignal::new(&network, "velocity", [&one, &one]).unwrap();
     assert_eq!(Search::new(&instant).err(), Some(EvaluateError::EmptyWindow));
-    assert_eq!(refused("velocity", [&early, &one]), HistoryError::EmptyWindow);
+    assert_eq!(refused("velocity", [&early, &one]), EvaluateError::EmptyWindow.into());
     assert!(refused("speed", [&zero, &one]).to_string().contains("no observable"));
 }
 

@@ -6,7 +6,6 @@ use super::scene::network;
 use crate::picture::along_the_line;
 use crate::ratio;
 use wavestep::field::{FieldEvaluator, Quantity};
-use wavestep::history::field_evaluator;
 use wavestep_draw::{Axis, Caption, Chart, Panel, Series};
 use wavestep_polynomial::Rational;
 
@@ -22,7 +21,7 @@ pub(super) fn diagram_of_impact(listed: &Listed) -> Result<Box<dyn Chart>, Figur
          start, so that the gap is not seen.",
     ];
     let last = ratio(5, 1);
-    let evaluator = field_evaluator(&network, &last)?.looking(&ratio(LONG.0, LONG.1))?;
+    let evaluator = FieldEvaluator::new(&network, &last)?.looking(&ratio(LONG.0, LONG.1))?;
     let names = ["place x/L", "time ct/L", "v/V"];
     let diagram = listed.diagram(&evaluator, Quantity::Velocity, &last, names, &remarks)?;
     Ok(Box::new(diagram.level(2.0, "the bars part")?))
@@ -31,7 +30,7 @@ pub(super) fn diagram_of_impact(listed: &Listed) -> Result<Box<dyn Chart>, Figur
 /// A panel for each time and each quantity, so that no line lies on another.
 fn snapshots(
     listed: &Listed,
-    evaluator: &FieldEvaluator,
+    evaluator: &FieldEvaluator<'_>,
     times: &[(Rational, &str)],
     quantities: &[(Quantity, &str)],
     remarks: &[&str],

@@ -6,8 +6,7 @@ use super::largest_strain::LargestStrain;
 use super::scene::{followed, network};
 use crate::{nearest, ratio};
 use wavestep::ball::Ball;
-use wavestep::field::Quantity;
-use wavestep::history::field_evaluator;
+use wavestep::field::{FieldEvaluator, Quantity};
 use wavestep_draw::{Axis, Chart, Look, Panel, Series};
 
 /// The mass of the bar over the striking mass in 6.20 and 6.21.
@@ -34,7 +33,7 @@ pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
         "The mass of the bar is half the striking mass; x from the struck end. Compression is positive; \
                     hatched: tension. The mass leaves where the strain at x = 0 has come to zero.",
     ];
-    let evaluator = field_evaluator(&network, &last)?;
+    let evaluator = FieldEvaluator::new(&network, &last)?;
     // With V = 1 and Z = 1 the compressive force is −ε c/V.
     let names = ["place x/L", "time ct/L", "−ε c/V"];
     let diagram = listed.diagram(&evaluator, Quantity::Force, &last, names, &remarks)?;

@@ -45,7 +45,7 @@ impl Listed {
     /// A diagram of place and time, with the names of place, time and quantity.
     fn diagram(
         &self,
-        evaluator: &FieldEvaluator,
+        evaluator: &FieldEvaluator<'_>,
         quantity: Quantity,
         last: &Rational,
         names: [&str; 3],

@@ -4,8 +4,7 @@ use super::Listed;
 use super::error::FigureError;
 use super::scene::{course, followed, network, recurrence};
 use crate::ratio;
-use wavestep::field::Quantity;
-use wavestep::history::field_evaluator;
+use wavestep::field::{FieldEvaluator, Quantity};
 use wavestep_draw::{Axis, Chart, Panel, Series};
 
 /// 6.17.
@@ -18,7 +17,7 @@ pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
          that t k (1/Z1 + 1/Z2) = ct/L. X_max = ZV/2.",
         "The spring lies at x = L; once it is unloaded the bars part. Hatched: tension.",
     ];
-    let evaluator = field_evaluator(&network, &last)?.looking(&ratio(3, 1))?;
+    let evaluator = FieldEvaluator::new(&network, &last)?.looking(&ratio(3, 1))?;
     let names = ["place x/L", "time ct/L", "X/(ZV)"];
     let diagram = listed.diagram(&evaluator, Quantity::Force, &last, names, &remarks)?;
     let force = followed(&network, "force", &last)?;

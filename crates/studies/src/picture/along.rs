@@ -14,7 +14,7 @@ const POINTS: usize = 160;
 /// A figure of fields along the line: a panel for each, with one line for each time, none of them after
 /// the last one of the evaluator.
 pub fn along_the_line(
-    evaluator: &FieldEvaluator,
+    evaluator: &FieldEvaluator<'_>,
     quantities: &[Quantity],
     times: &[Rational],
     caption: Caption,

@@ -20,7 +20,7 @@ const FLAT: f64 = 1.0 / 96.0;
 /// is cut into strips along both families of characteristics, in each of which it changes by no more than a
 /// hundredth of the range of the waves. No cell reaches over a front.
 pub fn lagrange(
-    evaluator: &FieldEvaluator,
+    evaluator: &FieldEvaluator<'_>,
     quantity: Quantity,
     [from, to]: [&Rational; 2],
     caption: Caption,

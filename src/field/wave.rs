@@ -1,0 +1,330 @@
+//! The two waves of every bar as they enter it at its ends, of which fields are made.
+//!
+//! A wave to the right enters a bar at its left end and passes every section unchanged; one to the left
+//! enters at the right end. All fields follow from these signals of the scene,
+//!
+//! ```text
+//! v = V + f + g        X = X_0 + Z (f − g)
+//! ```
+//!
+//! which are what is added to the state at the start, zero before it.
+//!
+//! Pictures look at fronts from both sides. Of an instant that is only enclosed a number stands for it,
+//! which all waves share, so that fronts that meet are drawn at one place.
+
+use super::{FIRST_BITS, FieldError, FieldEvaluator};
+use crate::ball::{Attempt, Ball, Magnitude, Precisions};
+use crate::evaluate::{At, EvaluateError, Limit, Signal, last_begun};
+use crate::expression::Fraction;
+use crate::limits::MAX_HISTORY_BITS;
+use crate::signal::EnteringWave;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+/// How narrow enclosures of instants are for which numbers stand, in bits.
+const STAND_IN_BITS: i64 = 100;
+
+/// A jump that is known to be smaller than this is none.
+const NO_JUMP_BITS: i64 = 100;
+
+/// A wave of a bar.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Entering {
+    /// The bar, by its place in the line.
+    pub bar: usize,
+    /// Which of its waves.
+    pub heading: Heading,
+}
+
+/// The direction of a wave.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Heading {
+    Right,
+    Left,
+}
+
+/// A derivative or integral of a wave `f`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Order {
+    /// `f'`
+    Slope,
+    /// `f`
+    Value,
+    /// `F = ∫ f dt` since the start.
+    Integral,
+    /// `∫ F dt` since the start.
+    DoubleIntegral,
+}
+
+/// An instant at the end of a bar, in the scale of the scene, and the limit there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Instant<'a> {
+    pub at: &'a Fraction,
+    pub side: Limit,
+    /// Whether a number that stands for a front means the front, as in pictures. The function on that side
+    /// of the front is then continued to the number.
+    pub is_drawn: bool,
+}
+
+/// Numbers for the instants at which a wave changes.
+pub(super) struct Drawn {
+    /// When the stretches of the wave and of its integral begin.
+    starts: [Vec<Fraction>; 2],
+    /// Where the wave, its slope or its curvature jumps, ascending.
+    fronts: Vec<Fraction>,
+}
+
+/// When events without an exact instant are, in the scale of the scene.
+type Events = BTreeMap<(u64, usize), Ball>;
+
+impl FieldEvaluator<'_> {
+    /// An enclosure of a wave, its slope or its integral, in the scale of the scene.
+    ///
+    /// # Errors
+    /// [`FieldError::Undecided`].
+    pub(super) fn wave(
+        &self,
+        wave: Entering,
+        order: Order,
+        instant: Instant<'_>,
+        bits: u64,
+    ) -> Result<Ball, FieldError> {
+        let Instant { at, side, is_drawn } = instant;
+        let place = wave.heading as usize;
+        let Some(levels) = &self.waves[wave.bar][place] else { return Ok(Ball::zero()) };
+        let (level, derivative) = match order {
+            Order::Slope => (0, 1),
+            Order::Value => (0, 0),
+            Order::Integral => (1, 0),
+            Order::DoubleIntegral => (2, 0),
+        };
+        let begun = self.numbers.compare(at, &Fraction::zero())?;
+        if begun == Ordering::Less
+            || (begun == Ordering::Equal && (level > 0 || side == Limit::Left))
+        {
+            return Ok(Ball::zero());
+        }
+        let signal = &*levels[level];
+        let drawn = if is_drawn { self.drawn()?[wave.bar][place].as_ref() } else { None };
+        let stretch = match drawn.and_then(|drawn| drawn.starts.get(level)) {
+            Some(starts) => {
+                last_begun(starts.len(), side, |i| self.numbers.compare(&starts[i], at))?
+            }
+            None => last_begun(signal.count()?, side, |stretch| {
+                let order = signal.begins(stretch, at);
+                order.map_err(|error| self.undecided(signal, stretch, error))
+            })?,
+        };
+        let value = signal.enclose(stretch, derivative, At::Scaled(at), bits)?;
+        Ok(match order {
+            Order::Slope => value.multiply(&self.time_unit(bits)?, bits),
+            _ => value,
+        })
+    }
+
+    /// The fronts of a wave that enter in a window.
+    pub(super) fn fronts(
+        &self,
+        wave: Entering,
+        [from, to]: [&Fraction; 2],
+    ) -> Result<Vec<Fraction>, FieldError> {
+        let mut fronts = Vec::new();
+        for at in self.drawn()?[wave.bar][wave.heading as usize].iter().flat_map(|own| &own.fronts)
+        {
+            if self.numbers.compare(at, from)? != Ordering::Less
+                && self.numbers.compare(at, to)? != Ordering::Greater
+            {
+                fronts.push(at.clone());
+            }
+        }
+        Ok(fronts)
+    }
+
+    /// One in the scale of the scene in the user's unit of time.
+    pub(super) fn time_unit(&self, bits: u64) -> Result<Ball, FieldError> {
+        let slowness = self.numbers.enclose(&self.network().model().slowness, bits)?;
+        Ok(slowness.reciprocal(bits).map_err(EvaluateError::Ball)?)
+    }
+
+    /// When a stretch begins, in the scale of the scene.
+    fn start(&self, signal: &dyn Signal, stretch: usize, bits: u64) -> Result<Ball, FieldError> {
+        let slowness = self.numbers.enclose(&self.network().model().slowness, bits)?;
+        Ok(signal.time(stretch, Limit::Right, bits)?.multiply(&slowness, bits))
+    }
+
+    /// Why it is not known whether a stretch has begun.
+    fn undecided(&self, signal: &dyn Signal, stretch: usize, error: EvaluateError) -> FieldError {
+        match (&error, self.start(signal, stretch, FIRST_BITS)) {
+            (EvaluateError::NotFollowed { bits }, Ok(at)) => {
+                FieldError::Undecided { at: Box::new(at), bits: *bits }
+            }
+            _ => error.into(),
+        }
+    }
+
+    /// What is drawn of all waves.
+    fn drawn(&self) -> Result<&[[Option<Drawn>; 2]], FieldError> {
+        if let Some(drawn) = self.drawn.get() {
+            return Ok(drawn);
+        }
+        let attempt = |bits| {
+            let mut events = Events::new();
+            let mut drawn = Vec::with_capacity(self.waves.len());
+            for [right, left] in &self.waves {
+                let mut of = |levels: &Option<EnteringWave<'_>>| {
+                    levels
+                        .as_ref()
+                        .map(|levels| self.drawn_of(levels, &mut events, bits))
+                        .transpose()
+                };
+                drawn.push([of(right)?, of(left)?]);
+            }
+            let narrow = Magnitude::power_of_two(-STAND_IN_BITS);
+            let is_narrow = events.values().all(|event| *event.radius() <= narrow);
+            Ok::<_, FieldError>(Attempt::of(drawn, is_narrow))
+        };
+        let drawn = Precisions::doubling(FIRST_BITS, MAX_HISTORY_BITS).raise(attempt)?.best();
+        Ok(self.drawn.get_or_init(|| drawn))
+    }
+
+    fn drawn_of(
+        &self,
+        [wave, integral, _]: &EnteringWave<'_>,
+        events: &mut Events,
+        bits: u64,
+    ) -> Result<Drawn, FieldError> {
+        let mut starts = |signal: &dyn Signal| -> Result<Vec<Fraction>, FieldError> {
+            let count = signal.count()?;
+            // From now on events are known with so many bits.
+            let _ = signal.time(0, Limit::Right, bits)?;
+            (0..count).map(|stretch| self.stand_in(signal, stretch, events, bits)).collect()
+        };
+        let starts = [starts(&**wave)?, starts(&**integral)?];
+        let mut fronts = Vec::new();
+        for (stretch, start) in starts[0].iter().enumerate() {
+            if self.is_front(&**wave, stretch, bits)? {
+                fronts.push(start.clone());
+            }
+        }
+        Ok(Drawn { starts, fronts })
+    }
+
+    /// The exact instant at which a stretch begins, or a number in the middle of its enclosure.
+    fn stand_in(
+        &self,
+        signal: &dyn Signal,
+        stretch: usize,
+        events: &mut Events,
+        bits: u64,
+    ) -> Result<Fraction, FieldError> {
+        let Some(instant) = signal.instant(stretch) else {
+            return Ok(Fraction::constant(&self.start(signal, stretch, bits)?.midpoint().into()));
+        };
+        let Some(event) = instant.event else { return Ok(instant.delay) };
+        let time = self.start(signal, stretch, bits)?;
+        let since = self.numbers.enclose(&instant.delay, bits)?;
+        let event = events.entry(event).or_insert_with(|| time.subtract(&since, bits));
+        Ok(&Fraction::constant(&event.midpoint().into()) + &instant.delay)
+    }
+
+    /// Whether a wave, its slope or its curvature jumps where a stretch begins. Stretches also end where
+    /// a series would become too long.
+    fn is_front(&self, signal: &dyn Signal, stretch: usize, bits: u64) -> Result<bool, FieldError> {
+        let mut factor = Ball::from_integer(&1.into());
+        for order in 0..3 {
+            let after = signal.enclose(stretch, order, At::End(Limit::Right), bits)?;
+            let before = match stretch.checked_sub(1) {
+                Some(before) => signal.enclose(before, order, At::End(Limit::Left), bits)?,
+                None => Ball::zero(),
+            };
+            let jump = after.subtract(&before, bits).multiply(&factor, bits);
+            if jump.magnitude() > Magnitude::power_of_two(-NO_JUMP_BITS) {
+                return Ok(true);
+            }
+            factor = factor.multiply(&self.time_unit(bits)?, bits);
+        }
+        Ok(false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::{Source, parse_number, read_scene};
+    use crate::network::Network;
+    use wavestep_polynomial::Rational;
+
+    fn number(text: &str) -> Rational {
+        parse_number(text).unwrap()
+    }
+
+    fn built_in(name: &str) -> Network {
+        let values = [("mu".to_owned(), number("1"))].into();
+        let source = Source::new(name, crate::scenes::find(name).unwrap().text).unwrap();
+        Network::new(&read_scene(&source, &values).unwrap()).unwrap()
+    }
+
+    const ROD: Entering = Entering { bar: 0, heading: Heading::Right };
+
+    /// The mass leaves at 3 + e^(−2)/2. The number that stands for it means it in pictures, with a slope
+    /// on either side; exactly, it is some other instant, which more bits tell from it or which is refused.
+    #[test]
+    fn a_number_stands_for_an_enclosed_instant() {
+        let network = built_in("saint-venant");
+        let fields = FieldEvaluator::new(&network, &number("31/10")).unwrap();
+        let window = ["301/100", "31/10"].map(|time| Fraction::constant(&number(time)));
+        let fronts = fields.fronts(ROD, window.each_ref()).unwrap();
+        let [release] = &fronts[..] else { panic!("{fronts:?}") };
+        let (told, _) = fields.numbers.enclose(release, 64).unwrap().to_double();
+        assert!((told - 3.0 - (-2.0_f64).exp() / 2.0).abs() < 1e-15);
+        let ask = |at, order, side, is_drawn| {
+            let instant = Instant { at, side, is_drawn };
+            fields.wave(ROD, order, instant, 64).map(|ball| ball.to_double().0)
+        };
+        let drawn = |order, side| ask(release, order, side, true).unwrap();
+        for order in [Order::Value, Order::Integral] {
+            let (left, right) = (drawn(order, Limit::Left), drawn(order, Limit::Right));
+            assert!((left - right).abs() < 1e-15 && left.abs() > 0.1, "{order:?} {left} {right}");
+        }
+        let slopes = [Limit::Left, Limit::Right].map(|side| drawn(Order::Slope, side));
+        assert!((slopes[0] - slopes[1]).abs() > 0.1, "{slopes:?}");
+        let exact = [Limit::Left, Limit::Right].map(|side| ask(release, Order::Slope, side, false));
+        assert!(exact[0].is_ok() && exact[0] == exact[1]);
+        let decay = Ball::from_integer(&(-2).into()).exp(2 * MAX_HISTORY_BITS).unwrap();
+        let near = number("3") + Rational::from(decay.midpoint()) / number("2");
+        let refused =
+            ask(&Fraction::constant(&near), Order::Value, Limit::Right, false).unwrap_err();
+        assert!(matches!(refused, FieldError::Undecided { .. }), "{refused}");
+        assert!(refused.to_string().contains("about t = 3.0676676416183063459"), "{refused}");
+    }
+
+    /// Integrals are those of what they are integrals of: by the rule of Simpson, within its error.
+    #[test]
+    fn integrals_follow_the_wave() {
+        for name in ["saint-venant", "mass-on-fixed-bar"] {
+            let network = built_in(name);
+            let fields = FieldEvaluator::new(&network, &number("4")).unwrap();
+            let value = |order, thousandths: i64| {
+                let at = Fraction::constant(&Rational::new(thousandths.into(), 1000.into()));
+                let instant = Instant { at: &at, side: Limit::Right, is_drawn: false };
+                fields.wave(ROD, order, instant, 64).unwrap().to_double().0
+            };
+            for from in [0_i64, 950, 1300, 2100, 3040, 3800] {
+                let orders = [Order::Slope, Order::Value, Order::Integral, Order::DoubleIntegral];
+                for pair in orders.windows(2) {
+                    let [start, middle, end] =
+                        [from, from + 25, from + 50].map(|time| value(pair[0], time));
+                    let rule = 0.05 / 6.0 * (start + 4.0 * middle + end);
+                    let gain = value(pair[1], from + 50) - value(pair[1], from);
+                    let error = if from == 3040 { 1e-2 } else { 1e-7 };
+                    assert!(
+                        (rule - gain).abs() < error,
+                        "{name} {pair:?} from {from}: {rule} {gain}"
+                    );
+                }
+            }
+            assert_eq!(value(Order::Value, -10), 0.0);
+            assert_eq!(value(Order::DoubleIntegral, 0), 0.0);
+        }
+    }
+}
