@@ -220,7 +220,7 @@ impl MarchedPieces {
         let march = self.march().ok_or(EvaluateError::AfterLast)?;
         let pieces = march.pieces_per_period();
         let doubled = Rational::from_integer((2 * pieces).into());
-        let mut sum = Taylor { coefficients: Vec::new(), remainder: Magnitude::ZERO };
+        let mut sum = Taylor::polynomial(Vec::new());
         for tap in &self.taps {
             let since = &middle - &tap.delay;
             if since.is_negative() || middle < tap.since {

@@ -40,10 +40,17 @@ pub struct Taylor<V = Ball> {
     pub remainder: Magnitude,
 }
 
+impl<V> Taylor<V> {
+    /// A polynomial, of which nothing is left out.
+    pub(crate) fn polynomial(coefficients: Vec<V>) -> Self {
+        Taylor { coefficients, remainder: Magnitude::ZERO }
+    }
+}
+
 impl Taylor<ComplexBall> {
     /// The function 0.
     pub(crate) fn zero(terms: usize) -> Self {
-        Taylor { coefficients: vec![ComplexBall::zero(); terms], remainder: Magnitude::ZERO }
+        Taylor::polynomial(vec![ComplexBall::zero(); terms])
     }
 
     /// `f(x₀ + hu)`, with so many terms. O(terms · degree) operations.

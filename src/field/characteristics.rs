@@ -77,9 +77,6 @@ impl FieldEvaluator<'_> {
     /// The waves of all bars on a window of time, in strips: at least `strips` of them for the window
     /// where a wave is not constant. Of an endless bar as much is drawn as the others are long together,
     /// or as waves have reached.
-    ///
-    /// # Errors
-    /// [`FieldError::Signal`], also for an empty window, and one that ends after the last time.
     pub fn waves(
         &self,
         [from, to]: [&Rational; 2],

@@ -70,10 +70,6 @@ pub(super) fn delays(bar: &FieldBar, span: &Fraction, place: Fraction) -> [Fract
 
 impl<'a> FieldEvaluator<'a> {
     /// For times up to `last`.
-    ///
-    /// # Errors
-    /// [`FieldError::Negative`]; [`FieldError::Signal`] where a symbol has no value, or waves cannot be
-    /// followed until then.
     pub fn new(network: &'a Network, last: &Rational) -> Result<FieldEvaluator<'a>, FieldError> {
         if *last < Rational::default() {
             return Err(FieldError::Negative(last.clone()));
@@ -91,9 +87,6 @@ impl<'a> FieldEvaluator<'a> {
 
     /// The same, with this length of endless bars in pictures: in [`waves`](Self::waves) and
     /// [`profiles`](Self::profiles).
-    ///
-    /// # Errors
-    /// [`FieldError::NegativeReach`] for a length that is not above zero.
     pub fn looking(self, reach: &Rational) -> Result<FieldEvaluator<'a>, FieldError> {
         match *reach > Rational::default() {
             true => Ok(FieldEvaluator { reach: Some(reach.clone()), ..self }),
@@ -120,13 +113,6 @@ impl<'a> FieldEvaluator<'a> {
     }
 
     /// The fields at a time.
-    ///
-    /// # Errors
-    /// [`FieldError`].
-    ///
-    /// # Cost
-    /// Each value is read off one piece of each wave: of `n` coefficients after `n` periods. The pieces
-    /// are worked out once for all times.
     pub fn at(&self, time: &Rational, mesh: &Mesh) -> Result<Fields, FieldError> {
         if *time < Rational::default() {
             return Err(FieldError::Negative(time.clone()));

@@ -30,9 +30,6 @@ pub struct Mesh {
 
 impl Mesh {
     /// All bars with so many cells each, values at nodes, limits from the right.
-    ///
-    /// # Errors
-    /// [`FieldError::Cells`].
     pub fn new(cells: usize) -> Result<Mesh, FieldError> {
         match cells {
             1..=MAX_FIELD_CELLS => Ok(Mesh {
@@ -69,9 +66,6 @@ impl Mesh {
     /// The same with endless bars up to this distance from their end, in the unit of lengths (of times
     /// for bars given by impedance). By default they reach as far as a wave that left their end at the
     /// start.
-    ///
-    /// # Errors
-    /// [`FieldError::NegativeReach`] where it is not above zero.
     pub fn reaching(self, reach: &Rational) -> Result<Mesh, FieldError> {
         match *reach > Rational::default() {
             true => Ok(Mesh { reach: Some(reach.clone()), ..self }),

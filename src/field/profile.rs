@@ -27,9 +27,6 @@ pub struct Profile {
 impl FieldEvaluator<'_> {
     /// The fields along all bars, at about `points` places of each. Of an endless bar as much is drawn as
     /// the others are long together, or as waves have reached by the last time.
-    ///
-    /// # Errors
-    /// [`FieldError`].
     pub fn profiles(&self, time: &Rational, points: usize) -> Result<Vec<Profile>, FieldError> {
         if *time < Rational::default() {
             return Err(FieldError::Negative(time.clone()));

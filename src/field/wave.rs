@@ -79,9 +79,6 @@ type Events = BTreeMap<(u64, usize), Ball>;
 
 impl FieldEvaluator<'_> {
     /// An enclosure of a wave, its slope or its integral, in the scale of the scene.
-    ///
-    /// # Errors
-    /// [`FieldError::Undecided`].
     pub(super) fn wave(
         &self,
         wave: Entering,

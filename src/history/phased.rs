@@ -83,12 +83,6 @@ pub(crate) struct Follower<'a> {
 
 impl<'a> Follower<'a> {
     /// Follows the scene until a time of the user's.
-    ///
-    /// # Errors
-    /// As [`History::of`].
-    ///
-    /// # Cost
-    /// That of the history until then, again for each doubling of the precision.
     pub fn new(network: &'a Network, until: &Rational) -> Result<Rc<Follower<'a>>, HistoryError> {
         let until = Moment::at(network.scaled_time(until));
         let attempt = |bits| match Follower::follow(network, &until, bits) {
@@ -121,10 +115,12 @@ impl<'a> Follower<'a> {
     }
 }
 
+/// The parts of what is seen, at the precision of an engine.
+type Parts<'a> = Box<dyn Fn(&Engine) -> Result<Vec<Part>, HistoryError> + 'a>;
+
 /// What is seen of a scene.
 struct Seen<'a> {
-    /// The parts it is the sum of, at the precision of an engine.
-    parts: Box<dyn Fn(&Engine) -> Result<Vec<Part>, HistoryError> + 'a>,
+    parts: Parts<'a>,
     /// How many times their sum is integrated over time from the beginning of the window on.
     integrated: usize,
 }
@@ -141,13 +137,6 @@ pub struct FollowedSignal<'a> {
 
 impl<'a> FollowedSignal<'a> {
     /// Follows the scene until the end of the window, to see an observable that is linear in the motion.
-    ///
-    /// # Errors
-    /// As [`History::of`]; [`EvaluateError::EmptyWindow`]; [`HistoryError::Refused`] for places that are no
-    /// exact share of a travel time.
-    ///
-    /// # Cost
-    /// That of the history until the end of the window, again for each doubling of the precision.
     pub fn new(
         network: &'a Network,
         observable: &str,
@@ -167,9 +156,6 @@ impl<'a> FollowedSignal<'a> {
 
     /// What an energy is the square of, in the scale of the scene; its stretches are known with the
     /// precision of values.
-    ///
-    /// # Errors
-    /// As [`FollowedSignal::new`].
     pub(crate) fn squared(
         follower: &Rc<Follower<'a>>,
         squared: &Squared,
@@ -188,9 +174,6 @@ impl<'a> FollowedSignal<'a> {
 
     /// What a wave that enters a bar, to the right (0) or to the left (1), adds to its state at the start,
     /// integrated so many times from the beginning of the window on; in the scale of the scene.
-    ///
-    /// # Errors
-    /// As [`FollowedSignal::new`].
     pub(crate) fn entering(
         follower: &Rc<Follower<'a>>,
         (bar, direction): (usize, usize),
@@ -217,9 +200,6 @@ impl<'a> FollowedSignal<'a> {
     }
 
     /// Finds all breaks, so that stretches can be asked for.
-    ///
-    /// # Errors
-    /// Where the order of two breaks is not decided.
     pub fn cut_at_breaks(self) -> Result<Self, HistoryError> {
         self.known.borrow().pieces(self.follower.network, &self.window)?;
         Ok(self)

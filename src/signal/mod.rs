@@ -37,9 +37,6 @@ pub enum Purpose {
 }
 
 /// An observable of a scene on a window of the user's time.
-///
-/// # Errors
-/// [`SignalError`], where the scene has no such signal.
 pub fn of_scene<'a>(
     network: &'a Network,
     observed: &Observed,
@@ -69,9 +66,6 @@ pub(crate) type EnteringWave<'a> = [Box<dyn Signal + 'a>; 3];
 
 /// Of each bar of a scene the waves to the right and to the left in its scale, until a time of the user's;
 /// none for what comes from the far side of an endless bar.
-///
-/// # Errors
-/// [`SignalError`], where the scene has no such signals.
 pub(crate) fn entering_waves<'a>(
     network: &'a Network,
     last: &Rational,

@@ -71,9 +71,6 @@ struct Shared<'a> {
 
 impl<'a> ClosedSignal<'a> {
     /// A wave or observable of a recurrence.
-    ///
-    /// # Errors
-    /// [`EvaluateError::EmptyWindow`]; [`EvaluateError::MissingValue`] where a symbol is left.
     pub fn of_recurrence(
         solution: &'a Solution,
         observation: &Observation,
@@ -85,9 +82,6 @@ impl<'a> ClosedSignal<'a> {
     }
 
     /// An observable of a scene whose contacts stay closed.
-    ///
-    /// # Errors
-    /// [`EvaluateError::NotLinear`] for energies; [`EvaluateError::EmptyWindow`].
     pub fn of_scene(
         network: &'a Network,
         observed: &Observed,
@@ -103,9 +97,6 @@ impl<'a> ClosedSignal<'a> {
 
     /// Several observations of a scene in its own scale, on windows with one end: waves are solved and
     /// echoes worked out once for all of them.
-    ///
-    /// # Errors
-    /// As [`ClosedForm::of_scene`]; [`EvaluateError::EmptyWindow`].
     pub(crate) fn several(
         network: &'a Network,
         observed: &[(&Observation, [&Rational; 2])],
@@ -145,9 +136,6 @@ impl<'a> ClosedSignal<'a> {
     }
 
     /// The closed form in balls.
-    ///
-    /// # Errors
-    /// As [`ClosedForm::of_scene`].
     pub fn form(&self) -> Result<&ClosedForm, EvaluateError> {
         if let Some(form) = self.form.get() {
             return Ok(form);

@@ -4,7 +4,7 @@
 //! handled as Taylor polynomials with one term.
 
 use super::{Mark, Outcome, Rule, Scale, value_at};
-use crate::ball::{Ball, Magnitude};
+use crate::ball::Ball;
 use crate::evaluate::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
 use crate::expression::{Expression, Fraction};
 use num_traits::{One as _, Zero as _};
@@ -48,7 +48,7 @@ impl Combination<'_> {
                 false => derivatives(*operand)?,
             };
             let leibniz = |n: usize| {
-                let mut sum = polynomial(Vec::new());
+                let mut sum = Taylor::polynomial(Vec::new());
                 for k in 0..=n {
                     let ways = Ball::from_integer(&binomial(n as u32, k as u32));
                     sum.add(known[k].multiply(&others[n - k], bits).scaled(&ways, bits), bits);
@@ -66,11 +66,6 @@ impl Combination<'_> {
         let value = self.operands[operand].exact(places[operand], At::End(end))?;
         Ok(value.is_some_and(|value| value.is_zero()))
     }
-}
-
-/// A polynomial that leaves nothing out.
-fn polynomial(coefficients: Vec<Ball>) -> Taylor {
-    Taylor { coefficients, remainder: Magnitude::ZERO }
 }
 
 impl Rule for Combination<'_> {
@@ -100,7 +95,7 @@ impl Rule for Combination<'_> {
     ) -> Outcome<Vec<Ball>> {
         let factor = |operand: usize, order: usize| {
             let value = value_at(&*self.operands[operand], places[operand], order, at, bits)?;
-            Ok(polynomial(vec![value]))
+            Ok(Taylor::polynomial(vec![value]))
         };
         let term = |product| {
             let mut derivative = self.derivative(product, order, bits, factor)?;
@@ -120,7 +115,7 @@ impl Rule for Combination<'_> {
         let factor = |operand: usize, order: usize| {
             self.operands[operand].taylor(places[operand], order, place, terms, bits)
         };
-        let mut sum = polynomial(vec![Ball::zero(); terms]);
+        let mut sum = Taylor::polynomial(vec![Ball::zero(); terms]);
         for product in &self.products {
             sum.add(self.derivative(product, order, bits, factor)?, bits);
         }

@@ -221,7 +221,7 @@ impl<'a> Integral<'a> {
         terms: usize,
         bits: u64,
     ) -> Outcome<Taylor> {
-        let before = |value: Ball| Taylor { coefficients: vec![value], remainder: Magnitude::ZERO };
+        let before = |value: Ball| Taylor::polynomial(vec![value]);
         let Some(last) = &self.last else { return Ok(before(Ball::zero())) };
         if place == 0 {
             return Ok(before(match order {
