@@ -8,9 +8,7 @@ use crate::ball::in_decimals;
 use crate::evaluate::{
     Certified, Compiled, EvaluateError, Evaluator, Limit, Marched, MethodError, Summation, Summed,
 };
-use crate::model::{
-    Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
-};
+use crate::model::{Leapfrog, Model, ModelError, Modes, RigidBody, Steps, ThirdOfMass};
 use crate::network::ScaledScene;
 use num_traits::ToPrimitive as _;
 use wavestep_polynomial::Rational;
@@ -121,7 +119,7 @@ impl<'a> Way<'a> {
     ) -> Result<Way<'a>, WayError> {
         let model: Box<dyn Model> = match method {
             Method::Rigid => Box::new(RigidBody::new(scene)?),
-            Method::Third => Box::new(ThirdOfMass::new(scene, StartingVelocity::ByMomentum)?),
+            Method::Third => Box::new(ThirdOfMass::new(scene)?),
             Method::Modes { count } => Box::new(Modes::new(scene, count)?),
             Method::Leapfrog { cells, courant } => Box::new(Leapfrog::new(scene, cells, courant)?),
             Method::Steps { tolerance } => Box::new(Steps::new(scene, tolerance)?),

@@ -39,8 +39,8 @@ impl Root {
     }
 
     pub fn over(&self, other: &Root) -> Result<Root, NotAUnit> {
-        let factor = &self.factor * &inverse(&other.factor)?;
-        let radicand = &self.radicand * &inverse(&other.radicand)?;
+        let factor = &self.factor * &other.factor.inverse()?;
+        let radicand = &self.radicand * &other.radicand.inverse()?;
         Ok(Root { factor, radicand }.normal())
     }
 
@@ -66,11 +66,6 @@ impl From<&Fraction> for Root {
     fn from(factor: &Fraction) -> Root {
         Root::from(factor.clone())
     }
-}
-
-fn inverse(value: &Fraction) -> Result<Fraction, NotAUnit> {
-    let inverse = Fraction::reciprocal(value.numerator())?;
-    Ok(&inverse * &Fraction::from(value.denominator()))
 }
 
 /// The square root of a rational number, where it is rational.

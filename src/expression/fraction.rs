@@ -93,6 +93,11 @@ impl Fraction {
         Ok(Fraction { numerator: Polynomial::constant(&content.recip()), factors })
     }
 
+    /// `1/self`, where its numerator has a [`reciprocal`](Fraction::reciprocal).
+    pub fn inverse(&self) -> Result<Fraction, NotAUnit> {
+        Ok(&Fraction::reciprocal(&self.numerator)? * &Fraction::from(self.denominator()))
+    }
+
     pub fn numerator(&self) -> &Polynomial {
         &self.numerator
     }
@@ -197,9 +202,7 @@ impl Fraction {
         let mut result = substitute_in(&self.numerator, x, value);
         for (factor, power) in &self.factors {
             let factor = substitute_in(factor, x, value);
-            let inverse = Fraction::reciprocal(&factor.numerator)?;
-            let inverse = &inverse * &Fraction::from(factor.denominator());
-            result = &result * &inverse.pow(*power);
+            result = &result * &factor.inverse()?.pow(*power);
         }
         Ok(result)
     }

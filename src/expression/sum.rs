@@ -145,6 +145,16 @@ impl Expression {
         }
     }
 
+    /// `1/self` of a single term; `None` for other sums.
+    pub fn inverse_of_term(&self) -> Option<Result<Expression, NotAUnit>> {
+        let mut terms = self.terms();
+        let (Some((exponent, coefficient)), None) = (terms.next(), terms.next()) else {
+            return None;
+        };
+        let inverse = coefficient.inverse();
+        Some(inverse.map(|own| Expression::from(own).times_exponential(&-exponent)))
+    }
+
     /// The product with `e^{exponent}`: coefficients are moved, not computed.
     pub fn times_exponential(self, exponent: &Fraction) -> Expression {
         if exponent.is_zero() {

@@ -15,7 +15,7 @@ use super::syntax::{
     Expression as Tree, Factor, Function, Index, Name, Node, Operator, Sign, Span, Spanned, Term,
     Wave,
 };
-use crate::expression::{Expression, Fraction, NotInvertible};
+use crate::expression::{Expression, Fraction, NotAUnit, NotInvertible};
 use crate::limits::{MAX_CONSTANT_BITS, MAX_EXPONENT, MAX_LAG, MAX_TERMS};
 use crate::recurrence::WaveIndex;
 
@@ -568,14 +568,10 @@ impl<'a> Lowering<'a> {
                 .with_remedy("introduce a symbol for it, or divide by fewer roots at a time"));
         }
         if self.place == Place::Formula {
-            let mut terms = value.terms();
-            if let (Some((exponent, coefficient)), None) = (terms.next(), terms.next()) {
-                let inverse = Fraction::reciprocal(coefficient.numerator());
-                let inverse = inverse.map_err(|reason| {
-                    self.error(reason.to_string(), span, "cannot be divided by")
-                })?;
-                let inverse = &inverse * &Fraction::from(coefficient.denominator());
-                return Ok(Expression::from(inverse).times_exponential(&-exponent));
+            let refused =
+                |reason: NotAUnit| self.error(reason.to_string(), span, "cannot be divided by");
+            if let Some(inverse) = value.inverse_of_term() {
+                return inverse.map_err(refused);
             }
         }
         self.scope.assumptions.invert(value).map_err(|reason| match reason {

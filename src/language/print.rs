@@ -1,12 +1,10 @@
-//! The tree as text again, with no more parentheses than it takes to read the same tree back.
+//! Expressions as text again, with no more parentheses than it takes to read the same tree back.
 
 use std::fmt::{self, Display, Formatter, Write};
 
 use super::number;
 use super::syntax::{
-    Condition, Declaration, Declared, Expression, Factor, Formula, Function, Index, Line, Listing,
-    Node, ObservedPlace, ObservedTerm, Operator, Property, Recurrence, Rewriting, Scene,
-    SceneStatementKind, Section, Sign, Spanned, StatementKind, Symbol, Term, Text, Unit, Wave,
+    Declared, Expression, Factor, Function, Index, Node, Operator, Sign, Spanned, Term, Wave,
 };
 
 impl<T: Display> Display for Spanned<T> {
@@ -68,7 +66,7 @@ impl Display for Node {
             Self::Function { function, argument } => write!(f, "{function}({argument})"),
             Self::Summation { term, index, bound } => write!(f, "sum({term}, {index} < {bound})"),
             Self::Sum(terms) => sum(terms, f),
-            Self::Product(factors) => Factors(factors).fmt(f),
+            Self::Product(factors) => product(factors, f),
             Self::Negate(operand) => write!(f, "-{}", Within(operand, Tightness::Sign)),
             Self::Power { base, exponent } => {
                 let base = Within(base, Tightness::Atom);
@@ -108,17 +106,13 @@ fn sum(terms: &[Term], f: &mut Formatter<'_>) -> fmt::Result {
 }
 
 /// A product; one that begins with a divisor is written `1/a`.
-struct Factors<'a>(&'a [Factor]);
-
-impl Display for Factors<'_> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let signs = |operator| match operator {
-            Operator::Multiply => ["", "*"],
-            Operator::Divide => ["1/", "/"],
-        };
-        let parts = self.0.iter().map(|factor| (signs(factor.operator), &factor.value));
-        joined(parts, Tightness::Sign, f)
-    }
+fn product(factors: &[Factor], f: &mut Formatter<'_>) -> fmt::Result {
+    let signs = |operator| match operator {
+        Operator::Multiply => ["", "*"],
+        Operator::Divide => ["1/", "/"],
+    };
+    let parts = factors.iter().map(|factor| (signs(factor.operator), &factor.value));
+    joined(parts, Tightness::Sign, f)
 }
 
 impl Display for Wave {
@@ -134,130 +128,6 @@ impl Display for Index {
             None => self.offset.fmt(f),
             Some(base) if self.offset == 0 => base.fmt(f),
             Some(base) => write!(f, "{base}{:+}", self.offset),
-        }
-    }
-}
-
-impl<K: Display> Text<K> {
-    fn write(&self, whole: &str, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{whole} \"{}\"", self.title)?;
-        self.statements.iter().try_for_each(|statement| writeln!(f, "{statement}"))
-    }
-}
-
-impl Display for Recurrence {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        self.write("recurrence", f)
-    }
-}
-
-impl Display for Scene {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        self.write("scene", f)
-    }
-}
-
-impl Display for StatementKind {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Symbols(symbols) => write!(f, "symbol {}", Listed(symbols)),
-            Self::Nonzero(expression) => write!(f, "nonzero {expression}"),
-            Self::Period { length, local, time } => {
-                write!(f, "period {length}, local {local}, time {time}")
-            }
-            Self::Waves(names) => write!(f, "wave {}", Listed(names)),
-            Self::Equation { left, right } => write!(f, "equation {left} = {right}"),
-            Self::Continuous { quantity, start } => {
-                write!(f, "continuous {quantity} starts at {start}")
-            }
-            Self::Written(items) => write!(f, "written {}", Listed(items)),
-            Self::Observe { name, value } => write!(f, "observe {name} = {value}"),
-        }
-    }
-}
-
-impl Display for Rewriting {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unit { wave, unit } => write!(f, "{wave} in {unit}"),
-            Self::Name { name, written } => write!(f, "{name} as {written}"),
-            Self::Constants { wave, name } => write!(f, "constants of {wave} as {name}"),
-            Self::Ends(wave) => write!(f, "ends of {wave}"),
-        }
-    }
-}
-
-/// Things with commas between them.
-struct Listed<'a, T>(&'a [T]);
-
-impl<T: Display> Display for Listed<'_, T> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        for (position, item) in self.0.iter().enumerate() {
-            if position > 0 {
-                f.write_str(", ")?;
-            }
-            item.fmt(f)?;
-        }
-        Ok(())
-    }
-}
-
-impl Display for Symbol {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match &self.condition {
-            None => self.name.fmt(f),
-            Some(Condition { relation, bound }) => write!(f, "{} {relation} {bound}", self.name),
-        }
-    }
-}
-
-impl Display for Listing {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        self.formulas.iter().try_for_each(|formula| writeln!(f, "{formula}"))
-    }
-}
-
-impl Display for Formula {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { wave, index, argument, value } = self;
-        write!(f, "{wave}[{index}]({argument}) = {value}")
-    }
-}
-
-impl Display for SceneStatementKind {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Symbols(symbols) => write!(f, "symbol {}", Listed(symbols)),
-            Self::Nonzero(expression) => write!(f, "nonzero {expression}"),
-            Self::Declaration(declaration) => declaration.fmt(f),
-            Self::Line(line) => line.fmt(f),
-            Self::ContactsOpen => f.write_str("contacts open"),
-            Self::Observe { name, terms } => {
-                write!(f, "observe {name} =")?;
-                for (position, term) in terms.iter().enumerate() {
-                    let text = term.to_string();
-                    f.write_str(match (position, term.value.sign) {
-                        // A minus here would be the sign of the term.
-                        (0, Sign::Plus) if text.starts_with('-') => " +",
-                        (0, Sign::Plus) => " ",
-                        (0, Sign::Minus) => " -",
-                        (_, Sign::Plus) => " + ",
-                        (_, Sign::Minus) => " - ",
-                    })?;
-                    f.write_str(&text)?;
-                }
-                Ok(())
-            }
-        }
-    }
-}
-
-impl Display for Declaration {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { kind, name, properties } = self;
-        match properties.is_empty() {
-            true => write!(f, "{kind} {name} {{}}"),
-            false => write!(f, "{kind} {name} {{ {} }}", Listed(properties)),
         }
     }
 }
@@ -295,71 +165,5 @@ impl Declared {
 impl Display for Declared {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(self.word())
-    }
-}
-
-impl Display for Property {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {}{}", self.name, self.value, AfterValue(self.unit.as_ref()))
-    }
-}
-
-/// A unit behind a value.
-struct AfterValue<'a>(Option<&'a Unit>);
-
-impl Display for AfterValue<'_> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        for (position, factor) in self.0.iter().flat_map(|unit| &unit.value).enumerate() {
-            f.write_char(match (position, factor.operator) {
-                (0, _) => ' ',
-                (_, Operator::Multiply) => '*',
-                (_, Operator::Divide) => '/',
-            })?;
-            factor.name.fmt(f)?;
-            if factor.power != 1 {
-                write!(f, "^{}", factor.power)?;
-            }
-        }
-        Ok(())
-    }
-}
-
-impl Display for Line {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}", self.left.value.word())?;
-        let elements = self.elements.iter().map(|name| name.value.as_str());
-        let names = elements.chain([self.right.value.word()]);
-        self.joints
-            .iter()
-            .zip(names)
-            .try_for_each(|(joint, name)| write!(f, " {} {name}", joint.value.sign()))
-    }
-}
-
-/// Without the sign, which depends on the place in the sum.
-impl Display for ObservedTerm {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let reading = format!("{}({})", self.measure.value.word(), self.place);
-        let factors = Factors(&self.factors).to_string();
-        match self.factors.first().map(|factor| factor.operator) {
-            None => f.write_str(&reading),
-            Some(Operator::Multiply) => write!(f, "{factors}*{reading}"),
-            // A product that begins with a divisor, `1/a`, is written behind what it divides.
-            Some(Operator::Divide) => write!(f, "{reading}{}", &factors[1..]),
-        }
-    }
-}
-
-impl Display for ObservedPlace {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        self.element.fmt(f)?;
-        match &self.section {
-            None => Ok(()),
-            Some(Section::Left) => f.write_str(".left"),
-            Some(Section::Right) => f.write_str(".right"),
-            Some(Section::At { position, unit }) => {
-                write!(f, ".at({position}{})", AfterValue(unit.as_ref()))
-            }
-        }
     }
 }

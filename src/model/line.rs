@@ -5,8 +5,8 @@ use crate::enclosure::Numbers;
 use crate::expression::Fraction;
 use crate::model::course::{Course, double, double_root};
 use crate::model::error::{ModelError, NotRepresented, NotSeen};
-use crate::network::{ElementLaw, Measured, MeasuredValue, Node, Reading, ScaledScene, Term, unit};
-use crate::scene::{ElementIndex, Kind, Measure};
+use crate::network::{ElementLaw, Measured, MeasuredValue, Node, Reading, ScaledScene, Term};
+use crate::scene::ElementIndex;
 use num_traits::ToPrimitive as _;
 use std::collections::BTreeMap;
 
@@ -293,17 +293,5 @@ impl Line {
     /// The first endless bar.
     pub fn endless(&self) -> Option<&Bar> {
         self.bars.iter().find(|bar| bar.travel.is_none())
-    }
-
-    /// What the unit of time is to the user, and the strain that goes with the unit of velocity in a
-    /// bar, `V/c`.
-    pub fn units_of(&self, scaled: &ScaledScene, bar: usize) -> Result<(f64, f64), ModelError> {
-        let numbers = Numbers::new(&scaled.model().constants);
-        let Kind::Bar(data) = &scaled.scene().elements[self.bars[bar].element].kind else {
-            unreachable!("a bar of the line")
-        };
-        let strain = unit(&scaled.model().scale, Measure::Strain, Some(&data.body));
-        let strain = double_root(&numbers, &strain.expect("the network has read this bar"))?;
-        Ok((1.0 / self.slowness, self.bars[bar].impedance * strain))
     }
 }

@@ -24,7 +24,7 @@ pub use leapfrog::Leapfrog;
 pub use modes::Modes;
 pub use rigid::RigidBody;
 pub use steps::Steps;
-pub use third::{StartingVelocity, ThirdOfMass};
+pub use third::ThirdOfMass;
 
 /// A model of a scene that gives values of its observables.
 pub trait Model {

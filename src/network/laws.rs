@@ -405,8 +405,7 @@ impl<'a> NodeLaws<'a> {
             (Side::Free, Side::Bar(_)) => &self.node.impedance[1],
             _ => return None,
         };
-        let inverse = Fraction::reciprocal(impedance.numerator()).ok()?;
-        Some(&inverse * &Fraction::from(impedance.denominator()))
+        impedance.inverse().ok()
     }
 
     /// How springs are shortened.

@@ -39,7 +39,7 @@ pub use error::NetworkError;
 pub(crate) use fields::{Extent, FieldBar, FieldBars};
 pub(crate) use laws::{Law, Rule};
 pub(crate) use layout::{Contact, Contacts, Layout};
-pub(crate) use measures::{Measured, MeasuredValue, unit};
+pub(crate) use measures::{Measured, MeasuredValue};
 pub use model::{Model, ModelBar, ModelLoad, Scale};
 pub use node::ElementLaw;
 pub(crate) use node::{Acting, Link, Lumped, Node, Side};

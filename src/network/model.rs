@@ -173,10 +173,7 @@ impl Model {
                     Drive::Velocity => scale.velocity.clone(),
                 };
                 let unit = self.in_unit(&named("A"), one(), &unit)?;
-                let slowness = &self.slowness;
-                let unit_of_time = &Fraction::reciprocal(slowness.numerator())?
-                    * &Fraction::from(slowness.denominator());
-                let clock = &unit_of_time * &Fraction::symbol(&scene.time);
+                let clock = &self.slowness.inverse()? * &Fraction::symbol(&scene.time);
                 let course = load.course.substitute(&scene.time, &clock)?.times(&unit);
                 let from = self.in_unit(&named("from"), &load.from, &scale.time)?;
                 let until = load.until.as_ref();

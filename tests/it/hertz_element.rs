@@ -7,8 +7,8 @@ use wavestep::ball::Ball;
 use wavestep::evaluate::{ClosedSignal, Limit, Value, digits};
 use wavestep::language::{Source, read_scene};
 use wavestep::model::{
-    Leapfrog, Model, ModelError, Modes, NotRepresented, RigidBody, StartingVelocity, Steps,
-    ThirdOfMass, equivalent_stiffness,
+    Leapfrog, Model, ModelError, Modes, NotRepresented, RigidBody, Steps, ThirdOfMass,
+    equivalent_stiffness,
 };
 use wavestep::network::{Network, NetworkError, ScaledScene};
 use wavestep::scene::{Hertz, Kind, Scene};
@@ -440,7 +440,7 @@ fn a_contact_has_no_recurrence_and_one_model() {
     assert_eq!(refused.err(), Some(NetworkError::NotLinear("tip".to_owned())));
     let refusals = [
         RigidBody::new(&scene).err(),
-        ThirdOfMass::new(&scene, StartingVelocity::Kept).err(),
+        ThirdOfMass::new(&scene).err(),
         Modes::new(&scene, 3).err(),
         Leapfrog::new(&scene, 4, 1.0).err(),
     ];

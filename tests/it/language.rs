@@ -2,6 +2,7 @@
 
 use crate::snapshot;
 use crate::support::corpus::corpus;
+use crate::support::print;
 use std::collections::BTreeMap;
 
 use num_bigint::BigInt;
@@ -26,11 +27,11 @@ fn read(name: &str, bytes: &[u8]) -> Result<Recurrence, Diagnostic> {
 }
 
 fn assert_prints_and_reads_back(recurrence: &Recurrence) {
-    let printed = recurrence.to_string();
+    let printed = print::recurrence(recurrence);
     let again = read("printed", printed.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(again.title, recurrence.title);
     assert_eq!(again.statements, recurrence.statements, "{printed}");
-    assert_eq!(again.to_string(), printed);
+    assert_eq!(print::recurrence(&again), printed);
     assert!(printed.is_ascii() || !recurrence.title.value.is_ascii());
 }
 
@@ -44,7 +45,7 @@ fn accepted_texts_are_read_and_printed() {
         let recurrence = read(&name, &bytes).unwrap_or_else(|error| panic!("{error}"));
         assert_prints_and_reads_back(&recurrence);
         let file = format!("grammar/accepted/{name}.wave");
-        snapshot("language", &format!("accepted-{name}"), &file, &recurrence.to_string());
+        snapshot("language", &format!("accepted-{name}"), &file, &print::recurrence(&recurrence));
     }
 }
 
@@ -202,7 +203,7 @@ f[3](s) = exp(-s)*(-4/3*s^3 + 2*s
 g[0](s) = 0
 ";
     let listing = parse_listing(&source(text)).unwrap_or_else(|error| panic!("{error}"));
-    let printed = listing.to_string();
+    let printed = print::listing(&listing);
     assert_eq!(printed, "f[3](s) = exp(-s)*(-4/3*s^3 + 2*s - 1)\ng[0](s) = 0\n");
     assert_eq!(parse_listing(&source(&printed)).unwrap().formulas, listing.formulas);
 }

@@ -28,12 +28,7 @@ mod source;
 mod source_form;
 mod support;
 
-/// Compares a text with what is recorded; `asked` is the text or the call that it came from.
-fn snapshot(folder: &str, name: &str, asked: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(format!("{}/snapshots/{folder}", env!("CARGO_MANIFEST_DIR")));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.set_description(asked);
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
-}
+use support::snapshot::snapshot;
+
+/// The repository.
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");

@@ -2,6 +2,7 @@
 
 use crate::snapshot;
 use crate::support::corpus::corpus;
+use crate::support::print;
 use std::collections::BTreeMap;
 
 use num_bigint::BigInt;
@@ -31,11 +32,11 @@ fn rendered(errors: &[Diagnostic]) -> String {
 }
 
 fn assert_prints_and_reads_back(tree: &Tree) {
-    let printed = tree.to_string();
+    let printed = print::scene(tree);
     let again = parse_scene(&source("printed", &printed)).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(again.title, tree.title);
     assert_eq!(again.statements, tree.statements, "{printed}");
-    assert_eq!(again.to_string(), printed);
+    assert_eq!(print::scene(&again), printed);
     assert!(printed.is_ascii() || !tree.title.value.is_ascii());
 }
 
@@ -52,7 +53,7 @@ fn accepted_scenes_are_read_and_printed() {
             Err(errors) => panic!("{}", rendered(&errors)),
         }
         let file = format!("grammar/accepted-scenes/{name}.wave");
-        snapshot("scene-language", &format!("accepted-{name}"), &file, &tree.to_string());
+        snapshot("scene-language", &format!("accepted-{name}"), &file, &print::scene(&tree));
     }
 }
 

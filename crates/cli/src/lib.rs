@@ -24,7 +24,7 @@ mod found;
 mod generate;
 mod hertz;
 mod input;
-mod json;
+pub mod json;
 mod lock;
 mod output;
 mod picture;

@@ -217,15 +217,11 @@ impl Lowering<'_> {
 
     /// One over a value that is not zero.
     fn reciprocal(&mut self, span: Span, value: &Fraction) -> Option<Fraction> {
-        match Fraction::reciprocal(value.numerator()) {
-            Ok(inverse) => Some(&inverse * &Fraction::from(value.denominator())),
-            Err(_) => {
-                let message = "this would have to be divided by, and is not known to be non-zero";
-                let error = self
-                    .error(message, span, "divides")
-                    .with_remedy("give its symbols values with --set, or write numbers");
-                self.refuse(error)
-            }
-        }
+        let inverse = value.inverse().map_err(|_| {
+            let message = "this would have to be divided by, and is not known to be non-zero";
+            self.error(message, span, "divides")
+                .with_remedy("give its symbols values with --set, or write numbers")
+        });
+        self.keep(inverse)
     }
 }

@@ -4,7 +4,9 @@ use super::Lowering;
 use super::element::Least;
 use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::syntax::{Declaration, Line, ObservedTerm, SceneStatementKind, Span, Spanned};
+use crate::language::syntax::{
+    Declaration, Line, Node, ObservedTerm, SceneStatementKind, Span, Spanned,
+};
 use crate::scene::{
     Body, Element, ElementIndex, Fault, Kind, Measure, Mistake, Part, Place, Property, Scene,
 };
@@ -91,8 +93,11 @@ impl Lowering<'_> {
                 _ => None,
             });
         let material = own.properties.iter().find(|own| own.name.value == "material");
-        let material = material.map(|material| material.value.to_string());
-        let named = |declaration: &&Declaration| Some(&declaration.name.value) == material.as_ref();
+        let material = material.map(|material| &material.value.value);
+        let named = |declaration: &&Declaration| match material {
+            Some(Node::Name(name)) => *name == declaration.name.value,
+            _ => false,
+        };
         let declarations = std::iter::once(own).chain(materials.filter(named));
         let mut given = declarations.flat_map(|declaration| &declaration.properties);
         let (_, names) = property.words();

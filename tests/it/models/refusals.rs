@@ -1,9 +1,7 @@
 //! Every refusal says what is not represented, by name.
 
 use crate::models::{Settings, built_in, network};
-use wavestep::model::{
-    Leapfrog, Model, ModelError, Modes, RigidBody, StartingVelocity, Steps, ThirdOfMass,
-};
+use wavestep::model::{Leapfrog, Model, ModelError, Modes, RigidBody, Steps, ThirdOfMass};
 use wavestep::network::Network;
 
 type Outcome = Result<Box<dyn Model>, ModelError>;
@@ -15,7 +13,7 @@ fn boxed(model: impl Model + 'static) -> Box<dyn Model> {
 fn make(model: &str, network: &Network) -> Outcome {
     match model {
         "rigid" => RigidBody::new(network).map(boxed),
-        "third" => ThirdOfMass::new(network, StartingVelocity::Kept).map(boxed),
+        "third" => ThirdOfMass::new(network).map(boxed),
         "modes" => Modes::new(network, 3).map(boxed),
         "leapfrog" => Leapfrog::new(network, 4, 1.0).map(boxed),
         "steps" => Steps::new(network, 1e-6).map(boxed),

@@ -2,6 +2,8 @@
 
 pub mod corpus;
 pub mod mirror;
+pub mod print;
+pub mod snapshot;
 
 use wavestep::expression::{Expression, Fraction};
 use wavestep::recurrence::{LinearForm, Recurrence};

@@ -8,15 +8,19 @@ mod dispersion;
 mod documents;
 mod events;
 mod find;
+mod json;
 mod local_contact;
 mod lock;
 mod messages;
 mod open_contacts;
 mod picture;
 mod scene;
+#[path = "../../../../tests/it/support/snapshot.rs"]
+mod snapshot;
 mod typeset;
 mod validity;
 
+use snapshot::snapshot;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -55,14 +59,4 @@ fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
 /// The arguments of a line; quotes are not needed here.
 fn words(line: &str) -> Vec<&str> {
     line.split_whitespace().collect()
-}
-
-/// Compares a text with what is recorded; `asked` is the command or the text that it came from.
-fn snapshot(folder: &str, name: &str, asked: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(format!("{ROOT}/snapshots/{folder}"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.set_description(asked);
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
 }

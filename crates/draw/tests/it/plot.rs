@@ -1,6 +1,7 @@
 //! Charts: places and labels are right, texts are escaped and do not overlap, data survive, and
 //! equal data give equal bytes. The data are made up.
 
+use crate::snapshot::snapshot;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use wavestep_draw::{
@@ -13,15 +14,6 @@ const LEFT: f64 = 88.0;
 const RIGHT: f64 = 650.0;
 const GUTTER: f64 = 34.0;
 const WIDTH: f64 = 900.0;
-
-fn snapshot(name: &str, text: &str) {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots/plot"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.set_description("made-up data");
-    settings.bind(|| insta::assert_snapshot!(name.to_owned(), text));
-}
 
 // ---- Data -------------------------------------------------------------------------------------
 
@@ -240,13 +232,23 @@ fn paths<'a>(elements: &'a [Element<'_>], class: &str) -> Vec<&'a str> {
 #[test]
 fn data_and_page_are_as_recorded() {
     for (name, chart) in ["work-precision", "map", "curves"].iter().zip(charts()) {
-        snapshot(name, &serde_json::to_string_pretty(&chart.json()).unwrap());
+        snapshot(
+            "plot",
+            name,
+            "made-up data",
+            &serde_json::to_string_pretty(&chart.json()).unwrap(),
+        );
     }
     let page = whole_page();
     let mut parts = page.split("<svg");
     let first = parts.next().unwrap().to_owned();
     let after = |part: &str| part.split_once("</svg>").unwrap().1.to_owned();
-    snapshot("page", &parts.fold(first, |page, part| page + "(picture)" + &after(part)));
+    snapshot(
+        "plot",
+        "page",
+        "made-up data",
+        &parts.fold(first, |page, part| page + "(picture)" + &after(part)),
+    );
 }
 
 #[test]

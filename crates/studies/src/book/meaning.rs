@@ -5,7 +5,7 @@ use crate::book::refusal::Refusal;
 use crate::book::sequence::{Sequence, period_number};
 use crate::book::stage::{Quantity, Stage};
 use num_traits::ToPrimitive as _;
-use wavestep::expression::{Expression, Fraction};
+use wavestep::expression::Expression;
 use wavestep::language::syntax::{Expression as Tree, Factor, Index, Node, Operator, Sign, Wave};
 use wavestep::recurrence::LinearForm;
 use wavestep_polynomial::{Rational, Symbol};
@@ -63,14 +63,8 @@ impl Meaning {
 
 /// `1/value`, for a product of symbols and irreducible factors, and exponentials.
 pub(super) fn inverse(value: &Expression) -> Result<Expression, Refusal> {
-    let mut terms = value.terms();
-    let (Some((exponent, coefficient)), None) = (terms.next(), terms.next()) else {
-        return Err(Refusal::NotInvertible);
-    };
-    let inverse =
-        Fraction::reciprocal(coefficient.numerator()).map_err(|_| Refusal::NotInvertible)?;
-    let inverse = &inverse * &Fraction::from(coefficient.denominator());
-    Ok(Expression::from(inverse).times_exponential(&-exponent))
+    let inverse = value.inverse_of_term().and_then(Result::ok);
+    inverse.ok_or(Refusal::NotInvertible)
 }
 
 /// Which names a formula may hold.

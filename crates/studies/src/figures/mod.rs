@@ -10,12 +10,10 @@ mod largest_strain;
 mod local;
 mod mass;
 mod pulse;
-mod saint_venant;
 mod scene;
 
 pub use error::FigureError;
 pub use largest_strain::LargestStrain;
-pub use saint_venant::saint_venant;
 
 use crate::picture::lagrange;
 use wavestep::field::{FieldEvaluator, Quantity};

@@ -6,10 +6,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use wavestep::ball::Ball;
+use wavestep_draw::Chart as _;
 use wavestep_polynomial::Rational;
 use wavestep_studies::figures::{FIGURES, LargestStrain, find};
 
-fn ratio(numerator: i64, denominator: i64) -> Rational {
+pub fn ratio(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
@@ -417,7 +418,7 @@ fn the_release_moves_to_later_periods() {
         // The front that arrives at the end of the period presses the bodies together once more.
         assert!(release > end && release < end + 1.0, "{period}: {release}");
     }
-    let figure = wavestep_studies::figures::saint_venant().unwrap();
+    let figure = crate::saint_venant::saint_venant();
     // The curve jumps there, from the end of the period, and reaches to the edge.
     let release = &figure.json()["panels"][0]["series"][0];
     let jumps: Vec<[f64; 3]> = serde_json::from_value(release["jumps"].clone()).unwrap();

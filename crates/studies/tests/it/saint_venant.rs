@@ -1,11 +1,10 @@
 //! Saint-Venant's problem against the ratio of masses: when the mass leaves the bar.
 
-use super::error::FigureError;
-use super::largest_strain::LargestStrain;
-use crate::picture::Sampled;
-use crate::ratio;
-use wavestep_draw::{Axis, Caption, Chart, Figure, Panel, Series};
+use crate::figures::ratio;
+use wavestep_draw::{Axis, Caption, Figure, Panel, Series};
 use wavestep_polynomial::Rational;
+use wavestep_studies::figures::LargestStrain;
+use wavestep_studies::picture::Sampled;
 
 /// How many periods are enough for the ratios that are shown.
 const PERIODS: usize = 10;
@@ -40,7 +39,7 @@ fn release(strains: &LargestStrain) -> Sampled {
 }
 
 /// Release and largest strain against the ratio of the striking mass to that of the bar.
-pub fn saint_venant() -> Result<Box<dyn Chart>, FigureError> {
+pub fn saint_venant() -> Figure {
     let strains = LargestStrain::new(PERIODS).expect("few periods");
     let mut largest = Vec::new();
     for i in 1..=4 * LARGEST_RATIO {
@@ -73,6 +72,6 @@ pub fn saint_venant() -> Result<Box<dyn Chart>, FigureError> {
         ..Caption::default()
     };
     let mass = Axis::linear("striking mass over mass of the bar, M/(ρAL)");
-    let figure = Figure::new("Saint-Venant's problem", mass, panels, caption)?;
-    Ok(Box::new(figure.window(0.0, LARGEST_RATIO as f64)?))
+    let figure = Figure::new("Saint-Venant's problem", mass, panels, caption).expect("curves");
+    figure.window(0.0, LARGEST_RATIO as f64).expect("a window")
 }
