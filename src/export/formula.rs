@@ -24,7 +24,6 @@ pub enum Head {
     /// `f[3](s)`: a wave on one period.
     Piece {
         wave: String,
-        /// The period.
         n: usize,
         local: Symbol,
     },

@@ -22,7 +22,6 @@ impl Oscillation {
         Oscillation { growth, angle: None }
     }
 
-    /// Whether this is the factor 1.
     pub fn is_one(&self) -> bool {
         self.growth.is_zero() && self.angle.is_none()
     }

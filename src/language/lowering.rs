@@ -336,13 +336,9 @@ impl<'a> Lowering<'a> {
 /// One formula of a listing: the wave, the period, the variable, and the exact expression.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ExactFormula {
-    /// The wave.
     pub wave: String,
-    /// The period.
     pub n: usize,
-    /// The local variable.
     pub variable: Symbol,
-    /// The wave function on that period.
     pub expression: Expression,
 }
 

@@ -5,7 +5,6 @@ use crate::history::HistoryError;
 use crate::signal::SignalError;
 use crate::solution::SolveError;
 
-/// Why nothing can be locked.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LockError {

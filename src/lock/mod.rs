@@ -61,7 +61,6 @@ pub struct Request {
 pub enum Extent {
     /// The pieces on the periods from 0 through this one.
     Pieces {
-        /// The last period.
         through: usize,
     },
     /// The events of contacts.
@@ -96,7 +95,6 @@ impl Lock {
         &self.request
     }
 
-    /// How much is locked besides values.
     pub fn extent(&self) -> Extent {
         match &self.contents {
             Contents::Pieces(pieces) => Extent::Pieces { through: pieces.through },

@@ -78,7 +78,6 @@ enum Sampled {
         bar: usize,
         at: f64,
     },
-    /// The momentum of a bar.
     Momentum(usize),
     /// Of a spring, by its station and its place there.
     Compression {
@@ -146,7 +145,6 @@ impl Chain {
         Ok(chain)
     }
 
-    /// How many cells there are.
     pub fn cells(&self) -> usize {
         self.bars.iter().map(|bar| bar.cells).sum()
     }

@@ -4,7 +4,6 @@ use crate::enclosure::EnclosureError;
 use crate::expression::NotAUnit;
 use wavestep_polynomial::Symbol;
 
-/// Why a model gives no values.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelError {

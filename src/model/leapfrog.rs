@@ -66,7 +66,6 @@ impl Leapfrog {
         Ok(Leapfrog { line, chain, unit })
     }
 
-    /// How many cells there are.
     pub fn cells(&self) -> usize {
         self.chain.cells()
     }

@@ -290,7 +290,6 @@ impl Line {
         }
     }
 
-    /// The first endless bar.
     pub fn endless(&self) -> Option<&Bar> {
         self.bars.iter().find(|bar| bar.travel.is_none())
     }

@@ -80,7 +80,6 @@ fn parts(line: &Line) -> Result<Vec<Part>, ModelError> {
 }
 
 impl Modes {
-    /// The first `count` modes.
     pub fn new(scene: &impl AsRef<ScaledScene>, count: usize) -> Result<Modes, ModelError> {
         if count == 0 {
             let reason = BadSetting::NoModes;

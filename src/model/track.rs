@@ -6,7 +6,6 @@ use std::sync::LazyLock;
 /// The degree of a piece.
 pub(crate) const DEGREE: usize = 24;
 
-/// How many points a piece has.
 pub(crate) const POINTS: usize = DEGREE + 1;
 
 /// The values of one function at the points of a piece.
@@ -90,7 +89,6 @@ impl Track {
         Track { before, period, periods: Vec::new(), total: 0.0 }
     }
 
-    /// Begins a period.
     pub fn begin(&mut self) {
         self.periods.push(Vec::new());
     }

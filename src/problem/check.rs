@@ -17,7 +17,6 @@ const PERIODS_WITH_CONSTANTS: usize = 2;
 /// How many periods of a lattice are followed in a check.
 const FIRST_ECHOES: usize = 3;
 
-/// What was found.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Checked {
     /// A recurrence, stated or derived.
@@ -73,7 +72,6 @@ pub enum General {
     Powers,
     /// Echoes in closed form.
     Echoes,
-    /// None was found.
     Unknown,
 }
 

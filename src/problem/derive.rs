@@ -20,9 +20,7 @@ const FIRST_PIECES: usize = 2;
 pub enum ToDerive<'a> {
     /// All waves that are stated, or that a scene has.
     Waves,
-    /// One of them.
     Wave(&'a str),
-    /// An observable.
     Observable(&'a str),
 }
 
@@ -64,11 +62,9 @@ pub struct Functions {
     pub first: usize,
     /// When the first period begins.
     pub offset: Fraction,
-    /// The functions.
     pub expressions: Vec<Expression>,
 }
 
-/// What was derived.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Derived {
     /// Pieces or echoes.
@@ -82,9 +78,7 @@ pub enum Derived {
 /// The form of a wave for every period.
 #[derive(Clone, PartialEq, Debug)]
 pub struct GeneralFormulas {
-    /// The wave.
     pub wave: String,
-    /// Its formulas.
     pub formulas: Vec<Formula>,
 }
 

@@ -21,9 +21,7 @@ use wavestep_polynomial::{Rational, Symbol};
 pub struct EqualExtrema<'a> {
     /// The wave or observable.
     pub name: &'a str,
-    /// Which extrema.
     pub goal: Goal,
-    /// The symbol.
     pub symbol: &'a str,
     /// The lowest value looked at, and the highest.
     pub range: [Rational; 2],
@@ -31,30 +29,24 @@ pub struct EqualExtrema<'a> {
     pub times: [&'a str; 3],
     /// What errors call these.
     pub times_name: &'a str,
-    /// How many significant digits.
     pub digits: usize,
 }
 
 /// Two values between which the extrema are equal for one.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Crossing {
-    /// The lower value.
     pub low: Rational,
-    /// The higher one.
     pub high: Rational,
     /// With how many bits the extrema cannot be told apart in between, where these are farther apart than
     /// the digits asked for.
     pub undecided: Option<u64>,
 }
 
-/// Why no value is found.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum EqualError {
     #[error("{digits} digits of a symbol are too many")]
     TooManyDigits {
-        /// Those asked for.
         digits: usize,
-        /// The most.
         limit: usize,
     },
     #[error("the extrema cannot be told apart at an end of the range")]
@@ -65,18 +57,13 @@ pub enum EqualError {
     NotAscending {
         /// What errors call the times.
         times: String,
-        /// The symbol.
         symbol: String,
-        /// Its value.
         value: Rational,
     },
     #[error("the time `{text}` is no number from 0 on at {value}")]
     NoTime {
-        /// The text.
         text: String,
-        /// The symbol.
         symbol: String,
-        /// Its value.
         value: Rational,
     },
 }

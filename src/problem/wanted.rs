@@ -19,7 +19,6 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// What it is called.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -39,7 +38,6 @@ impl Wanted {
         self.observed.as_ref()
     }
 
-    /// Its place among the observables of a scene.
     pub(super) fn place(&self) -> Option<usize> {
         self.place
     }

@@ -84,12 +84,10 @@ impl Recurrence {
             || waves.iter().any(|wave| wave == name)
     }
 
-    /// The place of the wave called `name`.
     pub fn wave(&self, name: &str) -> Option<WaveIndex> {
         self.statement.waves.iter().position(|wave| wave == name)
     }
 
-    /// The observable called `name`.
     pub fn observable(&self, name: &str) -> Option<&Observable> {
         self.statement.observables.iter().find(|observable| observable.name == name)
     }

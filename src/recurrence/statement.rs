@@ -57,7 +57,6 @@ pub struct Statement {
     pub period: Fraction,
     /// The time on one period, restarting at 0.
     pub local: Symbol,
-    /// The scene time.
     pub time: Symbol,
     /// The names of the waves; all are zero for `n < 0`.
     pub waves: Vec<String>,
@@ -73,11 +72,9 @@ pub struct Statement {
 /// A clause of a statement, by its place in the list of its kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Clause {
-    /// The period.
     Period,
     Equation(usize),
     Continuity(usize),
-    /// A wave.
     Wave(WaveIndex),
 }
 

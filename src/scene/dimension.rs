@@ -32,11 +32,6 @@ impl Dimension {
         Dimension { length, mass, time }
     }
 
-    /// The dimension of a product.
-    pub const fn times(self, other: Dimension) -> Dimension {
-        Dimension::new(self.length + other.length, self.mass + other.mass, self.time + other.time)
-    }
-
     /// Its unit in metres, kilograms and seconds: `N/m`; empty for plain numbers.
     pub fn unit(self) -> String {
         let units = self.units();

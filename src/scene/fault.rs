@@ -32,22 +32,17 @@ pub enum Part {
     Property(ElementIndex, Property),
     /// A position in the line, counted from the left.
     Position(usize),
-    /// A joint of the line.
     Joint(usize),
-    /// The left end of the line.
     Left,
-    /// The right end of the line.
     Right,
     /// The line as a whole.
     Line,
-    /// A term of an observable.
     Term {
         observable: usize,
         term: usize,
     },
 }
 
-/// A property of an element.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Property {
     Impedance,

@@ -17,7 +17,6 @@ pub struct Observable {
 pub struct Seen {
     /// The coefficient, a plain number.
     pub coefficient: Fraction,
-    /// What is measured.
     pub measure: Measure,
     pub place: Place,
 }

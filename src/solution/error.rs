@@ -45,7 +45,6 @@ impl From<InexactDivision> for Unsolvable {
 pub struct SolveError {
     pub wave: String,
     pub order: usize,
-    /// The reason.
     #[source]
     pub reason: Unsolvable,
 }

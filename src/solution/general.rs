@@ -40,7 +40,6 @@ pub struct Unknown {
 }
 
 impl GeneralForm {
-    /// How the form was proved.
     pub fn proof(&self) -> Proof {
         match self {
             GeneralForm::Geometric(_) => Proof::Substitution,

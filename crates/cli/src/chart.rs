@@ -11,7 +11,6 @@ use wavestep_studies::study::{Effort, Sampling, ToChart, charts, usual_end};
 /// The most times of a reference.
 const MAX_POINTS: usize = 100_000;
 
-/// Draws all charts.
 pub fn run(options: &Options) -> Result<String, Failure> {
     if options.points == 0 || options.points > MAX_POINTS {
         let message = format!("{} times cannot be measured", options.points);

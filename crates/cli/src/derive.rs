@@ -14,7 +14,6 @@ use wavestep::problem::{
 };
 use wavestep::solution::ObservedStretch;
 
-/// Derives what is asked for.
 pub fn run(options: &Derive) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let derived = match options.explain {

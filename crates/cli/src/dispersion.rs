@@ -64,7 +64,6 @@ struct Answer {
     seen: Option<(String, Seen)>,
 }
 
-/// Tells what is asked for.
 pub fn run(options: &Dispersion) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let (title, relation) = relation(options)?;

@@ -12,7 +12,6 @@ use wavestep::problem::Digits;
 /// The digits that are asked for where nothing is said.
 const USUAL_DIGITS: usize = 15;
 
-/// Evaluates what is asked for.
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;

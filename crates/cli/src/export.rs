@@ -12,7 +12,6 @@ use wavestep::answer::{Tolerance, WayError};
 use wavestep::evaluate::{Compiled, Evaluator as _};
 use wavestep::export::{CHeading, to_c};
 
-/// Writes the program that is asked for.
 pub fn run(options: &Export) -> Result<String, Failure> {
     let tolerance = options.tol.as_deref().map_or(Ok(Tolerance::Ulps(4.0)), tolerance)?;
     let problem = input::problem(&options.scene)?;

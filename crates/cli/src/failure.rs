@@ -39,7 +39,6 @@ pub enum Failure {
         report: String,
         /// What is not.
         message: String,
-        /// The remedy.
         remedy: String,
     },
     /// What is derived differs from what is locked.
@@ -48,13 +47,11 @@ pub enum Failure {
         report: String,
         /// What was compared.
         message: String,
-        /// The remedy.
         remedy: String,
     },
 }
 
 impl Failure {
-    /// The exit code.
     pub fn code(&self) -> u8 {
         match self {
             Failure::Unanswered(error, _) if error.is_bad_input() => USAGE,

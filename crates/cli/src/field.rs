@@ -13,7 +13,6 @@ use wavestep::language;
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
 
-/// Gives the fields.
 pub fn run(options: &Field) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let time = problem.time("--time", options.time.as_str())?;

@@ -10,7 +10,6 @@ use super::validity;
 use wavestep::evaluate::{Place, Search};
 use wavestep::signal::Purpose;
 
-/// Finds what is asked for.
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;
     if options.equal.is_some() {

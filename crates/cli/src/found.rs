@@ -14,17 +14,13 @@ const BOUND_DIGITS: usize = 20;
 
 /// What was asked for.
 pub struct Told<'a> {
-    /// The arguments.
     pub options: &'a Find,
-    /// The name of the quantity.
     pub name: &'a str,
     /// The level, as it was written.
     pub level: &'a str,
     /// What was read.
     pub problem: &'a Problem,
-    /// The quantity.
     pub wanted: &'a Wanted,
-    /// The window.
     pub window: &'a [BigRational; 2],
 }
 

@@ -5,7 +5,6 @@ use super::failure::Failure;
 use clap::CommandFactory as _;
 use clap_complete::Shell;
 
-/// Writes what is asked for.
 pub fn run(options: &Generate) -> Result<String, Failure> {
     let mut command = Arguments::command();
     let mut out = Vec::new();

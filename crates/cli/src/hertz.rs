@@ -41,7 +41,6 @@ struct Row {
     digits: usize,
 }
 
-/// Tells what is asked for.
 pub fn run(options: &Hertz) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;

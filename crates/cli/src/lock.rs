@@ -13,7 +13,6 @@ use wavestep::limits::MAX_LOCK_BYTES;
 use wavestep::lock::{Extent, Lock};
 use wavestep::problem::{LockRefusal, ProblemError, ToLock};
 
-/// Locks a scene.
 pub fn run(options: &Options) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let digits = input::digits(options.digits)?;

@@ -12,7 +12,6 @@ use wavestep::problem::{Problem, ProblemError, window};
 use wavestep_draw::{Caption, Chart};
 use wavestep_studies::picture::{against_time, along_the_line, courses, lagrange, usual_end};
 
-/// Draws what is asked for.
 pub fn run(options: &Plot) -> Result<String, Failure> {
     picture::draw(&options.output, options.width, || chart(options))
 }

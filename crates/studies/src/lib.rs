@@ -2,6 +2,8 @@
 //! verdicts, its figures, pictures of scenes, charts of accuracy and speed, dispersion, and the closed forms
 //! of local contact.
 
+#![allow(missing_docs, reason = "what a name or a message says is not said again")]
+
 pub mod book;
 pub mod dispersion;
 pub mod figures;

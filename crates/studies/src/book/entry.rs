@@ -6,7 +6,6 @@ use wavestep::language::syntax::Expression as Tree;
 use wavestep::language::{Source, normalise_name, parse_expression};
 use wavestep_polynomial::Rational;
 
-/// How the two parts of an equation are related.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Relation {
     /// Both sides are equal, on every period that they name.
@@ -18,11 +17,8 @@ pub enum Relation {
 /// An equation of the source, as trees of the language.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Equation {
-    /// The left side.
     pub left: Tree,
-    /// The right side.
     pub right: Tree,
-    /// How they are related.
     pub relation: Relation,
     /// The symbol that has a value, where the equation holds only then.
     pub condition: Option<(String, Tree)>,
@@ -91,7 +87,6 @@ pub struct Entry {
     pub number: String,
     /// What it says, in words.
     pub states: String,
-    /// What is read, and what is done with it.
     pub content: Content,
     /// Why the reading is not sure, where it is not.
     pub unsure: Option<String>,
@@ -115,11 +110,8 @@ pub(super) struct Setting {
 /// A section of the source with its equations.
 #[derive(Clone, Debug)]
 pub struct Section {
-    /// Its number.
     pub number: String,
-    /// Its title.
     pub title: String,
-    /// Its equations, in the order of the source.
     pub entries: Vec<Entry>,
     pub(super) setting: Setting,
 }

@@ -13,11 +13,8 @@ use wavestep::language::syntax::{Expression as Tree, Node};
 /// What is found about a numbered equation.
 #[derive(Clone, Debug)]
 pub struct Examination {
-    /// The section that it stands in.
     pub section: &'static Section,
-    /// The equation.
     pub entry: &'static Entry,
-    /// What was found.
     pub verdict: Verdict,
     /// What is derived from the scene in its place.
     pub derived: Vec<Formula>,

@@ -17,7 +17,6 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// The last period on which relations are compared piece by piece, besides a proof for every n.
 const LAST: usize = 5;
 
-/// The bits of witnesses.
 const WITNESS_BITS: u64 = 192;
 
 /// How many sets of values are tried for a witness.

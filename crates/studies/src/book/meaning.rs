@@ -15,7 +15,6 @@ use wavestep_polynomial::{Rational, Symbol};
 pub(super) struct Meaning {
     /// Waves of the scene, [`AHEAD`](crate::book::stage::AHEAD) periods late.
     pub(super) waves: LinearForm,
-    /// The rest.
     pub(super) rest: Sequence,
 }
 

@@ -50,11 +50,9 @@ pub fn sections() -> &'static [Section] {
     &SECTIONS
 }
 
-/// There is no equation of this number.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("there is no equation `{number}`")]
 pub struct UnknownNumber {
-    /// What was asked for.
     pub number: String,
 }
 

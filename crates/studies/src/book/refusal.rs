@@ -13,7 +13,6 @@ use wavestep::solution::{ObserveError, SolveError};
 /// Why a formula of the source cannot be held against a scene.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum Refusal {
     #[error("`{0}` is neither a wave nor a name of this section")]
     UnknownName(String),

@@ -54,11 +54,8 @@ impl fmt::Display for Ground {
 pub struct Witness {
     /// On which period, where the equation is about all of them.
     pub period: Option<usize>,
-    /// The values of the symbols.
     pub at: Vec<(String, Rational)>,
-    /// An enclosure of the left side.
     pub left: Ball,
-    /// An enclosure of the right side.
     pub right: Ball,
 }
 
@@ -86,14 +83,11 @@ impl fmt::Display for Witness {
 /// Whether an equation holds.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Finding {
-    /// It does.
     Holds(Ground),
-    /// It does not: a witness.
     Fails(Box<Witness>),
 }
 
 impl Finding {
-    /// Whether it holds.
     pub fn holds(&self) -> bool {
         matches!(self, Finding::Holds(_))
     }

@@ -13,7 +13,6 @@ use super::relation::{Relation, value};
 use super::series::{Fault, Series};
 use wavestep::ball::Ball;
 
-/// Bits of the search.
 const SEARCH_BITS: u64 = 64;
 /// The search goes to `2^DOUBLINGS` times the larger of 1 and `2π/τ`, or through so many cells.
 const DOUBLINGS: u32 = 64;

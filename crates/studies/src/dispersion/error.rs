@@ -9,10 +9,8 @@ use wavestep::ball::{Ball, BallError, DecimalEnclosure};
 /// Digits of places in messages.
 const PLACE_DIGITS: usize = 8;
 
-/// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum DispersionError {
     #[error("the formula does not depend on the wavenumber k")]
     NoWaveNumber,
@@ -65,7 +63,6 @@ impl DispersionError {
         }
     }
 
-    /// What can be done about it.
     pub fn remedy(&self) -> String {
         match self {
             Self::NoWaveNumber => "write ω as a formula in k, such as 2*sin(k/2)".to_owned(),
@@ -101,7 +98,6 @@ fn best_known(best: Option<&Ball>) -> String {
 /// Why times, lengths and counts make no grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum NoGrid {
     #[error("the wavenumber is no finite number")]
     WaveNumber,

@@ -10,20 +10,15 @@ use wavestep_polynomial::{Integer, Rational, Symbol};
 /// An elementary function of one argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Function {
-    /// `sin`
     Sine,
-    /// `cos`
     Cosine,
-    /// `exp`
     Exponential,
-    /// `tanh`
     HyperbolicTangent,
     /// `sinc z = sin(z)/z`, and 1 at zero.
     Sinc,
 }
 
 impl Function {
-    /// Its name in text.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Sine => "sin",
@@ -90,7 +85,6 @@ impl Formula {
         Formula::new(Node::Symbol(symbol.clone()))
     }
 
-    /// A number.
     pub fn number(value: &Rational) -> Formula {
         Formula::new(Node::Number(value.clone()))
     }
@@ -107,7 +101,6 @@ impl Formula {
         Formula::integer(1)
     }
 
-    /// `π` as a symbol.
     pub(crate) fn pi() -> Formula {
         Formula::symbol(&pi())
     }
@@ -120,7 +113,6 @@ impl Formula {
         }
     }
 
-    /// Whether it is 0.
     pub fn is_zero(&self) -> bool {
         self.as_number().is_some_and(Zero::is_zero)
     }
@@ -189,12 +181,10 @@ impl Formula {
     }
 }
 
-/// The symbol `k`.
 pub(super) fn wave_number() -> Symbol {
     Symbol::new("k").expect("a name")
 }
 
-/// The symbol `pi`.
 pub(crate) fn pi() -> Symbol {
     Symbol::new("pi").expect("a name")
 }

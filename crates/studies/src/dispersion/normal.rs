@@ -23,7 +23,6 @@ const MAX_EXPANDED_POWER: u32 = 16;
 /// The most terms that multiplying out may make before collection.
 const MAX_EXPANDED_TERMS: usize = 512;
 
-/// The sum of terms.
 pub(super) fn sum(terms: impl IntoIterator<Item = Formula>) -> Formula {
     let mut collected: BTreeMap<Formula, Rational> = BTreeMap::new();
     for term in terms {
@@ -109,7 +108,6 @@ fn over_common_power(terms: &[Formula]) -> Option<Formula> {
     None
 }
 
-/// The product of factors.
 pub(super) fn product(factors: impl IntoIterator<Item = Formula>) -> Formula {
     let mut coefficient = Rational::one();
     let mut powers: BTreeMap<Formula, Rational> = BTreeMap::new();
@@ -308,27 +306,22 @@ pub(super) fn rational_power(value: &Rational, exponent: &Rational) -> Option<Ra
 }
 
 impl Formula {
-    /// `self + other`.
     pub fn add(&self, other: &Formula) -> Formula {
         sum([self.clone(), other.clone()])
     }
 
-    /// `self − other`.
     pub fn subtract(&self, other: &Formula) -> Formula {
         self.add(&other.negate())
     }
 
-    /// `−self`.
     pub fn negate(&self) -> Formula {
         Formula::integer(-1).multiply(self)
     }
 
-    /// `self · other`.
     pub fn multiply(&self, other: &Formula) -> Formula {
         product([self.clone(), other.clone()])
     }
 
-    /// `self / other`.
     pub fn divide(&self, other: &Formula) -> Result<Formula, FormulaError> {
         Ok(self.multiply(&other.power(&-Rational::one())?))
     }
@@ -360,7 +353,6 @@ impl Formula {
         Ok(power(self, exponent))
     }
 
-    /// The function of it.
     pub fn apply(&self, function: Function) -> Formula {
         if self.is_zero() {
             let at_zero = match function {

@@ -21,12 +21,10 @@ const BOUND_BITS: u64 = 64;
 /// The digits of samples in doubles.
 const SAMPLE_BITS: u64 = 60;
 
-/// The velocity of a pulse's peak.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeakVelocity {
     /// In closed form, where there is one: a number that may hold π.
     pub exact: Option<Formula>,
-    /// Its value.
     pub value: Value,
     /// The cut-off `k_co`.
     pub cut_off: Value,

@@ -23,7 +23,6 @@ const LEAST_WAVES: f64 = 256.0;
 /// Gregory's weights of the first and last terms of a sum that stands for an integral; the error is of
 /// the fourth order in the step.
 const END_WEIGHTS: [f64; 3] = [3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0];
-/// The most points.
 const MAX_POINTS: usize = 1 << 20;
 /// How near the cut-off a component counts as being there, relatively.
 const ON_GRID: f64 = 1e-9;
@@ -56,13 +55,10 @@ pub struct Seen {
     pub position: f64,
     /// `position/T`, the mean velocity of the peak.
     pub velocity: f64,
-    /// How high it is.
     pub height: f64,
-    /// How high it was.
     pub first_height: f64,
     /// The period of the grid.
     pub length: f64,
-    /// How many points the grid has.
     pub points: usize,
     /// The displacements at `x = −length/2 + i length/points`.
     pub displacement: Vec<f64>,

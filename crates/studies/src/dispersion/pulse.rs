@@ -13,7 +13,6 @@ use super::formula::{Formula, Function, wave_number};
 use super::relation::{Relation, value};
 use wavestep::ball::Ball;
 
-/// The shape of a pulse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// 1 on the length `b`: `U = sinc(kb/2)`.
@@ -25,10 +24,8 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// All of them.
     pub const ALL: [Shape; 3] = [Self::Square, Self::Triangle, Self::Gaussian];
 
-    /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Square => "square",
@@ -37,7 +34,6 @@ impl Shape {
         }
     }
 
-    /// The shape of this name.
     pub fn find(name: &str) -> Option<Shape> {
         Self::ALL.into_iter().find(|shape| shape.name() == name)
     }
@@ -69,7 +65,6 @@ enum Content {
 enum Extent {
     /// A length, a number that may hold π.
     Length(Formula),
-    /// A duration.
     Duration(Rational),
 }
 

@@ -22,7 +22,6 @@ use wavestep::ball::{Ball, Magnitude};
 
 /// Cells at the start: `2^START`.
 const START: u32 = 2;
-/// The most cells that are looked at.
 const MAX_CELLS: usize = 20_000;
 /// A cell narrower than `2^{−NARROW_BITS}` of its distance from zero is too narrow: something there is
 /// not smooth. Smooth formulas take some ten bits.

@@ -28,7 +28,6 @@ pub enum Quantity {
 /// A double with a bound: the true value is at most `bound` away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The double.
     pub value: f64,
     /// How far it is off at most.
     pub bound: f64,
@@ -195,11 +194,9 @@ pub enum Builtin {
 }
 
 impl Builtin {
-    /// All of them.
     pub const ALL: [Builtin; 6] =
         [Self::String, Self::Lattice, Self::Cubic, Self::StiffString, Self::Beam, Self::Love];
 
-    /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::String => "string",
@@ -211,7 +208,6 @@ impl Builtin {
         }
     }
 
-    /// What it describes.
     pub const fn title(self) -> &'static str {
         match self {
             Self::String => "a string, or a bar of long waves: no dispersion",
@@ -225,12 +221,10 @@ impl Builtin {
         }
     }
 
-    /// The relation of this name.
     pub fn find(name: &str) -> Option<Builtin> {
         Self::ALL.into_iter().find(|one| one.name() == name)
     }
 
-    /// The relation.
     pub fn relation(self) -> Relation {
         let k = Formula::wave_number();
         let number = |a: i64, b: i64| Formula::number(&Rational::new(a.into(), b.into()));

@@ -8,10 +8,8 @@ use wavestep::field::FieldError;
 use wavestep::history::HistoryError;
 use wavestep_draw::PlotError;
 
-/// Why a figure is not drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum FigureError {
     #[error(
         "there is no figure {} that can be computed; those that can be are {}",

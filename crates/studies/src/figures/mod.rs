@@ -24,7 +24,6 @@ use wavestep_polynomial::Rational;
 pub struct Listed {
     /// Its number in the source.
     pub number: &'static str,
-    /// What it shows.
     pub title: &'static str,
     draw: fn(&Listed) -> Result<Box<dyn Chart>, FigureError>,
 }
@@ -98,7 +97,6 @@ pub static FIGURES: [Listed; 18] = [
     listed("6.29", "Velocities for a curve that is concave upwards", dispersion::concave_upwards),
 ];
 
-/// A figure by its number.
 pub fn find(number: &str) -> Result<&'static Listed, FigureError> {
     let found = FIGURES.iter().find(|figure| figure.number == number);
     found.ok_or_else(|| FigureError::Unknown(number.to_owned()))

@@ -3,10 +3,8 @@
 use wavestep::ball::BallError;
 use wavestep::enclosure::EnclosureError;
 
-/// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum HertzError {
     #[error(
         "the exponent m of X = k α^m is {0}; it must be positive, from 1/10 to 100 (3/2 is Hertz's, 1 a \
@@ -35,7 +33,6 @@ pub enum HertzError {
 /// Why closed forms of local contact do not describe a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum NoContact {
     #[error("a recurrence has no contact; give a scene")]
     Recurrence,

@@ -95,7 +95,6 @@ impl LongBars {
         &self.stiffness
     }
 
-    /// The law of the contact.
     pub fn law(&self) -> &PowerLaw {
         &self.law
     }
@@ -111,7 +110,6 @@ impl LongBars {
         Ok(time.multiply(&self.time_unit, self.precision))
     }
 
-    /// The force at a time.
     pub fn force(&self, time: &Ball) -> Result<Ball, HertzError> {
         Ok(self.share(time)?.force.multiply(&self.largest_force, self.precision))
     }

@@ -11,7 +11,6 @@ use wavestep::scene::{ElementIndex, End, Kind};
 /// A local contact between two bars, and until when waves that return are not felt there.
 #[derive(Clone, Debug)]
 pub struct ContactOfScene {
-    /// The element.
     pub element: ElementIndex,
     /// The two bars, as if they were endless, in SI units or plain numbers.
     pub bars: LongBars,

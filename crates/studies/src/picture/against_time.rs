@@ -7,7 +7,6 @@ use wavestep_draw::{Caption, Figure, Panel, Series};
 /// A quantity with its values on a window of time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Course {
-    /// What it is called.
     pub name: String,
     /// Its dimension; none for plain numbers.
     pub dimension: Dimension,

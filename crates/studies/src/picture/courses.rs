@@ -19,7 +19,6 @@ const POINTS: usize = 1000;
 /// How many units of time of a local contact are shown where no end is given.
 const UNITS: f64 = 8.0;
 
-/// Bits of these.
 const BITS: u64 = 64;
 
 /// The usual window from a time on: some periods; with a local contact some units of its time, and twice

@@ -5,9 +5,7 @@ use wavestep::field::{FieldError, Quantity};
 use wavestep::problem::ProblemError;
 use wavestep_draw::PlotError;
 
-/// Why there is no picture.
 #[derive(Clone, Debug, thiserror::Error)]
-#[allow(missing_docs, reason = "the messages say what each is")]
 pub enum PictureError {
     #[error("there is no diagram of the {}: give velocity, strain or force", .0.name())]
     NoDiagram(Quantity),

@@ -65,14 +65,12 @@ impl Effort {
     }
 }
 
-/// What is charted.
 #[derive(Clone, Debug)]
 pub struct ToChart<'a> {
     /// The wave or observable.
     pub quantity: &'a str,
     /// At how many times errors are measured, and the seed of these.
     pub sampling: Sampling,
-    /// How much is measured.
     pub effort: Effort,
     /// The symbol over which maps are drawn.
     pub symbol: Option<&'a str>,
@@ -84,21 +82,15 @@ pub struct ToChart<'a> {
 pub struct Charted {
     /// What its files are called.
     pub name: String,
-    /// What is to be seen.
     pub text: &'static str,
-    /// The chart.
     pub chart: Box<dyn Chart>,
-    /// A small table.
     pub listing: Option<Listing>,
 }
 
 /// All charts, the table of work against precision, and what is left out for which reason.
 pub struct Charts {
-    /// The charts.
     pub all: Vec<Charted>,
-    /// The table of work against precision.
     pub table: Table,
-    /// What is left out.
     pub left_out: Vec<(&'static str, PlotError)>,
 }
 
@@ -173,7 +165,6 @@ struct Study<'s> {
     asked: &'s ToChart<'s>,
     caption: Caption,
     tick: &'s dyn Fn(&str),
-    /// The unit of time.
     unit: &'static str,
     all: Vec<Charted>,
     left_out: Vec<(&'static str, PlotError)>,

@@ -9,7 +9,6 @@ use wavestep_polynomial::Rational;
 /// What is studied: a quantity of a problem, on any window.
 #[derive(Clone, Copy)]
 pub struct Subject<'p> {
-    /// The problem.
     pub problem: &'p Problem,
     /// The wave or observable.
     pub quantity: &'p str,
@@ -44,7 +43,6 @@ impl Default for Settings {
 /// What was measured of a way. [`measure`] makes one.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Measured {
-    /// Which way.
     pub method: Method,
     /// The largest error, in parts of the largest value.
     pub error: f64,

@@ -9,7 +9,6 @@ use wavestep_draw::{Axis, Caption, Curve, Curves, Listing, PlotError};
 /// The first orders at which a way has lost digits, for one value of a parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Loss {
-    /// The value of the parameter.
     pub parameter: f64,
     /// The first order with an error of 1e-8 of the largest value, or more.
     pub half: Option<usize>,

@@ -10,7 +10,6 @@ use wavestep::ball::Ball;
 use wavestep::export::{Formula, Head};
 use wavestep_polynomial::{Rational, Symbol};
 
-/// Bits of enclosures.
 const BITS: u64 = 128;
 
 /// 6.49: the stiffness is 4/3 of the effective modulus times the root of the effective radius.

@@ -10,7 +10,6 @@ use wavestep::ball::Ball;
 use wavestep::export::{Formula, Head};
 use wavestep_polynomial::Symbol;
 
-/// Bits of enclosures.
 const BITS: u64 = 128;
 
 /// Digits to which two values are compared.

@@ -13,7 +13,6 @@ use wavestep::language::parse_number;
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
 
-/// Bits of enclosures.
 const BITS: u64 = 96;
 
 /// The masses of the striking body, in that of the bar, at which estimates are measured.

@@ -46,7 +46,6 @@ const CHECKS: [(&str, Check); 13] = [
     ("peak-of-spectrum", dispersion::peak_of_spectrum),
 ];
 
-/// Runs a check by its name.
 pub(super) fn run(name: &str) -> Result<Checked, Refusal> {
     let check = CHECKS.iter().find(|(own, _)| *own == name);
     check.ok_or_else(|| Refusal::UnknownName(name.to_owned()))?.1()
