@@ -4,6 +4,7 @@ use crate::export::arrangement::arrange;
 use crate::export::forms::Writer;
 use crate::export::formula::{Formula, Head, Right, latex, text};
 use crate::export::notation::{Notation, both};
+use crate::export::prose::{capitalised, wrapped};
 use crate::export::tree::{Sign, Term};
 use crate::export::writer::write_flat;
 use crate::expression::{Constant, Definition, Expression, Fraction, Root};
@@ -186,7 +187,7 @@ impl Derivation {
                     let line = "-".repeat(heading.len());
                     out.push_str(&format!("{gap}{heading}\n{line}\n"));
                 }
-                Block::Sentence(text, _) => out.push_str(&wrapped(text, width)),
+                Block::Sentence(text, _) => out.push_str(&wrapped(text, width, "")),
                 Block::Equations(formulas) => {
                     let lines = text(formulas, width.saturating_sub(4));
                     lines.lines().for_each(|line| out.push_str(&format!("    {line}\n")));
@@ -208,25 +209,6 @@ impl Derivation {
         }
         out
     }
-}
-
-/// A sentence in lines of at most `width` characters.
-fn wrapped(sentence: &str, width: usize) -> String {
-    let (mut out, mut used) = (String::new(), 0);
-    for word in sentence.split(' ') {
-        let length = word.chars().count();
-        if used > 0 && used + 1 + length > width {
-            out.push('\n');
-            used = 0;
-        } else if used > 0 {
-            out.push(' ');
-            used += 1;
-        }
-        out.push_str(word);
-        used += length;
-    }
-    out.push('\n');
-    out
 }
 
 fn sum(parts: &[Expression]) -> Vec<Term> {
@@ -275,13 +257,6 @@ fn polynomial_in_x(coefficients: &[Fraction]) -> Vec<Term> {
     flat(&coefficients.iter().fold(Fraction::zero(), |sum, c| &(&sum * &x) + c), "x")
 }
 
-/// A text that begins with a capital letter.
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_ascii_uppercase());
-    first.into_iter().chain(letters).collect()
-}
-
 /// A definition as a right side.
 fn definition(value: &Definition) -> Right {
     match value {
@@ -317,10 +292,7 @@ fn root(value: &Root) -> Right {
             (Notation::Text, false) => format!("({front})*"),
             (Notation::Latex, false) => front,
         };
-        match n {
-            Notation::Text => format!("{front}sqrt({under})"),
-            Notation::Latex => format!("{front}\\sqrt{{{under}}}"),
-        }
+        front + &n.root_of(&under)
     })
 }
 

@@ -22,11 +22,7 @@ pub const LATEX_WIDTH: usize = 84;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Head {
     /// `f[3](s)`: a wave on one period.
-    Piece {
-        wave: String,
-        n: usize,
-        local: Symbol,
-    },
+    Piece { wave: String, n: usize, local: Symbol },
     /// `phi_f[3](s)`: an echo of a wave.
     Echo { wave: String, k: usize, local: Symbol },
     /// `phi_f[2,1](s)`: an echo of a wave on a lattice of delays.

@@ -14,6 +14,7 @@ mod lines;
 mod names;
 mod notation;
 mod oscillation;
+mod prose;
 mod source;
 mod terms;
 mod tree;
@@ -27,4 +28,6 @@ pub use formula::{
 };
 pub use general::{assumed_factors, general_form, operator_names, operator_of};
 pub use names::latex_name;
+pub use notation::Notation;
+pub use prose::{capitalised, wrapped};
 pub use source::SourceForm;

@@ -7,7 +7,7 @@ use wavestep_polynomial::{Integer, Rational, Symbol, decimal};
 
 /// In which signs a formula is written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Notation {
+pub enum Notation {
     /// Plain text: explicit `*`, `exp(…)` and `^`, which the language reads back.
     Text,
     /// LaTeX for amsmath and KaTeX.
@@ -92,12 +92,18 @@ impl Notation {
     pub fn root(self, radicand: &Integer, imaginary: bool) -> String {
         let radicand = decimal(radicand);
         match (self, &*radicand, imaginary) {
-            (Text, _, true) => format!("sqrt(-{radicand})"),
-            (Text, _, false) => format!("sqrt({radicand})"),
+            (Text, _, true) => self.root_of(&format!("-{radicand}")),
             (Latex, "1", true) => "\\mathrm{i}".to_owned(),
             (Latex, "1", false) => String::new(),
-            (Latex, _, true) => format!("\\mathrm{{i}}\\sqrt{{{radicand}}}"),
-            (Latex, _, false) => format!("\\sqrt{{{radicand}}}"),
+            (Latex, _, true) => format!("\\mathrm{{i}}{}", self.root_of(&radicand)),
+            (_, _, false) => self.root_of(&radicand),
+        }
+    }
+
+    pub fn root_of(self, radicand: &str) -> String {
+        match self {
+            Text => format!("sqrt({radicand})"),
+            Latex => format!("\\sqrt{{{radicand}}}"),
         }
     }
 
@@ -131,7 +137,7 @@ impl Notation {
     }
 
     /// The sign between two factors.
-    pub fn times(self, left: &Tree, right: &Tree) -> &'static str {
+    pub(crate) fn times(self, left: &Tree, right: &Tree) -> &'static str {
         match (self, left, right) {
             (Text, ..) => "*",
             (_, left, Tree::Sum(_) | Tree::Bracket(_)) if left.is_wave() => "",
@@ -149,7 +155,7 @@ impl Notation {
     }
 
     /// Brackets that lines may be broken in.
-    pub fn brackets(self, of: &Tree) -> (&'static str, &'static str) {
+    pub(crate) fn brackets(self, of: &Tree) -> (&'static str, &'static str) {
         match (of, self == Latex && of.is_tall()) {
             (Tree::Bracket(_), true) => ("\\Bigl[", "\\Bigr]"),
             (Tree::Bracket(_), false) if self == Latex => ("\\bigl[", "\\bigr]"),

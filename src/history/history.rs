@@ -43,6 +43,23 @@ pub enum EventKind {
     Closing,
 }
 
+impl EventKind {
+    pub(crate) const ALL: [EventKind; 4] =
+        [EventKind::Impact, EventKind::Opening, EventKind::Release, EventKind::Closing];
+
+    /// Its name in reports and locks.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            EventKind::Impact => "impact",
+            EventKind::Opening => "opening",
+            EventKind::Release => "release",
+            EventKind::Closing => "closing",
+        }
+    }
+}
+
 /// A part of the line that moves by itself, with what it holds at an instant.
 ///
 /// ```

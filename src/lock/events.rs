@@ -4,7 +4,7 @@
 
 use crate::ball::{Attempt, Ball, Decimal, Precisions};
 use crate::evaluate::{Limit, Value, value};
-use crate::history::{ContactSummary, Ending, Event, EventKind, History, HistoryError};
+use crate::history::{ContactSummary, Ending, Event, History, HistoryError};
 use crate::lock::difference::{Difference, both, compared};
 use crate::lock::stated::of_scene;
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
@@ -163,7 +163,7 @@ impl Writer {
             }
         }
         let mut facts = vec![
-            ("kind".to_owned(), word(event.kind).to_owned()),
+            ("kind".to_owned(), event.kind.word().to_owned()),
             ("between".to_owned(), event.between.join(" | ")),
         ];
         for (name, value) in numbers {
@@ -223,15 +223,5 @@ impl Writer {
             true => Ok(format!("0 ± 1e-{}", self.digits)),
             false => Err(LockError::AccuracyNotReached(what())),
         }
-    }
-}
-
-/// The name of a kind of events.
-pub(super) fn word(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Impact => "impact",
-        EventKind::Opening => "opening",
-        EventKind::Release => "release",
-        EventKind::Closing => "closing",
     }
 }

@@ -60,9 +60,7 @@ pub struct Request {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Extent {
     /// The pieces on the periods from 0 through this one.
-    Pieces {
-        through: usize,
-    },
+    Pieces { through: usize },
     /// The events of contacts.
     Events {
         /// The scene time until which contacts are followed; without it until nothing can meet again, as

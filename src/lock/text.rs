@@ -28,7 +28,7 @@ use crate::export::{self, Formula, Head, TEXT_WIDTH};
 use crate::history::EventKind;
 use crate::language::{Diagnostic, Source, Span, normalise_name, parse_number, read_listing};
 use crate::limits::{MAX_DIGITS, MAX_LOCK_BYTES};
-use crate::lock::events::{Events, Facts, word};
+use crate::lock::events::{Events, Facts};
 use crate::lock::pieces::{Piece, Pieces};
 use crate::lock::{Contents, Lock, Request, Values};
 use num_traits::Signed as _;
@@ -41,9 +41,6 @@ const PIECES: u32 = 1;
 const EVENTS: u32 = 2;
 
 const HEADING: &str = "# wavestep lock ";
-
-const KINDS: [EventKind; 4] =
-    [EventKind::Impact, EventKind::Opening, EventKind::Release, EventKind::Closing];
 
 /// One line of a file with its place.
 #[derive(Clone, Copy)]
@@ -308,7 +305,7 @@ impl Events {
 /// Whether a fact of this name can be so: a kind of events, names, a state of a contact, or a number.
 fn is_fact(name: &str, value: &str) -> bool {
     match name {
-        "kind" => KINDS.into_iter().any(|kind| word(kind) == value),
+        "kind" => EventKind::ALL.into_iter().any(|kind| kind.word() == value),
         "between" => value.contains(" | "),
         _ if name.starts_with("duration") && value == "still closed" => true,
         _ => is_value(value),

@@ -5,7 +5,7 @@ use crate::model::error::{ModelError, NotRepresented};
 use crate::model::leapfrog::NAME;
 use crate::model::line::Line;
 use crate::network::{
-    Acting, ElementLaw, Face, Field, Link, Lumped, Node, Reading, Section, Side, Term,
+    Acting, ElementLaw, Face, Field, Link, Lump, Lumped, Node, Reading, Section, Side, Term,
 };
 use crate::scene::Drive;
 
@@ -50,45 +50,6 @@ pub(crate) struct Chain {
     /// Which station a node is.
     station_of: Vec<usize>,
     points: usize,
-}
-
-/// What is read of the motion for one term of an observable.
-#[derive(Clone, Debug)]
-pub(crate) struct Tap {
-    pub coefficient: f64,
-    of: Sampled,
-    /// The displacement so far.
-    sum: f64,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Spot {
-    /// In a bar, at so many cells from its left end.
-    Section { bar: usize, at: f64 },
-    /// A run of a node.
-    Point(usize),
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Sampled {
-    Velocity(Spot),
-    Displacement(Spot),
-    /// The force in a bar, at so many cells from its left end.
-    Force {
-        bar: usize,
-        at: f64,
-    },
-    Momentum(usize),
-    /// Of a spring, by its station and its place there.
-    Compression {
-        station: usize,
-        place: usize,
-    },
-    /// The force in a spring or a support.
-    Resistance {
-        station: usize,
-        place: usize,
-    },
 }
 
 impl Chain {
@@ -174,46 +135,15 @@ impl Chain {
         self.stations.push(Station { node, first, mass, start, push, bars });
     }
 
-    /// What is read for a term; `None` where there is no such thing.
-    pub fn tap(&self, line: &Line, term: &Term<f64>) -> Option<Tap> {
-        let cells_from_left = |section: &Section<f64>| {
-            let cells = self.bars[section.bar];
-            let at = (section.distance() / cells.crossing).min(cells.cells as f64);
-            // An endless bar to the left is counted from its right end.
-            let mirrored = line.bars[section.bar].nodes[0].is_none();
-            if mirrored { cells.cells as f64 - at } else { at }
-        };
-        let point = |face: Face| {
-            let station = &self.stations[self.station_of[face.lump().node]];
-            Spot::Point(station.first + station.node.run_beside(face))
-        };
-        let of = match &term.of {
-            Reading::InBar(field, section) => {
-                let (bar, at) = (section.bar, cells_from_left(section));
-                match field {
-                    Field::Velocity => Sampled::Velocity(Spot::Section { bar, at }),
-                    Field::Displacement => Sampled::Displacement(Spot::Section { bar, at }),
-                    Field::Force => Sampled::Force { bar, at },
-                }
-            }
-            Reading::Momentum(bar) => Sampled::Momentum(*bar),
-            Reading::Velocity(face) => Sampled::Velocity(point(*face)),
-            Reading::Displacement(face) => Sampled::Displacement(point(*face)),
-            Reading::Compression(lump) | Reading::Force(lump) => {
-                let (station, place) = (self.station_of[lump.node], lump.place);
-                let law = &self.stations[station].node.elements[place].law;
-                match (&term.of, law) {
-                    (Reading::Compression(_), ElementLaw::Spring { .. }) => {
-                        Sampled::Compression { station, place }
-                    }
-                    (Reading::Force(_), law) if law.resistance().is_some() => {
-                        Sampled::Resistance { station, place }
-                    }
-                    _ => return None,
-                }
-            }
-        };
-        Some(Tap { coefficient: term.coefficient, of, sum: 0.0 })
+    /// Whether there is such a thing to read.
+    pub fn has(&self, reading: &Reading<f64>) -> bool {
+        let law =
+            |lump: &Lump| &self.stations[self.station_of[lump.node]].node.elements[lump.place].law;
+        match reading {
+            Reading::Compression(lump) => matches!(law(lump), ElementLaw::Spring { .. }),
+            Reading::Force(lump) => law(lump).resistance().is_some(),
+            _ => true,
+        }
     }
 
     /// The motion at the start.
@@ -452,30 +382,40 @@ impl Motion<'_> {
         stiffness * self.displacements[number][place] + damping * rate
     }
 
-    /// A sample and its time: forces and displacements at the time of the forces, velocities and
-    /// momentum half a step later.
-    pub fn sample(&self, tap: &mut Tap) -> (f64, f64) {
+    /// A sample of a reading and its time: forces and displacements at the time of the forces, velocities
+    /// and momentum half a step later. Displacements are summed up in `moved`.
+    pub fn sample(&self, line: &Line, of: &Reading<f64>, moved: &mut f64) -> (f64, f64) {
         let now = self.steps as f64 * self.chain.step;
         let later = now + self.chain.step / 2.0;
-        match tap.of {
-            Sampled::Velocity(spot) => (later, self.velocity(spot)),
-            Sampled::Displacement(spot) => {
-                let sum = tap.sum;
-                tap.sum += self.chain.step * self.velocity(spot);
-                (now, sum)
+        let mut displacement = |velocity: f64| {
+            let before = *moved;
+            *moved += self.chain.step * velocity;
+            (now, before)
+        };
+        match of {
+            Reading::InBar(Field::Velocity, section) => (later, self.in_bar(line, section)),
+            Reading::InBar(Field::Displacement, section) => {
+                displacement(self.in_bar(line, section))
             }
-            Sampled::Momentum(bar) => {
-                let bar = &self.chain.bars[bar];
+            Reading::InBar(Field::Force, section) => {
+                (now, self.force(section.bar, self.cells_from_left(line, section)))
+            }
+            Reading::Momentum(bar) => {
+                let bar = &self.chain.bars[*bar];
                 let all = &self.velocities[bar.first..=bar.first + bar.cells];
                 let ends = (all[0] + all[bar.cells]) / 2.0;
                 let sum = all.iter().sum::<f64>() - ends;
                 (later, bar.impedance * bar.crossing * sum)
             }
-            Sampled::Compression { station, place } => (now, self.displacements[station][place]),
-            Sampled::Resistance { station, place } => {
-                (now, self.resistance(station, place, |point| self.now(point)))
+            Reading::Velocity(face) => (later, self.beside(*face)),
+            Reading::Displacement(face) => displacement(self.beside(*face)),
+            Reading::Compression(Lump { node, place }) => {
+                (now, self.displacements[self.chain.station_of[*node]][*place])
             }
-            Sampled::Force { bar, at } => (now, self.force(bar, at)),
+            Reading::Force(Lump { node, place }) => {
+                let station = self.chain.station_of[*node];
+                (now, self.resistance(station, *place, |point| self.now(point)))
+            }
         }
     }
 
@@ -487,17 +427,27 @@ impl Motion<'_> {
         }
     }
 
-    fn velocity(&self, spot: Spot) -> f64 {
-        match spot {
-            Spot::Section { bar, at } => {
-                let bar = &self.chain.bars[bar];
-                let whole = (at.floor() as usize).min(bar.cells - 1);
-                let share = at - whole as f64;
-                let pair = &self.velocities[bar.first + whole..];
-                pair[0] + share * (pair[1] - pair[0])
-            }
-            Spot::Point(point) => self.velocities[point],
-        }
+    /// At how many cells from the left end of its bar a section lies.
+    fn cells_from_left(&self, line: &Line, section: &Section<f64>) -> f64 {
+        let bar = &self.chain.bars[section.bar];
+        let at = (section.distance() / bar.crossing).min(bar.cells as f64);
+        // An endless bar to the left is counted from its right end.
+        let mirrored = line.bars[section.bar].nodes[0].is_none();
+        if mirrored { bar.cells as f64 - at } else { at }
+    }
+
+    /// The velocity of a section.
+    fn in_bar(&self, line: &Line, section: &Section<f64>) -> f64 {
+        let (bar, at) = (&self.chain.bars[section.bar], self.cells_from_left(line, section));
+        let whole = (at.floor() as usize).min(bar.cells - 1);
+        let pair = &self.velocities[bar.first + whole..];
+        pair[0] + (at - whole as f64) * (pair[1] - pair[0])
+    }
+
+    /// The velocity of the run beside an element.
+    fn beside(&self, face: Face) -> f64 {
+        let station = &self.chain.stations[self.chain.station_of[face.lump().node]];
+        self.velocities[station.first + station.node.run_beside(face)]
     }
 
     /// The force in a bar, between the middles of cells; at its ends with the force that moves half a

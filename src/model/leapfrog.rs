@@ -19,10 +19,10 @@
 
 use crate::limits::MAX_CELL_UPDATES;
 use crate::model::Model;
-use crate::model::chain::{Chain, Tap};
+use crate::model::chain::Chain;
 use crate::model::error::{BadSetting, ModelError, NotSeen};
 use crate::model::line::Line;
-use crate::network::{Reading, ScaledScene};
+use crate::network::{Reading, ScaledScene, Term};
 
 pub(crate) const NAME: &str = "leapfrog";
 
@@ -77,22 +77,24 @@ impl Leapfrog {
 }
 
 /// Values between two samples in time, for times in ascending order.
-struct Samples {
-    tap: Tap,
+struct Samples<'a> {
+    term: &'a Term<f64>,
+    /// The displacement so far.
+    moved: f64,
     /// The sample before, and its time.
     before: Option<(f64, f64)>,
     /// How many times have been served.
     served: usize,
 }
 
-impl Samples {
+impl Samples<'_> {
     /// Takes a sample, and adds the values at all times that it is the next for; times before the
     /// second sample are read on the line through the first two.
     fn take(&mut self, at: f64, sample: f64, times: &[(f64, usize)], values: &mut [f64]) {
         if let Some((earlier, first)) = self.before {
             let slope = (sample - first) / (at - earlier);
             while let Some((time, place)) = times.get(self.served).filter(|(time, _)| *time < at) {
-                values[*place] += self.tap.coefficient * (first + slope * (time - earlier));
+                values[*place] += self.term.coefficient * (first + slope * (time - earlier));
                 self.served += 1;
             }
         }
@@ -101,27 +103,23 @@ impl Samples {
 }
 
 impl Model for Leapfrog {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
     fn assumptions(&self) -> &'static str {
         "Bars are cells with two half masses and a spring; what happens within a cell is left out."
     }
 
     fn values(&self, observable: usize, times: &[f64]) -> Result<Vec<f64>, ModelError> {
         let observable = self.line.observable(NAME, observable)?;
-        let mut taps = Vec::new();
+        let mut all = Vec::new();
         for term in observable.terms() {
             if let Reading::Momentum(bar) = term.of
                 && self.line.bars[bar].travel.is_none()
             {
                 return self.line.refuse(NAME, observable, NotSeen::EndlessMomentum);
             }
-            match self.chain.tap(&self.line, term) {
-                Some(tap) => taps.push(Samples { tap, before: None, served: 0 }),
-                None => return self.line.refuse(NAME, observable, NotSeen::Other),
+            if !self.chain.has(&term.of) {
+                return self.line.refuse(NAME, observable, NotSeen::Other);
             }
+            all.push(Samples { term, moved: 0.0, before: None, served: 0 });
         }
         let scaled = self.line.scaled(times)?;
         let mut values = vec![0.0; times.len()];
@@ -133,10 +131,10 @@ impl Model for Leapfrog {
         let count = steps * self.cells() as f64;
         ModelError::limited(NAME, "cell updates", count, MAX_CELL_UPDATES)?;
         let mut motion = self.chain.start();
-        while taps.iter().any(|samples| samples.served < ascending.len()) {
+        while all.iter().any(|samples| samples.served < ascending.len()) {
             motion.advance(&self.line);
-            for samples in &mut taps {
-                let (at, sample) = motion.sample(&mut samples.tap);
+            for samples in &mut all {
+                let (at, sample) = motion.sample(&self.line, &samples.term.of, &mut samples.moved);
                 samples.take(at, sample, &ascending, &mut values);
             }
             motion.settle();

@@ -28,9 +28,6 @@ pub use third::ThirdOfMass;
 
 /// A model of a scene that gives values of its observables.
 pub trait Model {
-    /// What it is called.
-    fn name(&self) -> &'static str;
-
     /// What it leaves out, in one sentence.
     fn assumptions(&self) -> &'static str;
 

@@ -194,10 +194,6 @@ impl Mode {
 }
 
 impl Model for Modes {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
     fn assumptions(&self) -> &'static str {
         "All modes of vibration above the last one are left out, and with them what is steep in a wave."
     }

@@ -214,10 +214,6 @@ impl RigidBody {
 }
 
 impl Model for RigidBody {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
     fn assumptions(&self) -> &'static str {
         "Bars do not yield: the whole line moves as one body, and all waves in it are left out."
     }

@@ -439,10 +439,6 @@ impl Motion<'_> {
 }
 
 impl Model for Steps {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
     fn assumptions(&self) -> &'static str {
         "Nothing is left out but what the tolerance of the solver allows."
     }

@@ -78,10 +78,6 @@ impl ThirdOfMass {
 }
 
 impl Model for ThirdOfMass {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
     fn assumptions(&self) -> &'static str {
         "The bar is strained uniformly at every time, with a third of its mass at the struck end; waves \
          are left out."

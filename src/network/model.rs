@@ -10,7 +10,7 @@ use crate::expression::{
 };
 use crate::network::error::NetworkError;
 use crate::network::node::ElementLaw;
-use crate::scene::{Body, Dimension, Drive, ElementIndex, Kind, PI, Scene};
+use crate::scene::{Body, Dimension, Drive, ElementIndex, Kind, PI, Scene, Spring};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -150,8 +150,7 @@ impl Model {
                 }
             }
             Kind::Spring(spring) => {
-                let [stiffness, damping] =
-                    self.yielding(&element.name, &spring.stiffness, &spring.damping)?;
+                let [stiffness, damping] = self.yielding(&element.name, spring)?;
                 ElementLaw::Spring { stiffness, damping }
             }
             Kind::Hertz(hertz) => {
@@ -163,8 +162,7 @@ impl Model {
                 }
             }
             Kind::Support(support) => {
-                let [stiffness, damping] =
-                    self.yielding(&element.name, &support.stiffness, &support.damping)?;
+                let [stiffness, damping] = self.yielding(&element.name, support)?;
                 ElementLaw::Support { stiffness, damping }
             }
             Kind::Load(load) => {
@@ -196,8 +194,7 @@ impl Model {
     fn yielding(
         &mut self,
         name: &str,
-        stiffness: &Fraction,
-        damping: &Fraction,
+        Spring { stiffness, damping }: &Spring,
     ) -> Outcome<[Fraction; 2]> {
         let unit = self.scale.unit(Dimension::STIFFNESS)?;
         let impedance = self.scale.impedance.clone();

@@ -45,10 +45,7 @@ pub struct Crossing {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum EqualError {
     #[error("{digits} digits of a symbol are too many")]
-    TooManyDigits {
-        digits: usize,
-        limit: usize,
-    },
+    TooManyDigits { digits: usize, limit: usize },
     #[error("the extrema cannot be told apart at an end of the range")]
     EqualAtEnd,
     #[error("the extremum in the {} window is the larger one at both ends of the range", larger(*.0))]
@@ -61,11 +58,7 @@ pub enum EqualError {
         value: Rational,
     },
     #[error("the time `{text}` is no number from 0 on at {value}")]
-    NoTime {
-        text: String,
-        symbol: String,
-        value: Rational,
-    },
+    NoTime { text: String, symbol: String, value: Rational },
 }
 
 fn larger(sign: Ordering) -> &'static str {

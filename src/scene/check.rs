@@ -8,7 +8,7 @@ use crate::limits::MAX_CONTACT_EXPONENT;
 use crate::scene::fault::{Fault, Mistake, Part, Property};
 use crate::scene::{
     Bar, Body, Drive, ElementIndex, End, Hertz, Joint, Kind, LEAST_EXPONENT_INVERSE, Load, Measure,
-    PI, Place, Position, Scene, Seen,
+    PI, Place, Position, Scene, Seen, Spring,
 };
 
 impl Scene {
@@ -22,7 +22,8 @@ impl Scene {
     pub fn faults(&self) -> Vec<Fault> {
         let mut check = Check { scene: self, known: self.known(), faults: Vec::new() };
         if !check.is_well_formed() {
-            return vec![Fault { mistake: Mistake::IllFormed, parts: vec![Part::Line] }];
+            check.fault(Mistake::IllFormed, [Part::Line]);
+            return check.faults;
         }
         check.elements();
         check.membership();
@@ -62,7 +63,11 @@ struct Check<'a> {
 
 impl Check<'_> {
     fn fault(&mut self, mistake: Mistake, parts: impl Into<Vec<Part>>) {
-        self.faults.push(Fault { mistake, parts: parts.into() });
+        self.faults.push(Fault { mistake, parts: parts.into(), value: None });
+    }
+
+    fn wrong_sign(&mut self, mistake: Mistake, part: Part, value: &Fraction) {
+        self.faults.push(Fault { mistake, parts: vec![part], value: Some(value.clone()) });
     }
 
     fn is_well_formed(&self) -> bool {
@@ -90,13 +95,13 @@ impl Check<'_> {
 
     fn positive(&mut self, element: ElementIndex, property: Property, value: &Fraction) {
         if !self.known.is_positive(value) {
-            self.fault(Mistake::NotPositive, [Part::Property(element, property)]);
+            self.wrong_sign(Mistake::NotPositive, Part::Property(element, property), value);
         }
     }
 
     fn not_negative(&mut self, element: ElementIndex, property: Property, value: &Fraction) {
         if !self.is_not_negative(value) {
-            self.fault(Mistake::Negative, [Part::Property(element, property)]);
+            self.wrong_sign(Mistake::Negative, Part::Property(element, property), value);
         }
     }
 
@@ -107,8 +112,7 @@ impl Check<'_> {
             match &element.kind {
                 Kind::Bar(bar) => self.bar(index, bar),
                 Kind::Mass(mass) => self.positive(index, Property::Mass, &mass.mass),
-                Kind::Spring(spring) => self.link(index, &spring.stiffness, &spring.damping),
-                Kind::Support(support) => self.link(index, &support.stiffness, &support.damping),
+                Kind::Spring(spring) | Kind::Support(spring) => self.spring(index, spring),
                 Kind::Hertz(hertz) => self.hertz(index, hertz),
                 Kind::Load(load) => self.load(index, load),
             }
@@ -140,7 +144,7 @@ impl Check<'_> {
         }
     }
 
-    fn link(&mut self, index: ElementIndex, stiffness: &Fraction, damping: &Fraction) {
+    fn spring(&mut self, index: ElementIndex, Spring { stiffness, damping }: &Spring) {
         if stiffness.is_zero() && damping.is_zero() {
             return self.fault(Mistake::NoStiffness, [Part::Element(index)]);
         }

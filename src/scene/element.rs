@@ -23,7 +23,7 @@ pub enum Kind {
     Spring(Spring),
     Hertz(Hertz),
     /// A spring with a parallel damper, to the ground.
-    Support(Support),
+    Support(Spring),
     /// A force from outside, or a motion that is imposed.
     Load(Load),
 }
@@ -84,7 +84,8 @@ pub struct Mass {
     pub velocity: Fraction,
 }
 
-/// A spring of stiffness `k` with a parallel damper `d`: `X = k α + d α'`, `α' = v_left − v_right`.
+/// A spring of stiffness `k` with a parallel damper `d`: `X = k α + d α'`, `α' = v_left − v_right`; as a
+/// support, to the ground: `X_left − X_right = d v + k u`, `u' = v`.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Spring {
     /// `k`; zero for a damper alone.
@@ -114,16 +115,6 @@ pub struct Hertz {
 /// The inverse of the smallest exponent of a local contact. With smaller ones the contact is as good as
 /// a constant force, and its start as good as a jump.
 pub const LEAST_EXPONENT_INVERSE: u8 = 10;
-
-/// A spring of stiffness `k` with a parallel damper `d` to the ground: `X_left − X_right = d v + k u`,
-/// `u' = v`.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Support {
-    /// `k`.
-    pub stiffness: Fraction,
-    /// `d`.
-    pub damping: Fraction,
-}
 
 /// A load that acts from `from` until `until`.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -1,5 +1,6 @@
 //! What makes a scene impossible, and which parts of it are involved.
 
+use crate::expression::Fraction;
 use crate::scene::ElementIndex;
 
 /// A mistake in a scene with the parts involved, the one to change first.
@@ -9,6 +10,8 @@ pub struct Fault {
     pub mistake: Mistake,
     /// The parts involved; at least one.
     pub parts: Vec<Part>,
+    /// The value whose sign is wrong.
+    pub value: Option<Fraction>,
 }
 
 impl Fault {

@@ -16,7 +16,7 @@ pub(crate) use check::with_pi;
 pub use dimension::Dimension;
 pub use element::{
     Bar, Body, Drive, Element, ElementIndex, Hertz, Kind, LEAST_EXPONENT_INVERSE, Load, Mass,
-    Spring, Support,
+    Spring,
 };
 pub use fault::{Fault, Mistake, Part, Property};
 pub use observable::{Measure, Observable, Place, Position, Seen};

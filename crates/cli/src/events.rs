@@ -39,15 +39,6 @@ struct Told<'a> {
     history: &'a History,
 }
 
-fn word(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Impact => "impact",
-        EventKind::Opening => "opening",
-        EventKind::Release => "release",
-        EventKind::Closing => "closing",
-    }
-}
-
 impl Told<'_> {
     /// A value with the unit of its dimension.
     fn value(&self, value: &Value, dimension: Dimension) -> String {
@@ -175,7 +166,7 @@ impl Told<'_> {
                 time["expression"] = expression_text(exact).into();
             }
             json!({
-                "kind": word(event.kind),
+                "kind": event.kind.word(),
                 "between": event.between,
                 "time": time,
                 "force": pair(&event.forces),
@@ -233,7 +224,7 @@ impl Told<'_> {
             let _ = writeln!(
                 text,
                 "{} & {left}, {right} & ${}$ & ${before}$ & ${after}$ & ${u}$, ${v}$ \\\\",
-                word(event.kind),
+                event.kind.word(),
                 decimals(&event.time),
             );
         }

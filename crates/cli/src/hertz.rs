@@ -116,7 +116,6 @@ impl Told<'_> {
             (false, _) => String::new(),
         };
         let stiffness = self.row("stiffness", bars.stiffness(), Dimension::NONE);
-        let spring = bars.equivalent_spring();
         let distance = distance_from_spring(bars.law(), PLACES)?;
         Ok(vec![
             Row { unit: unit_of_law, ..stiffness },
@@ -126,7 +125,7 @@ impl Told<'_> {
                 key: "time_unit".to_owned(),
                 ..self.row("characteristic time", bars.time_unit(), Dimension::TIME)
             },
-            self.row("equivalent spring", spring.stiffness(), Dimension::STIFFNESS),
+            self.row("equivalent spring", &bars.stiffness_of_spring(), Dimension::STIFFNESS),
             Row {
                 key: "distance_from_spring".to_owned(),
                 unit: "of the largest force".to_owned(),
@@ -144,7 +143,7 @@ impl Told<'_> {
         let here = self.row(&format!("rise to {share}"), &bars.rise_time(&part)?, Dimension::TIME);
         let here = Row { key: format!("rise_to_{share}"), ..here };
         let name = format!("rise to {share}, equivalent spring");
-        let time = bars.equivalent_spring().rise_time(&part)?;
+        let time = bars.rise_time_of_spring(&part)?;
         let spring = self.row(&name, &time, Dimension::TIME);
         let rows = [here, Row { key: format!("spring_rise_to_{share}"), ..spring }];
         for row in &rows {

@@ -7,7 +7,7 @@ use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
 use crate::language::scope::{symbol, with_likely};
 use crate::language::syntax::{Declaration, Declared, Node, Property, SceneStatementKind, Span};
-use crate::scene::{Bar, Body, Dimension, Drive, Kind, Load, Mass, PI, Spring, Support};
+use crate::scene::{Bar, Body, Dimension, Drive, Kind, Load, Mass, PI, Spring};
 use wavestep_polynomial::Rational;
 
 /// What a value has to be at least.
@@ -101,13 +101,9 @@ impl<'a> Lowering<'a> {
             let kind = match declaration.kind {
                 Declared::Bar => self.bar(&given).map(Kind::Bar),
                 Declared::Mass => self.mass(&given).map(Kind::Mass),
-                Declared::Spring => self
-                    .link(&given)
-                    .map(|(stiffness, damping)| Kind::Spring(Spring { stiffness, damping })),
+                Declared::Spring => self.spring(&given).map(Kind::Spring),
                 Declared::Hertz => self.hertz(&given).map(Kind::Hertz),
-                Declared::Support => self
-                    .link(&given)
-                    .map(|(stiffness, damping)| Kind::Support(Support { stiffness, damping })),
+                Declared::Support => self.spring(&given).map(Kind::Support),
                 Declared::Load => self.load(&given).map(Kind::Load),
                 Declared::Material => None,
             };
@@ -398,13 +394,13 @@ impl<'a> Lowering<'a> {
         Some(Mass { mass: mass?, velocity: velocity? })
     }
 
-    fn link(&mut self, given: &Given<'_>) -> Option<(Fraction, Fraction)> {
+    fn spring(&mut self, given: &Given<'_>) -> Option<Spring> {
         if given.1.is_empty() {
             let message = format!("this {} has neither stiffness nor damping", given.0.kind);
             return self.lack(given, message, "stiffness = 40 kN/mm` or `damping = 0.3 kN*s/m");
         }
         let (stiffness, damping) = (self.or_zero(given, STIFFNESS), self.or_zero(given, DAMPING));
-        Some((stiffness?, damping?))
+        Some(Spring { stiffness: stiffness?, damping: damping? })
     }
 
     fn load(&mut self, given: &Given<'_>) -> Option<Load> {

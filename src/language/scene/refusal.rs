@@ -2,7 +2,6 @@
 
 use super::Lowering;
 use super::element::Least;
-use crate::expression::Fraction;
 use crate::language::diagnostic::Diagnostic;
 use crate::language::syntax::{
     Declaration, Line, Node, ObservedTerm, SceneStatementKind, Span, Spanned,
@@ -15,10 +14,7 @@ impl Lowering<'_> {
     /// What the scene refuses, with the places of all parts and a remedy.
     pub(super) fn refusal(&self, scene: &Scene, fault: &Fault) -> Diagnostic {
         let spans: Vec<Span> = fault.parts.iter().map(|part| self.span(*part)).collect();
-        if let (Mistake::NotPositive | Mistake::Negative, Some(Part::Property(element, property))) =
-            (fault.mistake, fault.parts.first())
-            && let Some(value) = value(scene, *element, *property)
-        {
+        if let Some(value) = &fault.value {
             let least = match fault.mistake {
                 Mistake::Negative => Least::Zero,
                 _ => Least::Positive,
@@ -312,27 +308,5 @@ fn plain(mistake: Mistake) -> (&'static [&'static str], &'static str) {
             "observe a finite bar, or let the endless one start at rest",
         ),
         _ => (&["not possible"], "check the values given"),
-    }
-}
-
-fn value(scene: &Scene, element: ElementIndex, property: Property) -> Option<&Fraction> {
-    match (&scene.elements[element].kind, property) {
-        (Kind::Bar(bar), Property::Travel | Property::Length) => bar.extent(),
-        (Kind::Bar(bar), property) => match (&bar.body, property) {
-            (Body::Impedance { impedance, .. }, Property::Impedance) => Some(impedance),
-            (Body::Solid { area, .. }, Property::Area) => Some(area),
-            (Body::Solid { modulus, .. }, Property::Modulus) => Some(modulus),
-            (Body::Solid { density, .. }, Property::Density) => Some(density),
-            _ => None,
-        },
-        (Kind::Mass(mass), Property::Mass) => Some(&mass.mass),
-        (Kind::Spring(spring), Property::Stiffness) => Some(&spring.stiffness),
-        (Kind::Spring(spring), Property::Damping) => Some(&spring.damping),
-        (Kind::Hertz(hertz), Property::Force) => Some(&hertz.force),
-        (Kind::Hertz(hertz), Property::Compression) => Some(&hertz.compression),
-        (Kind::Support(support), Property::Stiffness) => Some(&support.stiffness),
-        (Kind::Support(support), Property::Damping) => Some(&support.damping),
-        (Kind::Load(load), Property::From) => Some(&load.from),
-        _ => None,
     }
 }

@@ -5,7 +5,7 @@ use crate::book::examine::Examination;
 use crate::book::latex::{escaped, of_equation};
 use crate::book::verdict::{Finding, Verdict};
 use serde_json::{Value, json};
-use wavestep::export::{self, Formula, LATEX_WIDTH};
+use wavestep::export::{self, Formula, LATEX_WIDTH, capitalised, wrapped};
 
 /// The equations that are read, whatever is done with them.
 fn equations(entry: &Entry) -> &[Equation] {
@@ -27,32 +27,6 @@ fn heading(entry: &Entry) -> &'static str {
         (Content::Claim(_), Some(_)) => "As read, and what of it is compared",
         _ => "As read",
     }
-}
-
-/// Lines no longer than a width, indented.
-fn wrapped(text: &str, width: usize, indent: &str) -> String {
-    let mut out = String::new();
-    let mut line = indent.to_owned();
-    for word in text.split_whitespace() {
-        let full = line.chars().count() + 1 + word.chars().count() > width;
-        if full && line.len() > indent.len() {
-            out.push_str(line.trim_end());
-            out.push('\n');
-            line = indent.to_owned();
-        }
-        if line.len() > indent.len() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    out + line.trim_end() + "\n"
-}
-
-fn capitalised(text: &str) -> String {
-    let mut characters = text.chars();
-    characters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().collect::<String>() + characters.as_str()
-    })
 }
 
 /// A step as a sentence, unless it begins with a formula.

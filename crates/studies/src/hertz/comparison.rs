@@ -94,7 +94,7 @@ fn largest_between(
 }
 
 /// The largest difference between the force in a contact and in the [equivalent
-/// spring](super::EquivalentSpring) at the same time, as a share of the largest force, which both have:
+/// spring](super::LongBars::stiffness_of_spring) at the same time, as a share of the largest force, which both have:
 /// `sup |φ(t̄) − (1 − e^{−t̄})|`, enclosed to about so many decimal places.
 ///
 /// Branch and bound: times are halved where the difference may exceed the largest one seen.

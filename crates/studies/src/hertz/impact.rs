@@ -25,29 +25,6 @@ pub struct LongBars {
     precision: u64,
 }
 
-/// The spring `X = k₁ α` with the unit of time of a contact: `k₁ = X_max/α_max`, the same as 6.57,
-/// `k₁ (1/Z₁ + 1/Z₂) = [k (1/Z₁ + 1/Z₂)]^{1/m} V^{1−1/m}`.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct EquivalentSpring {
-    stiffness: Ball,
-    time_unit: Ball,
-    precision: u64,
-}
-
-impl EquivalentSpring {
-    /// `k₁`.
-    pub fn stiffness(&self) -> &Ball {
-        &self.stiffness
-    }
-
-    /// The time at which its force has a share φ of the largest one, `−ln(1 − φ)` units of time (6.55).
-    pub fn rise_time(&self, share: &Rational) -> Result<Ball, HertzError> {
-        let spring = PowerLaw::new(Rational::from_integer(1.into()))?;
-        let time = spring.time(share, self.precision)?;
-        Ok(time.multiply(&self.time_unit, self.precision))
-    }
-}
-
 impl LongBars {
     /// Of the law, a force with the compression it belongs to, the impedances, and the velocity at which
     /// the bars approach each other.
@@ -125,14 +102,18 @@ impl LongBars {
         self.law.share_at(&time, self.precision)
     }
 
-    /// The spring with the same unit of time (6.56, 6.57).
-    pub fn equivalent_spring(&self) -> EquivalentSpring {
+    /// `k₁` of the spring `X = k₁ α` with the same unit of time: `k₁ = X_max/α_max`, the same as 6.57,
+    /// `k₁ (1/Z₁ + 1/Z₂) = [k (1/Z₁ + 1/Z₂)]^{1/m} V^{1−1/m}`.
+    pub fn stiffness_of_spring(&self) -> Ball {
         let inverse = self.largest_compression.reciprocal(self.precision);
         let inverse = inverse.expect("a compression is positive");
-        EquivalentSpring {
-            stiffness: self.largest_force.multiply(&inverse, self.precision),
-            time_unit: self.time_unit.clone(),
-            precision: self.precision,
-        }
+        self.largest_force.multiply(&inverse, self.precision)
+    }
+
+    /// The time at which the force of that spring has a share φ of the largest one, `−ln(1 − φ)` units of
+    /// time (6.55).
+    pub fn rise_time_of_spring(&self, share: &Rational) -> Result<Ball, HertzError> {
+        let spring = PowerLaw::new(Rational::from_integer(1.into()))?;
+        Ok(spring.time(share, self.precision)?.multiply(&self.time_unit, self.precision))
     }
 }

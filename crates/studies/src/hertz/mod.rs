@@ -13,6 +13,6 @@ mod scene;
 
 pub use comparison::distance_from_spring;
 pub use error::{HertzError, NoContact};
-pub use impact::{EquivalentSpring, LongBars};
+pub use impact::LongBars;
 pub use law::{PowerLaw, Share, equal_bars_constant};
 pub use scene::ContactOfScene;
