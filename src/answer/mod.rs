@@ -19,4 +19,4 @@ pub use method::{InvalidMethod, Method};
 pub use question::Question;
 pub use tolerance::{InvalidTolerance, Tolerance};
 pub use way::{Way, WayError};
-pub use weigh::{Candidate, Promise, Weighed, consider};
+pub use weigh::{Candidate, Promise, Verdict, Weighed, consider};

@@ -6,7 +6,6 @@ use crate::answer::question::Question;
 use crate::ball::unit_in_the_last_place;
 use crate::evaluate::{EvaluateError, NoTaps, StablePrecision, Taps};
 use crate::limits::MAX_PIECES;
-use std::fmt;
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Method; 7] = [
@@ -49,8 +48,30 @@ pub struct Candidate {
     pub promise: Option<Promise>,
     /// What it costs, in seconds, by the table.
     pub seconds: f64,
-    /// Why it was picked or not.
-    pub verdict: String,
+    pub verdict: Verdict,
+}
+
+/// Why a way was picked or not.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum Verdict {
+    #[error("the cheapest that is proven to be good enough")]
+    Picked,
+    #[error("proven to be good enough")]
+    GoodEnough,
+    #[error("its proven bound is larger than the tolerance")]
+    BoundTooLarge,
+    #[error("its error is measured, not proven")]
+    Measured,
+    #[error("it has no bound here: its error is measured, not proven")]
+    MeasuredHere,
+    #[error("it promises nothing")]
+    NoPromise,
+    #[error("has no values: {0}")]
+    NotEvaluated(EvaluateError),
+    #[error("has no values: {0}")]
+    NoTaps(NoTaps),
+    #[error("has no values: more than {MAX_PIECES} periods")]
+    TooManyPeriods,
 }
 
 /// The ways that were weighed, the one that was picked first.
@@ -87,25 +108,21 @@ pub fn consider(
             _ => Cost::of(method, size),
         };
         let seconds = cost.map_or(f64::INFINITY, |cost| cost.seconds(points));
-        let told = |promise, verdict: String| Candidate { method, promise, seconds, verdict };
-        let refused = |reason: &dyn fmt::Display| told(None, format!("has no values: {reason}"));
+        let told = |promise, verdict| Candidate { method, promise, seconds, verdict };
         match (method, &taps) {
             (Method::Certified | Method::Compiled, _) | (_, Ok(Ok(_))) => {}
-            (_, Err(reason)) => return refused(reason),
+            (_, Err(reason)) => return told(None, Verdict::NotEvaluated((*reason).clone())),
             (Method::Expanded, _) => {}
             (Method::Marched { .. }, Ok(Err(reason))) if *reason != NoTaps::NoGrid => {
                 let promise = Some(Promise::Measured(MARCHED_WAVES * scale));
-                return told(
-                    promise,
-                    "it has no bound here: its error is measured, not proven".into(),
-                );
+                return told(promise, Verdict::MeasuredHere);
             }
-            (_, Ok(Err(reason))) => return refused(reason),
+            (_, Ok(Err(reason))) => return told(None, Verdict::NoTaps(reason.clone())),
         }
         if order > MAX_PIECES
             && matches!(method, Method::Certified | Method::Compiled | Method::Expanded)
         {
-            return refused(&format_args!("more than {MAX_PIECES} periods"));
+            return told(None, Verdict::TooManyPeriods);
         }
         let promise = match method {
             Method::Certified => Promise::Proven(ulp / 2.0),
@@ -116,19 +133,19 @@ pub fn consider(
             _ => Promise::Nothing,
         };
         let verdict = match promise {
-            Promise::Proven(bound) if bound <= tolerance => "proven to be good enough",
-            Promise::Proven(_) => "its proven bound is larger than the tolerance",
-            Promise::Measured(_) => "its error is measured, not proven",
-            Promise::Nothing => "it promises nothing",
+            Promise::Proven(bound) if bound <= tolerance => Verdict::GoodEnough,
+            Promise::Proven(_) => Verdict::BoundTooLarge,
+            Promise::Measured(_) => Verdict::Measured,
+            Promise::Nothing => Verdict::NoPromise,
         };
-        told(Some(promise), verdict.to_owned())
+        told(Some(promise), verdict)
     };
     let mut candidates: Vec<Candidate> = METHODS.into_iter().map(candidate).collect();
     let meets = |candidate: &Candidate| matches!(candidate.promise, Some(Promise::Proven(bound)) if bound <= tolerance);
     candidates.sort_by(|a, b| meets(b).cmp(&meets(a)).then(a.seconds.total_cmp(&b.seconds)));
     let met = candidates.first().is_some_and(meets);
     if let (true, Some(first)) = (met, candidates.first_mut()) {
-        first.verdict = "the cheapest that is proven to be good enough".to_owned();
+        first.verdict = Verdict::Picked;
     }
     Ok(Weighed { candidates, met })
 }

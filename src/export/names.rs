@@ -42,10 +42,7 @@ const ACCENTS: [&str; 5] = ["tilde", "bar", "hat", "dot", "prime"];
 pub fn latex_name(name: &str, index: Option<&str>) -> String {
     let (letter, subscript) = parts(name);
     let below: Vec<&str> = subscript.as_deref().into_iter().chain(index).collect();
-    match below.is_empty() {
-        true => letter,
-        false => format!("{letter}_{{{}}}", below.join(",")),
-    }
+    if below.is_empty() { letter } else { format!("{letter}_{{{}}}", below.join(",")) }
 }
 
 /// The letter with its accent, and the subscript.

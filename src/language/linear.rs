@@ -200,11 +200,11 @@ impl<'a> Lowering<'a> {
             }
             _ if is(&scope.time) => return Ok(Expression::symbol(&symbol(name))),
             _ if is(&scope.local) => {
-                let time = scope.time.as_ref().map_or("t", Symbol::name);
                 return Err(self
                     .error("local time cannot be used here", span, "restarts on every period")
                     .with_remedy(format!(
-                        "write functions of scene time `{time}`: they go on over all periods"
+                        "write functions of scene time `{}`: they go on over all periods",
+                        self.time_name()
                     )));
             }
             _ => {}
@@ -351,54 +351,45 @@ impl<'a> Lowering<'a> {
     }
 
     fn exponential(&self, argument: &Tree) -> Outcome<Expression> {
-        let exponent = self.plain(argument, "an exponent")?;
-        let Some(exponent) = exponent.as_fraction() else {
-            return Err(self
-                .error("an exponential in an exponent", argument.span, "holds an exponential")
-                .with_remedy(
-                    "exponents are quotients of polynomials in the symbols and the time",
-                ));
+        let words = ["an exponent", "the exponent", "exponents"];
+        let example = format!("exponentials such as `exp(-2*{})`", self.time_name());
+        Ok(Expression::exponential(self.linear_in_time(argument, words, &example)?))
+    }
+
+    /// The argument of an exponential or an angle: a fraction, linear in time.
+    fn linear_in_time(
+        &self,
+        argument: &Tree,
+        [what, whole, plural]: [&str; 3],
+        example: &str,
+    ) -> Outcome<Fraction> {
+        let Some(value) = self.plain(argument, what)?.as_fraction() else {
+            let message = format!("an exponential in {what}");
+            return Err(self.error(message, argument.span, "holds an exponential").with_remedy(
+                format!("{plural} are quotients of polynomials in the symbols and the time"),
+            ));
         };
-        if !self.is_linear_in_time(&exponent) {
-            let time = self.time_name();
+        let time = self.scope.time.as_ref().filter(|time| value.contains(time));
+        if time.is_some_and(|time| value.derivative(time).contains(time)) {
             return Err(self
-                .error("the exponent is not linear in time", argument.span, "not linear")
-                .with_remedy(format!("write exponentials such as `exp(-2*{time})`")));
+                .error(format!("{whole} is not linear in time"), argument.span, "not linear")
+                .with_remedy(format!("write {example}")));
         }
-        Ok(Expression::exponential(exponent))
+        Ok(value)
     }
 
     fn time_name(&self) -> &str {
         self.scope.time.as_ref().map_or("t", Symbol::name)
     }
 
-    fn is_linear_in_time(&self, exponent: &Fraction) -> bool {
-        let time = self.scope.time.as_ref().filter(|time| exponent.contains(time));
-        time.is_none_or(|time| !exponent.derivative(time).contains(time))
-    }
-
     /// `cos`, `sin`, `sqrt`.
     fn function(&self, function: Function, argument: &Tree) -> Outcome<Expression> {
-        let value = self.plain(argument, &format!("the argument of `{function}`"))?;
+        let what = format!("the argument of `{function}`");
         if function == Function::SquareRoot {
-            return self.square_root(&value, argument.span);
+            return self.square_root(&self.plain(argument, &what)?, argument.span);
         }
-        let Some(angle) = value.as_fraction() else {
-            return Err(self
-                .error(
-                    format!("an exponential in the argument of `{function}`"),
-                    argument.span,
-                    "holds an exponential",
-                )
-                .with_remedy("angles are quotients of polynomials in the symbols and the time"));
-        };
-        if !self.is_linear_in_time(&angle) {
-            let message = format!("the argument of `{function}` is not linear in time");
-            let time = self.time_name();
-            return Err(self
-                .error(message, argument.span, "not linear")
-                .with_remedy(format!("write functions such as `{function}(2*{time})`")));
-        }
+        let example = format!("functions such as `{function}(2*{})`", self.time_name());
+        let angle = self.linear_in_time(argument, [&what, &what, "angles"], &example)?;
         Ok(match function {
             Function::Cosine => Expression::cosine(&angle),
             _ => Expression::sine(&angle),

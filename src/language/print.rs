@@ -133,37 +133,30 @@ impl Display for Index {
 }
 
 impl Declared {
-    pub(super) const ALL: [Self; 7] = [
-        Self::Material,
-        Self::Bar,
-        Self::Mass,
-        Self::Spring,
-        Self::Hertz,
-        Self::Support,
-        Self::Load,
+    /// The words that begin statements, in the order of the kinds.
+    const WORDS: [(&'static str, Self); 7] = [
+        ("material", Self::Material),
+        ("bar", Self::Bar),
+        ("mass", Self::Mass),
+        ("spring", Self::Spring),
+        ("hertz", Self::Hertz),
+        ("support", Self::Support),
+        ("load", Self::Load),
     ];
 
-    /// The word that begins its statement.
-    pub(super) const fn word(self) -> &'static str {
-        match self {
-            Self::Material => "material",
-            Self::Bar => "bar",
-            Self::Mass => "mass",
-            Self::Spring => "spring",
-            Self::Hertz => "hertz",
-            Self::Support => "support",
-            Self::Load => "load",
-        }
+    /// What a statement that begins with this word declares.
+    pub(super) fn of(word: &str) -> Option<Self> {
+        Self::WORDS.into_iter().find(|(own, _)| *own == word).map(|(_, kind)| kind)
     }
 
     /// What is declared, in a sentence.
     pub(super) const fn noun(self) -> &'static str {
-        if matches!(self, Self::Hertz) { "local contact" } else { self.word() }
+        if matches!(self, Self::Hertz) { "local contact" } else { Self::WORDS[self as usize].0 }
     }
 }
 
 impl Display for Declared {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
+        f.write_str(Self::WORDS[*self as usize].0)
     }
 }

@@ -139,10 +139,7 @@ fn differing_facts(old: &Facts, new: &Facts) -> Vec<String> {
             (None, new) => format!("{name}: not locked, now {}", new.map_or("", String::as_str)),
         });
     }
-    match lines.is_empty() {
-        true => vec!["the same facts stand in another order".to_owned()],
-        false => lines,
-    }
+    if lines.is_empty() { vec!["the same facts stand in another order".to_owned()] } else { lines }
 }
 
 /// Writes numbers with so many digits.

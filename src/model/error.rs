@@ -151,10 +151,7 @@ impl ModelError {
         count: f64,
         limit: f64,
     ) -> Result<(), ModelError> {
-        match count > limit {
-            true => Err(ModelError::TooMuch { model, what, count, limit }),
-            false => Ok(()),
-        }
+        if count > limit { Err(ModelError::TooMuch { model, what, count, limit }) } else { Ok(()) }
     }
 }
 

@@ -182,10 +182,7 @@ fn chains(node: &Node<Fraction>) -> Vec<Chain> {
             chains.push(Chain { links: run..run, sides: Vec::new() });
         }
         let last = chains.last_mut().expect("one at least");
-        match run < node.links.len() {
-            true => last.links.end = run + 1,
-            false => last.sides.push(node.right),
-        }
+        if run < node.links.len() { last.links.end = run + 1 } else { last.sides.push(node.right) }
     }
     chains
 }

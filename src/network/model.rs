@@ -221,10 +221,7 @@ impl Model {
         multiple.unwrap_or_else(|| {
             let positive = self.is_positive(value.factor());
             let negative = !positive && self.is_positive(&-value.factor());
-            let value = match negative {
-                true => value.times(&Root::from(-&Fraction::one())),
-                false => value,
-            };
+            let value = if negative { value.times(&Root::from(-&Fraction::one())) } else { value };
             let symbol = Fraction::symbol(&self.name(name, value.into(), positive || negative));
             if negative { -&symbol } else { symbol }
         })

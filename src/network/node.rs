@@ -202,10 +202,7 @@ impl<V> Node<V> {
             Some(link) => Acting::Link(link),
             None => Acting::Side(0),
         };
-        let right = match run < self.links.len() {
-            true => Acting::Link(run),
-            false => Acting::Side(1),
-        };
+        let right = if run < self.links.len() { Acting::Link(run) } else { Acting::Side(1) };
         let own = self.elements.iter().enumerate().filter(move |(_, own)| own.run == run);
         let attached = own.filter_map(|(place, own)| match own.law {
             ElementLaw::Load(Drive::Force) => Some((1, Acting::Element(place))),

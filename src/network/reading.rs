@@ -167,10 +167,7 @@ impl Elements<'_> {
     fn bar(&self, bar: usize) -> Result<usize, Mistake> {
         let data = &self.model.bars[&self.layout.bars[bar]];
         let at_rest = data.velocity.is_zero() && data.force.is_zero();
-        match data.travel.is_some() || at_rest {
-            true => Ok(bar),
-            false => Err(Mistake::Infinite),
-        }
+        if data.travel.is_some() || at_rest { Ok(bar) } else { Err(Mistake::Infinite) }
     }
 
     /// By how much an element is shortened. A damper alone has no spring that remembers: what its ends have

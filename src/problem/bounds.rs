@@ -45,10 +45,7 @@ pub(super) fn terms_through(last: u128, n: usize, parts: usize) -> u128 {
 
 /// Refuses more terms than are derived at once.
 pub(super) fn refuse_terms(terms: u128) -> Result<(), ProblemError> {
-    match terms <= MAX_DERIVED_TERMS {
-        true => Ok(()),
-        false => Err(ProblemError::TooManyTerms(terms as f64)),
-    }
+    if terms <= MAX_DERIVED_TERMS { Ok(()) } else { Err(ProblemError::TooManyTerms(terms as f64)) }
 }
 
 /// Refuses too many pieces of all waves.

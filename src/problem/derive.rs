@@ -240,10 +240,7 @@ impl Problem {
     }
 
     fn refuse_lattice(&self, what: Missing) -> Result<(), ProblemError> {
-        match self.on_lattice() {
-            true => Err(ProblemError::NoCommonMeasure(what)),
-            false => Ok(()),
-        }
+        if self.on_lattice() { Err(ProblemError::NoCommonMeasure(what)) } else { Ok(()) }
     }
 
     fn refuse_energy(&self, name: &str) -> Result<(), ProblemError> {
@@ -252,10 +249,7 @@ impl Problem {
         let is_energy = network.observables().iter().any(|observed| {
             observed.name == name && matches!(observed.value, ObservedValue::Energy(_))
         });
-        match is_energy {
-            true => Err(ProblemError::EnergyHasNoPieces(name)),
-            false => Ok(()),
-        }
+        if is_energy { Err(ProblemError::EnergyHasNoPieces(name)) } else { Ok(()) }
     }
 
     /// The wave asked for, or all that are shown: those after them only serve what is observed.

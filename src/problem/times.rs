@@ -25,10 +25,7 @@ impl Problem {
     /// A time from 0 on, in seconds for scenes with units; errors call it by this name.
     pub fn time(&self, name: &str, time: impl Into<Given>) -> Result<Rational, ProblemError> {
         let time = self.quantity(name, time, Dimension::TIME)?;
-        match time.is_negative() {
-            true => Err(ProblemError::BeforeStart(time)),
-            false => Ok(time),
-        }
+        if time.is_negative() { Err(ProblemError::BeforeStart(time)) } else { Ok(time) }
     }
 
     /// Two times, the first before the last.
@@ -71,10 +68,7 @@ impl Problem {
 
 /// Two times, the first before the last.
 pub fn window(from: Rational, to: Rational) -> Result<[Rational; 2], ProblemError> {
-    match from < to {
-        true => Ok([from, to]),
-        false => Err(ProblemError::EmptyWindow(Box::new([from, to]))),
-    }
+    if from < to { Ok([from, to]) } else { Err(ProblemError::EmptyWindow(Box::new([from, to]))) }
 }
 
 /// So many times from the first to the last, over one denominator before they are reduced.

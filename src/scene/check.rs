@@ -374,10 +374,7 @@ impl Check<'_> {
             && line.elements.first() == Some(&element);
         let inside = |value: &Fraction, end: Option<&Fraction>| {
             let before_end = end.is_none_or(|end| self.is_not_negative(&(end - value)));
-            match self.is_not_negative(value) && before_end {
-                true => None,
-                false => Some(Mistake::OutsideBar),
-            }
+            if self.is_not_negative(value) && before_end { None } else { Some(Mistake::OutsideBar) }
         };
         match place {
             Place::Left(_) if goes_on_left => Some(Mistake::NoSuchEnd),

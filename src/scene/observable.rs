@@ -55,30 +55,26 @@ impl Measure {
         Measure::Momentum,
     ];
 
-    /// Its name in the language.
-    pub const fn word(self) -> &'static str {
+    const fn word_and_dimension(self) -> (&'static str, Dimension) {
         match self {
-            Measure::Velocity => "velocity",
-            Measure::Force => "force",
-            Measure::Strain => "strain",
-            Measure::Stress => "stress",
-            Measure::Displacement => "displacement",
-            Measure::Compression => "compression",
-            Measure::Energy => "energy",
-            Measure::Momentum => "momentum",
+            Measure::Velocity => ("velocity", Dimension::VELOCITY),
+            Measure::Force => ("force", Dimension::FORCE),
+            Measure::Strain => ("strain", Dimension::NONE),
+            Measure::Stress => ("stress", Dimension::PRESSURE),
+            Measure::Displacement => ("displacement", Dimension::LENGTH),
+            Measure::Compression => ("compression", Dimension::LENGTH),
+            Measure::Energy => ("energy", Dimension::ENERGY),
+            Measure::Momentum => ("momentum", Dimension::MOMENTUM),
         }
     }
 
+    /// Its name in the language.
+    pub const fn word(self) -> &'static str {
+        self.word_and_dimension().0
+    }
+
     pub const fn dimension(self) -> Dimension {
-        match self {
-            Measure::Velocity => Dimension::VELOCITY,
-            Measure::Force => Dimension::FORCE,
-            Measure::Strain => Dimension::NONE,
-            Measure::Stress => Dimension::PRESSURE,
-            Measure::Displacement | Measure::Compression => Dimension::LENGTH,
-            Measure::Energy => Dimension::ENERGY,
-            Measure::Momentum => Dimension::MOMENTUM,
-        }
+        self.word_and_dimension().1
     }
 }
 

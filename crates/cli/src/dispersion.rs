@@ -1,7 +1,7 @@
 //! `dispersion`: how fast crests, groups and the peaks of pulses travel, for a relation `ω(k)`.
 
 use super::arguments::{Dispersion, DispersionFormat};
-use super::failure::Failure;
+use super::failure::{ACCURACY, COMPUTATION, Failure, USAGE};
 use super::input;
 use super::json::SCHEMA_VERSION;
 use super::progress;
@@ -31,16 +31,17 @@ const SEEN_DIGITS: usize = 6;
 impl From<DispersionError> for Failure {
     fn from(error: DispersionError) -> Failure {
         let (message, remedy) = (error.to_string(), error.remedy());
-        match error {
+        let code = match error {
             DispersionError::NoWaveNumber
             | DispersionError::MissingValue(_)
             | DispersionError::UnknownParameter(_)
             | DispersionError::ParameterNotPositive(..)
             | DispersionError::NotPositive(..)
-            | DispersionError::Grid(_) => Failure::Usage(message, remedy),
-            DispersionError::AccuracyNotReached { .. } => Failure::Accuracy(message, remedy),
-            _ => Failure::Computation(message, remedy),
-        }
+            | DispersionError::Grid(_) => USAGE,
+            DispersionError::AccuracyNotReached { .. } => ACCURACY,
+            _ => COMPUTATION,
+        };
+        Failure::new(code, message, remedy)
     }
 }
 

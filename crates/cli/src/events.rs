@@ -56,10 +56,7 @@ impl Told<'_> {
 
     fn pair(&self, [before, after]: &[Value; 2], dimension: Dimension) -> String {
         let (before, after) = (self.value(before, dimension), self.value(after, dimension));
-        match before == after {
-            true => before,
-            false => format!("{before} -> {after}"),
-        }
+        if before == after { before } else { format!("{before} -> {after}") }
     }
 
     fn sentence(&self, event: &Event) -> String {

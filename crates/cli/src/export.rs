@@ -2,7 +2,7 @@
 
 use super::arguments::Export;
 use super::doubles::tolerance;
-use super::failure::Failure;
+use super::failure::{ACCURACY, Failure};
 use super::input;
 use super::output;
 use super::progress;
@@ -28,7 +28,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     if bound > absolute {
         let message =
             format!("doubles are proven to be within {bound:.1e}, not within {tolerance}");
-        return Err(Failure::Accuracy(message, "give a larger --tol".to_owned()));
+        return Err(Failure::new(ACCURACY, message, "give a larger --tol"));
     }
     let set: String = options.scene.set.iter().map(|set| format!(" --set {set}")).collect();
     let tol = options.tol.as_ref().map_or(String::new(), |tol| format!(" --tol {tol}"));

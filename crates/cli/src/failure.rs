@@ -27,40 +27,51 @@ pub const ACCURACY: u8 = 3;
 pub enum Failure {
     /// The library has no answer; a remedy other than its own.
     Unanswered(Error, Option<String>),
-    /// What is asked for is at fault: what is wrong, and the remedy.
-    Usage(String, String),
-    /// It cannot be computed: what, and the remedy.
-    Computation(String, String),
-    /// The accuracy asked for is not reached: what, and the remedy.
-    Accuracy(String, String),
-    /// Some of what is asked for stays undecided.
-    Undecided {
-        /// What is known, for standard output.
-        report: String,
-        /// What is not.
+    /// The command says itself what is wrong.
+    Told {
+        code: u8,
         message: String,
         remedy: String,
-    },
-    /// What is derived differs from what is locked.
-    Difference {
-        /// What differs, for standard output.
+        /// What is known all the same, for standard output.
         report: String,
-        /// What was compared.
-        message: String,
-        remedy: String,
     },
 }
 
 impl Failure {
+    /// What is wrong, and the remedy.
+    pub fn new(code: u8, message: impl Into<String>, remedy: impl Into<String>) -> Failure {
+        let (message, remedy, report) = (message.into(), remedy.into(), String::new());
+        Failure::Told { code, message, remedy, report }
+    }
+
+    /// What is asked for is at fault.
+    pub fn usage(message: impl Into<String>, remedy: impl Into<String>) -> Failure {
+        Failure::new(USAGE, message, remedy)
+    }
+
+    /// The same failure with what is known all the same.
+    pub fn with_report(mut self, known: String) -> Failure {
+        if let Failure::Told { report, .. } = &mut self {
+            *report = known;
+        }
+        self
+    }
+
+    /// The same failure with another remedy.
+    pub fn with_remedy(mut self, other: &str) -> Failure {
+        match &mut self {
+            Failure::Unanswered(_, remedy) => *remedy = Some(other.to_owned()),
+            Failure::Told { remedy, .. } => other.clone_into(remedy),
+        }
+        self
+    }
+
     pub fn code(&self) -> u8 {
         match self {
             Failure::Unanswered(error, _) if error.is_bad_input() => USAGE,
             Failure::Unanswered(error, _) if error.is_accuracy_not_reached() => ACCURACY,
-            Failure::Usage(..) => USAGE,
-            Failure::Accuracy(..) | Failure::Undecided { .. } => ACCURACY,
-            Failure::Unanswered(..) | Failure::Computation(..) | Failure::Difference { .. } => {
-                COMPUTATION
-            }
+            Failure::Unanswered(..) => COMPUTATION,
+            Failure::Told { code, .. } => *code,
         }
     }
 
@@ -79,29 +90,8 @@ impl Failure {
                     None => format!("error: {error}"),
                 }
             }
-            Failure::Usage(message, remedy)
-            | Failure::Computation(message, remedy)
-            | Failure::Accuracy(message, remedy)
-            | Failure::Undecided { message, remedy, .. }
-            | Failure::Difference { message, remedy, .. } => told(message, remedy),
+            Failure::Told { message, remedy, .. } => told(message, remedy),
         }
-    }
-
-    /// The same failure with another remedy, where it has one to replace.
-    pub fn with_remedy(self, remedy: &str) -> Failure {
-        let remedy = remedy.to_owned();
-        match self {
-            Failure::Unanswered(error, _) => Failure::Unanswered(error, Some(remedy)),
-            Failure::Usage(message, _) => Failure::Usage(message, remedy),
-            Failure::Computation(message, _) => Failure::Computation(message, remedy),
-            Failure::Accuracy(message, _) => Failure::Accuracy(message, remedy),
-            other => other,
-        }
-    }
-
-    /// A fault of usage.
-    pub fn usage(message: impl Into<String>, remedy: impl Into<String>) -> Failure {
-        Failure::Usage(message.into(), remedy.into())
     }
 }
 
@@ -111,29 +101,18 @@ impl From<ProblemError> for Failure {
     }
 }
 
-impl From<Diagnostic> for Failure {
-    fn from(diagnostic: Diagnostic) -> Failure {
-        ProblemError::from(diagnostic).into()
-    }
+/// Errors of layers beneath, which a problem hands on.
+macro_rules! handed_on {
+    ($($error:ty),*) => {$(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Failure {
+                ProblemError::from(error).into()
+            }
+        }
+    )*};
 }
 
-impl From<EvaluateError> for Failure {
-    fn from(error: EvaluateError) -> Failure {
-        ProblemError::from(error).into()
-    }
-}
-
-impl From<FieldError> for Failure {
-    fn from(error: FieldError) -> Failure {
-        ProblemError::from(error).into()
-    }
-}
-
-impl From<WayError> for Failure {
-    fn from(error: WayError) -> Failure {
-        ProblemError::from(error).into()
-    }
-}
+handed_on!(Diagnostic, EvaluateError, FieldError, WayError);
 
 impl From<PictureError> for Failure {
     fn from(error: PictureError) -> Failure {
@@ -153,7 +132,7 @@ impl From<PlotError> for Failure {
         let message = error.to_string();
         match error {
             PlotError::NotDrawn(_) => Failure::usage(message, "give another --width"),
-            _ => Failure::Computation(message, "choose another quantity or window".to_owned()),
+            _ => Failure::new(COMPUTATION, message, "choose another quantity or window"),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `figure`: the figures of the source.
 
 use super::arguments::Figure;
-use super::failure::Failure;
+use super::failure::{COMPUTATION, Failure};
 use super::{picture, progress};
 use wavestep_studies::figures::{FIGURES, FigureError, find};
 
@@ -11,7 +11,7 @@ impl From<FigureError> for Failure {
             FigureError::Unknown(_) => {
                 Failure::usage(error.to_string(), "`wavestep figure` lists them with their titles")
             }
-            _ => Failure::Computation(error.to_string(), "draw another figure".to_owned()),
+            _ => Failure::new(COMPUTATION, error.to_string(), "draw another figure"),
         }
     }
 }

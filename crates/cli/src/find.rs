@@ -1,10 +1,11 @@
 //! `find`: certified roots and extrema in a window.
 
 use super::arguments::Find;
-use super::failure::Failure;
+use super::failure::{ACCURACY, Failure};
 use super::find_equal;
 use super::found::{self, Told};
 use super::input;
+use super::output::plural;
 use super::progress;
 use super::validity;
 use wavestep::evaluate::{Place, Search};
@@ -35,12 +36,12 @@ pub fn run(options: &Find) -> Result<String, Failure> {
             drop(progress);
             let open = |place: &&Place| matches!(place, Place::Undecided { .. });
             let undecided = extremum.places.iter().filter(open).count();
-            settled(found::extremum(&extremum, goal, &told), undecided, ["place", "places"])
+            settled(found::extremum(&extremum, goal, &told), undecided, "place")
         }
         None => {
             let roots = search.roots(&level, digits, limit_bits)?;
             drop(progress);
-            settled(found::roots(&roots, &told), roots.undecided(), ["interval", "intervals"])
+            settled(found::roots(&roots, &told), roots.undecided(), "interval")
         }
     };
     if found.is_ok() {
@@ -50,17 +51,14 @@ pub fn run(options: &Find) -> Result<String, Failure> {
 }
 
 /// What was found, as a failure where some of it stays undecided.
-fn settled(report: String, undecided: usize, [one, many]: [&str; 2]) -> Result<String, Failure> {
+fn settled(report: String, undecided: usize, what: &str) -> Result<String, Failure> {
     if undecided == 0 {
         return Ok(report);
     }
-    let message = match undecided {
-        1 => format!("1 {one} stays undecided"),
-        _ => format!("{undecided} {many} stay undecided"),
-    };
-    let remedy =
-        "raise --max-bits; roots of even order stay undecided with any precision".to_owned();
-    Err(Failure::Undecided { report, message, remedy })
+    let stay = if undecided == 1 { "stays" } else { "stay" };
+    let message = format!("{} {stay} undecided", plural(undecided, what));
+    let remedy = "raise --max-bits; roots of even order stay undecided with any precision";
+    Err(Failure::new(ACCURACY, message, remedy).with_report(report))
 }
 
 /// The name of the quantity asked for, and the level as it is written.

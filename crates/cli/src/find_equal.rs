@@ -1,7 +1,7 @@
 //! `find --equal`: the value of a symbol for which extrema in two windows are equal.
 
 use super::arguments::{EvalFormat, Find};
-use super::failure::Failure;
+use super::failure::{ACCURACY, Failure};
 use super::input;
 use super::json::SCHEMA_VERSION;
 use super::progress;
@@ -36,11 +36,10 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     let report = written(&asked, &found, options);
     match found.undecided {
         None => Ok(report),
-        Some(bits) => Err(Failure::Undecided {
-            report,
-            message: format!("extrema cannot be told apart with {bits} bits in this range"),
-            remedy: "ask for fewer digits".to_owned(),
-        }),
+        Some(bits) => {
+            let message = format!("extrema cannot be told apart with {bits} bits in this range");
+            Err(Failure::new(ACCURACY, message, "ask for fewer digits").with_report(report))
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::arguments::{EvalFormat, Find};
 use super::json::SCHEMA_VERSION;
+use super::output::plural;
 use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
@@ -128,25 +129,18 @@ fn root_line(root: &Root, told: &Told<'_>) -> String {
     line + "\n"
 }
 
-fn counted(count: usize, one: &str, many: &str) -> String {
-    match count {
-        1 => format!("1 {one}"),
-        _ => format!("{count} {many}"),
-    }
-}
-
 fn summary(roots: &Roots, told: &Told<'_>) -> String {
     let count = |wanted: fn(&Root) -> bool| roots.all.iter().filter(|root| wanted(root)).count();
     let jumps = count(|root| matches!(root, Root::Jump { .. }));
     let intervals = count(|root| matches!(root, Root::Interval { .. }));
     let undecided = roots.undecided();
     let single = roots.all.len() - jumps - intervals - undecided;
-    let mut parts = vec![counted(single, "root", "roots")];
+    let mut parts = vec![plural(single, "root")];
     if intervals > 0 {
-        parts.push(counted(intervals, "interval of roots", "intervals of roots"));
+        parts.push(format!("{} of roots", plural(intervals, "interval")));
     }
     if jumps > 0 {
-        parts.push(counted(jumps, "jump", "jumps"));
+        parts.push(plural(jumps, "jump"));
     }
     let known = parts.join(", ");
     format!("{known}, {undecided} undecided; no others in {}\n", told.window())

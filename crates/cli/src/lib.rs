@@ -75,8 +75,7 @@ pub fn run() -> ExitCode {
     match result {
         Ok(output) => written(io::stdout().lock().write_all(output.as_bytes())),
         Err(failure) => {
-            if let Failure::Difference { report, .. } | Failure::Undecided { report, .. } = &failure
-            {
+            if let Failure::Told { report, .. } = &failure {
                 let _ = io::stdout().lock().write_all(report.as_bytes());
             }
             let coloured = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();

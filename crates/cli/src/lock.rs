@@ -1,9 +1,9 @@
 //! `lock`: what is derived now, in a file to compare with later.
 
 use super::arguments::Lock as Options;
-use super::failure::Failure;
+use super::failure::{COMPUTATION, Failure};
 use super::input;
-use super::output::write_whole;
+use super::output::{plural, write_whole};
 use super::progress;
 use num_rational::BigRational;
 use std::fs;
@@ -91,15 +91,10 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
         return Ok(format!("{file}: {} as locked\n", counted(&locked)));
     }
     let report: String = differences.iter().map(ToString::to_string).collect();
-    let count = match differences.len() {
-        1 => "1 place".to_owned(),
-        count => format!("{count} places"),
-    };
-    Err(Failure::Difference {
-        report,
-        message: format!("{scene} differs in {count} from {file}"),
-        remedy: "if that is meant, lock again; else undo what was changed in the scene".to_owned(),
-    })
+    let count = plural(differences.len(), "place");
+    let message = format!("{scene} differs in {count} from {file}");
+    let remedy = "if that is meant, lock again; else undo what was changed in the scene";
+    Err(Failure::new(COMPUTATION, message, remedy).with_report(report))
 }
 
 /// How much is locked.
@@ -112,12 +107,5 @@ fn counted(lock: &Lock) -> String {
     match values {
         0 => plural(count, what),
         values => format!("{} and {}", plural(count, what), plural(values, "value")),
-    }
-}
-
-fn plural(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        count => format!("{count} {what}s"),
     }
 }

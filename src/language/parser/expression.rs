@@ -16,10 +16,7 @@ use super::{Input, Outcome, complaint};
 
 /// Nothing but blanks.
 pub(super) fn end(input: Input<'_>) -> Outcome<()> {
-    match input.after_blanks().text.is_empty() {
-        true => Ok(()),
-        false => Err(complaint::expected_end(input)),
-    }
+    if input.after_blanks().text.is_empty() { Ok(()) } else { Err(complaint::expected_end(input)) }
 }
 
 /// An expression that ends at another place than usual.

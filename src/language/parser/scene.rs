@@ -24,7 +24,7 @@ pub(super) fn leaves_brace_open(input: Input<'_>) -> bool {
 
 /// What follows the first word of a statement of a scene.
 pub(super) fn kind(input: &mut Input<'_>, word: &str) -> Outcome<SceneStatementKind> {
-    if let Some(kind) = Declared::ALL.into_iter().find(|kind| kind.word() == word) {
+    if let Some(kind) = Declared::of(word) {
         return Ok(SceneStatementKind::Declaration(declaration(input, kind)?));
     }
     Ok(match word {

@@ -26,10 +26,7 @@ impl Expansion {
     /// The sum of three doubles in any order; constant cost.
     pub fn new(parts: [f64; 3]) -> Result<Expansion, EchoError> {
         let sum = Expansion::sum(parts);
-        match sum.0.iter().all(|part| part.is_finite()) {
-            true => Ok(sum),
-            false => Err(EchoError::NotFinite),
-        }
+        if sum.0.iter().all(|part| part.is_finite()) { Ok(sum) } else { Err(EchoError::NotFinite) }
     }
 
     /// The three doubles, the largest first.

@@ -3,6 +3,7 @@
 //! or by certified quadrature.
 
 mod beats;
+mod builtin;
 mod cut_off;
 mod error;
 mod formula;
@@ -17,6 +18,7 @@ mod relation;
 mod series;
 
 pub use beats::{TwoWaves, two_waves};
+pub use builtin::Builtin;
 pub use error::{DispersionError, NoGrid};
 pub use formula::{Formula, FormulaError, Function};
 pub use notation::{formula_latex, formula_text};
@@ -27,4 +29,4 @@ pub use peak::{
 pub use propagate::{Seen, Travel, propagate};
 pub use pulse::{Pulse, Shape};
 pub use read::{read_relation, read_spectrum};
-pub use relation::{Builtin, Quantity, Relation, Sample};
+pub use relation::{Quantity, Relation};

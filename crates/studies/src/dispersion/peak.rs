@@ -11,8 +11,9 @@ use super::error::{DispersionError, NoGrid, place};
 use super::formula::{Formula, wave_number};
 use super::pulse::{Pulse, Shape};
 use super::quadrature::integrate;
-use super::relation::{Relation, Sample, certified, value};
+use super::relation::{Relation, certified, value};
 use wavestep::ball::{Ball, Value};
+use wavestep::field::Bounded;
 
 /// How often the range of wavenumbers is halved in looking for negative frequencies.
 const NEGATIVE_DEPTH: u32 = 12;
@@ -164,7 +165,7 @@ pub fn peak_velocity_at(
     relation: &Relation,
     shape: Shape,
     cut_off: f64,
-) -> Result<Sample, DispersionError> {
+) -> Result<Bounded, DispersionError> {
     let exact = num_traits::FromPrimitive::from_f64(cut_off);
     let Some(exact): Option<Rational> = exact else {
         return Err(NoGrid::WaveNumber.into());
@@ -172,7 +173,7 @@ pub fn peak_velocity_at(
     let pulse = Pulse::with_cut_off(shape, &exact)?;
     refuse_negative(relation, &Ball::from_rational(&exact, BOUND_BITS))?;
     let (value, bound) = quotient(relation, &pulse, SAMPLE_BITS)?.to_double();
-    Ok(Sample { value, bound: bound.to_double() })
+    Ok(Bounded { value, bound: bound.to_double() })
 }
 
 /// One wave of a finite sum.

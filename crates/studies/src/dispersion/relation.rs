@@ -7,9 +7,10 @@ use num_traits::{FromPrimitive as _, Signed as _};
 use wavestep_polynomial::{Rational, Symbol};
 
 use super::error::{DispersionError, NoGrid, place};
-use super::formula::{Formula, Function, pi, wave_number};
+use super::formula::{Formula, pi, wave_number};
 use super::series::Series;
 use wavestep::ball::{Ball, Value};
+use wavestep::field::Bounded;
 
 /// The precision of samples in doubles.
 const SAMPLE_BITS: u64 = 80;
@@ -23,14 +24,6 @@ pub enum Quantity {
     PhaseVelocity,
     /// `c_g = dω/dk`.
     GroupVelocity,
-}
-
-/// A double with a bound: the true value is at most `bound` away.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    pub value: f64,
-    /// How far it is off at most.
-    pub bound: f64,
 }
 
 /// A dispersion relation with its two velocities, derived once.
@@ -142,13 +135,13 @@ impl Relation {
     }
 
     /// The value with a bound, for a double taken as it is.
-    pub fn sample(&self, what: Quantity, k: f64) -> Result<Sample, DispersionError> {
+    pub fn sample(&self, what: Quantity, k: f64) -> Result<Bounded, DispersionError> {
         let Some(exact) = Rational::from_f64(k) else {
             return Err(NoGrid::WaveNumber.into());
         };
         let ball = self.enclose(what, &Ball::from_rational(&exact, SAMPLE_BITS), SAMPLE_BITS)?;
         let (value, bound) = ball.to_double();
-        Ok(Sample { value, bound: bound.to_double() })
+        Ok(Bounded { value, bound: bound.to_double() })
     }
 }
 
@@ -171,82 +164,5 @@ pub(super) fn certified(
             Err(DispersionError::AccuracyNotReached { best, bits: limit_bits })
         }
         value => Ok(value),
-    }
-}
-
-/// Relations that have names. Lengths and times are in units in which long waves of the string have
-/// velocity 1, unless another is said.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Builtin {
-    /// `ω = k`.
-    String,
-    /// `ω = 2 sin(k/2)`: masses on springs, at unit distances.
-    Lattice,
-    /// `ω = k − k³/12`: two terms of a relation that is concave downwards.
-    Cubic,
-    /// `ω = k √(1 + k²/12)`: a string with bending stiffness, concave upwards.
-    StiffString,
-    /// `ω = k²`: Euler's and Bernoulli's beam in units of its own, `EI/(ρA) = 1`.
-    Beam,
-    /// `ω = k/√(1 + κk²)`, `κ = ν² r²`: a bar with the inertia of its lateral motion, `ν` Poisson's
-    /// ratio, `r` the polar radius of gyration.
-    Love,
-}
-
-impl Builtin {
-    pub const ALL: [Builtin; 6] =
-        [Self::String, Self::Lattice, Self::Cubic, Self::StiffString, Self::Beam, Self::Love];
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::String => "string",
-            Self::Lattice => "lattice",
-            Self::Cubic => "cubic",
-            Self::StiffString => "stiff-string",
-            Self::Beam => "beam",
-            Self::Love => "love",
-        }
-    }
-
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::String => "a string, or a bar of long waves: no dispersion",
-            Self::Lattice => "a chain of masses and springs at unit distances",
-            Self::Cubic => "two terms of a relation that is concave downwards",
-            Self::StiffString => "a string with bending stiffness, concave upwards",
-            Self::Beam => "bending waves of a thin beam",
-            Self::Love => {
-                "a bar with lateral inertia, kappa = (Poisson's ratio · polar radius of gyration)^2"
-            }
-        }
-    }
-
-    pub fn find(name: &str) -> Option<Builtin> {
-        Self::ALL.into_iter().find(|one| one.name() == name)
-    }
-
-    pub fn relation(self) -> Relation {
-        let k = Formula::wave_number();
-        let number = |a: i64, b: i64| Formula::number(&Rational::new(a.into(), b.into()));
-        let power = |base: &Formula, a: i64, b: i64| {
-            base.power(&Rational::new(a.into(), b.into())).expect("no power of zero")
-        };
-        let square = k.multiply(&k);
-        let frequency = match self {
-            Self::String => k,
-            Self::Lattice => {
-                number(2, 1).multiply(&k.multiply(&number(1, 2)).apply(Function::Sine))
-            }
-            Self::Cubic => k.subtract(&number(1, 12).multiply(&power(&k, 3, 1))),
-            Self::StiffString => {
-                k.multiply(&power(&number(1, 1).add(&number(1, 12).multiply(&square)), 1, 2))
-            }
-            Self::Beam => square,
-            Self::Love => {
-                let kappa = Formula::symbol(&Symbol::new("kappa").expect("a name"));
-                k.multiply(&power(&number(1, 1).add(&kappa.multiply(&square)), -1, 2))
-            }
-        };
-        Relation::new(frequency).expect("a formula in k")
     }
 }

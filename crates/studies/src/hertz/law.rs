@@ -220,10 +220,7 @@ impl PowerLaw {
         let half = exact(&ratio(1, 2), 4);
         let compression = half.power(&self.exponent.recip(), working)?;
         let middle = self.first_series(&compression, &half, working);
-        match time.is_below(&middle) {
-            true => self.early(time, working),
-            false => self.late(time, working),
-        }
+        if time.is_below(&middle) { self.early(time, working) } else { self.late(time, working) }
     }
 
     /// In the first half of the rise.

@@ -51,10 +51,7 @@ pub fn along_the_line(
             for (bar, profile) in profiles.iter().enumerate() {
                 let mut stretches: Vec<Vec<(f64, f64)>> = Vec::new();
                 for stretch in &profile.stretches {
-                    let place = |x: f64| match mirrored(bar) {
-                        true => -x,
-                        false => places.lefts[bar] + x,
-                    };
+                    let place = |x: f64| if mirrored(bar) { -x } else { places.lefts[bar] + x };
                     let on = |(x, fields): &(f64, [f64; 4])| {
                         (place(*x) * metre.factor, of(fields) * unit.factor)
                     };

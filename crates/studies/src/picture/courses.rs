@@ -45,10 +45,7 @@ pub fn courses(
     window: [&Rational; 2],
 ) -> Result<(Vec<Course>, Option<Tested>), PictureError> {
     let all = problem.observables();
-    let names = match names.is_empty() {
-        true => all,
-        false => names.iter().map(String::as_str).collect(),
-    };
+    let names = if names.is_empty() { all } else { names.iter().map(String::as_str).collect() };
     if names.is_empty() {
         return Err(PictureError::NothingObserved);
     }

@@ -55,20 +55,3 @@ impl Prefixed {
         Axis::linear(name).unit(&self.unit)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_take_prefixes_and_plain_numbers_powers_of_ten() {
-        let time = Prefixed::of("s", 3.5e-4);
-        assert_eq!((time.unit.as_str(), time.factor), ("µs", 1e6));
-        assert_eq!(time.axis("time").label(), "time (µs)");
-        assert_eq!(Prefixed::of("N*s", 4e3).unit, "kN s");
-        assert_eq!(Prefixed::of("m/s", 12.0).unit, "m/s");
-        let strain = Prefixed::of("", 2e-4);
-        assert_eq!((strain.unit.as_str(), strain.factor), ("10⁻⁶", 1e6));
-        assert_eq!(Prefixed::of("", 0.3), Prefixed { unit: String::new(), factor: 1.0 });
-    }
-}

@@ -5,7 +5,7 @@ use wavestep::history::FollowedSignal;
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
 use wavestep_polynomial::Rational;
-use wavestep_studies::picture::sampled;
+use wavestep_studies::picture::{Prefixed, sampled};
 
 fn network(text: &str, values: &[(&str, &str)]) -> Network {
     let number = |(name, value): &(&str, &str)| ((*name).to_owned(), parse_number(value).unwrap());
@@ -61,4 +61,16 @@ fn jumps_are_where_waves_pass() {
     let window = [rational(0, 1), rational(9, 1)];
     let signal = FollowedSignal::new(&rod, "v", [&window[0], &window[1]]).unwrap();
     assert_eq!(sampled(&signal).unwrap().jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
+}
+
+#[test]
+fn units_take_prefixes_and_plain_numbers_powers_of_ten() {
+    let time = Prefixed::of("s", 3.5e-4);
+    assert_eq!((time.unit.as_str(), time.factor), ("µs", 1e6));
+    assert_eq!(time.axis("time").label(), "time (µs)");
+    assert_eq!(Prefixed::of("N*s", 4e3).unit, "kN s");
+    assert_eq!(Prefixed::of("m/s", 12.0).unit, "m/s");
+    let strain = Prefixed::of("", 2e-4);
+    assert_eq!((strain.unit.as_str(), strain.factor), ("10⁻⁶", 1e6));
+    assert_eq!(Prefixed::of("", 0.3), Prefixed { unit: String::new(), factor: 1.0 });
 }
