@@ -3,7 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::collections::BTreeMap;
 use std::hint::black_box;
-use wavestep::export::{Formula, Head, LATEX_WIDTH, latex};
+use wavestep::export::{Formula, LATEX_WIDTH, latex};
 use wavestep::language::{Source, read_recurrence};
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::{EchoByEcho, EchoTable, PeriodByPeriod, Solution};
@@ -42,9 +42,7 @@ fn expand(solution: &Solution, through: usize) -> u64 {
 fn formula(recurrence: &Recurrence) -> usize {
     let solution = Solution::new(recurrence.clone());
     let piece = &solution.pieces(0, 80, 80).expect("solvable")[0];
-    let local = recurrence.statement().local.clone();
-    let head = Head::Piece { wave: "f".to_owned(), n: 80, local: local.clone() };
-    latex(&[Formula::new(head, piece, &local)], LATEX_WIDTH).len()
+    latex(&[Formula::piece("f", 80, piece, &recurrence.statement().local)], LATEX_WIDTH).len()
 }
 
 fn expanded(c: &mut Criterion) {

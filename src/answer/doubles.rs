@@ -81,10 +81,8 @@ pub struct Tested {
     pub tolerance: f64,
 }
 
-/// The values of a question at times of its window.
-///
-/// # Errors
-/// [`WayError`]: no method is good enough, or the one that is named has no values here.
+/// The values of a question at times of its window; refused where no method is good enough, or the
+/// one that is named has no values here.
 pub fn doubles(
     question: &Question<'_>,
     times: &[Rational],

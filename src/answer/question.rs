@@ -15,9 +15,6 @@ pub struct Question<'a> {
 impl Question<'_> {
     /// About the largest absolute value on the window, from the beginnings, middles and ends of some
     /// stretches between breaks; the largest one is not smaller, but for rounding.
-    ///
-    /// # Errors
-    /// [`EvaluateError`], where the window has too many breaks.
     pub fn scale(&self) -> Result<f64, EvaluateError> {
         // After many periods a march tells it sooner, where there is one.
         const MANY: usize = 30;
@@ -40,9 +37,6 @@ impl Question<'_> {
     }
 
     /// How many reflections the window sees; without a closed form, how many stretches it has.
-    ///
-    /// # Errors
-    /// [`EvaluateError`], where they are too many or not known.
     pub fn order(&self) -> Result<usize, EvaluateError> {
         match self.signal.closed_form() {
             Ok(form) => form.order(self.signal.window()[1]),

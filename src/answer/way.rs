@@ -72,9 +72,6 @@ pub struct Way<'a> {
 impl<'a> Way<'a> {
     /// Makes a way ready. Methods that can be less exact at less cost take account of a tolerance, in
     /// the unit of the values.
-    ///
-    /// # Errors
-    /// [`WayError`], where the question is none for this way.
     pub fn new(
         method: Method,
         question: &'a Question<'_>,
@@ -107,11 +104,8 @@ impl<'a> Way<'a> {
         Ok(Way { method, inner: Ways::Method(evaluator) })
     }
 
-    /// A model made ready for the observable at this place of a scene, which needs no recurrence.
-    ///
-    /// # Errors
-    /// [`WayError::NeedsRecurrence`] for methods on the exact solution; [`WayError::Model`] where the
-    /// model refuses the scene.
+    /// A model made ready for the observable at this place of a scene, which needs no recurrence. Methods on
+    /// the exact solution are refused.
     pub fn of_model(
         method: Method,
         scene: &impl AsRef<ScaledScene>,
@@ -149,10 +143,7 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// The value at a time.
-    ///
-    /// # Errors
-    /// [`WayError`], for times outside the window and left limits of models.
+    /// The value at a time of the window; models have no left limits.
     pub fn value(&self, at: &Rational, side: Limit) -> Result<f64, WayError> {
         match &self.inner {
             Ways::Method(evaluator) => Ok(evaluator.value(at, side)?),
@@ -165,9 +156,6 @@ impl<'a> Way<'a> {
     }
 
     /// The values at many times, just after arrivals.
-    ///
-    /// # Errors
-    /// As [`Way::value`].
     pub fn values(&self, at: &[f64]) -> Result<Vec<f64>, WayError> {
         match &self.inner {
             Ways::Method(evaluator) => {
@@ -180,9 +168,6 @@ impl<'a> Way<'a> {
     }
 
     /// The values at many exact times.
-    ///
-    /// # Errors
-    /// As [`Way::value`].
     pub fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, WayError> {
         match &self.inner {
             Ways::Model(model, place) if side == Limit::Right => {

@@ -85,9 +85,6 @@ pub struct Weighed {
 
 /// Weighs all methods: picks the cheapest by the table of costs whose proven bound meets a tolerance
 /// in the unit of the values; the largest of these is about `scale`.
-///
-/// # Errors
-/// [`EvaluateError`], where there is no exact solution to evaluate.
 pub fn consider(
     question: &Question<'_>,
     points: usize,

@@ -20,20 +20,9 @@ pub const LATEX_WIDTH: usize = 84;
 
 /// The left-hand side of a formula.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Head {
-    /// `f[3](s)`: a wave on one period.
-    Piece { wave: String, n: usize, local: Symbol },
-    /// `phi_f[3](s)`: an echo of a wave.
-    Echo { wave: String, k: usize, local: Symbol },
-    /// `phi_f[2,1](s)`: an echo of a wave on a lattice of delays.
-    Arrival {
-        wave: String,
-        /// How often each period of the lattice has passed.
-        counts: Vec<usize>,
-        local: Symbol,
-    },
-    /// Written as it is, in text and in LaTeX.
-    Written(String, String),
+pub struct Head {
+    text: String,
+    latex: String,
 }
 
 /// An exact value in one line.
@@ -63,31 +52,14 @@ fn since(t: &str, start: &str) -> String {
     }
 }
 
-/// Counts as an index: `2,1`.
-fn listed(counts: &[usize]) -> String {
-    counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
-}
-
 impl Head {
-    /// A head that is written as it is.
-    pub(crate) fn both(write: impl Fn(Notation) -> String) -> Head {
-        let (text, latex) = both(write);
-        Head::Written(text, latex)
+    pub fn new(text: impl Into<String>, latex: impl Into<String>) -> Head {
+        Head { text: text.into(), latex: latex.into() }
     }
 
-    fn written(&self, notation: Notation) -> String {
-        match self {
-            Head::Piece { wave, n, local } => {
-                format!("{}({})", notation.indexed(wave, &n.to_string()), notation.symbol(local))
-            }
-            Head::Echo { wave, k, local } => {
-                notation.echo(wave, &k.to_string(), &notation.symbol(local))
-            }
-            Head::Arrival { wave, counts, local } => {
-                notation.echo(wave, &listed(counts), &notation.symbol(local))
-            }
-            Head::Written(text, latex) => notation.choose(text, latex).to_owned(),
-        }
+    pub(crate) fn both(write: impl Fn(Notation) -> String) -> Head {
+        let (text, latex) = both(write);
+        Head { text, latex }
     }
 }
 
@@ -126,13 +98,27 @@ impl Right {
 /// One formula: `head = right`, and a remark.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Formula {
-    pub head: Head,
+    pub(crate) head: Head,
     pub(crate) right: Right,
     /// A remark in text, and in LaTeX, where it may be empty.
     pub remark: Option<(String, String)>,
 }
 
 impl Formula {
+    /// A wave on one period: `f[3](s) = …`.
+    pub fn piece(wave: &str, n: usize, piece: &Expression, local: &Symbol) -> Formula {
+        let n = n.to_string();
+        let head = Head::both(|form| format!("{}({})", form.indexed(wave, &n), form.symbol(local)));
+        Formula::new(head, piece, local)
+    }
+
+    /// An echo of a wave: `phi_f[3](s) = …`, or `phi_f[2,1](s) = …` on a lattice of delays, by how
+    /// often each period of the lattice has passed.
+    pub fn echo(wave: &str, counts: &[usize], echo: &Expression, local: &Symbol) -> Formula {
+        let counts = counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+        Formula::new(Head::both(|n| n.echo(wave, &counts, &n.symbol(local))), echo, local)
+    }
+
     /// `head = expression`, arranged by `variable`.
     pub fn new(head: Head, expression: &Expression, variable: &Symbol) -> Formula {
         Formula::of(head, Right::Terms(arrange(expression, Some(variable))))
@@ -163,7 +149,7 @@ impl Formula {
 
     /// Plain text in one line, without the remark.
     pub fn to_line(&self) -> String {
-        format!("{} = {}", self.head.written(Text), self.right.written(Text).text())
+        format!("{} = {}", self.head.text, self.right.written(Text).text())
     }
 
     /// The formula of an echo on a lattice, with its arrival as a remark.
@@ -175,19 +161,17 @@ impl Formula {
         local: &Symbol,
         time: &Symbol,
     ) -> Formula {
-        let (wave, counts) = (wave.to_owned(), counts.to_vec());
-        let head = Head::Arrival { wave, counts, local: local.clone() };
         let holds = |n: Notation, start: &str| {
             format!("{} {} {start}", n.symbol(time), n.choose(">=", "\\ge"))
         };
         let remark = Some(remark(holds, delay, [local, time]));
-        Formula { remark, ..Formula::new(head, echo, local) }
+        Formula { remark, ..Formula::echo(wave, counts, echo, local) }
     }
 
     /// Plain text in lines of at most `width` characters where it can be broken; continuation lines
     /// and a remark are indented.
     pub fn to_text(&self, width: usize) -> String {
-        let head = format!("{} = ", self.head.written(Text));
+        let head = format!("{} = ", self.head.text);
         let right = self.right.written(Text);
         let lines = right.lines(width, head.chars().count(), 4);
         let mut text = format!("{head}{}\n", lines.join("\n    "));
@@ -199,13 +183,13 @@ impl Formula {
 
     /// Writes the lines of the formula in an `align*` environment, without the environment.
     fn write_latex(&self, width: usize, out: &mut String) {
-        let head = self.head.written(Latex);
-        let used = Latex.width(&head) + 3;
+        let head = &self.head.latex;
+        let used = Latex.width(head) + 3;
         let right = self.right.written(Latex);
         let lines = right.lines(width, used, used + 2);
         for (i, line) in lines.iter().enumerate() {
             match i {
-                0 => out.extend([&head, " &= ", line]),
+                0 => out.extend([head, " &= ", line]),
                 _ => out.extend([" \\\\\n&\\quad {}", line]),
             }
         }

@@ -133,8 +133,7 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
     let (x, k) = (&statement.local, echo_index(recurrence));
     let mut formulas = vec![sum_of_echoes(recurrence, wave)];
     for (i, echo) in template.first().iter().enumerate() {
-        let head = Head::Echo { wave: wave.clone(), k: i, local: x.clone() };
-        formulas.push(Formula::new(head, echo, x));
+        formulas.push(Formula::echo(wave, &[i], echo, x));
     }
     let head = Head::both(|n| n.echo(wave, k.name(), &n.symbol(x)));
     formulas.push(Formula::of(head, Right::Terms(template_terms(template, x, &k))));

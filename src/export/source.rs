@@ -91,7 +91,7 @@ impl<'a> SourceForm<'a> {
     }
 
     fn formula(&self, (text, latex): (String, String), terms: Vec<Term>) -> Formula {
-        Formula::of(Head::Written(text, latex), Right::Named(terms, self.names.clone()))
+        Formula::of(Head::new(text, latex), Right::Named(terms, self.names.clone()))
     }
 }
 

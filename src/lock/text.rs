@@ -24,7 +24,7 @@
 //! of the language, version 2 events, a fact in each line. Comments begin with `#`. Versions to come read
 //! both.
 
-use crate::export::{self, Formula, Head, TEXT_WIDTH};
+use crate::export::{self, Formula, TEXT_WIDTH};
 use crate::history::EventKind;
 use crate::language::{Diagnostic, Source, Span, normalise_name, parse_number, read_listing};
 use crate::limits::{MAX_DIGITS, MAX_LOCK_BYTES};
@@ -221,8 +221,7 @@ impl Lock {
 impl Pieces {
     fn write(&self, text: &mut String) {
         let formula = |((wave, n), piece): (&(String, usize), &Piece)| {
-            let head = Head::Piece { wave: wave.clone(), n: *n, local: piece.variable.clone() };
-            Formula::new(head, &piece.expression, &piece.variable)
+            Formula::piece(wave, *n, &piece.expression, &piece.variable)
         };
         let formulas: Vec<Formula> = self.all.iter().map(formula).collect();
         text.push('\n');

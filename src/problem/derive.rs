@@ -4,7 +4,7 @@ use super::bounds::{refuse_terms, terms_of_piece, terms_through};
 use super::error::Missing;
 use super::{Kind, Problem, ProblemError};
 use crate::evaluate::{Arrival, arrivals};
-use crate::export::{self, Derivation, Formula, Head, SourceForm};
+use crate::export::{self, Derivation, Formula, SourceForm};
 use crate::expression::{Expression, Fraction};
 use crate::language;
 use crate::limits::MAX_DERIVED_ECHOES;
@@ -188,8 +188,7 @@ impl Problem {
             // What has no exact form is left out; a derivation of this wave says why.
             let pieces = solution.pieces(wave, 0, FIRST_PIECES).unwrap_or_default();
             for (n, piece) in pieces.iter().enumerate() {
-                let head = Head::Piece { wave: named.name.clone(), n, local: local.clone() };
-                formulas.push(Formula::new(head, piece, local));
+                formulas.push(Formula::piece(&named.name, n, piece, local));
             }
         }
         if !formulas.is_empty() {
@@ -224,8 +223,7 @@ impl Problem {
             }
             Derived::Stretches(name, stretches) => {
                 let formula = |(n, stretch): (usize, &ObservedStretch)| {
-                    let head = Head::Piece { wave: name.clone(), n, local: local.clone() };
-                    let formula = Formula::new(head, &stretch.value, local);
+                    let formula = Formula::piece(name, n, &stretch.value, local);
                     formula.between(&stretch.from, &stretch.to, statement)
                 };
                 vec![(name.clone(), stretches.iter().enumerate().map(formula).collect())]
@@ -347,13 +345,11 @@ fn formulas(
     form: Form,
 ) -> Vec<Formula> {
     let formula = |(i, expression): (usize, &Expression)| {
-        let (n, local) = (functions.first + i, statement.local.clone());
-        let wave = functions.name.clone();
-        let head = match form {
-            Form::Echo => Head::Echo { wave, k: n, local },
-            Form::Period | Form::Piecewise => Head::Piece { wave, n, local },
+        let (wave, n, local) = (&functions.name, functions.first + i, &statement.local);
+        let formula = match form {
+            Form::Echo => Formula::echo(wave, &[n], expression, local),
+            Form::Period | Form::Piecewise => Formula::piece(wave, n, expression, local),
         };
-        let formula = Formula::new(head, expression, &statement.local);
         // Periods that begin with those of the waves are said only where they are asked for.
         if form == Form::Piecewise || !functions.offset.is_zero() {
             formula.on_period(n, &functions.offset, statement)

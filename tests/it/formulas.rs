@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use wavestep::export::{self, Formula, Head, LATEX_WIDTH, TEXT_WIDTH, general_form, latex_width};
+use wavestep::export::{self, Formula, LATEX_WIDTH, TEXT_WIDTH, general_form, latex_width};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_listing, read_recurrence};
 use wavestep::recurrence::WaveIndex;
@@ -39,8 +39,7 @@ fn pieces(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Expression> 
 fn period_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
     let local = &solution.recurrence().statement().local;
     let formula = |(n, piece): (usize, &Expression)| {
-        let wave = name_of(solution, wave);
-        Formula::new(Head::Piece { wave, n, local: local.clone() }, piece, local)
+        Formula::piece(&name_of(solution, wave), n, piece, local)
     };
     pieces(solution, wave, last).iter().enumerate().map(formula).collect()
 }
@@ -49,8 +48,7 @@ fn echo_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> 
     let local = &solution.recurrence().statement().local;
     let echoes = solution.echoes(wave, last).unwrap_or_else(|error| panic!("{error}"));
     let formula = |(k, echo): (usize, &Expression)| {
-        let wave = name_of(solution, wave);
-        Formula::new(Head::Echo { wave, k, local: local.clone() }, echo, local)
+        Formula::echo(&name_of(solution, wave), &[k], echo, local)
     };
     echoes.echoes().iter().enumerate().map(formula).collect()
 }
@@ -124,8 +122,7 @@ fn rigid_mass_observables() {
         let seen = solution.observed(&observable.observation, 0, 2);
         let seen = seen.unwrap_or_else(|error| panic!("{error}"));
         for (n, piece) in seen.pieces.iter().enumerate() {
-            let (wave, local) = (observable.name.clone(), statement.local.clone());
-            let formula = Formula::new(Head::Piece { wave, n, local }, piece, &statement.local);
+            let formula = Formula::piece(&observable.name, n, piece, &statement.local);
             formulas.push(formula.on_period(n, &seen.offset, statement));
         }
     }

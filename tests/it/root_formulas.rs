@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, Value, digits};
-use wavestep::export::{Formula, Head, LATEX_WIDTH, expression_text, latex};
+use wavestep::export::{Formula, LATEX_WIDTH, expression_text, latex};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, parse_number, read_expression, read_listing, read_recurrence};
 use wavestep::solution::Solution;
@@ -22,7 +22,7 @@ fn s() -> Symbol {
 }
 
 fn formula(value: &Expression) -> Formula {
-    Formula::new(Head::Piece { wave: "f".to_owned(), n: 0, local: s() }, value, &s())
+    Formula::piece("f", 0, value, &s())
 }
 
 /// What a line shows, as an expression.

@@ -85,7 +85,7 @@ fn shorthand_says_what_the_pieces_say() {
         .iter()
         .map(|piece| {
             let end = substituted(piece, "t", "mu");
-            let head = export::Head::Written(String::new(), String::new());
+            let head = export::Head::new("", "");
             let line = Formula::new(head, &end, &Symbol::new("t").expect("a name")).to_line();
             line.trim_start_matches(" = ").to_owned()
         })

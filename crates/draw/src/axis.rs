@@ -16,26 +16,21 @@ pub enum Scale {
 /// What is measured along an axis, in which unit, and on which scale.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Axis {
-    /// The name of the quantity.
     pub name: String,
     /// Its unit; empty for a pure number.
     pub unit: String,
-    /// Its scale.
     pub scale: Scale,
 }
 
 impl Axis {
-    /// A linear axis without unit.
     pub fn linear(name: &str) -> Axis {
         Axis { name: name.to_owned(), unit: String::new(), scale: Scale::Linear }
     }
 
-    /// A logarithmic axis without unit.
     pub fn logarithmic(name: &str) -> Axis {
         Axis { name: name.to_owned(), unit: String::new(), scale: Scale::Logarithmic }
     }
 
-    /// The axis with a unit.
     #[must_use]
     pub fn unit(mut self, unit: &str) -> Axis {
         unit.clone_into(&mut self.unit);
@@ -149,7 +144,6 @@ impl Mapping {
         self
     }
 
-    /// The pixel of a value.
     pub fn position(&self, value: f64) -> f64 {
         self.pixel(on(self.scale, value))
     }

@@ -38,7 +38,6 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// A chart of these curves.
     pub fn new(
         title: &str,
         x: Axis,
@@ -74,7 +73,6 @@ impl Curves {
         Ok(self)
     }
 
-    /// The curves.
     pub fn curves(&self) -> &[Curve] {
         &self.curves
     }

@@ -84,12 +84,10 @@ impl Cell {
         (is_area && value.is_finite()).then_some(Cell { outline, value })
     }
 
-    /// Its corners.
     pub fn outline(&self) -> &[(f64, f64)] {
         &self.outline
     }
 
-    /// The value of the quantity.
     pub fn value(&self) -> f64 {
         self.value
     }
@@ -98,11 +96,8 @@ impl Cell {
 /// The line of a front: where the quantity jumps, or, drawn thin, where its slope does.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Line {
-    /// Where it begins.
     pub from: (f64, f64),
-    /// Where it ends.
     pub to: (f64, f64),
-    /// Whether the quantity jumps there.
     pub jumps: bool,
 }
 
@@ -121,13 +116,9 @@ impl Line {
 /// What stands below the axis of places.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Part {
-    /// What it is called.
     pub name: String,
-    /// Where it begins.
     pub from: f64,
-    /// Where it ends.
     pub to: f64,
-    /// How it is drawn.
     pub shape: Shape,
 }
 
@@ -196,7 +187,6 @@ impl Diagram {
         Ok(Diagram { title, axes, window, cells, lines, joints, parts, levels, colours, caption })
     }
 
-    /// The same with these lines.
     #[must_use]
     pub fn lines(self, lines: Vec<Line>) -> Diagram {
         Diagram { lines, ..self }

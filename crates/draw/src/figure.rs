@@ -15,14 +15,10 @@ const RULES: &str = "\
 .plot .zero{fill:none;stroke:#8a8a8a;stroke-width:.8}\
 .plot .thin{fill:none;stroke:currentColor;stroke-width:.9;stroke-linejoin:round}";
 
-/// How a series is drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Look {
-    /// A line through the points.
     Line,
-    /// A marker at each point.
     Points,
-    /// Both.
     Both,
     /// A thin line through the points, for what others are compared with.
     Thin,
@@ -37,26 +33,22 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// Jumps: where, from which value, and to which.
     pub jumps: Vec<(f64, f64, f64)>,
-    /// How it is drawn.
     pub look: Look,
     /// Which of the styles (colour, dashes and marker) it has; that of its place where none is given.
     pub style: Option<usize>,
 }
 
 impl Series {
-    /// A line through these points.
     pub fn new(name: &str, points: Vec<(f64, f64)>) -> Series {
         let name = name.to_owned();
         Series { name, points, jumps: Vec::new(), look: Look::Line, style: None }
     }
 
-    /// The same with these jumps.
     #[must_use]
     pub fn jumping(self, jumps: Vec<(f64, f64, f64)>) -> Series {
         Series { jumps, ..self }
     }
 
-    /// The same, drawn in this way.
     #[must_use]
     pub fn look(self, look: Look) -> Series {
         Series { look, ..self }
@@ -82,7 +74,6 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// These series.
     pub fn new(y: Axis, series: Vec<Series>) -> Panel {
         Panel { y, series, levels: Vec::new(), range: None, named_at_ends: false }
     }
@@ -112,7 +103,6 @@ impl Panel {
         &self.y
     }
 
-    /// The series.
     pub fn series(&self) -> &[Series] {
         &self.series
     }
@@ -165,7 +155,6 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// A figure of these panels; the title may be empty.
     pub fn new(
         title: &str,
         x: Axis,
@@ -316,9 +305,7 @@ fn draw_panel(figure: &Figure, index: usize, sheet: &mut Sheet, x: &Mapping) -> 
                 placement.avoid(part);
             }
             if matches!(series.look, Look::Points | Look::Both) {
-                for point in part {
-                    sheet.drawing.marker(style, *point, "");
-                }
+                part.iter().for_each(|point| sheet.drawing.marker(style, *point, ""));
             }
         }
         let end = parts.last().and_then(|part| part.last());

@@ -6,13 +6,11 @@ use super::drawing::{Anchor, Drawing, LARGE, MEDIUM, SMALL, WIDTH, polygon};
 use super::text::{width, wrap};
 use super::{Caption, Scale};
 
-/// The left edge of the plotting area.
 pub(super) const LEFT: f64 = 88.0;
 
 /// The right edge of the plotting area beside a legend.
 pub(super) const RIGHT: f64 = 650.0;
 
-/// The height of the plotting area.
 pub(super) const HEIGHT: f64 = 420.0;
 
 /// The room beside a logarithmic axis in which values of exactly zero stand.
@@ -76,7 +74,6 @@ pub(super) struct Sheet {
     pub right: f64,
     /// The prefix of identifiers.
     pub name: String,
-    /// The height of the plotting area.
     height: f64,
     /// The lowest place drawn on so far.
     lowest: f64,

@@ -11,6 +11,8 @@
 //! libraries do not offer together: gutters for exact zeros, bounds joined to errors, labels that
 //! never overlap, titles for screen readers, and colours for light and dark paper.
 
+#![allow(missing_docs, reason = "what a name or a message says is not said again")]
+
 mod axis;
 mod caption;
 mod chart;

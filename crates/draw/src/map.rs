@@ -18,7 +18,6 @@ const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
 /// A level of the error at which something changes, drawn as a step line.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Level {
-    /// The level, above zero.
     pub value: f64,
     /// What it means, in few words.
     pub name: String,

@@ -9,7 +9,6 @@ fn superscript(exponent: i32) -> String {
     raised.collect()
 }
 
-/// `10^exponent`.
 pub(super) fn power_of_ten(exponent: i32) -> String {
     format!("10{}", superscript(exponent))
 }

@@ -9,7 +9,6 @@ use std::fmt::Write;
 pub struct Listing {
     /// What it lists.
     pub caption: String,
-    /// The heads of its columns.
     pub heads: Vec<String>,
     /// Its rows, each with one text a column.
     pub rows: Vec<Vec<String>>,
@@ -49,26 +48,18 @@ impl Listing {
 /// A chart on a page, with what the reader should see in it.
 #[derive(Clone, Copy)]
 pub struct Section<'a> {
-    /// The heading.
     pub heading: &'a str,
     /// A sentence or two on what is to be seen.
     pub explanation: &'a str,
-    /// The chart.
     pub chart: &'a dyn Chart,
-    /// A small table under it, if there is one.
     pub listing: Option<&'a Listing>,
 }
 
-/// A row of the table of a page.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Row {
-    /// The method.
     pub method: String,
-    /// Its setting.
     pub setting: String,
-    /// The error measured.
     pub error: f64,
-    /// A proven bound of it, if there is one.
     pub bound: Option<f64>,
     /// Seconds for one point.
     pub seconds: f64,
@@ -81,7 +72,6 @@ pub struct Row {
 pub struct Table {
     /// The method to which speed-ups refer; empty if there are none.
     pub compared_with: String,
-    /// The rows.
     pub rows: Vec<Row>,
 }
 

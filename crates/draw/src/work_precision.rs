@@ -86,7 +86,6 @@ impl WorkPrecision {
         Ok(self)
     }
 
-    /// The methods.
     pub fn methods(&self) -> &[Method] {
         &self.methods
     }

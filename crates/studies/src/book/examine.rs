@@ -200,7 +200,7 @@ fn named(stage: &Stage, equation: &Equation) -> Result<Vec<Formula>, Refusal> {
     if stage.definition(name).is_none() {
         return Ok(Vec::new());
     }
-    let head = Head::Written(name.clone(), latex_name(name, None));
+    let head = Head::new(name.clone(), latex_name(name, None));
     Ok(vec![Formula::new(head, &stage.expression(&equation.left)?, stage.local())])
 }
 
@@ -227,7 +227,7 @@ fn piece(stage: &Stage, name: &str, n: usize) -> Result<Vec<Formula>, Refusal> {
         let value = solution.pieces(wave, n, n)?.remove(0);
         return Ok(SourceForm::new(solution.recurrence(), None).piece(wave, n, &value));
     }
-    let head = Head::Written(format!("{name}[{n}]"), latex_name(name, Some(&n.to_string())));
+    let head = Head::new(format!("{name}[{n}]"), latex_name(name, Some(&n.to_string())));
     let value = stage.on_period(&quantity.form, n)?;
     Ok(vec![Formula::new(head, &value, stage.local())])
 }

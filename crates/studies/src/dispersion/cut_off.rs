@@ -5,6 +5,8 @@
 //! holds the root, which the interval method of Newton narrows. Next to zero cells shrink in proportion
 //! to their distance from it, so that roots far below `2π/τ` are found as well.
 
+use std::cmp::Ordering::{self, Greater, Less};
+
 use num_traits::{One, Zero};
 use wavestep_polynomial::Rational;
 
@@ -42,16 +44,12 @@ struct Search<'a> {
     level: Ball,
 }
 
-fn sign(ball: &Ball) -> Option<bool> {
-    (!ball.contains_zero()).then(|| !ball.midpoint().is_negative())
-}
-
 impl Search<'_> {
     /// The sign of `ω − 2π/τ` at a point; `None` where it is not decided.
-    fn sign_at(&self, k: &Rational) -> Option<bool> {
+    fn sign_at(&self, k: &Rational) -> Option<Ordering> {
         let k = Ball::from_rational(k, SEARCH_BITS);
         let omega = value(self.relation.frequency(), &k, SEARCH_BITS).ok()?;
-        sign(&omega.subtract(&self.level, SEARCH_BITS))
+        omega.subtract(&self.level, SEARCH_BITS).sign()
     }
 
     fn cell(&self, low: &Rational, high: &Rational) -> Result<Cell, Fault> {
@@ -65,10 +63,10 @@ impl Search<'_> {
             Err(fault) if low.is_zero() => return Err(fault),
             Err(_) => return Ok(Cell::Open),
         };
-        if sign(&omega) == Some(false) {
+        if omega.sign() == Some(Less) {
             return Ok(Cell::Negative);
         }
-        if sign(&omega.subtract(&self.level, bits)) == Some(false) {
+        if omega.subtract(&self.level, bits).sign() == Some(Less) {
             return Ok(Cell::Excluded);
         }
         let unit = Ball::from_integer(&1.into());
@@ -76,10 +74,10 @@ impl Search<'_> {
         let Ok(series) = self.relation.frequency().series(&both, bits) else {
             return Ok(Cell::Open);
         };
-        let slope = sign(&series.coefficients()[1]);
+        let slope = series.coefficients()[1].sign();
         Ok(match (slope, self.sign_at(low), self.sign_at(high)) {
-            (Some(true), Some(false), Some(true)) => Cell::Root,
-            (Some(_), Some(false), Some(false)) => Cell::Excluded,
+            (Some(Greater), Some(Less), Some(Greater)) => Cell::Root,
+            (Some(_), Some(Less), Some(Less)) => Cell::Excluded,
             _ => Cell::Open,
         })
     }
@@ -166,10 +164,10 @@ fn narrowed(
         let at = Ball::from_rational(&middle, working);
         let g = value(relation.frequency(), &at, working)?.subtract(&level, working);
         let (mut from, mut to) = (low.clone(), high.clone());
-        match sign(&g) {
-            Some(true) => to = middle.clone(),
-            Some(false) => from = middle.clone(),
-            None => {}
+        match g.sign() {
+            Some(Greater) => to = middle.clone(),
+            Some(Less) => from = middle.clone(),
+            _ => {}
         }
         if let Ok(slope) = value(relation.group_velocity(), &whole, working)
             && let Ok(inverse) = slope.reciprocal(working)

@@ -206,7 +206,7 @@ pub fn peak_velocity_of_sum(
 /// An error where ω is negative on a part of the range, at least `2^{−12}` of it wide, or at its end.
 fn refuse_negative(relation: &Relation, upper: &Ball) -> Result<(), DispersionError> {
     let frequency = relation.frequency();
-    let negative = |ball: &Ball| !ball.contains_zero() && ball.midpoint().is_negative();
+    let negative = |ball: &Ball| ball.sign() == Some(std::cmp::Ordering::Less);
     if negative(&value(frequency, upper, BOUND_BITS)?) {
         return Err(DispersionError::NegativeFrequency(place(upper)));
     }

@@ -115,34 +115,28 @@ impl Series {
         }
         let base = &self.0[0];
         if base.contains_zero() {
-            return match nonnegative && self.len() == 1 && exponent.is_positive() {
-                // All values are between 0 and the largest one.
-                true => {
-                    let top = upper(base);
-                    let (_, largest) = root_bounds(&top, exponent, bits);
-                    Ok(Series(vec![Ball::between(&Rational::zero(), &largest, bits)]))
-                }
-                false => Err(Fault::RootOfZero),
-            };
+            if !nonnegative || self.len() > 1 || exponent.is_negative() {
+                return Err(Fault::RootOfZero);
+            }
+            // All values are between 0 and the largest one.
+            let top = Rational::from(base.midpoint()) + Rational::from(&base.radius().to_binary());
+            let (_, largest) = root_bounds(&top, exponent, bits);
+            return Ok(Series(vec![Ball::between(&Rational::zero(), &largest, bits)]));
         }
         if base.midpoint().is_negative() {
             return Err(Fault::NotReal);
         }
-        let first = match exponent.denom() == &Integer::from(2) {
-            true => {
-                let root = base.sqrt(bits).ok_or(Fault::RootOfZero)?;
-                let count = exponent.numer().abs().to_u64().expect("an exponent within limits");
-                let power = Series(vec![root]).whole_power(count, bits).0.remove(0);
-                if exponent.is_negative() { power.reciprocal(bits)? } else { power }
-            }
-            false => {
-                let (low, high) = base.endpoints();
-                let [low, high] = [low, high].map(|end| Rational::from(&end));
-                let (low, _) = root_bounds(&low, &exponent.abs(), bits);
-                let (_, high) = root_bounds(&high, &exponent.abs(), bits);
-                let power = Ball::between(&low, &high, bits);
-                if exponent.is_negative() { power.reciprocal(bits)? } else { power }
-            }
+        let first = if exponent.denom() == &Integer::from(2) {
+            let root = base.sqrt(bits).ok_or(Fault::RootOfZero)?;
+            let count = exponent.numer().abs().to_u64().expect("an exponent within limits");
+            let power = Series(vec![root]).whole_power(count, bits).0.remove(0);
+            if exponent.is_negative() { power.reciprocal(bits)? } else { power }
+        } else {
+            let [low, high] = <[_; 2]>::from(base.endpoints()).map(|end| Rational::from(&end));
+            let (low, _) = root_bounds(&low, &exponent.abs(), bits);
+            let (_, high) = root_bounds(&high, &exponent.abs(), bits);
+            let power = Ball::between(&low, &high, bits);
+            if exponent.is_negative() { power.reciprocal(bits)? } else { power }
         };
         self.power_by_recurrence(exponent, first, bits)
     }
@@ -263,11 +257,6 @@ impl Series {
 fn dot(left: &[Ball], right: &[Ball], bits: u64) -> Ball {
     let products = left.iter().zip(right.iter().rev()).map(|(a, b)| a.multiply(b, bits));
     products.fold(Ball::zero(), |sum, product| sum.add(&product, bits))
-}
-
-/// The largest point of a ball.
-fn upper(ball: &Ball) -> Rational {
-    Rational::from(ball.midpoint()) + Rational::from(&ball.radius().to_binary())
 }
 
 /// Rationals `a ≤ x^r ≤ b` for `x ≥ 0`, `r > 0`, about `2^{−bits}` apart, from the integer root of

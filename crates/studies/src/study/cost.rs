@@ -18,9 +18,6 @@ const NO_PREPARATION: f64 = 1e-6;
 
 /// Seconds to derive the pieces 0 to n of an observable exactly, for ascending orders n, nothing known
 /// beforehand; the first one that takes more than 0.3 s is the last.
-///
-/// # Errors
-/// [`ObserveError`], where the observable has no pieces.
 pub fn derivation_cost(
     recurrence: &Recurrence,
     observation: &Observation,
@@ -56,9 +53,6 @@ pub fn derivation_cost(
 ///
 /// Derived are all pieces to that order, as `derive` gives them: with numbers in place of symbols, and
 /// with the symbols of `symbolic`, where that is given. Prepared and evaluated is one period.
-///
-/// # Errors
-/// [`PlotError`], where nothing was measured.
 pub fn cost_over_order(
     subject: Subject<'_>,
     symbolic: Option<(&Recurrence, &Observation)>,

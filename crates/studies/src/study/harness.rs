@@ -16,9 +16,6 @@ pub struct Subject<'p> {
 
 impl<'p> Subject<'p> {
     /// The question on the window between two times.
-    ///
-    /// # Errors
-    /// As [`Problem::question`].
     pub fn between(self, from: f64, to: f64) -> Result<Question<'p>, ProblemError> {
         let window = [from, to].map(|time| Rational::from_float(time).unwrap_or_default());
         self.problem.question(self.quantity, window)
@@ -64,9 +61,6 @@ pub fn worst(errors: &[f64]) -> f64 {
 }
 
 /// The errors of a way at the times of a reference.
-///
-/// # Errors
-/// [`WayError`], where the question is none for this way.
 pub fn errors(
     question: &Question<'_>,
     method: Method,
@@ -93,9 +87,6 @@ fn from_scratch(
 /// Prepares a way, compares it with a reference, and takes its time there.
 ///
 /// Each preparation begins with a signal of which nothing is computed; the least of some counts.
-///
-/// # Errors
-/// [`ProblemError`], where the question is none for this way.
 pub fn measure(
     (subject, window): (Subject<'_>, [&Rational; 2]),
     (method, tolerance): (Method, Option<f64>),

@@ -89,9 +89,6 @@ pub fn errors_by_order(
 }
 
 /// A map from its rows, each for one value of the parameter, ascending.
-///
-/// # Errors
-/// [`PlotError`], where there are no rows.
 pub fn order_map(
     method: Method,
     parameter: &str,

@@ -96,7 +96,7 @@ pub(super) fn constant() -> Result<Checked, Refusal> {
     if !witness.is_certain() {
         return Err(Refusal::Agrees("the constant".to_owned(), "what is read".to_owned()));
     }
-    let head = Head::Written("constant^3".to_owned(), "\\mathrm{constant}^{3}".to_owned());
+    let head = Head::new("constant^3", "\\mathrm{constant}^{3}");
     let pi = Symbol::new("pi").expect("a name");
     let derived = Formula::new(head, &read("80000/(74529*pi^2)")?, &pi);
     let steps = vec![

@@ -30,7 +30,7 @@ pub(super) fn two_waves() -> Result<Checked, Refusal> {
     let at = at.map(|(name, value)| (name.to_owned(), ratio(value, 1))).collect();
     let witness = Witness { period: None, at, left: value(2), right: value(1) };
     let time = Symbol::new("t").expect("a name");
-    let head = Head::Written("u".to_owned(), "u".to_owned());
+    let head = Head::new("u", "u");
     let derived = vec![Formula::new(head, &proof.sum, &time)];
     let steps = vec![
         format!(
