@@ -2,12 +2,12 @@
 //! strains and lengths are in the scale of the scene.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::equations::{Network, Role};
+use crate::network::equations::Network;
 use crate::network::error::NetworkError;
 use crate::network::measures::unit;
 use crate::network::model::{ModelBar, bar_roots};
 use crate::network::observe::seen;
-use crate::recurrence::Observation;
+use crate::recurrence::{Observation, WaveIndex};
 use crate::scene::{ElementIndex, Kind, Measure};
 
 /// A wave as it enters a bar, its integral over time since the start, and the integral of that.
@@ -82,18 +82,16 @@ impl Network {
             _ => Extent::Finite,
         };
         let data = self.scaled.model.bars[&element].clone();
-        let right = self.entering(Role::Right(element), ends[0]);
-        let entering = [right, self.entering(Role::Left(element), ends[1])];
+        let waves = self.waves_of(place).map(|wave| wave.map(|(wave, lead)| (wave, -lead)));
+        let entering = waves.map(|wave| wave.map(|(wave, delay)| self.entering(wave, &delay)));
         Ok(FieldBar { element, extent, data, entering, units, reach })
     }
 
-    fn entering(&mut self, role: Role, node: Option<usize>) -> Option<Entering> {
-        let (wave, lead) = (self.wave(role)?, self.clocks.leads[node?].clone());
+    fn entering(&mut self, wave: WaveIndex, delay: &Fraction) -> Entering {
         let integral = self.integral(wave);
-        let waves = [wave, integral, self.integral(integral)];
-        Some(waves.map(|wave| Observation {
-            waves: vec![seen(wave, -&lead, &Fraction::one())],
+        [wave, integral, self.integral(integral)].map(|wave| Observation {
+            waves: vec![seen(wave, delay.clone(), &Fraction::one())],
             forcing: Expression::zero(),
-        }))
+        })
     }
 }

@@ -74,7 +74,7 @@ impl Network {
 
     /// The waves to the right and to the left in a bar, with how far the clocks of their nodes are ahead;
     /// none for what comes from the far side of an endless bar.
-    fn waves_of(&self, bar: usize) -> [Option<(WaveIndex, &Fraction)>; 2] {
+    pub(super) fn waves_of(&self, bar: usize) -> [Option<(WaveIndex, &Fraction)>; 2] {
         let (element, [left, right]) = (self.scaled.layout.bars[bar], self.scaled.layout.ends[bar]);
         let wave = |role, node: Option<usize>| Some((self.wave(role)?, &self.clocks.leads[node?]));
         [wave(Role::Right(element), left), wave(Role::Left(element), right)]

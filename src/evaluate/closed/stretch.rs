@@ -7,6 +7,7 @@ use crate::evaluate::error::EvaluateError;
 use crate::expression::Fraction;
 use crate::limits::MAX_ECHOES;
 use std::cmp::Ordering;
+use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 /// A part of a signal: a piece of a wave, or an echo.
@@ -27,7 +28,10 @@ pub(super) struct Stretch {
     pub(super) from: Fraction,
     /// Its end: the next arrival, or the end of the window.
     pub(super) to: Fraction,
-    pub(super) parts: Vec<Part>,
+    /// On a lattice those of all stretches, in the order in which they arrive; on a grid its own.
+    parts: Rc<[Part]>,
+    /// How many of them have arrived.
+    count: usize,
     /// Whether time has begun.
     pub(super) begun: bool,
 }
@@ -105,10 +109,14 @@ impl ClosedForm {
             return Err(EvaluateError::AfterLast);
         }
         let (before, after) = self.breaks(&from, &to)?;
-        let mut now = Stretch { from, to: to.clone(), parts: Vec::new(), begun: false };
-        before.into_iter().for_each(|found| self.arrive(&mut now, found));
+        let parts = match self.is_on_grid() {
+            true => Rc::default(),
+            false => before.iter().chain(&after).filter_map(part).collect(),
+        };
+        let mut now = Stretch { from, to: to.clone(), parts, count: 0, begun: false };
+        before.iter().for_each(|found| self.arrive(&mut now, found));
         let mut stretches = Vec::new();
-        for found in after {
+        for found in &after {
             if self.numbers.compare(&found.2, &now.from)? == Ordering::Greater {
                 stretches.push(Stretch { to: found.2.clone(), ..now.clone() });
                 now.from = found.2.clone();
@@ -120,16 +128,22 @@ impl ClosedForm {
     }
 
     /// What has arrived is seen from now on: on a grid in place of the piece before it.
-    fn arrive(&self, stretch: &mut Stretch, (seen, number, origin): Break) {
-        let Some(seen) = seen else {
+    fn arrive(&self, stretch: &mut Stretch, found: &Break) {
+        let Some(part) = part(found) else {
             stretch.begun = true;
             return;
         };
-        let part = Part { seen, number, origin };
-        match stretch.parts.iter_mut().find(|known| self.is_on_grid() && known.seen == seen) {
-            Some(known) => *known = part,
-            None => stretch.parts.push(part),
+        if !self.is_on_grid() {
+            stretch.count += 1;
+            return;
         }
+        let mut parts = stretch.parts.to_vec();
+        match parts.iter_mut().find(|known| known.seen == part.seen) {
+            Some(known) => *known = part,
+            None => parts.push(part),
+        }
+        stretch.count = parts.len();
+        stretch.parts = parts.into();
     }
 }
 
@@ -149,10 +163,20 @@ impl Stretch {
         self.has_no_waves() && !self.begun
     }
 
+    /// What has arrived.
+    pub(super) fn parts(&self) -> &[Part] {
+        &self.parts[..self.count]
+    }
+
     /// Whether no wave is seen on it.
     pub(super) fn has_no_waves(&self) -> bool {
-        self.parts.is_empty()
+        self.count == 0
     }
+}
+
+/// What is seen since an arrival; nothing of the start of time.
+fn part((seen, number, origin): &Break) -> Option<Part> {
+    Some(Part { seen: (*seen)?, number: *number, origin: origin.clone() })
 }
 
 /// Arrivals in order.

@@ -11,38 +11,29 @@ use crate::expression::{Field as _, Fraction, Transform};
 use crate::limits::MAX_PIECES;
 use crate::recurrence::ObservedWave;
 use std::collections::BTreeMap;
-use std::rc::Rc;
 use wavestep_polynomial::Rational;
 
 impl ClosedForm {
-    /// The function of a part, in the time since its origin.
-    fn function(
+    /// Calls `view` with the function of a part, a piece or on a lattice an echo, in the time since its
+    /// origin.
+    fn with_function<T>(
         &self,
-        part: &Part,
+        Part { seen, number, .. }: &Part,
         bits: u64,
-    ) -> Result<Rc<Transform<ComplexBall>>, EvaluateError> {
-        self.piece(part.seen, part.number, bits)
-    }
-
-    /// A piece, or on a lattice an echo, of one of the waves that are seen, in the time since it began.
-    pub(crate) fn piece(
-        &self,
-        seen: usize,
-        number: usize,
-        bits: u64,
-    ) -> Result<Rc<Transform<ComplexBall>>, EvaluateError> {
+        view: impl FnOnce(&Transform<ComplexBall>) -> Result<T, EvaluateError>,
+    ) -> Result<T, EvaluateError> {
         let solved = self.solved(bits)?;
-        let wave = self.observation.waves[seen].wave;
+        let wave = self.observation.waves[*seen].wave;
         match &mut *solved.borrow_mut() {
             Solved::Periods(periods) => {
-                if number > MAX_PIECES {
-                    let (echoes, limit) = (number as u128, MAX_PIECES);
+                if *number > MAX_PIECES {
+                    let (echoes, limit) = (*number as u128, MAX_PIECES);
                     return Err(EvaluateError::TooManyEchoes { echoes, limit });
                 }
-                periods.advance_to(number)?;
-                Ok(periods.piece(wave, number).clone())
+                periods.advance_to(*number)?;
+                view(periods.piece(wave, *number))
             }
-            Solved::Echoes(echoes) => Ok(Rc::new(echoes[wave][number].clone())),
+            Solved::Echoes(echoes) => view(&echoes[wave][*number]),
         }
     }
 
@@ -66,22 +57,23 @@ impl ClosedForm {
         };
         let waves = &self.observation.waves;
         let coefficients: Vec<_> = waves.iter().map(in_unit).collect::<Result<_, _>>()?;
-        for part in &stretch.parts {
+        for part in stretch.parts() {
             let (coefficient, slope) = (&coefficients[part.seen], waves[part.seen].slope);
-            let function = self.function(part, bits)?;
-            if function.is_zero() {
-                continue;
-            }
-            match derivative + usize::from(slope) {
-                0 => add(&function, &part.origin, coefficient)?,
-                times => {
-                    let mut slope = function.differentiated(&field)?;
-                    for _ in 1..times {
-                        slope = slope.differentiated(&field)?;
-                    }
-                    add(&slope, &part.origin, coefficient)?;
+            self.with_function(part, bits, |function| {
+                if function.is_zero() {
+                    return Ok(());
                 }
-            }
+                match derivative + usize::from(slope) {
+                    0 => add(function, &part.origin, coefficient),
+                    times => {
+                        let mut slope = function.differentiated(&field)?;
+                        for _ in 1..times {
+                            slope = slope.differentiated(&field)?;
+                        }
+                        add(&slope, &part.origin, coefficient)
+                    }
+                }
+            })?;
         }
         let forcing = &self.observation.forcing;
         if stretch.begun && !forcing.is_zero() {
@@ -169,18 +161,21 @@ impl ClosedForm {
         bits: u64,
     ) -> Result<Vec<Stretch>, EvaluateError> {
         let mut joined: Vec<Stretch> = Vec::new();
-        for stretch in stretches {
+        for mut stretch in stretches {
             let Some(last) = joined.last_mut() else {
                 joined.push(stretch);
                 continue;
             };
             // On a lattice parts are added to those that are there.
             let mut goes_on = !self.is_on_grid() && last.begun == stretch.begun;
-            for part in stretch.parts.iter().skip(last.parts.len()) {
-                goes_on = goes_on && self.function(part, bits)?.is_zero();
+            for part in stretch.parts().iter().skip(last.parts().len()) {
+                goes_on = goes_on && self.with_function(part, bits, |echo| Ok(echo.is_zero()))?;
             }
             match goes_on {
-                true => *last = Stretch { from: last.from.clone(), ..stretch },
+                true => {
+                    stretch.from = last.from.clone();
+                    *last = stretch;
+                }
                 false => joined.push(stretch),
             }
         }
