@@ -41,7 +41,7 @@ impl<'a> Writer<'a> {
         let statement = recurrence.statement();
         let stated = statement.equations.iter();
         let lags = forms.chain(stated).flat_map(|form| form.operators());
-        let most = lags.map(|(_, operator)| operator.value().len().max(operator.slope().len()));
+        let most = lags.map(|(_, operator)| operator.value.len().max(operator.slope.len()));
         let forced = |form: &LinearForm| form.forcing_terms().len();
         let loads = statement.equations.iter().map(forced).max().unwrap_or(0);
         let most = most.max().unwrap_or(0).max(loads) + 1;
@@ -67,10 +67,10 @@ impl<'a> Writer<'a> {
     fn terms(&self, form: &LinearForm) -> Vec<Term> {
         let mut terms = Vec::new();
         for slope in [true, false] {
-            let reach = form.operators().map(|(_, o)| o.value().len().max(o.slope().len()));
+            let reach = form.operators().map(|(_, o)| o.value.len().max(o.slope.len()));
             for lag in 0..reach.max().unwrap_or(0) {
                 for (wave, operator) in form.operators() {
-                    let row = if slope { operator.slope() } else { operator.value() };
+                    let row = if slope { &operator.slope } else { &operator.value };
                     let Some(factor) = row.get(lag).filter(|factor| !factor.is_zero()) else {
                         continue;
                     };

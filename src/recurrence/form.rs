@@ -16,9 +16,12 @@ use wavestep_polynomial::Symbol;
 /// - coefficients are free of time; trailing zeros are dropped.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Operator {
-    pub(crate) value: Vec<Expression>,
-    pub(crate) slope: Vec<Expression>,
-    pub(crate) sum: Vec<Expression>,
+    /// The coefficients of `w[n−j]`.
+    pub value: Vec<Expression>,
+    /// The coefficients of `w'[n−j]`.
+    pub slope: Vec<Expression>,
+    /// The coefficients of `Σ_{i<n−j} w[i]`.
+    pub sum: Vec<Expression>,
 }
 
 fn add_at(row: &mut Vec<Expression>, lag: usize, coefficient: &Expression) {
@@ -32,21 +35,6 @@ fn add_at(row: &mut Vec<Expression>, lag: usize, coefficient: &Expression) {
 }
 
 impl Operator {
-    /// The coefficients of `w[n−j]`.
-    pub fn value(&self) -> &[Expression] {
-        &self.value
-    }
-
-    /// The coefficients of `w'[n−j]`.
-    pub fn slope(&self) -> &[Expression] {
-        &self.slope
-    }
-
-    /// The coefficients of `Σ_{i<n−j} w[i]`.
-    pub fn sum(&self) -> &[Expression] {
-        &self.sum
-    }
-
     /// One more than the largest lag of a value or a slope.
     pub(crate) fn reach(&self) -> usize {
         self.value.len().max(self.slope.len())

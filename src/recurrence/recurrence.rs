@@ -144,7 +144,7 @@ fn check_forms(statement: &Statement) -> Result<(), InvalidRecurrence> {
     let timeless = |value: &Expression| !value.contains(time) && !value.contains(local);
     let well_formed = |form: &LinearForm| {
         let operators = form.operators().all(|(wave, operator)| {
-            let rows = [operator.value(), operator.slope(), operator.sum()];
+            let rows = [&operator.value, &operator.slope, &operator.sum];
             wave < waves.len() && rows.into_iter().flatten().all(timeless)
         });
         let forcing = form.forcing_terms().iter().all(|function| {
@@ -170,7 +170,7 @@ fn check_forms(statement: &Statement) -> Result<(), InvalidRecurrence> {
 /// The largest degree of a coefficient of a wave in a form.
 pub(crate) fn coefficient_degree(form: &LinearForm) -> u64 {
     let rows = form.operators().flat_map(|(_, operator)| {
-        [operator.value(), operator.slope(), operator.sum()].into_iter().flatten()
+        [&operator.value, &operator.slope, &operator.sum].into_iter().flatten()
     });
     rows.map(degree).max().unwrap_or(0)
 }

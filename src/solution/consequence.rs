@@ -45,8 +45,8 @@ impl Solution {
             let equation = step.equation.without_sums();
             let [own, law] = [&rest, &equation].map(|form| form.operator(step.wave));
             let (own, law) = match step.start {
-                Some(_) => (own.slope().to_vec(), law.slope().to_vec()),
-                None if own.slope().is_empty() => (own.value().to_vec(), law.value().to_vec()),
+                Some(_) => (own.slope, law.slope),
+                None if own.slope.is_empty() => (own.value, law.value),
                 None => return false,
             };
             if own.is_empty() {

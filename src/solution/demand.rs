@@ -69,7 +69,7 @@ fn named(form: &LinearForm, k: usize) -> impl Iterator<Item = (WaveIndex, usize)
             let at = |row: &[crate::expression::Expression]| {
                 row.get(*lag).is_some_and(|value| !value.is_zero())
             };
-            at(operator.value()) || at(operator.slope())
+            at(&operator.value) || at(&operator.slope)
         };
         (0..operator.reach().min(k + 1)).filter(holds).map(move |lag| (wave, k - lag))
     })

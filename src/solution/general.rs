@@ -101,7 +101,7 @@ fn sequence(step: &Step, form: &LinearForm, recurrence: &Recurrence) -> Option<G
     let one_minus_q = [Expression::one(), Expression::integer(-1)];
     let base = Generating {
         numerator: forcing.iter().map(|value| -value).collect(),
-        denominator: product(operator.value(), &one_minus_q),
+        denominator: product(&operator.value, &one_minus_q),
     };
     let constants = constant_forcing(form.forcing_terms(), time)?;
     let combined = base.combined(&multiplier(form, step.wave)?, &constants);

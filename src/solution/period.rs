@@ -172,7 +172,7 @@ impl<'a> PeriodByPeriod<'a> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n))?;
         for (other, operator) in form.operators() {
             let first = usize::from(other == wave);
-            let values = operator.value().iter().enumerate().take(n + 1).skip(first);
+            let values = operator.value.iter().enumerate().take(n + 1).skip(first);
             for (lag, value) in values.filter(|(_, value)| !value.is_zero()) {
                 let start = self.waves[other][n - lag].at_zero(&self.recurrence.statement().local);
                 sum.add_scaled(&start, value);
@@ -185,7 +185,7 @@ impl<'a> PeriodByPeriod<'a> {
     fn end_of_form(&mut self, form: &LinearForm, n: usize) -> Result<Expression, Unsolvable> {
         let mut sum = self.forcing_at(form, n, &self.arrival(n + 1))?;
         for (wave, operator) in form.operators() {
-            for (lag, value) in operator.value().iter().enumerate().take(n + 1) {
+            for (lag, value) in operator.value.iter().enumerate().take(n + 1) {
                 if value.is_zero() {
                     continue;
                 }

@@ -67,8 +67,8 @@ impl<V: Clone> FieldForm<V> {
         let mut terms = Vec::new();
         for (wave, operator) in form.operators() {
             for lag in usize::from(wave == own)..operator.reach() {
-                let value = coefficient(operator.value(), lag)?;
-                let slope = coefficient(operator.slope(), lag)?;
+                let value = coefficient(&operator.value, lag)?;
+                let slope = coefficient(&operator.slope, lag)?;
                 if value.is_some() || slope.is_some() {
                     terms.push(FieldTerm { wave, lag, value, slope });
                 }

@@ -311,8 +311,8 @@ fn source(step: &Step, time: &Symbol) -> Option<Vec<(Expression, Transform)>> {
         jumps = sum(&jumps, &row);
     }
     let operator = step.equation.operator(step.wave);
-    let numerator = product(operator.slope(), &jumps);
-    let constants = divide(&numerator, start.continuous.operator(step.wave).value())?;
+    let numerator = product(&operator.slope, &jumps);
+    let constants = divide(&numerator, &start.continuous.operator(step.wave).value)?;
     let forcing = step.equation.forcing_terms();
     let mut source = Vec::new();
     for lag in 0..constants.len().max(forcing.len()) {
@@ -342,5 +342,5 @@ fn divide(p: &[Expression], d: &[Expression]) -> Option<Vec<Expression>> {
 pub(crate) fn multiplier(form: &LinearForm, wave: WaveIndex) -> Option<Vec<Expression>> {
     let operator = form.operator(wave);
     let alone = form.operators().all(|(other, _)| other == wave);
-    (alone && operator.slope().is_empty()).then(|| operator.value().to_vec())
+    (alone && operator.slope.is_empty()).then_some(operator.value)
 }

@@ -108,22 +108,22 @@ impl Told<'_> {
 
     fn constants(&self) -> Result<Vec<Row>, Failure> {
         let bars = &self.contact.bars;
-        let exponent = bars.law().exponent();
+        let exponent = bars.law.exponent();
         let unit_of_law = match (self.problem.has_units(), exponent.is_integer()) {
             (true, true) if exponent.is_one() => "N/m".to_owned(),
             (true, true) => format!("N/m^{exponent}"),
             (true, false) => format!("N/m^({exponent})"),
             (false, _) => String::new(),
         };
-        let stiffness = self.row("stiffness", bars.stiffness(), Dimension::NONE);
-        let distance = distance_from_spring(bars.law(), PLACES)?;
+        let stiffness = self.row("stiffness", &bars.stiffness, Dimension::NONE);
+        let distance = distance_from_spring(&bars.law, PLACES)?;
         Ok(vec![
             Row { unit: unit_of_law, ..stiffness },
-            self.row("largest force", bars.largest_force(), Dimension::FORCE),
-            self.row("largest compression", bars.largest_compression(), Dimension::LENGTH),
+            self.row("largest force", &bars.largest_force, Dimension::FORCE),
+            self.row("largest compression", &bars.largest_compression, Dimension::LENGTH),
             Row {
                 key: "time_unit".to_owned(),
-                ..self.row("characteristic time", bars.time_unit(), Dimension::TIME)
+                ..self.row("characteristic time", &bars.time_unit, Dimension::TIME)
             },
             self.row("equivalent spring", &bars.stiffness_of_spring(), Dimension::STIFFNESS),
             Row {

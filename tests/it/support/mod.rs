@@ -41,17 +41,17 @@ fn form_on_period(
     let mut total = Expression::zero();
     for (wave, operator) in form.operators() {
         let piece = |lag: usize| n.checked_sub(lag).map(|m| &pieces[wave][m]);
-        for (lag, coefficient) in operator.value().iter().enumerate() {
+        for (lag, coefficient) in operator.value.iter().enumerate() {
             if let Some(piece) = piece(lag) {
                 total += &(piece * coefficient);
             }
         }
-        for (lag, coefficient) in operator.slope().iter().enumerate() {
+        for (lag, coefficient) in operator.slope.iter().enumerate() {
             if let Some(piece) = piece(lag) {
                 total += &(&piece.derivative(&statement.local) * coefficient);
             }
         }
-        for (lag, coefficient) in operator.sum().iter().enumerate() {
+        for (lag, coefficient) in operator.sum.iter().enumerate() {
             for earlier in &pieces[wave][..n.saturating_sub(lag)] {
                 total += &(earlier * coefficient);
             }

@@ -52,10 +52,10 @@ impl Stage {
         };
         let mut form = LinearForm::forcing(difference.rest.as_constant()?);
         for (wave, operator) in difference.waves.operators() {
-            if !operator.sum().is_empty() {
+            if !operator.sum.is_empty() {
                 return None;
             }
-            let rows = [(operator.value(), false), (operator.slope(), true)];
+            let rows = [(&operator.value, false), (&operator.slope, true)];
             for (row, slope) in rows {
                 for (lag, factor) in row.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
                     let lag = lag.checked_sub(AHEAD).filter(|lag| *lag <= 1)?;
@@ -95,7 +95,7 @@ impl Stage {
     /// A relation between waves: its first periods one by one, then every n at once.
     fn relation(&self, form: &LinearForm, sides: [&Meaning; 2]) -> Result<Finding, Refusal> {
         // A wave from many periods ago is zero on the first ones.
-        let reach = form.operators().map(|(_, o)| o.value().len().max(o.slope().len()));
+        let reach = form.operators().map(|(_, o)| o.value.len().max(o.slope.len()));
         let last = LAST + reach.max().unwrap_or(0).saturating_sub(AHEAD + 1);
         for n in 0..=last {
             if !self.on_period(form, n)?.is_zero() {
@@ -129,7 +129,7 @@ impl Stage {
             }
         }
         // With sums over earlier periods it is R[n] − R[n−1] that is compared; R[0] has been.
-        let sums = |(_, o): (_, &wavestep::recurrence::Operator)| !o.sum().is_empty();
+        let sums = |(_, o): (_, &wavestep::recurrence::Operator)| !o.sum.is_empty();
         let mut rest = Some(difference.rest.clone());
         if difference.waves.operators().any(sums) {
             let late = difference.rest.delayed(|ratio| inverse(ratio).ok());
@@ -151,10 +151,10 @@ impl Stage {
             let Ok(GeneralForm::Geometric(sequence)) = self.solution().general(wave) else {
                 return Ok(None);
             };
-            if !operator.slope().is_empty() || !operator.sum().is_empty() {
+            if !operator.slope.is_empty() || !operator.sum.is_empty() {
                 return Ok(None);
             }
-            for (lag, factor) in operator.value().iter().enumerate() {
+            for (lag, factor) in operator.value.iter().enumerate() {
                 if factor.is_zero() {
                     continue;
                 }
@@ -189,7 +189,7 @@ impl Stage {
         let start = start.as_expression()?;
         let lead = |form: &LinearForm| {
             let (_, operator) = form.operators().next()?;
-            operator.value().iter().find(|value| !value.is_zero()).cloned()
+            operator.value.iter().find(|value| !value.is_zero()).cloned()
         };
         let own = lead(&form.waves).ok_or(Refusal::DependsOnPeriod)?;
         for step in self.solution().recurrence().steps() {

@@ -153,9 +153,9 @@ impl Stage {
     pub(super) fn wave_of(&self, quantity: &Quantity) -> Option<(WaveIndex, Expression)> {
         let mut operators = quantity.form.operators();
         let (wave, operator) = operators.next()?;
-        let alone = operators.next().is_none() && operator.slope().is_empty();
-        let unit = operator.value().get(AHEAD)?;
-        let here = operator.value().iter().filter(|value| !value.is_zero()).count() == 1;
+        let alone = operators.next().is_none() && operator.slope.is_empty();
+        let unit = operator.value.get(AHEAD)?;
+        let here = operator.value.iter().filter(|value| !value.is_zero()).count() == 1;
         (alone && here).then(|| (wave, unit.clone()))
     }
 
@@ -193,7 +193,7 @@ impl Stage {
     /// The derivative of a form by the scene's time.
     pub(super) fn slope(&self, form: &LinearForm) -> Result<LinearForm, Refusal> {
         let plain = |(_, operator): (WaveIndex, &wavestep::recurrence::Operator)| {
-            operator.slope().is_empty() && operator.sum().is_empty()
+            operator.slope.is_empty() && operator.sum.is_empty()
         };
         match form.operators().all(plain) {
             true => Ok(form.derivative(&self.solution.recurrence().statement().time)),
@@ -222,18 +222,18 @@ impl Stage {
         let n = n + AHEAD;
         let mut value = Expression::zero();
         for (wave, operator) in form.operators() {
-            for (lag, factor) in operator.value().iter().enumerate().take(n + 1) {
+            for (lag, factor) in operator.value.iter().enumerate().take(n + 1) {
                 if !factor.is_zero() {
                     value += &(factor * &self.piece(wave, n - lag)?);
                 }
             }
-            for (lag, factor) in operator.slope().iter().enumerate().take(n + 1) {
+            for (lag, factor) in operator.slope.iter().enumerate().take(n + 1) {
                 if !factor.is_zero() {
                     let slope = self.piece(wave, n - lag)?.derivative(&statement.local);
                     value += &(factor * &slope);
                 }
             }
-            for (lag, factor) in operator.sum().iter().enumerate().take(n + 1) {
+            for (lag, factor) in operator.sum.iter().enumerate().take(n + 1) {
                 for earlier in 0..n - lag {
                     value += &(factor * &self.piece(wave, earlier)?);
                 }

@@ -17,11 +17,15 @@ use wavestep_polynomial::Rational;
 /// All enclosures are of positive numbers.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct LongBars {
-    law: PowerLaw,
-    largest_force: Ball,
-    largest_compression: Ball,
-    stiffness: Ball,
-    time_unit: Ball,
+    pub law: PowerLaw,
+    /// `X_max` (6.52).
+    pub largest_force: Ball,
+    /// `α_max`, where the contact carries `X_max`.
+    pub largest_compression: Ball,
+    /// `k = F₀/α₀^m` of `X = k α^m` (6.49), in units of force by the m-th power of those of length.
+    pub stiffness: Ball,
+    /// `t/t̄ = α_max/V`.
+    pub time_unit: Ball,
     precision: u64,
 }
 
@@ -55,30 +59,6 @@ impl LongBars {
         let stiffness = compression.power(&-law.exponent(), precision)?.multiply(&force, precision);
         let time_unit = largest_compression.multiply(&velocity.reciprocal(precision)?, precision);
         Ok(LongBars { law, largest_force, largest_compression, stiffness, time_unit, precision })
-    }
-
-    /// `X_max` (6.52).
-    pub fn largest_force(&self) -> &Ball {
-        &self.largest_force
-    }
-
-    /// `α_max`, where the contact carries `X_max`.
-    pub fn largest_compression(&self) -> &Ball {
-        &self.largest_compression
-    }
-
-    /// `k = F₀/α₀^m` of `X = k α^m` (6.49), in units of force by the m-th power of those of length.
-    pub fn stiffness(&self) -> &Ball {
-        &self.stiffness
-    }
-
-    pub fn law(&self) -> &PowerLaw {
-        &self.law
-    }
-
-    /// `t/t̄ = α_max/V`.
-    pub fn time_unit(&self) -> &Ball {
-        &self.time_unit
     }
 
     /// The time at which the force has a share of the largest one.

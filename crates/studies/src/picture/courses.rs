@@ -31,7 +31,7 @@ pub fn usual_end(problem: &Problem, from: &Rational) -> Result<Rational, Picture
             let contact = contact.map_err(|_| ProblemError::NoEnd)?;
             let seconds = |ball: &Ball| nearest(&ball.to_decimal(15).midpoint().to_rational());
             let returned = contact.first_return.as_ref().map_or(0.0, |time| 2.0 * seconds(time));
-            two_figures((seconds(contact.bars.time_unit()) * UNITS).max(returned))?
+            two_figures((seconds(&contact.bars.time_unit) * UNITS).max(returned))?
         }
     };
     Ok(from + length)

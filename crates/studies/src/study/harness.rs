@@ -118,12 +118,11 @@ pub fn measure(
             break;
         }
     }
-    let scale = if reference.scale() == 0.0 { 1.0 } else { reference.scale() };
     let half_ulp = f64::EPSILON / 2.0;
     Ok(Measured {
         method,
         error: worst(&reference.errors(&values)),
-        bound: way.bound().map(|bound| bound / scale + half_ulp),
+        bound: way.bound().map(|bound| bound / reference.unit() + half_ulp),
         preparation: first.saturating_sub(least).as_secs_f64(),
         seconds: least.as_secs_f64() / reference.times().len().max(1) as f64,
     })

@@ -72,7 +72,7 @@ pub fn errors_by_order(
                 .and_then(|question| Ok(Way::new(*method, &question, None)?.values(known_times)?));
             match values {
                 Ok(values) => {
-                    let errors = reference.first_errors(&values);
+                    let errors = reference.errors(&values);
                     let worst = errors.chunks(2 * TIMES).map(|errors| Some(worst(errors)));
                     let mut errors: Vec<Option<f64>> = worst.collect();
                     errors.resize(orders.len(), None);

@@ -15,9 +15,7 @@ const FINENESS: f64 = 1.0 / (1_u128 << 100) as f64;
 /// How times are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sampling {
-    /// How many.
     pub points: usize,
-    /// The seed.
     pub seed: u64,
 }
 
@@ -83,7 +81,6 @@ impl Reference {
         Ok(Reference { times: times.to_vec(), values, scale: scale.max(largest), radius })
     }
 
-    /// The times.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
@@ -93,31 +90,27 @@ impl Reference {
         self.scale
     }
 
+    /// What errors are told in parts of: the largest value, or 1 where all are zero.
+    pub(crate) fn unit(&self) -> f64 {
+        if self.scale == 0.0 { 1.0 } else { self.scale }
+    }
+
     /// The absolute values in parts of the largest.
     pub(crate) fn sizes(&self) -> Vec<f64> {
-        let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
-        self.values.iter().map(|(high, _)| high.abs() / scale).collect()
+        self.values.iter().map(|(high, _)| high.abs() / self.unit()).collect()
     }
 
     /// How far off values can be, in parts of the largest.
     pub fn radius(&self) -> f64 {
-        match self.scale {
-            0.0 => self.radius,
-            scale => self.radius / scale,
-        }
+        self.radius / self.unit()
     }
 
-    /// `|computed − reference|` in parts of the largest value; infinite for what is no number.
+    /// `|computed − reference|` in parts of the largest value, at all times or the first ones; infinite
+    /// for what is no number.
     pub fn errors(&self, computed: &[f64]) -> Vec<f64> {
-        assert_eq!(computed.len(), self.values.len(), "one value a time");
-        self.first_errors(computed)
-    }
-
-    /// The same for the first times alone.
-    pub(crate) fn first_errors(&self, computed: &[f64]) -> Vec<f64> {
-        let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
+        assert!(computed.len() <= self.values.len(), "one value a time");
         let error = |(value, (high, low)): (&f64, &(f64, f64))| match value.is_finite() {
-            true => ((value - high) - low).abs() / scale,
+            true => ((value - high) - low).abs() / self.unit(),
             false => f64::INFINITY,
         };
         computed.iter().zip(&self.values).map(error).collect()

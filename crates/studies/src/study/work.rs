@@ -51,7 +51,6 @@ pub const LADDER: [Step; 33] = [
 /// What came of one step.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The step.
     pub step: Step,
     /// What was measured, or why the way refused.
     pub result: Result<Measured, ProblemError>,
@@ -120,11 +119,8 @@ pub fn work_precision(
 ) -> Result<(WorkPrecision, Table), PlotError> {
     let mut methods: Vec<wavestep_draw::Method> = Vec::new();
     let mut rows = Vec::new();
-    let slowest = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
-    let slowest = slowest
-        .filter(|measured| matches!(measured.method, Method::Certified))
-        .map(|measured| measured.seconds)
-        .next();
+    let mut measured = outcomes.iter().filter_map(|outcome| outcome.result.as_ref().ok());
+    let certified = measured.find(|measured| measured.method == Method::Certified);
     caption.remarks.push(format!(
         "Markers: seconds a point once all is prepared. Rings: with the preparation, spread over {} points.",
         reference.times().len()
@@ -154,7 +150,7 @@ pub fn work_precision(
             (true, true) => prepared,
             (false, true) => format!("{setting}, {prepared}"),
         };
-        let speed_up = slowest.map(|slowest| slowest / seconds);
+        let speed_up = certified.map(|certified| certified.seconds / seconds);
         rows.push(Row { method: line, setting, error, bound, seconds, speed_up });
     }
     let chart =

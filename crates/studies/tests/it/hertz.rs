@@ -198,7 +198,7 @@ fn the_constant_of_equal_bars_follows_from_the_general_case() {
         ball(&velocity),
         200,
     );
-    let unit = bars.unwrap().time_unit().reciprocal(200).unwrap();
+    let unit = bars.unwrap().time_unit.reciprocal(200).unwrap();
     let expected = constant.multiply(&ball(&velocity).power(&ratio(1, 3), 200).unwrap(), 200);
     assert!(agree(&unit, &expected, 100), "{unit} {expected}");
     assert!(!constant.contains(&ratio(478, 1000)));
