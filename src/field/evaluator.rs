@@ -13,7 +13,7 @@
 //! of `F(t − a)` follows in the same way from `∫F dt`.
 
 use super::fields::{BarFields, Bounded, Fields};
-use super::wave::{Drawn, Entering, Heading, Instant, Order};
+use super::wave::{Drawn, Entering, Heading, Instant, Levels, Order, levels};
 use super::{FIRST_BITS, FieldError, MAX_BITS, Mesh, Sampling};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
@@ -21,7 +21,7 @@ use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar, Network};
 use crate::scene::Kind;
-use crate::signal::{self, EnteringWave};
+use crate::signal;
 use std::cell::OnceCell;
 use wavestep_polynomial::Rational;
 
@@ -36,7 +36,7 @@ pub struct FieldEvaluator<'a> {
     network: &'a Network,
     pub(super) bars: &'a [FieldBar],
     /// Of each bar the waves to the right and to the left; none for what comes from afar.
-    pub(super) waves: Vec<[Option<EnteringWave<'a>>; 2]>,
+    pub(super) waves: Vec<[Option<Levels<'a>>; 2]>,
     pub(super) drawn: OnceCell<Vec<[Option<Drawn>; 2]>>,
     pub(super) numbers: Numbers,
     last: Rational,
@@ -74,8 +74,9 @@ impl<'a> FieldEvaluator<'a> {
         if *last < Rational::default() {
             return Err(FieldError::Negative(last.clone()));
         }
+        let waves = signal::entering_waves(network, last)?.into_iter();
         Ok(FieldEvaluator {
-            waves: signal::entering_waves(network, last)?,
+            waves: waves.map(|pair| pair.map(|wave| wave.map(levels))).collect(),
             bars: &network.field_bars()?.bars,
             network,
             drawn: OnceCell::new(),

@@ -9,19 +9,23 @@
 //!
 //! which are what is added to the state at the start, zero before it.
 //!
-//! Pictures look at fronts from both sides. Of an instant that is only enclosed a number stands for it,
-//! which all waves share, so that fronts that meet are drawn at one place.
+//! Pictures show both sides of a front. Where the instant of an event is only enclosed, one number stands
+//! for it in all waves, so that fronts that meet are drawn at one place.
 
 use super::{FIRST_BITS, FieldError, FieldEvaluator};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
-use crate::evaluate::{At, EvaluateError, Limit, Signal, last_begun};
+use crate::evaluate::{At, EvaluateError, Limit, Signal, has_begun, last_begun};
 use crate::expression::Fraction;
 use crate::limits::MAX_HISTORY_BITS;
 use crate::signal::EnteringWave;
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// How narrow enclosures of instants are for which numbers stand, in bits.
+/// The precision with which times are compared first.
+const COARSE_BITS: u64 = 64;
+
+/// How narrow the enclosure of an event is before a number stands for it, in bits.
 const STAND_IN_BITS: i64 = 100;
 
 /// A jump that is known to be smaller than this is none.
@@ -66,7 +70,17 @@ pub(super) struct Instant<'a> {
     pub is_drawn: bool,
 }
 
-/// Numbers for the instants at which a wave changes.
+/// A signal with enclosures of when its stretches begin, in the scale of the scene, by which the stretch
+/// of most times is found.
+pub(super) struct Level<'a> {
+    signal: Box<dyn Signal + 'a>,
+    starts: OnceCell<Vec<Ball>>,
+}
+
+/// A wave, its integral, and the integral of that.
+pub(super) type Levels<'a> = [Level<'a>; 3];
+
+/// When a wave changes, in numbers: exact instants, or the middles of their enclosures.
 pub(super) struct Drawn {
     /// When the stretches of the wave and of its integral begin.
     starts: [Vec<Fraction>; 2],
@@ -76,6 +90,11 @@ pub(super) struct Drawn {
 
 /// When events without an exact instant are, in the scale of the scene.
 type Events = BTreeMap<(u64, usize), Ball>;
+
+/// The signals of a wave.
+pub(super) fn levels(wave: EnteringWave<'_>) -> Levels<'_> {
+    wave.map(|signal| Level { signal, starts: OnceCell::new() })
+}
 
 impl FieldEvaluator<'_> {
     /// An enclosure of a wave, its slope or its integral, in the scale of the scene.
@@ -95,27 +114,53 @@ impl FieldEvaluator<'_> {
             Order::Integral => (1, 0),
             Order::DoubleIntegral => (2, 0),
         };
-        let begun = self.numbers.compare(at, &Fraction::zero())?;
-        if begun == Ordering::Less
-            || (begun == Ordering::Equal && (level > 0 || side == Limit::Left))
-        {
-            return Ok(Ball::zero());
-        }
-        let signal = &*levels[level];
+        let signal = &*levels[level].signal;
         let drawn = if is_drawn { self.drawn()?[wave.bar][place].as_ref() } else { None };
         let stretch = match drawn.and_then(|drawn| drawn.starts.get(level)) {
             Some(starts) => {
                 last_begun(starts.len(), side, |i| self.numbers.compare(&starts[i], at))?
             }
-            None => last_begun(signal.count()?, side, |stretch| {
-                let order = signal.begins(stretch, at);
-                order.map_err(|error| self.undecided(signal, stretch, error))
-            })?,
+            None => self.stretch_at(&levels[level], at, side)?,
         };
+        if stretch == 0 {
+            let begun = self.numbers.compare(at, &Fraction::zero())?;
+            let side = if level > 0 { Limit::Left } else { side };
+            if !has_begun(begun.reverse(), side) {
+                return Ok(Ball::zero());
+            }
+        }
         let value = signal.enclose(stretch, derivative, At::Scaled(at), bits)?;
         Ok(match order {
             Order::Slope => value.multiply(&self.time_unit(bits)?, bits),
             _ => value,
+        })
+    }
+
+    /// The stretch of a time from the start on.
+    fn stretch_at(
+        &self,
+        level: &Level<'_>,
+        at: &Fraction,
+        side: Limit,
+    ) -> Result<usize, FieldError> {
+        let signal = &*level.signal;
+        let starts = match level.starts.get() {
+            Some(starts) => starts,
+            None => {
+                let starts = 0..signal.count()?;
+                let starts = starts.map(|stretch| self.start(signal, stretch, COARSE_BITS));
+                let starts = starts.collect::<Result<_, _>>()?;
+                level.starts.get_or_init(|| starts)
+            }
+        };
+        let near = self.numbers.enclose(at, COARSE_BITS)?;
+        last_begun(starts.len(), side, |stretch| {
+            match starts[stretch].subtract(&near, COARSE_BITS).sign() {
+                Some(order) => Ok(order),
+                None => signal
+                    .begins(stretch, at)
+                    .map_err(|error| self.undecided(signal, stretch, error)),
+            }
         })
     }
 
@@ -168,7 +213,7 @@ impl FieldEvaluator<'_> {
             let mut events = Events::new();
             let mut drawn = Vec::with_capacity(self.waves.len());
             for [right, left] in &self.waves {
-                let mut of = |levels: &Option<EnteringWave<'_>>| {
+                let mut of = |levels: &Option<Levels<'_>>| {
                     levels
                         .as_ref()
                         .map(|levels| self.drawn_of(levels, &mut events, bits))
@@ -186,7 +231,7 @@ impl FieldEvaluator<'_> {
 
     fn drawn_of(
         &self,
-        [wave, integral, _]: &EnteringWave<'_>,
+        [wave, integral, _]: &Levels<'_>,
         events: &mut Events,
         bits: u64,
     ) -> Result<Drawn, FieldError> {
@@ -196,10 +241,11 @@ impl FieldEvaluator<'_> {
             let _ = signal.time(0, Limit::Right, bits)?;
             (0..count).map(|stretch| self.stand_in(signal, stretch, events, bits)).collect()
         };
-        let starts = [starts(&**wave)?, starts(&**integral)?];
+        let wave = &*wave.signal;
+        let starts = [starts(wave)?, starts(&*integral.signal)?];
         let mut fronts = Vec::new();
         for (stretch, start) in starts[0].iter().enumerate() {
-            if self.is_front(&**wave, stretch, bits)? {
+            if self.is_front(wave, stretch, bits)? {
                 fronts.push(start.clone());
             }
         }
@@ -247,6 +293,7 @@ impl FieldEvaluator<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evaluate::digits;
     use crate::language::{Source, parse_number, read_scene};
     use crate::network::Network;
     use wavestep_polynomial::Rational;
@@ -319,6 +366,13 @@ mod tests {
                         "{name} {pair:?} from {from}: {rule} {gain}"
                     );
                 }
+            }
+            let levels = fields.waves[ROD.bar][ROD.heading as usize].as_ref().unwrap();
+            let orders = [Order::Value, Order::Integral, Order::DoubleIntegral];
+            for (level, order) in levels.iter().zip(orders) {
+                let digits =
+                    digits(&*level.signal, &number("2.1"), Limit::Right, 15, 1 << 12).unwrap();
+                assert!((digits.to_f64() - value(order, 2100)).abs() < 1e-14, "{name} {order:?}");
             }
             assert_eq!(value(Order::Value, -10), 0.0);
             assert_eq!(value(Order::DoubleIntegral, 0), 0.0);
