@@ -150,6 +150,16 @@ impl Magnitude {
         Self::round_up(quotient, shifted(self.exponent, -95))
     }
 
+    /// An upper bound of the square root.
+    pub fn square_root(&self) -> Self {
+        // An even exponent, and a mantissa of 63 or 64 bits.
+        let odd = self.exponent & 1;
+        let wide = self.mantissa << (i64::from(BITS) - odd);
+        let root = wide.isqrt();
+        let root = root + u64::from(root * root < wide);
+        Self::round_up(root.into(), (self.exponent + odd - i64::from(BITS)) / 2)
+    }
+
     /// `self·2^exponent`, exactly.
     pub fn scale(&self, exponent: i64) -> Self {
         if self.is_zero() {
@@ -229,6 +239,10 @@ mod tests {
             assert_tight(&a.multiply(&b), &(&x * &y));
             assert_tight(&a.divide(n), &(&x / BigInt::from(n)));
             prop_assert_eq!(a.cmp(&b), x.cmp(&y));
+            let root = exact(&a.square_root());
+            assert_tight(&a.square_root().multiply(&a.square_root()), &(&root * &root));
+            prop_assert!(&root * &root >= x);
+            prop_assert!(&root * &root <= &x * (BigRational::one() + BigRational::new(BigInt::one(), BigInt::one() << 28)));
             prop_assert_eq!(BigRational::from(&a.to_binary()), x);
         }
 

@@ -86,6 +86,16 @@ impl Number {
         }
     }
 
+    /// A number without radius near it, and how far it is from that at most. Zero stays exact.
+    pub fn split(&self, bits: u64) -> (Number, Magnitude) {
+        if self.is_zero() {
+            return (Number::zero(), Magnitude::ZERO);
+        }
+        let ball = self.ball(bits);
+        let middle = Ball::new(ball.midpoint().clone(), Magnitude::ZERO);
+        (Number::Enclosed(middle), *ball.radius())
+    }
+
     /// How it compares with zero; `None` where its enclosure does not tell.
     pub fn sign(&self) -> Option<Ordering> {
         match self {

@@ -5,12 +5,13 @@
 //! refused by name.
 
 use crate::ball::Number;
-use crate::history::crossing::{Beginning, Course, beginning, follow};
+use crate::history::crossing::{Beginning, Course, Errors, beginning, follow};
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, Question};
 use crate::history::moment::Moment;
 use crate::history::motion::Motion;
-use crate::history::series::Series;
+use crate::history::passivity::Passivity;
+use crate::history::series::{CellNorm, Series, Truncation};
 use crate::limits::MAX_EVENTS;
 use crate::network::System;
 use std::cmp::Ordering;
@@ -48,6 +49,67 @@ pub(crate) struct Contact {
     pub pressed: bool,
 }
 
+/// What keeps a contact as it is on a cell while it is not negative: its force while it is closed, its gap
+/// while it is open.
+pub(crate) struct Guard {
+    /// How fast the bodies move apart, where it is open.
+    apart: Option<Series>,
+    series: Series,
+    /// Enclosures of its first coefficients.
+    starts: Vec<Number>,
+}
+
+impl Guard {
+    /// Whether there is no force.
+    pub fn has_no_force(&self) -> bool {
+        !self.is_closed() || self.series.is_zero()
+    }
+
+    /// The gap after a time, zero where the contact is closed.
+    pub fn gap_after(&self, time: &Number, bits: u64) -> Number {
+        match &self.apart {
+            None => Number::zero(),
+            Some(apart) => apart.integrated(&self.series, time, bits),
+        }
+    }
+
+    fn is_closed(&self) -> bool {
+        self.apart.is_none()
+    }
+
+    pub fn into_force_and_gap(self) -> (Series, Series) {
+        match self.is_closed() {
+            true => (self.series, Series::zero()),
+            false => (Series::zero(), self.series),
+        }
+    }
+
+    /// It over the power `x^j` that it begins with, and the errors of that.
+    ///
+    /// The error `e` of the function itself has `j` zeros at the start, with what its polynomial has there.
+    /// The derivatives of a gap are those of how fast the bodies move apart, of one order less.
+    fn skipped(&self, norm: &CellNorm, cut: &Truncation) -> (Series, Errors) {
+        let skipped = self.starts.iter().take_while(|c| c.is_zero()).count();
+        let (known, lifts) = match &self.apart {
+            None => (&self.series, 0),
+            Some(apart) => (apart, 1),
+        };
+        let low = (0..skipped.saturating_sub(lifts)).map(|k| known.coefficient(k).magnitude());
+        let error = known.rest.add(&norm.of_sizes(&low.collect::<Vec<_>>()));
+        let bound = |order: usize| match order.checked_sub(lifts) {
+            None => error.multiply(&norm.length),
+            Some(order) => error.scale(cut.rate * order as i64),
+        };
+        let errors = Errors::new(skipped, bound);
+        let kept = self.series.coefficients.iter().skip(skipped).cloned().collect();
+        (Series::new(kept, self.series.rest), errors)
+    }
+
+    fn quantity(&self) -> &'static str {
+        if self.is_closed() { "the force" } else { "the gap" }
+    }
+}
+
 type Outcome<T> = Result<T, HistoryError>;
 
 impl Engine {
@@ -56,42 +118,42 @@ impl Engine {
         format!("between {left} and {right}")
     }
 
-    /// Forces and gaps of the contacts of a node on a cell.
-    pub fn contact_series(&self, node: usize, motion: &Motion) -> (Vec<Series>, Vec<Series>) {
-        let (mut forces, mut gaps) = (Vec::new(), Vec::new());
-        for (contact, run) in self.nodes[node].contacts() {
+    /// The guards of the contacts of a node on a cell.
+    pub fn guards(&self, node: usize, motion: &Motion, norm: &CellNorm) -> Vec<Guard> {
+        let (bits, runs) = (self.cut.bits, self.nodes[node].runs());
+        let guard = |(contact, run): (usize, usize)| {
             let closed = self.states[node].system.closed.iter().position(|own| own.0 == contact);
-            let Some(row) = closed else {
-                let apart =
-                    motion.velocities[run + 1].subtract(&motion.velocities[run], self.cut.bits);
-                let own = &self.open[contact];
-                let mut gap = apart.integral(own.gap.clone(), &self.cut);
-                if own.rests && gap.coefficients.len() > 1 {
-                    gap.coefficients[1] = Number::zero();
-                }
-                forces.push(Series::zero());
-                gaps.push(gap);
-                continue;
-            };
-            forces.push(motion.forces[row].clone());
-            gaps.push(Series::zero());
-        }
-        (forces, gaps)
+            if let Some(row) = closed {
+                let (series, starts) = (&motion.forces[row], &motion.starts[runs + row]);
+                return Guard { apart: None, series: series.clone(), starts: starts.clone() };
+            }
+            let own = &self.open[contact];
+            let apart = motion.velocities[run + 1].subtract(&motion.velocities[run], bits);
+            let series = apart.integral_over(own.gap.clone(), &norm.length, &self.cut);
+            let mut starts = vec![own.gap.clone()];
+            let [left, right] = [run, run + 1].map(|run| &motion.starts[run]);
+            for (k, (left, right)) in (1..).zip(left.iter().zip(right)) {
+                starts.push(right.subtract(left, bits).over(k, bits));
+            }
+            if own.rests {
+                starts[1] = Number::zero();
+            }
+            Guard { apart: Some(apart), series, starts }
+        };
+        self.nodes[node].contacts().map(guard).collect()
     }
 
     /// Which contacts of a node change at once: those that would pull, and those whose gap would become
     /// negative.
-    pub fn changes(&self, node: usize, forces: &[Series], gaps: &[Series]) -> Outcome<Vec<usize>> {
+    pub fn changes(&self, node: usize, guards: &[Guard]) -> Outcome<Vec<usize>> {
         let mut changes = Vec::new();
-        for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
-            let closed = self.open[contact].closed;
-            let series = if closed { &forces[place] } else { &gaps[place] };
-            match beginning(series) {
+        for (guard, (contact, _)) in guards.iter().zip(self.nodes[node].contacts()) {
+            match beginning(&guard.series, &guard.starts) {
                 Beginning::Positive | Beginning::Zero => {}
                 Beginning::Negative => changes.push(contact),
                 Beginning::Undecided => {
-                    let quantity = if closed { "the force" } else { "the gap" };
-                    let what = Question::Sign { quantity, place: self.between(contact) };
+                    let (quantity, place) = (guard.quantity(), self.between(contact));
+                    let what = Question::Sign { quantity, place };
                     return self.undecided(what, &self.states[node].now, None);
                 }
             }
@@ -104,23 +166,23 @@ impl Engine {
     pub fn first_change(
         &self,
         node: usize,
-        [forces, gaps]: [&[Series]; 2],
+        guards: &[Guard],
         length: &Number,
+        norm: &CellNorm,
     ) -> Outcome<Option<(usize, Number)>> {
         let now = &self.states[node].now;
         let mut first: Option<(usize, Number)> = None;
-        for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
-            let closed = self.open[contact].closed;
-            let series = if closed { &forces[place] } else { &gaps[place] };
-            if series.is_zero() {
+        for (guard, (contact, _)) in guards.iter().zip(self.nodes[node].contacts()) {
+            if guard.series.is_zero() {
                 continue;
             }
-            let quantity = if closed { "the force" } else { "the gap" };
-            let at = match follow(series, length, &self.cut) {
+            let (quantity, place) = (guard.quantity(), self.between(contact));
+            let (series, errors) = guard.skipped(norm, &self.cut);
+            let at = match follow(&series, &errors, length, &self.cut) {
                 Course::Positive => continue,
                 Course::Falls(at) => at,
                 Course::Undecided(at) => {
-                    let what = Question::Zero { quantity, place: self.between(contact) };
+                    let what = Question::Zero { quantity, place };
                     return self.undecided(what, now, Some(&at));
                 }
             };
@@ -128,7 +190,6 @@ impl Engine {
                 Some(Ordering::Less) => {}
                 Some(_) => continue,
                 None => {
-                    let place = self.between(contact);
                     let what = Question::ZeroBeforeArrival { quantity, place };
                     return self.undecided(what, now, Some(&at.ball(self.cut.bits)));
                 }
@@ -182,17 +243,20 @@ impl Engine {
             let run = self.layout.contacts[*contact].run;
             let inert = system.has_inertia(run) && system.has_inertia(run + 1);
             let own = &mut self.open[*contact];
-            own.rests = !own.closed && (inert || cause == Cause::Crossing && !loosened);
+            // The end of a spring that comes loose leaves with a velocity of its own.
+            own.rests = !own.closed && !loosened && (inert || cause == Cause::Crossing);
         }
+        let passivity = Passivity::of(&self.nodes[node], &system)?;
         let state = &mut self.states[node];
-        (state.system, state.state) = (system, next);
+        state.errors = passivity.errors(&next);
+        (state.system, state.passivity, state.state) = (system, passivity, next);
         Ok(())
     }
 
     /// Contacts that press from the start close then.
-    pub fn tell_impacts(&mut self, node: usize, forces: &[Series]) {
-        for (place, (contact, _)) in self.nodes[node].contacts().enumerate() {
-            if self.open[contact].closed && !forces[place].is_zero() {
+    pub fn tell_impacts(&mut self, node: usize, guards: &[Guard]) {
+        for (guard, (contact, _)) in guards.iter().zip(self.nodes[node].contacts()) {
+            if !guard.has_no_force() {
                 let moment = self.states[node].now.clone();
                 let forced = moment.clone();
                 self.happenings.push(Happening {

@@ -24,15 +24,48 @@ pub(crate) enum Beginning {
     Undecided,
 }
 
-/// The sign on some time after the start of the cell, by the first coefficient that is not zero.
-pub(crate) fn beginning(f: &Series) -> Beginning {
+/// The sign on some time after the start of the cell, by the first coefficient that is not zero; `starts`
+/// encloses the first of them.
+pub(crate) fn beginning(f: &Series, starts: &[Number]) -> Beginning {
     if f.is_zero() {
         return Beginning::Zero;
     }
-    match f.coefficients.iter().find(|c| !c.is_zero()).map(Number::sign) {
+    match starts.iter().find(|c| !c.is_zero()).map(Number::sign) {
         Some(Some(Ordering::Greater)) => Beginning::Positive,
         Some(Some(Ordering::Less)) => Beginning::Negative,
         _ => Beginning::Undecided,
+    }
+}
+
+/// What the polynomial of `f = x^j g` leaves out of `g`, for a function with `j` zeros at the start.
+///
+/// Its error is `e/x^j`, `e` that of `f` with as many zeros: at most `sup |e^(j)|/j!`, and `sup |e|/x^j` further
+/// on. Its slope is at most `sup |e^(j+1)|/(j+1)!`, and `sup |e'|/x^j + j sup |e|/x^(j+1)`.
+pub(crate) struct Errors {
+    zeros: usize,
+    near: [Magnitude; 2],
+    of_whole: [Magnitude; 2],
+}
+
+impl Errors {
+    /// With bounds of the derivatives of `e`, by their order.
+    pub fn new(zeros: usize, bound: impl Fn(usize) -> Magnitude) -> Errors {
+        let coefficient =
+            |order: usize| (2..=order as u64).fold(bound(order), |size, i| size.divide(i));
+        let near = [coefficient(zeros), coefficient(zeros + 1)];
+        Errors { zeros, near, of_whole: [bound(0), bound(1)] }
+    }
+
+    /// Those of value and slope from a time on.
+    fn from(&self, time: &Rational) -> [Magnitude; 2] {
+        if self.zeros == 0 || !time.is_positive() {
+            return self.near;
+        }
+        let inverse = Magnitude::from_rational(&time.recip());
+        let power = (0..self.zeros).fold(Magnitude::power_of_two(0), |p, _| p.multiply(&inverse));
+        let [value, slope] = self.of_whole.map(|size| size.multiply(&power));
+        let bent = value.multiply(&inverse).multiply(&Magnitude::from_u64(self.zeros as u64));
+        [self.near[0].min(value), self.near[1].min(slope.add(&bent))]
     }
 }
 
@@ -52,20 +85,15 @@ pub(crate) enum Course {
 /// # Cost
 /// A bound by the sizes of coefficients decides most cells; else a shift of the series, `N²/2` products,
 /// for each part of the cell.
-pub(crate) fn follow(f: &Series, length: &Number, cut: &Truncation) -> Course {
+pub(crate) fn follow(f: &Series, errors: &Errors, length: &Number, cut: &Truncation) -> Course {
     if let (true, Some(length)) = (f.is_exact(), length.exact())
         && let Some(course) = follow_exactly(f, length)
     {
         return course;
     }
-    // x^j f: the zero at the start is no event.
-    let skipped = f.coefficients.iter().take_while(|c| c.is_zero()).count();
-    if skipped > 0 {
-        return follow(&divided(f, skipped, cut), length, cut);
-    }
     let size = length.magnitude();
-    let start = f.coefficient(0).ball(cut.bits);
-    let lowest = start.widened(&f.size_from(1, &size, cut).multiply(&size));
+    let start = f.coefficient(0).ball(cut.bits).widened(&errors.near[0]);
+    let lowest = start.widened(&f.size_from(1, &size).multiply(&size));
     if sign(&lowest) == Some(Ordering::Greater) {
         return Course::Positive;
     }
@@ -78,14 +106,14 @@ pub(crate) fn follow(f: &Series, length: &Number, cut: &Truncation) -> Course {
         let middle = &lower + &half;
         let near = f.shift(&Number::Exact(middle.clone()), cut);
         let w = Magnitude::from_rational(&half);
-        let value = near.coefficient(0).ball(cut.bits);
-        let lowest = value.clone().widened(&near.size_from(1, &w, cut).multiply(&w));
+        let value = near.coefficient(0).ball(cut.bits).widened(&errors.from(&lower)[0]);
+        let lowest = value.clone().widened(&near.size_from(1, &w).multiply(&w));
         if sign(&lowest) == Some(Ordering::Greater) {
             continue;
         }
         // The series converges everywhere, so that a root is also found a little beyond the part.
         let reach = &half * &two;
-        if let Some(root) = fall(f, near, &middle, &reach, cut) {
+        if let Some(root) = fall((f, errors), near, [&middle, &reach, &end], cut) {
             let far =
                 root.ball(cut.bits).subtract(&Ball::from_rational(&upper, cut.bits), cut.bits);
             return match sign(&far) {
@@ -111,29 +139,12 @@ fn sign(ball: &Ball) -> Option<Ordering> {
     Number::Enclosed(ball.clone()).sign()
 }
 
-/// `f/x^j`. Of the rest, `γ^k/k! ≤ γ^j · γ^(k−j)/(k−j)!`; the coefficients that are no longer known are
-/// within the same bound.
-fn divided(f: &Series, j: usize, cut: &Truncation) -> Series {
-    let rest = f.rest.scale(cut.rate * j as i64);
-    let mut coefficients = f.coefficients[j..].to_vec();
-    if !rest.is_zero() {
-        coefficients.resize(cut.order - j, Number::zero());
-        for k in cut.order - j..cut.order {
-            let mut bound = rest.scale(cut.rate * k as i64);
-            (2..=k as u64).for_each(|i| bound = bound.divide(i));
-            coefficients.push(Number::zero().widened(&bound, cut.bits));
-        }
-    }
-    Series::new(coefficients, rest)
-}
-
 /// The root near a point where the function falls: `near` is its series at `middle`. `None` where the
 /// part is too long for the method of Newton to close in on it.
 fn fall(
-    f: &Series,
+    (f, errors): (&Series, &Errors),
     near: Series,
-    middle: &Rational,
-    reach: &Rational,
+    [middle, reach, end]: [&Rational; 3],
     cut: &Truncation,
 ) -> Option<Number> {
     let (mut near, mut middle, mut reach) = (near, middle.clone(), reach.clone());
@@ -141,9 +152,13 @@ fn fall(
     let mut best: Option<Ball> = None;
     for _ in 0..2 * (64 - bits.leading_zeros()) + 4 {
         let w = Magnitude::from_rational(&reach);
-        let value = near.coefficient(0).ball(bits);
-        let slope = near.coefficient(1).ball(bits);
-        let slope = slope.widened(&near.size_from(2, &w, cut).multiply(&w));
+        // As far as the reach goes beyond the ends of the cell.
+        let beyond = (&middle + &reach - end).max(&reach - &middle).max(Rational::zero());
+        let beyond = Magnitude::from_rational(&beyond);
+        let errors = errors.from(&(&middle - &reach)).map(|error| cut.extended(&error, &beyond));
+        let value = near.coefficient(0).ball(bits).widened(&errors[0]);
+        let slope = near.coefficient(1).ball(bits).widened(&errors[1]);
+        let slope = slope.widened(&near.size_from(2, &w).multiply(&w));
         if sign(&slope) != Some(Ordering::Less) {
             return None;
         }
@@ -218,6 +233,13 @@ fn square_root(value: &Rational) -> Option<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::history::energy::tests::truncation;
+
+    /// With the zeros at the start taken away.
+    fn follow(f: &Series, length: &Number, cut: &Truncation) -> Course {
+        let kept = f.coefficients.iter().skip_while(|c| c.is_zero()).cloned().collect();
+        super::follow(&Series::new(kept, f.rest), &Errors::new(0, |_| Magnitude::ZERO), length, cut)
+    }
 
     fn rational(numerator: i64, denominator: i64) -> Rational {
         Rational::new(numerator.into(), denominator.into())
@@ -249,25 +271,46 @@ mod tests {
 
     #[test]
     fn the_first_fall_is_found_however_near_the_next_root_is() {
-        let cut = Truncation::new(160, 0);
+        let cut = truncation(160, 0);
         let end = Number::integer(1);
         for enclosed in [true, false] {
             let near = &rational(1, 3) + Rational::new(1.into(), 1_000_000_000.into());
             let f = product(-1, &[rational(1, 3), near, rational(2, 3)], enclosed);
-            assert_eq!(beginning(&f), Beginning::Positive);
+            assert_eq!(beginning(&f, &f.coefficients), Beginning::Positive);
             assert!(fallen(&follow(&f, &end, &cut), &rational(1, 3)));
             let f = product(-1, &[rational(1, 3)], enclosed);
             assert!(fallen(&follow(&f, &end, &cut), &rational(1, 3)));
             let f = product(-1, &[rational(-1, 3), rational(0, 1), rational(7, 8)], enclosed);
             assert!(fallen(&follow(&f, &end, &cut), &rational(7, 8)));
             let f = product(1, &[rational(-1, 3), rational(5, 4)], enclosed);
-            assert_eq!(beginning(&f), Beginning::Negative);
+            assert_eq!(beginning(&f, &f.coefficients), Beginning::Negative);
         }
+    }
+
+    /// What is left out of a function moves its root, and may hide it.
+    #[test]
+    fn errors_widen_a_root() {
+        let cut = truncation(160, 0);
+        let (end, third) = (Number::integer(1), rational(1, 3));
+        let f = product(-1, std::slice::from_ref(&third), true);
+        let small = Magnitude::power_of_two(-90);
+        let found = super::follow(&f, &Errors::new(0, |_| small), &end, &cut);
+        let Course::Falls(root) = found else { panic!("{found:?}") };
+        let root = root.ball(160);
+        assert!(root.contains(&third) && *root.radius() >= small);
+        let large = Magnitude::power_of_two(-1);
+        let value = |order: usize| if order == 0 { large } else { small };
+        let found = super::follow(&f, &Errors::new(0, value), &end, &cut);
+        assert!(matches!(found, Course::Undecided(_)), "{found:?}");
+        // Of x f: near the start by its slope, further on by its value.
+        let errors = Errors::new(1, |order| Magnitude::power_of_two(10 * order as i64 - 90));
+        assert_eq!(errors.from(&rational(0, 1))[0], Magnitude::power_of_two(-80));
+        assert_eq!(errors.from(&rational(1, 4))[0], Magnitude::power_of_two(-88));
     }
 
     #[test]
     fn what_touches_zero_is_undecided_and_what_stays_above_is_positive() {
-        let cut = Truncation::new(96, 0);
+        let cut = truncation(96, 0);
         let end = Number::integer(1);
         let third = rational(1, 3);
         let f = product(1, &[third.clone(), third.clone()], true);
@@ -293,7 +336,7 @@ mod tests {
     /// the end otherwise; it is never passed over.
     #[test]
     fn a_root_at_the_end_is_not_passed_over() {
-        let cut = Truncation::new(96, 0);
+        let cut = truncation(96, 0);
         let end = Number::integer(1);
         let f = product(-1, &[rational(1, 1)], false);
         assert_eq!(follow(&f, &end, &cut), Course::Positive);
@@ -303,6 +346,6 @@ mod tests {
             Course::Undecided(at) => assert!(at.contains(&rational(1, 1))),
             Course::Positive => panic!("passed over"),
         }
-        assert_eq!(beginning(&Series::zero()), Beginning::Zero);
+        assert_eq!(beginning(&Series::zero(), &[]), Beginning::Zero);
     }
 }

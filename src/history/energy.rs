@@ -13,15 +13,15 @@ use std::cell::OnceCell;
 /// `f² = Σ p_k x^k` with `p_k = Σ_{i+j=k} c_i c_j`. The first `M` of these are kept and the others bounded.
 ///
 /// # Invariants
-/// - `coefficients` hold `p_k/(k+1)` for `k < M`; `M ≤ N`, or the series is a polynomial and `M` all it has;
-/// - `sizes` hold bounds of `|c_k|` for `k < N`, those left out at the end being zero;
-/// - `|c_k| ≤ rest · γ^k/k!` for all `k ≥ N`.
+/// - `coefficients` hold `p_k/(k+1)` for `k < M`;
+/// - `sizes` hold bounds of `|c_k|` for `k < N`;
+/// - `rest` bounds what the polynomial of the series leaves out.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Energy {
     coefficients: Vec<Number>,
     sizes: Vec<Magnitude>,
     rest: Magnitude,
-    cut: Truncation,
+    bits: u64,
 }
 
 impl Series {
@@ -52,7 +52,7 @@ impl Series {
         };
         let coefficients = (0..length).map(product).collect();
         let sizes = own.iter().map(Number::magnitude).collect();
-        Energy { coefficients, sizes, rest: self.rest, cut: *cut }
+        Energy { coefficients, sizes, rest: self.rest, bits }
     }
 }
 
@@ -62,7 +62,7 @@ impl Energy {
     /// # Cost
     /// `O(n)`.
     pub fn value(&self, x: &Number) -> Number {
-        let bits = self.cut.bits;
+        let bits = self.bits;
         let mut sum = Number::zero();
         for c in self.coefficients.iter().rev() {
             sum = sum.add(c, bits).multiply(x, bits);
@@ -93,7 +93,7 @@ impl Energy {
                 term
             })
             .collect();
-        let remainder = self.cut.remainder(&self.rest, x);
+        let remainder = self.rest;
         // t_n, t_(n−1), …, t_0.
         let mut tails = vec![remainder];
         for term in terms.iter().rev() {
@@ -186,6 +186,8 @@ impl Wave {
 pub(in crate::history) mod tests {
     use super::*;
     use crate::ball::Ball;
+    use crate::history::series::CellNorm;
+    use num_traits::Signed as _;
     use proptest::prelude::*;
     use wavestep_polynomial::Rational;
 
@@ -208,32 +210,43 @@ pub(in crate::history) mod tests {
             sum = sum.add(&product.over(k as u64 + 1, bits), bits).multiply(x, bits);
         }
         let size = x.magnitude();
-        let error = f.remainder(&size, cut);
-        let polynomial = Series::new(f.coefficients.clone(), Magnitude::ZERO);
-        let whole = polynomial.size_from(0, &size, cut).scale(1).add(&error);
+        let error = f.rest;
+        let whole = f.size_from(0, &size).scale(1).add(&error);
         sum.widened(&error.multiply(&whole).multiply(&size), bits)
     }
 
-    /// `Σ a e^{λx}` for pairs `(a, λ)`, `|λ| ≤ γ`, cut off after N terms.
+    /// `Σ a e^{λx}` for pairs `(a, λ)`, `|λ| ≤ γ`, cut off after N terms, on a cell as long as the longest.
     pub(in crate::history) fn exponentials(
         terms: &[(Rational, Rational)],
         cut: &Truncation,
     ) -> Series {
+        let norm = CellNorm::new(cut.longest, cut);
         let mut coefficients = Vec::new();
         let mut rest = Magnitude::ZERO;
         let mut powers: Vec<Rational> = terms.iter().map(|(a, _)| a.clone()).collect();
-        for k in 0..cut.order {
+        // After so many more terms each adds less than half the one before.
+        let last = cut.order + 40;
+        for k in 0..=last {
             let sum: Rational = powers.iter().sum();
-            coefficients.push(Number::Enclosed(Ball::from_rational(&sum, cut.bits)));
+            match k < cut.order {
+                true => coefficients.push(Number::Enclosed(Ball::from_rational(&sum, cut.bits))),
+                false => {
+                    let sizes = powers.iter().map(|power| Magnitude::from_rational(&power.abs()));
+                    let norms = sizes.map(|size| norm.of_term(k, &size));
+                    let added = norms.fold(Magnitude::ZERO, |sum, own| sum.add(&own));
+                    rest = rest.add(&added.scale(i64::from(k == last)));
+                }
+            }
             for (power, (_, rate)) in powers.iter_mut().zip(terms) {
                 *power *= rate / Rational::from_integer((k as i64 + 1).into());
             }
         }
-        // |λ^k/k!| ≤ (|λ|/γ)^N γ^k/k! for k ≥ N.
-        for power in &powers {
-            rest = rest.add(&cut.factor(&Number::Exact(power.clone()).magnitude()));
-        }
         Series::new(coefficients, rest)
+    }
+
+    /// For rates up to `2^rate` and cells four times as long as the inverse of that.
+    pub(in crate::history) fn truncation(bits: u64, rate: i64) -> Truncation {
+        Truncation { longest: Magnitude::power_of_two(2 - rate), ..Truncation::new(bits, rate) }
     }
 
     /// The square of the same sum, and `∫_0^x` of it.
@@ -257,7 +270,7 @@ pub(in crate::history) mod tests {
         sums
     }
 
-    /// Amplitudes in thirds, rates in eighths of γ: up to γ itself, which is beyond what a node has.
+    /// Amplitudes in thirds, rates in eighths of the largest, up to that.
     fn terms(rate: i64, own: &[(i64, i64)]) -> Vec<(Rational, Rational)> {
         let scale = Rational::from(&Magnitude::power_of_two(rate - 3));
         own.iter().map(|&(a, part)| (rational(a, 3), &scale * rational(part, 1))).collect()
@@ -269,7 +282,7 @@ pub(in crate::history) mod tests {
         fn exact_waves_have_exact_energies(
             own in prop::collection::vec(-9_i64..10, 0..9), x in 0_i64..20,
         ) {
-            let cut = Truncation { bits: 64, order: 3, rate: 0 };
+            let cut = Truncation { order: 3, ..truncation(64, 0) };
             let numbers = own.iter().map(|c| Number::Exact(rational(*c, 7))).collect();
             let f = Series::new(numbers, Magnitude::ZERO);
             let x = rational(x, 5);
@@ -289,10 +302,10 @@ pub(in crate::history) mod tests {
             rate in -2_i64..4, order in 1_usize..7, place in 1_i64..25,
             own in prop::collection::vec((-6_i64..7, -8_i64..9), 1..4),
         ) {
-            let cut = Truncation { bits: 200, order, rate };
+            let cut = Truncation { order, ..truncation(200, rate) };
             let terms = terms(rate, &own);
             let energy = exponentials(&terms, &cut).energy(&cut);
-            // γx up to 4.
+            // Up to the end of the cell.
             let x = rational(place, 6) / Rational::from(&Magnitude::power_of_two(rate));
             let at = Number::Exact(x.clone());
             let [square, integral] = squared(&terms, &x);
@@ -313,7 +326,7 @@ pub(in crate::history) mod tests {
             rate in -2_i64..4, place in 1_i64..25,
             own in prop::collection::vec((-6_i64..7, -2_i64..3), 1..4),
         ) {
-            let cut = Truncation::new(128, rate);
+            let cut = truncation(128, rate);
             let terms = terms(rate, &own);
             let f = exponentials(&terms, &cut);
             let x = rational(place, 6) / Rational::from(&Magnitude::power_of_two(rate));
@@ -331,7 +344,7 @@ pub(in crate::history) mod tests {
 
     #[test]
     fn nothing_has_no_energy() {
-        let cut = Truncation::new(64, 0);
+        let cut = truncation(64, 0);
         let x = Number::Enclosed(Ball::symmetric(&rational(1, 2)));
         assert_eq!(Series::zero().energy(&cut).value(&x), Number::zero());
         let alone = Series::new(Vec::new(), Magnitude::from_u64(1)).energy(&cut);

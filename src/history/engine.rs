@@ -7,12 +7,13 @@
 
 use crate::ball::{Ball, Magnitude, Number};
 use crate::expression::Fraction;
-use crate::history::contacts::{Cause, Contact, Happening};
+use crate::history::contacts::{Cause, Contact, Guard, Happening};
 use crate::history::error::{HistoryError, NotFollowed, Question};
 use crate::history::load::Course;
 use crate::history::moment::{Clock, Moment};
 use crate::history::motion::Motion;
-use crate::history::series::{LONGEST_CELL, Series, Truncation};
+use crate::history::passivity::{Passivity, StateError};
+use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
 use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS};
 use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
@@ -49,11 +50,25 @@ pub(crate) struct Load {
     pub until: Option<Fraction>,
 }
 
+/// What a node does on a cell, before it is taken over.
+struct Planned {
+    inputs: Vec<Series>,
+    motion: Motion,
+    guards: Vec<Guard>,
+    end: Moment,
+    length: Number,
+    /// The contact that changes at the end of the cell, because its force or gap comes to zero.
+    first: Option<usize>,
+}
+
 /// A node as it is.
 pub(crate) struct State {
     pub now: Moment,
     pub system: System<Number>,
+    pub passivity: Passivity,
     pub state: Vec<Number>,
+    /// Of each block of the state.
+    pub errors: Vec<StateError>,
     arriving: [Arriving; 2],
     displacements: Vec<Number>,
 }
@@ -76,8 +91,6 @@ pub(crate) struct Engine {
     pub open: Vec<Contact>,
     pub places: Vec<String>,
     count: usize,
-    /// The longest cell; none where nothing has a rate.
-    step: Option<Rational>,
 }
 
 type Outcome<T> = Result<T, HistoryError>;
@@ -152,15 +165,14 @@ impl Engine {
             open: Vec::new(),
             places,
             count: 0,
-            step: None,
         };
         engine.set_rate()?;
         engine.begin()?;
         Ok(engine)
     }
 
-    /// The rate of the bound of series, four times the largest norm of a node in any state of its
-    /// contacts, and twice the rate of any load.
+    /// The rate of the norm of cells: above the norm of each node in any state of its contacts, and the
+    /// rate of any load.
     fn set_rate(&mut self) -> Outcome<()> {
         let mut largest = Magnitude::ZERO;
         for (number, node) in self.nodes.iter().enumerate() {
@@ -177,17 +189,13 @@ impl Engine {
                 };
                 // A state that is refused is refused when it comes.
                 let Ok(system) = System::of(node, closed, self.cut.bits) else { continue };
-                largest = largest.max(system.norms().0.scale(2));
+                largest = largest.max(Passivity::of(node, &system)?.rate());
             }
         }
         for load in self.loads.values() {
-            largest = largest.max(load.course.rate().scale(1));
+            largest = largest.max(load.course.rate());
         }
-        if let Some(rate) = largest.top() {
-            self.cut = Truncation::new(self.cut.bits, rate);
-            let step = Magnitude::power_of_two(LONGEST_CELL - rate);
-            self.step = Some(Rational::from(&step));
-        }
+        self.cut = Truncation::new(self.cut.bits, largest.top().unwrap_or(0));
         Ok(())
     }
 
@@ -208,6 +216,8 @@ impl Engine {
             let still = vec![Number::zero(); node.elements.len()];
             let velocity = |run: usize| self.starting_velocity(node, run);
             let state = system.state(node, velocity, &still, &self.places[number], bits)?;
+            let passivity = Passivity::of(node, &system)?;
+            let errors = passivity.errors(&state);
             let arriving = [node.left, node.right].into_iter().zip([0, 1]);
             let arriving = arriving.map(|(side, direction)| match side {
                 Side::Bar(bar) => match &self.bars[bar].1 {
@@ -225,7 +235,15 @@ impl Engine {
             let Ok(arriving) = <[Arriving; 2]>::try_from(arriving) else { unreachable!() };
             let displacements = vec![Number::zero(); node.runs()];
             let now = start.clone();
-            self.states.push(State { now, system, state, arriving, displacements });
+            self.states.push(State {
+                now,
+                system,
+                passivity,
+                state,
+                errors,
+                arriving,
+                displacements,
+            });
             self.cells.push(Vec::new());
         }
         Ok(())
@@ -307,8 +325,9 @@ impl Engine {
         Err(HistoryError::Undecided { what, at, bits: self.cut.bits })
     }
 
-    /// When the inputs of a node change next, but no later than the longest cell allows.
-    fn next_change(&self, node: usize) -> Outcome<Moment> {
+    /// When the inputs of a node change next, but no later than this share of the longest cell allows; and
+    /// whether that is what ends the cell.
+    fn next_change(&self, node: usize, share: &Rational) -> Outcome<(Moment, bool)> {
         let state = &self.states[node];
         let mut ends: Vec<Moment> =
             state.arriving.iter().filter_map(|arriving| arriving.end(&self.waves)).collect();
@@ -320,19 +339,27 @@ impl Engine {
                 }
             }
         }
-        // Where nothing has a rate and nothing arrives, a cell is one unit of time.
-        let one = Rational::from_integer(1.into());
-        match &self.step {
-            Some(step) => ends.push(Clock::step(&state.now, step)),
-            None if ends.is_empty() => ends.push(Clock::step(&state.now, &one)),
-            None => {}
-        }
-        let mut ends = ends.into_iter();
-        let mut first = ends.next().expect("a cell has an end");
+        let mut first: Option<Moment> = None;
         for end in ends {
-            first = self.clock.earlier(first, end)?;
+            first = Some(match first {
+                Some(first) => self.clock.earlier(first, end)?,
+                None => end,
+            });
         }
-        Ok(first)
+        let rates = self.loads_of(node).map(|load| load.course.rate());
+        let longest = match (rates.fold(state.passivity.rate(), Magnitude::max).top(), &first) {
+            (Some(top), _) => Rational::from(&Magnitude::power_of_two(LONGEST_CELL - top)),
+            // Where nothing has a rate and nothing arrives, a cell is one unit of time.
+            (None, None) => Rational::from_integer(1.into()),
+            (None, Some(first)) => return Ok((first.clone(), false)),
+        };
+        let step = Clock::step(&state.now, &(longest * share));
+        Ok(match first {
+            Some(first) if self.clock.compare(&first, &step)? != Ordering::Greater => {
+                (first, false)
+            }
+            _ => (step, true),
+        })
     }
 
     /// The loads of a node, from left to right.
@@ -340,12 +367,13 @@ impl Engine {
         self.nodes[node].elements.iter().filter_map(|own| self.loads.get(&own.element))
     }
 
-    /// What acts on a node from now on: arriving waves, then its loads.
-    fn inputs(&self, node: usize) -> Outcome<Vec<Series>> {
+    /// What acts on a node on a cell from now on: arriving waves, then its loads.
+    fn inputs(&self, node: usize, norm: &CellNorm) -> Outcome<Vec<Series>> {
         let state = &self.states[node];
         let mut inputs = Vec::new();
         for arriving in &state.arriving {
-            inputs.push(arriving.series(&self.waves, &state.now, &self.clock, &self.cut)?);
+            let series = arriving.series(&self.waves, &state.now, &self.clock, &self.cut)?;
+            inputs.push(series.settled(norm, &self.cut));
         }
         for load in self.loads_of(node) {
             let begun = self.clock.compare(&Moment::at(load.from.clone()), &state.now)?;
@@ -358,7 +386,7 @@ impl Engine {
                     None => true,
                 };
             inputs.push(match acts {
-                true => load.course.series(&self.clock.time(&state.now)?, &self.cut)?,
+                true => load.course.series(&self.clock.time(&state.now)?, norm, &self.cut)?,
                 false => Series::zero(),
             });
         }
@@ -375,62 +403,71 @@ impl Engine {
             let at = self.ball_at(&self.states[node].now);
             return Err(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, at });
         }
-        let inputs = self.inputs(node)?;
+        let whole = Rational::from_integer(1.into());
+        let planned = match self.plan(node, &whole)? {
+            Ok(planned) => planned,
+            // By chance a force or gap becomes zero just where the longest cell ends: a shorter one tells.
+            Err(_) => self.plan(node, &Rational::new(7.into(), 8.into()))??,
+        };
+        if self.cells[node].is_empty() {
+            self.tell_impacts(node, &planned.guards);
+        }
+        let first = planned.first;
+        self.finish(node, planned)?;
+        if let Some(contact) = first {
+            self.change(node, &[contact], Cause::Crossing)?;
+        }
+        Ok(())
+    }
+
+    /// What a node does on its next cell, no longer than this share of the longest. The inner error is that
+    /// of a cell that a shorter one may mend.
+    fn plan(&mut self, node: usize, share: &Rational) -> Outcome<Outcome<Planned>> {
         let mut changed = 0;
-        let (motion, forces, gaps) = loop {
+        loop {
+            let (end, is_step) = self.next_change(node, share)?;
             let state = &self.states[node];
-            let motion = state.system.solve(state.state.clone(), &inputs, &self.cut);
-            let (forces, gaps) = self.contact_series(node, &motion);
-            let changes = self.changes(node, &forces, &gaps)?;
+            let length = self.clock.since(&state.now, &end)?;
+            self.cut.longest = self.cut.longest.max(length.magnitude());
+            let norm = CellNorm::new(length.magnitude(), &self.cut);
+            let inputs = self.inputs(node, &norm)?;
+            let (system, cut) = (&state.system, &self.cut);
+            let known = (&state.state[..], &state.errors[..]);
+            let motion = system.solve(&state.passivity, known, &inputs, (&norm, cut));
+            let guards = self.guards(node, &motion, &norm);
+            let changes = self.changes(node, &guards)?;
             if changes.is_empty() {
-                break (motion, forces, gaps);
+                return Ok(match self.first_change(node, &guards, &length, &norm) {
+                    Ok(None) => Ok(Planned { inputs, motion, guards, end, length, first: None }),
+                    Ok(Some((contact, length))) => {
+                        let end = self.clock.later(&self.states[node].now, &length)?;
+                        Ok(Planned { inputs, motion, guards, end, length, first: Some(contact) })
+                    }
+                    Err(error) if is_step && error.is_at_an_end() => Err(error),
+                    Err(error) => return Err(error),
+                });
             }
             changed += changes.len();
             if changed > MAX_CHANGES {
                 return self.undecided(Question::Simultaneous, &self.states[node].now, None);
             }
             self.change(node, &changes, Cause::Jump)?;
-        };
-        if self.cells[node].is_empty() {
-            self.tell_impacts(node, &forces);
         }
-        let mut end = self.next_change(node)?;
-        let now = self.states[node].now.clone();
-        let length = self.clock.since(&now, &end)?;
-        let first = self.first_change(node, [&forces, &gaps], &length)?;
-        let length = match &first {
-            Some((_, at)) => {
-                end = self.clock.later(&now, at)?;
-                at.clone()
-            }
-            None => length,
-        };
-        self.finish(node, &inputs, motion, [forces, gaps], end, &length)?;
-        if let Some((contact, _)) = first {
-            self.change(node, &[contact], Cause::Crossing)?;
-        }
-        Ok(())
     }
 
     /// Takes over what a node did until an instant.
-    fn finish(
-        &mut self,
-        node: usize,
-        inputs: &[Series],
-        motion: Motion,
-        [forces, gaps]: [Vec<Series>; 2],
-        end: Moment,
-        length: &Number,
-    ) -> Outcome<()> {
-        let (cut, bits) = (self.cut, self.cut.bits);
+    fn finish(&mut self, node: usize, planned: Planned) -> Outcome<()> {
+        let Planned { inputs, motion, guards, end, length, .. } = planned;
+        let (cut, length) = (self.cut, &length);
+        let norm = CellNorm::new(length.magnitude(), &cut);
         let own = &self.nodes[node];
         let now = self.states[node].now.clone();
-        for (place, (contact, _)) in own.contacts().enumerate() {
+        for (guard, (contact, _)) in guards.iter().zip(own.contacts()) {
             let contact = &mut self.open[contact];
             contact.rests = false;
-            contact.gap = gaps[place].value(length, &cut);
+            contact.gap = guard.gap_after(length, cut.bits);
             if contact.closed {
-                match forces[place].is_zero() {
+                match guard.has_no_force() {
                     true if contact.pressed => {
                         contact.idle.get_or_insert_with(|| now.clone());
                     }
@@ -439,18 +476,18 @@ impl Engine {
                 }
             }
         }
-        // What leaves is v − w.
+        let state = &mut self.states[node];
         for (side, run) in own.side_runs().into_iter().enumerate() {
             let bar = if side == 0 { own.left } else { own.right };
             let Side::Bar(bar) = bar else { continue };
-            let leaving = motion.velocities[run].subtract(&inputs[side], bits);
+            let leaving = state.system.leaving(&motion, &inputs, (side, run), cut.bits);
+            let leaving = leaving.settled(&norm, &cut);
             self.waves[bar][1 - side].push(leaving, end.clone(), length.clone());
         }
-        let state = &mut self.states[node];
         let mut displacements = Vec::new();
         for (velocity, start) in motion.velocities.iter().zip(&mut state.displacements) {
-            let displacement = velocity.integral(start.clone(), &cut);
-            *start = displacement.value(length, &cut);
+            let displacement = velocity.integral_over(start.clone(), &norm.length, &cut);
+            *start = velocity.integrated(&displacement, length, cut.bits);
             displacements.push(displacement);
         }
         let compressions = state
@@ -459,7 +496,8 @@ impl Engine {
             .iter()
             .map(|place| place.map_or_else(Series::zero, |place| motion.state[place].clone()));
         let compressions = compressions.collect();
-        state.state = motion.state.iter().map(|series| series.value(length, &cut)).collect();
+        (state.state, state.errors) =
+            state.system.ended(&state.passivity, &motion, &state.errors, length, &cut);
         for arriving in &mut state.arriving {
             let ends = arriving.end(&self.waves);
             if let (Arriving::Delayed { cell, .. }, Some(ends)) = (arriving, ends)
@@ -469,6 +507,7 @@ impl Engine {
             }
         }
         let velocities = motion.velocities;
+        let (forces, gaps) = guards.into_iter().map(Guard::into_force_and_gap).unzip();
         let cell = Cell { velocities, displacements, compressions, forces, gaps };
         self.cells[node].push((now, cell));
         self.states[node].now = end;

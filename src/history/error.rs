@@ -136,6 +136,12 @@ pub enum Question {
 }
 
 impl HistoryError {
+    /// Whether a zero may lie on either side of the end of a cell.
+    pub(crate) fn is_at_an_end(&self) -> bool {
+        let at_end = |what: &Question| matches!(what, Question::ZeroBeforeArrival { .. });
+        matches!(self, HistoryError::Undecided { what, .. } if at_end(what))
+    }
+
     /// Why there is no value with so many bits, of a scene that was followed as far as that before:
     /// nothing but the precision can be wanting.
     pub(crate) fn of_value(self, bits: u64) -> EvaluateError {

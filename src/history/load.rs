@@ -6,11 +6,14 @@
 use crate::ball::{Ball, ComplexBall, Magnitude, Number};
 use crate::enclosure::{EnclosureError, Numbers, enclose_expression};
 use crate::expression::{Expression, Fraction};
-use crate::history::series::{Series, Truncation};
+use crate::history::series::{CellNorm, Series, Truncation};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Polynomials of this degree or a higher one are not kept exactly.
 const MAX_DEGREE: usize = 16;
+
+/// The fewest terms of an exponential.
+const LEAST_ORDER: usize = 32;
 
 /// A course `Σ p(t) e^(λt)`.
 pub(crate) struct Course {
@@ -60,21 +63,28 @@ impl Course {
         rates.max().unwrap_or(Magnitude::ZERO)
     }
 
-    /// The series at an instant `t` after the start.
+    /// The series on a cell that begins at an instant `t` after the start.
     ///
-    /// With `p(t + x) = Σ_j p_j x^j` and `γ ≥ 2|λ|` the coefficient of `x^k` is
-    /// `Σ_j p_j λ^(k−j)/(k−j)!`, and `γ^j (γ/2)^(k−j)/(k−j)! ≤ γ^k/k! · 2^(j−k) k!/(k−j)!`, where
-    /// `k^j 2^(j−k) ≤ j! 4^j`: so `Σ_j |p_j| j! 4^j/γ^j` bounds the rest.
+    /// With `p(t + x) = Σ_j p_j x^j` the coefficient of `x^k` is `Σ_j p_j λ^(k−j)/(k−j)!`. From `N ≥ 2j` terms on each
+    /// adds at most half as much to the norm as the one before, since `γ ≥ 8|λ|` and `|λ| h ≤ 8 ≤ N/4`: all of
+    /// them add twice the first.
     ///
     /// # Errors
     /// [`EnclosureError`] where an exponential is too large.
-    pub fn series(&self, t: &Number, cut: &Truncation) -> Result<Series, EnclosureError> {
+    pub fn series(
+        &self,
+        t: &Number,
+        norm: &CellNorm,
+        cut: &Truncation,
+    ) -> Result<Series, EnclosureError> {
         if let Some(polynomial) = &self.polynomial {
             return Ok(polynomial.shift(t, cut));
         }
         let bits = cut.bits;
         let now = ComplexBall::from(t.ball(bits));
-        let mut sum = vec![ComplexBall::zero(); cut.order];
+        let longest = self.terms.iter().map(|(_, polynomial)| polynomial.len()).max();
+        let order = cut.order.max(2 * longest.unwrap_or(0)).max(LEAST_ORDER);
+        let mut sum = vec![ComplexBall::zero(); order];
         let mut rest = Magnitude::ZERO;
         for (rate, polynomial) in &self.terms {
             let mut shifted = polynomial.clone();
@@ -85,23 +95,19 @@ impl Course {
             }
             let size = rate.multiply(&now, bits).exp(bits)?;
             let mut power = ComplexBall::one();
-            for i in 0..cut.order {
-                for (j, c) in shifted.iter().enumerate().take(cut.order - i) {
+            for i in 0..=order {
+                for (j, c) in shifted.iter().enumerate() {
                     let term = c.multiply(&power, bits).multiply(&size, bits);
-                    sum[i + j] = sum[i + j].add(&term, bits);
+                    match i + j {
+                        k if k < order => sum[k] = sum[k].add(&term, bits),
+                        k if k == order => {
+                            rest = rest.add(&norm.of_term(k, &term.magnitude()).scale(1));
+                        }
+                        _ => {}
+                    }
                 }
                 let next = Rational::new(1.into(), (i as u64 + 1).into());
                 power = power.multiply(rate, bits).multiply_rational(&next, bits);
-            }
-            let mut factor = Magnitude::power_of_two(0);
-            for (j, c) in shifted.iter().enumerate() {
-                if j > 0 {
-                    factor = factor.multiply(&Magnitude::from_u64(4 * j as u64)).scale(-cut.rate);
-                }
-                // A polynomial without an exponential ends with its last coefficient.
-                if !rate.magnitude().is_zero() || shifted.len() > cut.order {
-                    rest = rest.add(&c.multiply(&size, bits).magnitude().multiply(&factor));
-                }
             }
         }
         let real = |value: ComplexBall| -> Number { Number::Enclosed(value.real().clone()) };
@@ -142,7 +148,8 @@ mod tests {
         let course = Fraction::from("2 - t + 1/3*t*t".parse::<Polynomial>().unwrap());
         let course = Course::of(&Numbers::new(&[]), &course.into(), &time, 64).unwrap();
         let ratio = |a: i64, b: i64| Number::Exact(Rational::new(a.into(), b.into()));
-        let series = course.series(&ratio(3, 2), &Truncation::new(64, 0)).unwrap();
+        let cut = Truncation::new(64, 0);
+        let series = course.series(&ratio(3, 2), &norm(&cut), &cut).unwrap();
         assert_eq!(series.coefficients, [ratio(5, 4), ratio(0, 1), ratio(1, 3)]);
     }
 
@@ -157,14 +164,20 @@ mod tests {
         assert!(course.rate() >= Magnitude::from_u64(2));
         let ratio = |a: i64, b: i64| Number::Exact(Rational::new(a.into(), b.into()));
         let cut = Truncation::new(160, 2);
-        let near = course.series(&ratio(1, 3), &cut).unwrap().value(&ratio(1, 5), &cut);
-        let there = course.series(&ratio(8, 15), &cut).unwrap().coefficient(0);
+        let series = |t: &Number, cut: &Truncation| course.series(t, &norm(cut), cut).unwrap();
+        let near = series(&ratio(1, 3), &cut).value(&ratio(1, 5), &cut);
+        let there = series(&ratio(8, 15), &cut).coefficient(0);
         let difference = near.subtract(&there, 200);
         assert_eq!(difference.sign(), None);
         assert!(difference.magnitude() < Magnitude::power_of_two(-120));
         // Few terms: the bound of the rest encloses.
         let few = Truncation { order: 3, ..cut };
-        let near = course.series(&ratio(1, 3), &few).unwrap().value(&ratio(1, 5), &few);
+        let near = series(&ratio(1, 3), &few).value(&ratio(1, 5), &few);
         assert_eq!(near.subtract(&there, 200).sign(), None);
+    }
+
+    /// That of a cell of length 1/4.
+    fn norm(cut: &Truncation) -> CellNorm {
+        CellNorm::new(Magnitude::power_of_two(-2), cut)
     }
 }

@@ -1,15 +1,15 @@
 //! Contacts that open and close: what a scene does when they push and never pull.
 //!
-//! The history of a scene is followed with the method of steps, in which every signal is a Taylor series
-//! in balls with a proven rest. Where the force of a contact would become tensile the contact opens, and
+//! The history of a scene is followed with the method of steps, in which every signal is a Taylor polynomial
+//! with a proven rest. Where the force of a contact would become tensile the contact opens, and
 //! where a gap closes the contact is formed again; each of these instants is exact or enclosed, and what
 //! cannot be decided is refused by name.
 //!
 //! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what
 //! is taken from it, `crossing` for the proof that nothing is passed over, `observe` and `phased` for what is
 //! seen of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form,
-//! `series` for the arithmetic, `energy` for what a wave holds, `body` for energies and momenta of bodies
-//! and for why they never meet again.
+//! `series` for the arithmetic, `passivity` for what becomes of errors, `energy` for what a wave holds, `body` for
+//! energies and momenta of bodies and for why they never meet again.
 
 mod body;
 mod closed_form;
@@ -25,6 +25,7 @@ mod moment;
 mod motion;
 mod observe;
 mod part;
+mod passivity;
 mod phased;
 mod reading;
 mod series;

@@ -2,112 +2,285 @@
 
 use crate::ball::{Magnitude, Number};
 use crate::history::error::{HistoryError, NotFollowed};
-use crate::history::series::{Series, Truncation};
+use crate::history::passivity::{Block, Passivity, StateError};
+use crate::history::series::{CellNorm, Series, Truncation};
 use crate::network::{Node, System, dot};
+
+/// So many derivatives at the start of a cell are enclosed one by one.
+pub(crate) const STARTS: usize = 6;
+
+/// Polynomials of a higher degree do not act on a state that is kept exact.
+const MAX_EXACT_DEGREE: usize = 4;
 
 /// What a node does on a cell.
 pub(crate) struct Motion {
     /// The state.
     pub state: Vec<Series>,
+    /// What is added to the error of each block of the state, by the length of the cell: of the polynomials
+    /// themselves, and per unit of time what arrives.
+    added: Vec<Added>,
     /// The velocity of each run.
     pub velocities: Vec<Series>,
     /// The force of each closed contact, as they stand in [`System::closed`].
     pub forces: Vec<Series>,
+    /// Enclosures of the first coefficients of velocities, then of forces.
+    pub starts: Vec<Vec<Number>>,
+}
+
+/// What is added to an error.
+enum Added {
+    /// Nothing: the block is exact, or nothing changes it.
+    Nothing,
+    /// So much, and so much per unit of time.
+    Error { at_once: Magnitude, per_time: Magnitude },
+}
+
+/// A block on a cell: the coefficients of its members, the norm of what they leave out, and its size at the
+/// start.
+struct Course {
+    columns: Vec<Vec<Number>>,
+    rest: Magnitude,
+    at_start: Magnitude,
+    added: Added,
+}
+
+impl Course {
+    /// One that leaves nothing out.
+    fn exact(columns: Vec<Vec<Number>>) -> Course {
+        let none = Magnitude::ZERO;
+        Course { columns, rest: none, at_start: none, added: Added::Nothing }
+    }
+}
+
+/// What a node is given on a cell.
+struct Given<'a> {
+    input: &'a [Series],
+    /// The same without radii, and the norms of what was left out.
+    settled: Vec<Series>,
+    errors: Vec<Magnitude>,
+    norm: &'a CellNorm,
+    cut: &'a Truncation,
+}
+
+impl Given<'_> {
+    /// The coefficients of x^k.
+    fn coefficients(&self, k: usize) -> impl Iterator<Item = Number> {
+        self.settled.iter().map(move |series| series.coefficient(k))
+    }
+}
+
+/// A row times series.
+fn combined<'a>(row: &[Number], parts: impl Iterator<Item = &'a Series>, bits: u64) -> Series {
+    let parts = parts.zip(row).filter(|(_, c)| !c.is_zero());
+    parts.fold(Series::zero(), |sum, (part, c)| sum.combine(&Number::one(), part, c, bits))
 }
 
 impl System<Number> {
-    /// A bound of `‖A‖` and of what loads and waves of size 1 change, `‖B‖`, in the maximum norm.
-    pub fn norms(&self) -> (Magnitude, Magnitude) {
-        let states = self.states();
-        let sum = |row: &[Number]| {
-            row.iter().fold(Magnitude::ZERO, |sum, entry| sum.add(&entry.magnitude()))
-        };
-        let largest = |part: fn(&[Number], usize) -> &[Number]| {
-            let rows = self.change.iter().map(|row| sum(part(row, states)));
-            rows.max().unwrap_or(Magnitude::ZERO)
-        };
-        (largest(|row, n| &row[..n]), largest(|row, n| &row[n..]))
-    }
-
     /// Solves the equations on a cell: `(k+1) y_(k+1) = A y_k + B u_k`.
-    ///
-    /// The rest: `|u_k| ≤ m γ^k/k!` and `|y_k| ≤ M γ^k/k!` give
-    /// `|y_(k+1)| ≤ (‖A‖ M + ‖B‖ m)/γ · γ^(k+1)/(k+1)!`; with `γ ≥ 4‖A‖` the bound goes on from one
-    /// coefficient to the next where `M ≥ ‖B‖ m · 4/(3γ)` and `M ≥ |y_N| N!/γ^N`.
     ///
     /// # Cost
     /// N times the products of small matrices with vectors.
-    pub fn solve(&self, state: Vec<Number>, input: &[Series], cut: &Truncation) -> Motion {
-        let polynomial = input.iter().all(|series| series.rest.is_zero());
-        let degree = input.iter().map(|series| series.coefficients.len()).max().unwrap_or(0);
-        let exact = state.iter().all(|value| value.exact().is_some())
-            && input.iter().all(Series::is_exact)
-            && degree <= 4;
-        if exact || state.is_empty() {
-            let few = if state.is_empty() { cut.order } else { degree + 4 };
-            let (columns, next) = self.columns(state.clone(), input, few.min(cut.order), cut.bits);
-            if state.is_empty() || next.iter().all(Number::is_zero) && polynomial {
-                return self.motion(columns, Magnitude::ZERO, input, cut);
-            }
-        }
-        let state = state.iter().map(|value| value.enclosed(cut.bits)).collect();
-        let (columns, next) = self.columns(state, input, cut.order, cut.bits);
-        let rest = input.iter().map(|series| series.rest).max().unwrap_or(Magnitude::ZERO);
-        let (_, norm) = self.norms();
-        let forced = norm.multiply(&rest).scale(2 - cut.rate).divide(3);
-        let next = next.iter().map(Number::magnitude).max().unwrap_or(Magnitude::ZERO);
-        self.motion(columns, forced.max(cut.factor(&next)), input, cut)
-    }
-
-    /// The first coefficients of the state, and the next one.
-    fn columns(
+    pub fn solve(
         &self,
-        state: Vec<Number>,
+        passivity: &Passivity,
+        (state, errors): (&[Number], &[StateError]),
         input: &[Series],
-        order: usize,
-        bits: u64,
-    ) -> (Vec<Vec<Number>>, Vec<Number>) {
-        let mut columns: Vec<Vec<Number>> = Vec::with_capacity(order);
-        let mut next = state;
-        for k in 0..order {
-            let mut both = next.clone();
-            both.extend(input.iter().map(|series| series.coefficient(k)));
-            let changed = self.change.iter();
-            let after: Vec<Number> =
-                changed.map(|row| dot(row, &both, bits).over(k as u64 + 1, bits)).collect();
-            columns.push(std::mem::replace(&mut next, after));
-        }
-        (columns, next)
-    }
-
-    fn motion(
-        &self,
-        columns: Vec<Vec<Number>>,
-        rest: Magnitude,
-        input: &[Series],
-        cut: &Truncation,
+        (norm, cut): (&CellNorm, &Truncation),
     ) -> Motion {
-        let bits = cut.bits;
-        let state = |i: usize| {
-            // On what nothing acts, nothing changes: it has no rest.
-            let (own, forced) = self.change[i].split_at(self.states());
-            let mut forced = forced.iter().zip(input);
-            let still = own.iter().all(Number::is_zero)
-                && forced.all(|(c, input)| c.is_zero() || input.is_zero());
-            let rest = match still {
-                true => Magnitude::ZERO,
-                false => rest,
-            };
-            Series::new(columns.iter().map(|column| column[i].clone()).collect(), rest)
-        };
-        let states: Vec<Series> = (0..self.states()).map(state).collect();
-        let mut outputs = self.output.iter().map(|row| {
-            let parts = states.iter().chain(input).zip(row).filter(|(_, c)| !c.is_zero());
-            parts.fold(Series::zero(), |sum, (part, c)| sum.combine(&Number::one(), part, c, bits))
-        });
+        let settled: Vec<Series> = input.iter().map(|own| own.bare(norm, cut)).collect();
+        let errors_of_input = settled.iter().map(|own| own.rest).collect();
+        let given = Given { input, settled, errors: errors_of_input, norm, cut };
+        let mut states = vec![Series::zero(); self.states()];
+        let mut added = Vec::with_capacity(passivity.blocks.len());
+        for (block, error) in passivity.blocks.iter().zip(errors) {
+            let course = self.course(block, state, error, &given);
+            for (place, member) in block.members.iter().enumerate() {
+                let own = course.columns.iter().map(|column| column[place].clone()).collect();
+                states[*member] = Series::new(own, block.entry(place, &course.rest))
+                    .with_rest_at_start(block.entry(place, &course.at_start));
+            }
+            added.push(course.added);
+        }
+        let mut outputs =
+            self.output.iter().map(|row| combined(row, states.iter().chain(input), cut.bits));
         let velocities = outputs.by_ref().take(self.group.len()).collect();
         let forces = outputs.collect();
-        Motion { state: states, velocities, forces }
+        let starts = self.starts(state, input, cut);
+        Motion { state: states, added, velocities, forces, starts }
+    }
+
+    /// What leaves at a side: the velocity of its run less what arrives there.
+    pub fn leaving(
+        &self,
+        motion: &Motion,
+        input: &[Series],
+        (side, run): (usize, usize),
+        bits: u64,
+    ) -> Series {
+        let mut row = self.output[run].clone();
+        let own = &mut row[self.states() + side];
+        *own = own.subtract(&Number::one(), bits);
+        combined(&row, motion.state.iter().chain(input), bits)
+    }
+
+    /// Enclosures of the first coefficients of all outputs.
+    fn starts(&self, state: &[Number], input: &[Series], cut: &Truncation) -> Vec<Vec<Number>> {
+        let mut starts = vec![Vec::with_capacity(STARTS); self.output.len()];
+        let mut next = state.to_vec();
+        for k in 0..STARTS {
+            let mut both = next;
+            both.extend(input.iter().map(|series| series.start(k, cut)));
+            for (start, row) in starts.iter_mut().zip(&self.output) {
+                start.push(dot(row, &both, cut.bits));
+            }
+            let change = |row: &Vec<Number>| dot(row, &both, cut.bits).over(k as u64 + 1, cut.bits);
+            next = self.change.iter().map(change).collect();
+        }
+        starts
+    }
+
+    /// What a block does on a cell.
+    fn course(
+        &self,
+        block: &Block,
+        state: &[Number],
+        error: &StateError,
+        given: &Given<'_>,
+    ) -> Course {
+        let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+        if block.is_still() {
+            return Course::exact(vec![own]);
+        }
+        let acting = || {
+            let acts = |(j, _): &(usize, &Series)| block.is_driven_by(*j);
+            given.input.iter().enumerate().filter(acts).map(|(_, series)| series)
+        };
+        let degree = acting().map(|series| series.coefficients.len()).max().unwrap_or(0);
+        let is_exact = own.iter().all(|value| value.exact().is_some())
+            && acting().all(Series::is_exact)
+            && degree <= MAX_EXACT_DEGREE;
+        if is_exact && let Some(columns) = self.exact_columns(block, &own, degree + 4, given) {
+            return Course::exact(columns);
+        }
+        self.enclosed_course(block, own, error, given)
+    }
+
+    /// The next coefficients of a block.
+    fn next(&self, block: &Block, column: &[Number], k: usize, given: &Given<'_>) -> Vec<Number> {
+        let bits = given.cut.bits;
+        let mut both = vec![Number::zero(); self.states()];
+        for (member, value) in block.members.iter().zip(column) {
+            both[*member] = value.clone();
+        }
+        both.extend(given.coefficients(k));
+        let rows = block.members.iter().map(|i| &self.change[*i]);
+        rows.map(|row| dot(row, &both, bits).over(k as u64 + 1, bits)).collect()
+    }
+
+    /// The coefficients of a polynomial with rational ones, if they are few.
+    fn exact_columns(
+        &self,
+        block: &Block,
+        own: &[Number],
+        most: usize,
+        given: &Given<'_>,
+    ) -> Option<Vec<Vec<Number>>> {
+        let mut columns = vec![own.to_vec()];
+        for k in 0..most {
+            let next = self.next(block, &columns[k], k, given);
+            columns.push(next);
+        }
+        let last = columns.pop()?;
+        last.iter().all(Number::is_zero).then_some(columns)
+    }
+
+    /// Coefficients until the norm of what they leave out is nothing to speak of.
+    ///
+    /// The polynomial `y_N` of degree `N − 1` solves `y' = A y + B u − ρ` with `ρ = N c_N x^(N−1) + Σ_{k≥N} B u_k x^k`,
+    /// where `N c_N = A c_(N−1) + B u_(N−1)`. So the error `e` of `y_N` grows by `|ρ|` and by what the errors of the
+    /// inputs push, from what that of the state is at the start.
+    fn enclosed_course(
+        &self,
+        block: &Block,
+        own: Vec<Number>,
+        error: &StateError,
+        given: &Given<'_>,
+    ) -> Course {
+        let (norm, cut) = (given.norm, given.cut);
+        let mut column = Vec::with_capacity(own.len());
+        let mut rounding = Vec::with_capacity(own.len());
+        for value in own {
+            let (middle, radius) = value.split(cut.bits);
+            // The radius of an enclosure is within the error of the block.
+            rounding.push(if value.exact().is_some() { radius } else { Magnitude::ZERO });
+            column.push(middle);
+        }
+        let rounding = block.size(rounding.into_iter());
+        let acting = given.settled.iter().enumerate().filter(|(j, _)| block.is_driven_by(*j));
+        let degree = acting.map(|(_, series)| series.coefficients.len()).max().unwrap_or(0);
+        let mut columns: Vec<Vec<Number>> = Vec::new();
+        let mut largest = Magnitude::ZERO;
+        let mut power = Magnitude::power_of_two(0);
+        let left_out = loop {
+            let k = columns.len();
+            let size = block.size(column.iter().map(Number::magnitude));
+            // ∫ |N c_N x^(N−1)| dx, and ‖N c_N x^(N−1)‖/γ, with what the recursion adds to it.
+            let left_out = match k {
+                0 => size,
+                _ => size.multiply(&power).max(norm.of_residual(k, &size)),
+            };
+            largest = largest.max(size.multiply(&power));
+            let enough = left_out <= largest.scale(-(cut.bits as i64));
+            if k > 0 && k >= degree && (enough || k >= cut.order) {
+                break left_out;
+            }
+            power = power.multiply(&norm.length);
+            let next = self.next(block, &column, k, given);
+            columns.push(std::mem::replace(&mut column, next));
+        };
+        let per_time = block.push(&given.errors);
+        let at_start = error.size().add(&rounding);
+        let at_once = rounding.add(&left_out);
+        let most = error.size().add(&at_once).add(&per_time.multiply(&norm.length));
+        let rest = cut.driven(&most, &per_time).add(&left_out);
+        Course { columns, rest, at_start, added: Added::Error { at_once, per_time } }
+    }
+
+    /// The state at the end of a cell, and its errors.
+    pub fn ended(
+        &self,
+        passivity: &Passivity,
+        motion: &Motion,
+        errors: &[StateError],
+        length: &Number,
+        cut: &Truncation,
+    ) -> (Vec<Number>, Vec<StateError>) {
+        let mut state = vec![Number::zero(); self.states()];
+        let mut after = Vec::with_capacity(errors.len());
+        for ((block, error), added) in passivity.blocks.iter().zip(errors).zip(&motion.added) {
+            let values: Vec<Number> = (block.members.iter())
+                .map(|member| motion.state[*member].polynomial(length, cut.bits))
+                .collect();
+            let Added::Error { at_once, per_time } = added else {
+                after.push(StateError::of(block, &values));
+                for (member, value) in block.members.iter().zip(values) {
+                    state[*member] = value;
+                }
+                continue;
+            };
+            let split: Vec<(Number, Magnitude)> =
+                values.iter().map(|value| value.split(cut.bits)).collect();
+            let radius = block.size(split.iter().map(|(_, radius)| *radius));
+            let arrived = per_time.multiply(&length.magnitude());
+            let added = at_once.add(&arrived).add(&radius);
+            let error = error.clone().after(length, &added, block);
+            let size = error.size();
+            for (place, (member, (middle, _))) in block.members.iter().zip(split).enumerate() {
+                state[*member] = middle.widened(&block.entry(place, &size), cut.bits);
+            }
+            after.push(error);
+        }
+        (state, after)
     }
 
     /// The state that continues with these velocities of runs and displacements of elements.

@@ -331,6 +331,18 @@ impl Followed {
         &self.pieces.get().expect("stretches were counted before they are asked for")[stretch]
     }
 
+    /// How far times up to `h` from one go beyond the ends of a piece at most.
+    fn beyond(&self, stretch: usize, at: &Number, h: &Number) -> Result<Magnitude, EvaluateError> {
+        let [from, to] = &self.piece(stretch).ends;
+        let (clock, bits) = (&self.engine.clock, self.engine.cut.bits);
+        let after = at.add(h, bits).subtract(&clock.since(from, to)?, bits);
+        let positive = |time: Number| match time.sign() {
+            Some(Ordering::Less | Ordering::Equal) => Magnitude::ZERO,
+            _ => time.magnitude(),
+        };
+        Ok(positive(after).max(positive(h.subtract(at, bits))))
+    }
+
     /// The derivative of an order with respect to the user's time, from the first instant of a piece on.
     fn derivative(&self, stretch: usize, order: usize) -> Cow<'_, Series> {
         let (cut, inverse) = (&self.engine.cut, &self.unit[1]);
@@ -520,8 +532,9 @@ impl Signal for FollowedSignal<'_> {
     ) -> Result<Ball, EvaluateError> {
         let followed = self.cut(bits)?;
         let at = self.since(&followed, stretch, at)?;
-        let value = followed.derivative(stretch, order).value(&at, &followed.engine.cut);
-        Ok(value.ball(bits))
+        let beyond = followed.beyond(stretch, &at, &Number::zero())?;
+        let cut = &followed.engine.cut;
+        Ok(followed.derivative(stretch, order).extended(&beyond, cut).value(&at, cut).ball(bits))
     }
 
     fn taylor(
@@ -537,7 +550,8 @@ impl Signal for FollowedSignal<'_> {
         let cut = &Truncation { bits: followed.engine.cut.bits.min(bits), ..followed.engine.cut };
         let at = self.since(&followed, stretch, At::Time(middle))?;
         let h = followed.engine.clock.number(&self.scaled_time(half))?;
-        let series = followed.derivative(stretch, order);
+        let beyond = followed.beyond(stretch, &at, &h)?;
+        let series = followed.derivative(stretch, order).extended(&beyond, cut);
         let (near, remainder) = series.about(&at, &h.magnitude(), terms, cut);
         let mut power = Number::one();
         let mut coefficients = Vec::with_capacity(terms);

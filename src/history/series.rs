@@ -1,70 +1,61 @@
-//! A function of time on one cell: its Taylor series at the start of the cell.
+//! A function of time on one cell: a polynomial and a bound of what it leaves out.
 //!
-//! Between two arrivals every signal is a sum of polynomials times exponentials, so its series
-//! converges everywhere. The first coefficients are kept as numbers; the others are bounded together by
-//! the series of an exponential, a bound that integration, shifts and linear differential equations
-//! keep.
+//! Between two arrivals every signal is a sum of polynomials times exponentials, so a Taylor polynomial at
+//! the start of the cell comes as near to it as wanted. What it leaves out, and all errors that came before,
+//! is a function of the same kind, of which one bound is kept: in the *norm of the cell*,
+//! `‖e‖ = sup |e^(j)(x)|/γ^j` over all `j ≥ 0` and all `x` of the cell. With a rate `γ` above all rates of the
+//! scene this norm bounds the error of every derivative at once, and shifts within the cell leave it as it is:
+//! nothing is lost from cell to cell but what a node itself amplifies.
 
 use crate::ball::{Magnitude, Number};
 
 /// How series are cut off.
 ///
 /// # Invariants
-/// `rate` is a positive power of two, at least four times the norm of every node and as large as every
-/// rate of a load; cells are so short that `rate · h ≤ 4`.
+/// `rate` is at least two above the logarithm of the norm of every node and of every rate of a load.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Truncation {
     /// The precision of balls.
     pub bits: u64,
-    /// How many coefficients are kept: those of `x⁰ … x^(order−1)`.
+    /// The most coefficients that are kept: those of `x⁰ … x^(order−1)`.
     pub order: usize,
-    /// `log₂ γ`, the rate of the bound.
+    /// `log₂ γ`, the rate of the norm of a cell.
     pub rate: i64,
+    /// As long as the longest cell.
+    pub longest: Magnitude,
 }
 
-/// What `rate · h` is at most, as a power of two.
-pub(crate) const LONGEST_CELL: i64 = 2;
+/// What the norm of a node times the length of a cell is at most, as a power of two.
+pub(crate) const LONGEST_CELL: i64 = 3;
+
+/// The rate has one bit for so many of the precision, so that few coefficients do on short cells; but no more
+/// than these, so that series may be asked for a little beyond their cell.
+const BITS_OF_RATE: u64 = 32;
+const MOST_RATE: u64 = 10;
 
 impl Truncation {
-    /// Such that `4^N/N!` is below `2^(−bits−96)`: the 96 bits are room for bounds that grow from cell
-    /// to cell.
-    pub fn new(bits: u64, rate: i64) -> Truncation {
+    /// For nodes and loads whose rates are below `2^top`: such that `8^N/N!` is below `2^(−bits−16)`.
+    pub fn new(bits: u64, top: i64) -> Truncation {
         let (mut order, mut size) = (1_usize, 0.0);
-        while size > -((bits + 96) as f64) {
-            size += 2.0 - (order as f64).log2();
+        while size > -((bits + 16) as f64) {
+            size += LONGEST_CELL as f64 - (order as f64).log2();
             order += 1;
         }
-        Truncation { bits, order, rate }
+        let rate = top + (bits / BITS_OF_RATE).clamp(3, MOST_RATE) as i64;
+        Truncation { bits, order, rate, longest: Magnitude::ZERO }
     }
 
-    /// What a coefficient of `x^N` needs as the factor of the bound: `|c| N!/γ^N`, rounded upwards.
-    pub fn factor(&self, coefficient: &Magnitude) -> Magnitude {
-        let mut factor = coefficient.scale(-self.rate * self.order as i64);
-        for j in 2..=self.order as u64 {
-            factor = factor.multiply(&Magnitude::from_u64(j));
-        }
-        factor
-    }
-
-    /// `Σ_{k≥N} |c_k| y^k` for all `y ≤ x`, where `|c_k| ≤ rest · γ^k/k!`, rounded upwards.
-    pub fn remainder(&self, rest: &Magnitude, x: &Magnitude) -> Magnitude {
-        match rest.is_zero() {
-            true => Magnitude::ZERO,
-            false => rest.multiply(&self.tail(self.order, x)),
+    /// The bound of an error so much beyond the ends of its cell, `e^(γ by)` times that on the cell.
+    pub fn extended(&self, bound: &Magnitude, by: &Magnitude) -> Magnitude {
+        match by.is_zero() || bound.is_zero() {
+            true => *bound,
+            false => bound.multiply(&growth(&self.per_time(by))),
         }
     }
 
-    /// `Σ_{i≥n} z^i/i! ≤ z^n/n! · e^z`, with `z = γ x ≤ 4·2` and `e^z ≤ 2^(2z)`.
-    fn tail(&self, n: usize, x: &Magnitude) -> Magnitude {
-        self.tails(x).nth(n).expect("one for each number")
-    }
-
-    /// These bounds for `n = 0, 1, …`.
-    fn tails(&self, x: &Magnitude) -> impl Iterator<Item = Magnitude> {
-        let z = x.scale(self.rate);
-        let next =
-            move |(power, j): &(Magnitude, u64)| Some((power.multiply(&z).divide(*j), j + 1));
-        std::iter::successors(Some((growth(&z), 1)), next).map(|(power, _)| power)
+    /// `γ · size`.
+    fn per_time(&self, size: &Magnitude) -> Magnitude {
+        size.scale(self.rate)
     }
 }
 
@@ -72,20 +63,105 @@ impl Truncation {
 fn growth(z: &Magnitude) -> Magnitude {
     let halves = z.multiply(&Magnitude::from_u64(3)).scale(-1);
     let Some(top) = halves.top() else { return Magnitude::power_of_two(0) };
-    // Arguments are a few units; the bound below holds for all.
     let exponent = if top <= 0 { 1 } else { 1_i64 << top.min(40) };
     Magnitude::power_of_two(exponent)
 }
 
-/// A function `f(x) = Σ c_k x^k` on `0 ≤ x ≤ h`, the length of its cell.
+/// The norm of a cell: `‖f‖ = sup |f^(j)(x)|/γ^j` over all `j ≥ 0` and `0 ≤ x ≤ h`.
+pub(crate) struct CellNorm {
+    /// `h`, rounded upwards.
+    pub length: Magnitude,
+    /// `(γh)^i/i!`.
+    powers: Vec<Magnitude>,
+    /// The largest of these up to each `i`.
+    largest: Vec<Magnitude>,
+    /// `k!/γ^k`.
+    factors: Vec<Magnitude>,
+}
+
+impl CellNorm {
+    pub fn new(length: Magnitude, cut: &Truncation) -> CellNorm {
+        let z = cut.per_time(&length);
+        let mut power = Magnitude::power_of_two(0);
+        let (mut factor, mut most) = (power, power);
+        let (mut powers, mut largest, mut factors) = (vec![power], vec![most], vec![factor]);
+        for i in 1..=cut.order as u64 + 2 {
+            power = power.multiply(&z).divide(i);
+            factor = factor.multiply(&Magnitude::from_u64(i)).scale(-cut.rate);
+            most = most.max(power);
+            powers.push(power);
+            largest.push(most);
+            factors.push(factor);
+        }
+        CellNorm { length, powers, largest, factors }
+    }
+
+    /// `‖c x^k‖ = |c| k!/γ^k · max_{i≤k} (γh)^i/i!`.
+    pub fn of_term(&self, k: usize, size: &Magnitude) -> Magnitude {
+        let last = self.factors.len() - 1;
+        let known = size.multiply(&self.factors[k.min(last)]).multiply(&self.largest[k.min(last)]);
+        // Beyond what is tabled, a power of h at most, or of k/γ.
+        (last..k).fold(known, |norm, k| {
+            let slow = Magnitude::from_u64(k as u64 + 1).multiply(&self.factors[1]);
+            norm.multiply(&slow.max(self.length))
+        })
+    }
+
+    /// `‖k c x^(k−1)‖/γ · 4/3` for `k ≥ 1`: what an error that is driven by `k c x^(k−1)` has at least as its
+    /// bound.
+    pub fn of_residual(&self, k: usize, size: &Magnitude) -> Magnitude {
+        let norm = self.of_term(k - 1, &size.multiply(&Magnitude::from_u64(4 * k as u64)));
+        norm.divide(3).multiply(&self.factors[1])
+    }
+
+    /// A bound of `‖Σ c_k x^k‖` for all `|c_k| ≤ s_k`: with `q_k = s_k k!/γ^k` the derivative of order `j` is
+    /// at most `γ^j Σ_{k≥j} q_k (γh)^(k−j)/(k−j)!`, and so `Σ_i (γh)^i/i! · max_{k≥i} q_k` bounds all of them.
+    pub fn of_sizes(&self, sizes: &[Magnitude]) -> Magnitude {
+        let tabled = sizes.len().min(self.powers.len());
+        let (mut sum, mut most) = (Magnitude::ZERO, Magnitude::ZERO);
+        for (k, size) in sizes.iter().enumerate().skip(tabled) {
+            sum = sum.add(&self.of_term(k, size));
+        }
+        for k in (0..tabled).rev() {
+            most = most.max(sizes[k].multiply(&self.factors[k]));
+            sum = sum.add(&most.multiply(&self.powers[k]));
+        }
+        sum
+    }
+}
+
+/// Divides a polynomial by `x − a` again and again, where `step(c, d) = c + a d`: what is left are its
+/// coefficients at `a`.
+fn divide(coefficients: &mut [Number], step: impl Fn(&Number, &Number) -> Number) {
+    for first in 0..coefficients.len() {
+        for k in (first..coefficients.len().saturating_sub(1)).rev() {
+            coefficients[k] = step(&coefficients[k], &coefficients[k + 1]);
+        }
+    }
+}
+
+/// `Σ_{i≥1} C(j+i, i) r^i s_(j+i)`: how much the coefficient of `x^j` changes at most, for coefficients of
+/// these sizes, where the origin is moved by `r`.
+fn moved(sizes: &[Magnitude], j: usize, r: &Magnitude) -> Magnitude {
+    let mut factor = Magnitude::power_of_two(0);
+    let mut sum = Magnitude::ZERO;
+    for (i, size) in (1..).zip(&sizes[j + 1..]) {
+        factor = factor.multiply(r).multiply(&Magnitude::from_u64((j + i) as u64)).divide(i as u64);
+        sum = sum.add(&factor.multiply(size));
+    }
+    sum
+}
+
+/// A function `f = P + e` on `0 ≤ x ≤ h`, the length of its cell, with `P(x) = Σ c_k x^k`.
 ///
 /// # Invariants
-/// - `coefficients` hold `c_0 … c_(N−1)`, those left out at the end being zero;
-/// - `|c_k| ≤ rest · γ^k/k!` for all `k ≥ N`.
+/// - `coefficients` hold `c_0, c_1, …`, the last one not zero;
+/// - `‖e‖ ≤ rest` in the norm of the cell, and so on every part of it, and `|e(0)| ≤ rest_at_start`.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Series {
     pub coefficients: Vec<Number>,
     pub rest: Magnitude,
+    rest_at_start: Magnitude,
 }
 
 impl Series {
@@ -94,16 +170,21 @@ impl Series {
         Series::new(vec![value], Magnitude::ZERO)
     }
 
-    /// The series of these coefficients, and of others so bounded.
+    /// The polynomial with these coefficients, and a bound of the rest.
     pub fn new(mut coefficients: Vec<Number>, rest: Magnitude) -> Series {
         while coefficients.last().is_some_and(Number::is_zero) {
             coefficients.pop();
         }
-        Series { coefficients, rest }
+        Series { coefficients, rest, rest_at_start: rest }
+    }
+
+    /// The same function, of whose error less is known to be at the start.
+    pub fn with_rest_at_start(self, rest_at_start: Magnitude) -> Series {
+        Series { rest_at_start, ..self }
     }
 
     pub fn zero() -> Series {
-        Series { coefficients: Vec::new(), rest: Magnitude::ZERO }
+        Series::new(Vec::new(), Magnitude::ZERO)
     }
 
     /// Whether it is known to be zero.
@@ -121,9 +202,19 @@ impl Series {
         self.coefficients.len() <= 1 && self.rest.is_zero()
     }
 
-    /// `c_k`, for `k < N`.
+    /// `c_k`.
     pub fn coefficient(&self, k: usize) -> Number {
         self.coefficients.get(k).cloned().unwrap_or_else(Number::zero)
+    }
+
+    /// An enclosure of `f^(k)(0)/k!`: of `c_k`, and `γ^k/k!` times the rest.
+    pub fn start(&self, k: usize, cut: &Truncation) -> Number {
+        let mut rest = match k {
+            0 => self.rest_at_start,
+            _ => self.rest.scale(cut.rate * k as i64),
+        };
+        (2..=k as u64).for_each(|i| rest = rest.divide(i));
+        self.coefficient(k).widened(&rest, cut.bits)
     }
 
     /// `a f + b g`.
@@ -133,8 +224,12 @@ impl Series {
             let own = self.coefficient(k).multiply(a, bits);
             own.add(&other.coefficient(k).multiply(b, bits), bits)
         };
-        let rest = self.rest.multiply(&a.magnitude()).add(&other.rest.multiply(&b.magnitude()));
-        Series::new((0..length).map(term).collect(), rest)
+        let sizes = [a, b].map(Number::magnitude);
+        let sum = |own: &Magnitude, other: &Magnitude| {
+            own.multiply(&sizes[0]).add(&other.multiply(&sizes[1]))
+        };
+        Series::new((0..length).map(term).collect(), sum(&self.rest, &other.rest))
+            .with_rest_at_start(sum(&self.rest_at_start, &other.rest_at_start))
     }
 
     pub fn add(&self, other: &Series, bits: u64) -> Series {
@@ -145,44 +240,81 @@ impl Series {
         self.combine(&Number::one(), other, &Number::integer(-1), bits)
     }
 
-    /// The series at `a ≥ 0`: `f(a + x)`.
+    /// The series at `0 ≤ a ≤ h`: `f(a + x)`.
     ///
-    /// `c'_j = Σ_k C(k,j) a^(k−j) c_k`; what the terms with `k ≥ N` add is at most
-    /// `rest · γ^j/j! · Σ_{i ≥ N−j} (γa)^i/i!`, for `j ≥ N` with the whole `e^(γa)` as the sum.
+    /// # Cost
+    /// `N²/2` products for `N` coefficients.
     pub fn shift(&self, a: &Number, cut: &Truncation) -> Series {
         if a.is_zero() {
             return self.clone();
         }
         let bits = cut.bits;
-        let mut shifted = self.coefficients.clone();
-        let exact = a.exact().is_some() && self.is_exact() && shifted.len() <= 4;
-        let step = if exact { a.clone() } else { a.enclosed(bits) };
-        if !exact {
-            shifted.iter_mut().for_each(|c| *c = c.enclosed(bits));
+        let exact = a.exact().is_some() && self.is_exact() && self.coefficients.len() <= 4;
+        if exact {
+            let mut shifted = self.coefficients.clone();
+            divide(&mut shifted, |c, next| c.add(&next.multiply(a, bits), bits));
+            return Series::new(shifted, self.rest);
         }
-        for first in 0..shifted.len() {
-            for k in (first..shifted.len().saturating_sub(1)).rev() {
-                shifted[k] = shifted[k].add(&shifted[k + 1].multiply(&step, bits), bits);
+        let (middle, radius) = a.split(bits);
+        let mut shifted: Vec<Number> = self.coefficients.iter().map(|c| c.enclosed(bits)).collect();
+        divide(&mut shifted, |c, next| c.add(&next.multiply(&middle, bits), bits));
+        if !radius.is_zero() {
+            // c'_j(a) − c'_j(m) = Σ_{i≥1} C(j+i, i) (a − m)^i c'_(j+i)(m).
+            let sizes: Vec<Magnitude> = shifted.iter().map(Number::magnitude).collect();
+            for (j, c) in shifted.iter_mut().enumerate() {
+                *c = c.widened(&moved(&sizes, j, &radius), bits);
             }
         }
-        if self.rest.is_zero() {
-            return Series::new(shifted, Magnitude::ZERO);
+        Series::new(shifted, self.rest)
+    }
+
+    /// The same function, its coefficients without radii and without the last ones that tell nothing on a
+    /// cell: what is left out of both goes to the rest. Constants and polynomials with rational coefficients
+    /// stay as they are.
+    pub fn settled(&self, norm: &CellNorm, cut: &Truncation) -> Series {
+        match self.is_exact() || self.is_constant() {
+            true => self.clone(),
+            false => self.bare(norm, cut),
         }
-        let a = a.magnitude();
-        shifted.resize(cut.order, Number::zero());
-        // γ^j/j! · tail(N − j), the first from j to j + 1, the second backwards.
-        let mut own = Magnitude::power_of_two(0);
-        let tails: Vec<Magnitude> = cut.tails(&a).skip(1).take(cut.order).collect();
-        for (j, (c, tail)) in shifted.iter_mut().zip(tails.iter().rev()).enumerate() {
-            let sum = own.multiply(tail);
-            *c = c.widened(&sum.multiply(&self.rest), bits);
-            own = own.scale(cut.rate).divide(j as u64 + 1);
+    }
+
+    /// The same function, all of its coefficients without radii.
+    pub fn bare(&self, norm: &CellNorm, cut: &Truncation) -> Series {
+        let mut power = Magnitude::power_of_two(0);
+        let mut largest = Magnitude::ZERO;
+        let sizes: Vec<Magnitude> = self.coefficients.iter().map(Number::magnitude).collect();
+        for size in &sizes {
+            largest = largest.max(size.multiply(&power));
+            power = power.multiply(&norm.length);
         }
-        Series::new(shifted, self.rest.multiply(&growth(&a.scale(cut.rate))))
+        let least = largest.scale(-(cut.bits as i64));
+        let (mut kept, mut rest) = (sizes.len(), self.rest);
+        while kept > 0 {
+            let size = norm.of_term(kept - 1, &sizes[kept - 1]);
+            if size > least {
+                break;
+            }
+            rest = rest.add(&size);
+            kept -= 1;
+        }
+        let mut radii = Vec::with_capacity(kept);
+        let mut coefficients = Vec::with_capacity(kept);
+        for c in &self.coefficients[..kept] {
+            let (middle, radius) = c.split(cut.bits);
+            coefficients.push(middle);
+            radii.push(radius);
+        }
+        let at_start = radii.first().map_or(rest, |radius| self.rest_at_start.add(radius));
+        Series::new(coefficients, rest.add(&norm.of_sizes(&radii))).with_rest_at_start(at_start)
+    }
+
+    /// The same function so much beyond the ends of the cell.
+    pub fn extended(&self, by: &Magnitude, cut: &Truncation) -> Series {
+        Series { rest: cut.extended(&self.rest, by), ..self.clone() }
     }
 
     /// The first coefficients of a polynomial in `ξ`, and a bound of its distance from `f(a + ξ)` for all
-    /// `|ξ| ≤ h`.
+    /// `|ξ| ≤ h`. What no smaller `h` makes less, the rest, is in the radius of the first coefficient.
     ///
     /// After `m` divisions by `x − a` the polynomial that is kept is `Σ_{j<m} c'_j ξ^j + ξ^m Q(x)`, with
     /// `|Q(x)| ≤ Σ |q_k| (|a| + h)^k`.
@@ -206,70 +338,83 @@ impl Series {
             rest = rest.multiply(&reach).add(&q.magnitude());
         }
         let rest = (0..terms).fold(rest, |rest, _| rest.multiply(h));
-        shifted.resize(terms, Number::zero());
-        (shifted, rest.add(&self.remainder(&reach, cut)))
+        shifted.resize(terms.max(1), Number::zero());
+        shifted[0] = shifted[0].widened(&self.rest, cut.bits);
+        (shifted, rest)
     }
 
-    /// `f(x)` for `0 ≤ x`, `γ x ≤ 8`.
+    /// `P(x)`. Where `x` is enclosed, by the value and the slope `s` at its midpoint `m`:
+    /// `|P(x) − P(m)| ≤ |x − m| (|s| + |x − m| Σ k(k−1)/2 |c_k| |x|^(k−2))`.
+    pub fn polynomial(&self, x: &Number, bits: u64) -> Number {
+        let evaluated = |x: &Number| {
+            let terms = self.coefficients.iter().rev();
+            terms.fold((Number::zero(), Number::zero()), |(sum, slope), c| {
+                let slope = slope.multiply(x, bits).add(&sum, bits);
+                (sum.multiply(x, bits).add(c, bits), slope)
+            })
+        };
+        let (middle, radius) = match x {
+            Number::Exact(_) => {
+                let terms = self.coefficients.iter().rev();
+                return terms.fold(Number::zero(), |sum, c| sum.multiply(x, bits).add(c, bits));
+            }
+            Number::Enclosed(_) => x.split(bits),
+        };
+        let (value, slope) = evaluated(&middle);
+        let reach = x.magnitude();
+        let bends = self.coefficients.iter().enumerate().skip(2).rev();
+        let bend = bends.fold(Magnitude::ZERO, |sum, (k, c)| {
+            let pairs = Magnitude::from_u64((k * (k - 1) / 2) as u64);
+            sum.multiply(&reach).add(&c.magnitude().multiply(&pairs))
+        });
+        let change = slope.magnitude().add(&bend.multiply(&radius));
+        value.widened(&change.multiply(&radius), bits)
+    }
+
+    /// `f(x)` for `0 ≤ x ≤ h`.
     pub fn value(&self, x: &Number, cut: &Truncation) -> Number {
-        let mut sum = Number::zero();
-        for c in self.coefficients.iter().rev() {
-            sum = sum.multiply(x, cut.bits).add(c, cut.bits);
+        if x.is_zero() {
+            return self.start(0, cut);
         }
-        sum.widened(&self.remainder(&x.magnitude(), cut), cut.bits)
-    }
-
-    /// What the terms from `x^N` on add to the value at most, at all points up to `x`.
-    pub fn remainder(&self, x: &Magnitude, cut: &Truncation) -> Magnitude {
-        cut.remainder(&self.rest, x)
+        self.polynomial(x, cut.bits).widened(&self.rest, cut.bits)
     }
 
     /// A bound of `|Σ_{k≥n} c_k ξ^(k−n)|` for `|ξ| ≤ w`.
-    pub fn size_from(&self, n: usize, w: &Magnitude, cut: &Truncation) -> Magnitude {
-        let mut sum = Magnitude::ZERO;
-        for c in self.coefficients.iter().skip(n).rev() {
-            sum = sum.multiply(w).add(&c.magnitude());
-        }
-        // Σ_{k≥N} γ^k w^(k−n)/k! ≤ γ^n Σ_{k≥N} (γw)^(k−n)/(k−n)!.
-        match self.rest.is_zero() {
-            true => sum,
-            false => {
-                let tail = cut.tail(cut.order.saturating_sub(n), w).scale(cut.rate * n as i64);
-                sum.add(&self.rest.multiply(&tail))
-            }
-        }
+    pub fn size_from(&self, n: usize, w: &Magnitude) -> Magnitude {
+        let terms = self.coefficients.iter().skip(n).rev();
+        terms.fold(Magnitude::ZERO, |sum, c| sum.multiply(w).add(&c.magnitude()))
     }
 
-    /// `start + ∫_0^x f`: `c_(k−1)/k`, and `rest/γ` for the bound, by
-    /// `(γ^k/k!)/(k+1) = γ^(k+1)/(k+1)!/γ`.
+    /// A bound of `|e'|`.
+    pub fn rest_of_slope(&self, cut: &Truncation) -> Magnitude {
+        cut.per_time(&self.rest)
+    }
+
+    /// `start + ∫_0^x f`, on a cell that is no longer than the longest: `‖∫e‖ ≤ max(h, 1/γ) ‖e‖`.
     pub fn integral(&self, start: Number, cut: &Truncation) -> Series {
+        self.integral_over(start, &cut.longest, cut)
+    }
+
+    /// The value of `integral`, this function's, at `x`: narrower than as that of any other function.
+    pub fn integrated(&self, integral: &Series, x: &Number, bits: u64) -> Number {
+        integral.polynomial(x, bits).widened(&self.rest.multiply(&x.magnitude()), bits)
+    }
+
+    /// The same on a cell of at most this length.
+    pub fn integral_over(&self, start: Number, length: &Magnitude, cut: &Truncation) -> Series {
         let mut coefficients = vec![start];
         for (k, c) in self.coefficients.iter().enumerate() {
             coefficients.push(c.over(k as u64 + 1, cut.bits));
         }
-        let mut rest = self.rest.scale(-cut.rate);
-        if let Some(last) = coefficients.get(cut.order) {
-            rest = rest.max(cut.factor(&last.magnitude()));
-            coefficients.truncate(cut.order);
-        }
-        Series::new(coefficients, rest)
+        let longest = (*length).max(Magnitude::power_of_two(-cut.rate));
+        Series::new(coefficients, self.rest.multiply(&longest)).with_rest_at_start(Magnitude::ZERO)
     }
 
-    /// `f'`: `(k + 1) c_(k+1)`, and `γ · rest` for the bound, by `(k + 1) γ^(k+1)/(k+1)! = γ · γ^k/k!`. Of
-    /// `N c_N`, the last one that is kept, that bound is all that is known.
+    /// `f'`: `‖e'‖ ≤ γ ‖e‖`.
     pub fn derivative(&self, cut: &Truncation) -> Series {
-        let rest = self.rest.scale(cut.rate);
-        let kept = self.coefficients.iter().enumerate().skip(1);
-        let mut coefficients: Vec<Number> =
-            kept.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits)).collect();
-        if !rest.is_zero() {
-            let last = cut.order - 1;
-            coefficients.resize(last, Number::zero());
-            let mut bound = rest.scale(cut.rate * last as i64);
-            (2..=last as u64).for_each(|i| bound = bound.divide(i));
-            coefficients.push(Number::zero().widened(&bound, cut.bits));
-        }
-        Series::new(coefficients, rest)
+        let terms = self.coefficients.iter().enumerate().skip(1);
+        let slopes = terms.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits));
+        Series::new(slopes.collect(), self.rest_of_slope(cut))
     }
 }
 
@@ -277,6 +422,8 @@ impl Series {
 mod tests {
     use super::*;
     use crate::ball::Ball;
+    use crate::history::energy::tests::{exponentials, truncation};
+    use proptest::prelude::*;
     use wavestep_polynomial::Rational;
 
     fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -285,13 +432,7 @@ mod tests {
 
     /// `e^{−x}` and its bound, with N terms.
     fn decay(cut: &Truncation) -> Series {
-        let mut coefficients = vec![Number::Enclosed(Ball::from_rational(&rational(1, 1), 9))];
-        for k in 1..cut.order as u64 {
-            let next = coefficients[k as usize - 1].negate().over(k, cut.bits);
-            coefficients.push(next);
-        }
-        let next = coefficients[cut.order - 1].over(cut.order as u64, cut.bits);
-        Series::new(coefficients, cut.factor(&next.magnitude()))
+        exponentials(&[(rational(1, 1), rational(-1, 1))], cut)
     }
 
     fn exponential(x: &Rational) -> Ball {
@@ -307,11 +448,12 @@ mod tests {
     #[test]
     fn an_exponential_is_shifted_integrated_and_squared() {
         for rate in [2, 0, 3] {
-            let cut = Truncation::new(128, rate);
+            let cut = truncation(128, rate);
             let f = decay(&cut);
             let h = Number::Exact(rational(4, 1 << rate));
-            let (a, b) = (Number::Exact(rational(1, 3)), Number::Exact(rational(1, 7)));
-            let sum = rational(10, 21);
+            let (a, b) =
+                (Number::Exact(rational(1, 3 << rate)), Number::Exact(rational(1, 7 << rate)));
+            let sum = rational(10, 21 << rate);
             assert!(encloses(&f.value(&h, &cut), &exponential(h.exact().unwrap()), 100));
             let shifted = f.shift(&a, &cut);
             assert!(encloses(&shifted.value(&b, &cut), &exponential(&sum), 100));
@@ -324,20 +466,21 @@ mod tests {
             }
             let end = Number::Exact(rational(1, 8 << rate));
             let close = Series::new(near, Magnitude::ZERO).value(&end, &cut).widened(&rest, 128);
-            let far = rational(1, 3) + rational(1, 8 << rate);
+            let far = rational(1, 3 << rate) + rational(1, 8 << rate);
             assert!(encloses(&close, &exponential(&far), 30));
             let again = shifted.shift(&b, &cut).shift(&a, &cut);
-            let third = exponential(&(sum + rational(1, 3)));
+            let third = exponential(&(sum + rational(1, 3 << rate)));
             assert!(encloses(&again.value(&Number::zero(), &cut), &third, 90));
             // f' = −f, at any place and with the bound of its rest.
             let none = f.derivative(&cut).add(&f, cut.bits).value(&a, &cut).ball(900);
-            assert!(none.contains_zero() && none.magnitude() < Magnitude::power_of_two(-100));
+            assert!(none.contains_zero() && none.magnitude() < Magnitude::power_of_two(-90));
             // 1 − e^{−x} and (1 − e^{−2x})/2.
             let integral = f.integral(Number::zero(), &cut).value(&a, &cut);
             let one = Ball::from_rational(&rational(1, 1), 9);
-            let expected = one.subtract(&exponential(&rational(1, 3)), 900);
+            let place = a.exact().unwrap();
+            let expected = one.subtract(&exponential(place), 900);
             assert!(encloses(&integral, &expected, 100));
-            let expected = one.subtract(&exponential(&rational(2, 3)), 900);
+            let expected = one.subtract(&exponential(&(place + place)), 900);
             let expected = expected.multiply_rational(&rational(1, 2), 900);
             assert!(encloses(&f.energy(&cut).value(&a), &expected, 100));
         }
@@ -350,45 +493,81 @@ mod tests {
         let x = rational(1, 2);
         let at = Number::Exact(x.clone());
         for rate in [2, 0, 1] {
-            let cut = Truncation::new(128, rate);
+            let cut = truncation(128, rate);
             let slope = decay(&cut).derivative(&cut);
-            assert!(encloses(&slope.value(&at, &cut).negate(), &exponential(&x), 100));
+            assert!(encloses(&slope.value(&at, &cut).negate(), &exponential(&x), 90));
             let again = decay(&cut).integral(Number::one(), &cut).derivative(&cut);
-            assert!(encloses(&again.value(&at, &cut), &exponential(&x), 100));
+            assert!(encloses(&again.value(&at, &cut), &exponential(&x), 90));
         }
-        let few = Truncation { bits: 128, order: 2, rate: 1 };
+        let few = Truncation { order: 2, ..truncation(128, 1) };
         let slope = decay(&few).derivative(&few).value(&at, &few).ball(128);
         assert!(slope.add(&exponential(&x), 900).contains_zero());
-        assert!(!slope.subtract(&exponential(&x), 900).contains_zero());
+        assert!(!slope.subtract(&exponential(&rational(-9, 1)), 900).contains_zero());
         let line = Series::new(vec![Number::one(), Number::integer(5)], Magnitude::ZERO);
         assert_eq!(line.derivative(&few), Series::constant(Number::integer(5)));
     }
 
-    /// With two terms only, the bound of the rest is what encloses.
+    proptest! {
+        /// The norm of a cell bounds every derivative of a polynomial on the cell; what is settled or cut to few
+        /// terms is still the same function.
+        #[test]
+        fn the_norm_bounds_all_derivatives(
+            c in prop::collection::vec(-9_i64..10, 1..7), place in 0_i64..9, rate in -2_i64..3,
+            order in 1_usize..5,
+        ) {
+            let cut = truncation(64, rate);
+            let norm = CellNorm::new(cut.longest, &cut);
+            let sizes: Vec<Magnitude> =
+                c.iter().map(|c| Magnitude::from_u64(c.unsigned_abs())).collect();
+            let bound = norm.of_sizes(&sizes);
+            let x = Number::Exact(Rational::from(&cut.longest) * rational(place, 8));
+            let whole: Vec<Number> = c.iter().map(|c| Number::integer(*c)).collect();
+            let mut f = Series::new(whole.clone(), Magnitude::ZERO);
+            for j in 0..8 {
+                let size = f.value(&x, &cut).magnitude();
+                prop_assert!(size <= bound.scale(cut.rate * j), "{j}");
+                f = f.derivative(&cut);
+            }
+            // A polynomial of which the first terms only are kept, and one with radii.
+            let exact = Series::new(whole.clone(), Magnitude::ZERO).value(&x, &cut).ball(900);
+            let kept = whole.iter().take(order).cloned().collect();
+            let low: Vec<Magnitude> = (0..sizes.len())
+                .map(|k| if k < order { Magnitude::ZERO } else { sizes[k] })
+                .collect();
+            let few = Series::new(kept, norm.of_sizes(&low));
+            let tenth = Magnitude::from_rational(&rational(1, 10));
+            let wide: Vec<Number> = whole.iter().map(|c| c.widened(&tenth, 64)).collect();
+            let wide = Series::new(wide, Magnitude::ZERO).bare(&norm, &cut);
+            prop_assert!(wide.coefficients.iter().all(|c| c.split(64).1.is_zero()));
+            for one in [few, wide] {
+                let off = one.value(&x, &cut).ball(900).subtract(&exact, 900);
+                prop_assert!(off.contains_zero());
+            }
+        }
+    }
+
+    /// Beyond its cell a series still encloses, with a wider bound.
     #[test]
-    fn few_terms_enclose_by_their_bound() {
-        let cut = Truncation { bits: 128, order: 2, rate: 1 };
+    fn a_series_goes_on_beyond_its_cell() {
+        let cut = Truncation { order: 9, ..truncation(128, 0) };
         let f = decay(&cut);
-        let x = Number::Exact(rational(1, 2));
-        let value = f.value(&x, &cut).ball(128);
-        assert!(value.subtract(&exponential(&rational(1, 2)), 900).contains_zero());
-        let shifted = f.shift(&x, &cut).value(&x, &cut).ball(128);
-        assert!(shifted.subtract(&exponential(&rational(1, 1)), 900).contains_zero());
-        let slope = f.derivative(&cut).value(&x, &cut).ball(128);
-        assert!(slope.add(&exponential(&rational(1, 2)), 900).contains_zero());
-        let size = f.size_from(1, &Magnitude::power_of_two(-1), &cut);
-        // (1 − e^{−1/2})/(1/2) = 0.787
-        assert!(size >= Magnitude::from_rational(&rational(787, 1000)));
+        let by = rational(1, 16);
+        let x = Rational::from(&cut.longest) + &by;
+        let far = f.extended(&Magnitude::from_rational(&by), &cut);
+        let value = far.value(&Number::Exact(x.clone()), &cut).ball(900);
+        assert!(value.subtract(&exponential(&x), 900).contains_zero());
+        assert!(far.rest > f.rest);
     }
 
     #[test]
     fn polynomials_with_rational_coefficients_stay_exact() {
-        let cut = Truncation::new(64, 0);
+        let cut = truncation(64, 0);
         let number = |n| Number::Exact(rational(n, 3));
         let f = Series::new(vec![number(1), number(2), number(5), Number::zero()], Magnitude::ZERO);
         assert!(f.is_exact() && f.coefficients.len() == 3);
         let value = f.shift(&number(1), &cut).value(&number(2), &cut);
         assert_eq!(value, Number::Exact(rational(8, 3)));
         assert!(f.subtract(&f, 64).is_zero());
+        assert_eq!(f.settled(&CellNorm::new(cut.longest, &cut), &cut), f);
     }
 }

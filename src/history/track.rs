@@ -175,7 +175,7 @@ mod tests {
     use super::*;
     use crate::ball::{Ball, Magnitude};
     use crate::enclosure::Numbers;
-    use crate::history::energy::tests::{direct_energy, exponentials};
+    use crate::history::energy::tests::{direct_energy, exponentials, truncation};
     use proptest::prelude::*;
     use wavestep_polynomial::Rational;
 
@@ -236,7 +236,7 @@ mod tests {
             windows in prop::collection::vec((-8_i64..50, -8_i64..50), 1..8),
         ) {
             let clock = Clock::new(Numbers::new(&[]), 128);
-            let cut = Truncation::new(128, 2);
+            let cut = truncation(128, 2);
             let mut track = Track::new(Number::integer(2), &Fraction::one(), &clock).unwrap();
             let mut last = 0;
             for (shape, length) in &cells {

@@ -196,7 +196,8 @@ impl<'a> Integral<'a> {
                 true => upper.clone(),
                 false => Mark::of(&*self.of, stretch + 1).ball(bits)?,
             };
-            if !self.of.is_zero(stretch) {
+            let is_instant = from.is_exact() && from == to;
+            if !is_instant && !self.of.is_zero(stretch) {
                 let [from, to] = [&from, &to].map(|time| self.until(stretch, time, bits));
                 terms.push(to?.subtract(&from?, bits).multiply(&self.slowness(bits)?, bits));
             }

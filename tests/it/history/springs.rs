@@ -64,3 +64,71 @@ fn a_difference_that_is_zero_is_told_as_that() {
         assert!(ball(&value).contains(&rational(0, 1)));
     }
 }
+
+/// A mass that bounces on a spring under a constant force: with mass, stiffness and velocity 1 and the force
+/// `F`, the spring is compressed by `F (1 − cos t) + sin t`, which is zero again at `D = 2π − 2 atan(1/F)`. It leaves
+/// as fast as it came and is back after `2/F`, for ever. A flight of eight units ends where cells of one unit do.
+#[test]
+fn a_mass_bounces_on_a_spring_for_ever() {
+    const BOUNCES: usize = 40;
+    let text = "scene \"A mass bounces on a spring\"\nload weight { force = 1/4 }\n\
+        mass hammer { mass = 1, velocity = 1 }\nspring s { stiffness = 1 }\n\
+        line free - weight - hammer | s - fixed\ncontacts open\nobserve v = velocity(hammer)";
+    let closed = 2.0 * (std::f64::consts::PI - 4.0_f64.atan());
+    let until = rational(((closed + 8.0) * BOUNCES as f64) as i64, 1);
+    let history = History::of(&network_of(text, &[]), Some(&until), 12).unwrap();
+    assert_eq!(history.events.len(), 2 * BOUNCES);
+    for (number, event) in history.events.iter().enumerate() {
+        let begun = (closed + 8.0) * (number / 2) as f64;
+        let (kind, time) = match number {
+            0 => (EventKind::Impact, 0.0),
+            n if n % 2 == 0 => (EventKind::Closing, begun),
+            _ => (EventKind::Opening, begun + closed),
+        };
+        let told = ball(&event.time).to_double().0;
+        assert!(event.kind == kind && (told - time).abs() < 1e-11 * time.max(1.0), "{number}");
+    }
+    let [contact] = &history.contacts[..] else { panic!("one contact") };
+    assert_eq!(contact.restitution.as_ref().map(|value| value.to_f64()), Some(1.0));
+}
+
+/// The end of a spring that comes loose has no mass: it leaves with a velocity of its own. So a bit that
+/// strikes a rock comes back as often as it likes and presses each time; seen in a mirror as well.
+#[test]
+fn the_end_of_a_spring_is_struck_again() {
+    let lines = [
+        ("1", "free - striker | rod - bit | rock - fixed"),
+        ("-1", "fixed - rock | bit - rod | striker - free"),
+    ];
+    let told = lines.map(|(velocity, line)| {
+            let text = format!(
+                "scene \"Struck again\"\n\
+                 bar striker {{ impedance = 1, travel = 1, velocity = {velocity} }}\n\
+                 bar rod {{ impedance = 1, travel = 3 }}\nmass bit {{ mass = 2, velocity = {velocity} }}\n\
+                 spring rock {{ stiffness = 2 }}\nline {line}\ncontacts open\nobserve v = velocity(bit)"
+            );
+            History::of(&network_of(&text, &[]), Some(&rational(40, 1)), 12).unwrap()
+        });
+    let [one, mirrored] = told;
+    let presses = |kind| matches!(kind, EventKind::Impact | EventKind::Closing);
+    assert_eq!(one.events.iter().filter(|event| presses(event.kind)).count(), 4);
+    let rock = |own: &&wavestep::history::ContactSummary| own.between.contains(&"rock".to_owned());
+    let of_rock = one.contacts.iter().find(rock).expect("a contact with the spring");
+    assert_eq!(of_rock.durations.len(), 2);
+    assert!(of_rock.impulses.iter().all(|impulse| impulse.to_f64() > 1.0));
+    assert_eq!(one.events.len(), mirrored.events.len());
+    let times = |history: &History| -> Vec<f64> {
+        let mut times: Vec<f64> = history.events.iter().map(|event| event.time.to_f64()).collect();
+        times.sort_by(f64::total_cmp);
+        times
+    };
+    for (time, other) in times(&one).iter().zip(times(&mirrored)) {
+        assert!((time - other).abs() < 1e-10);
+    }
+    // A gap has no force until it closes.
+    let again = one.events.iter().filter(|event| event.kind == EventKind::Closing);
+    for event in again {
+        let [before, after] = &event.forces;
+        assert_eq!((before.to_f64(), after.to_f64() >= 0.0), (0.0, true));
+    }
+}

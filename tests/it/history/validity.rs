@@ -148,8 +148,8 @@ fn limits_are_kept() {
     assert_eq!(Validity::of(&network, Some(&rational(3, 1)), 12, CELLS), Ok(exactly(3)));
     assert_eq!(Validity::of(&network, None, 12, 0), Ok(exactly(0)));
     // Too few cells to get there: nothing is said of what comes later.
-    let Ok(Validity::Followed(Value::Exact(time))) = Validity::of(&network, None, 12, 7) else {
-        panic!("7 cells")
+    let Ok(Validity::Followed(Value::Exact(time))) = Validity::of(&network, None, 12, 4) else {
+        panic!("4 cells")
     };
     assert!(time > rational(0, 1) && time < rational(3, 1), "{time}");
     assert!(matches!(Validity::of(&network, None, 12, CELLS), Ok(Validity::Until { .. })));

@@ -1,0 +1,396 @@
+//! What a node makes of errors.
+//!
+//! A node without loads takes energy up or passes it on to its bars, and never gives any: with the masses and
+//! stiffnesses `w` of its state the *size* `|y| = √Σ w y²` does not grow, `|e^(Ax) y| ≤ |y|`, and what arrives
+//! changes it by `|B u|` in a unit of time at most. An error of the state obeys the same equations. So it is
+//! bounded by one number, which grows with what arrives and dies out as the motion itself does, however
+//! many cells the time is cut into.
+
+use crate::ball::{Ball, BallError, Magnitude, Number};
+use crate::history::series::Truncation;
+use crate::network::{Node, System};
+
+/// The precision of the matrices here: bounds need few digits.
+const BITS: u64 = 64;
+
+/// The terms of an exponential `e^A`, `‖A‖ ≤ 2`: `2^24/24! · e²` is below `2^(−50)`.
+const TERMS: u64 = 24;
+const TERMS_LEFT_OUT: i64 = -50;
+
+/// An error that does not halve in `2^8` units of the time of a block is taken to stay.
+const MOST_DOUBLINGS: i64 = 8;
+
+type Matrix = Vec<Vec<Ball>>;
+
+fn product(one: &Matrix, other: &Matrix) -> Matrix {
+    let entry = |row: &Vec<Ball>, j: usize| {
+        let terms = row.iter().zip(other).map(|(a, b)| a.multiply(&b[j], BITS));
+        terms.fold(Ball::zero(), |sum, term| sum.add(&term, BITS))
+    };
+    one.iter().map(|row| (0..other.len()).map(|j| entry(row, j)).collect()).collect()
+}
+
+/// A bound of `|M y|/|y|`, at most `n^(1/16)` times too large: with `G = w⁻¹ Mᵀ w M`, which has the squares of
+/// the stretches of `M` as its eigenvalues, these are at most `(trace G⁸)^(1/8)`.
+fn norm(matrix: &Matrix, weights: &[Ball], inverses: &[Ball]) -> Magnitude {
+    let size = matrix.len();
+    let entry = |i: usize, j: usize| {
+        let terms = (0..size).map(|k| {
+            let both = matrix[k][i].multiply(&matrix[k][j], BITS);
+            both.multiply(&weights[k], BITS).multiply(&inverses[i], BITS)
+        });
+        terms.fold(Ball::zero(), |sum, term| sum.add(&term, BITS))
+    };
+    let gram: Matrix = (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect();
+    let eighth = (0..3).fold(gram, |power, _| product(&power, &power));
+    let trace = (0..size).fold(Magnitude::ZERO, |sum, i| sum.add(&eighth[i][i].magnitude()));
+    (0..4).fold(trace, |root, _| root.square_root())
+}
+
+/// States of a node that act on each other.
+pub(crate) struct Block {
+    /// Their places in the state.
+    pub members: Vec<usize>,
+    /// Bounds of `√w` and of `1/√w`.
+    roots: Vec<Magnitude>,
+    inverse_roots: Vec<Magnitude>,
+    /// `‖A‖`.
+    pub rate: Magnitude,
+    /// `|B_j|` for each input.
+    driven: Vec<Magnitude>,
+    /// A time, as a power of two, and what is left of an error after it, where it dies out.
+    decay: Option<(i64, Magnitude)>,
+}
+
+/// The blocks of a node whose contacts are as they are.
+pub(crate) struct Passivity {
+    pub blocks: Vec<Block>,
+}
+
+impl Passivity {
+    /// # Errors
+    /// [`BallError::DivisorMayBeZero`] for a mass or a stiffness of which it is not known.
+    pub fn of(node: &Node<Number>, system: &System<Number>) -> Result<Passivity, BallError> {
+        let weights = weights(node, system);
+        let states = system.states();
+        let joined =
+            |i: usize, j: usize| !system.change[i][j].is_zero() || !system.change[j][i].is_zero();
+        let mut left: Vec<usize> = (0..states).collect();
+        let mut blocks = Vec::new();
+        while let Some(first) = left.first().copied() {
+            let mut members = vec![first];
+            let mut next = 0;
+            while next < members.len() {
+                let own = members[next];
+                left.retain(|other| !members.contains(other));
+                members.extend(left.iter().filter(|other| joined(own, **other)));
+                next += 1;
+            }
+            left.retain(|other| !members.contains(other));
+            members.sort_unstable();
+            blocks.push(Block::of(system, members, &weights)?);
+        }
+        Ok(Passivity { blocks })
+    }
+
+    /// The errors of a state of which enclosures are known.
+    pub fn errors(&self, state: &[Number]) -> Vec<StateError> {
+        let own = |block: &Block| {
+            let values: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+            StateError::of(block, &values)
+        };
+        self.blocks.iter().map(own).collect()
+    }
+
+    /// The largest norm of a block.
+    pub fn rate(&self) -> Magnitude {
+        self.blocks.iter().map(|block| block.rate).max().unwrap_or(Magnitude::ZERO)
+    }
+}
+
+/// The masses and stiffnesses of a state: it holds the energy `½ Σ w y²`.
+fn weights(node: &Node<Number>, system: &System<Number>) -> Vec<Number> {
+    let mass = |group: &usize| {
+        let runs = (0..node.runs()).filter(|run| system.group[*run] == *group);
+        runs.fold(Number::zero(), |sum, run| sum.add(&node.mass_of(run, BITS), BITS))
+    };
+    let mut weights: Vec<Number> = system.heavy.iter().map(mass).collect();
+    for (own, kept) in node.elements.iter().zip(&system.kept) {
+        if kept.is_some() {
+            let [stiffness, _] = own.law.resistance().expect("what is kept is elastic");
+            weights.push(stiffness.clone());
+        }
+    }
+    weights
+}
+
+impl Block {
+    fn of(
+        system: &System<Number>,
+        members: Vec<usize>,
+        weights: &[Number],
+    ) -> Result<Block, BallError> {
+        let states = system.states();
+        let own: Vec<Ball> = members.iter().map(|i| weights[*i].ball(BITS)).collect();
+        let inverses = own.iter().map(|weight| weight.reciprocal(BITS));
+        let inverses = inverses.collect::<Result<Vec<Ball>, _>>()?;
+        let entry = |i: usize, j: usize| system.change[i][j].ball(BITS);
+        let matrix: Matrix =
+            members.iter().map(|i| members.iter().map(|j| entry(*i, *j)).collect()).collect();
+        let column = |j: usize| {
+            let squares = members.iter().zip(&own).map(|(i, weight)| {
+                let size = system.change[*i][j].magnitude();
+                size.multiply(&size).multiply(&weight.magnitude())
+            });
+            squares.fold(Magnitude::ZERO, |sum, square| sum.add(&square)).square_root()
+        };
+        let rate = norm(&matrix, &own, &inverses);
+        Ok(Block {
+            roots: own.iter().map(|weight| weight.magnitude().square_root()).collect(),
+            inverse_roots: inverses
+                .iter()
+                .map(|inverse| inverse.magnitude().square_root())
+                .collect(),
+            driven: (states..states + system.inputs()).map(column).collect(),
+            decay: decay(matrix, &rate, &own, &inverses),
+            rate,
+            members,
+        })
+    }
+
+    /// Whether nothing changes it.
+    pub fn is_still(&self) -> bool {
+        self.rate.is_zero() && self.driven.iter().all(Magnitude::is_zero)
+    }
+
+    /// Whether an input acts on it.
+    pub fn is_driven_by(&self, input: usize) -> bool {
+        !self.driven[input].is_zero()
+    }
+
+    /// `|B u|` for inputs of these sizes.
+    pub fn push(&self, sizes: &[Magnitude]) -> Magnitude {
+        let terms = self.driven.iter().zip(sizes).map(|(column, size)| column.multiply(size));
+        terms.fold(Magnitude::ZERO, |sum, term| sum.add(&term))
+    }
+
+    /// The size of a state, by the sizes of its entries.
+    pub fn size(&self, entries: impl Iterator<Item = Magnitude>) -> Magnitude {
+        let squares = self.roots.iter().zip(entries).map(|(root, entry)| {
+            let part = root.multiply(&entry);
+            part.multiply(&part)
+        });
+        squares.fold(Magnitude::ZERO, |sum, square| sum.add(&square)).square_root()
+    }
+
+    /// What an entry is at most in a state of this size.
+    pub fn entry(&self, place: usize, size: &Magnitude) -> Magnitude {
+        self.inverse_roots[place].multiply(size)
+    }
+}
+
+/// After which time an error of a state is at most half as large, and how large it is then.
+fn decay(
+    mut matrix: Matrix,
+    rate: &Magnitude,
+    weights: &[Ball],
+    inverses: &[Ball],
+) -> Option<(i64, Magnitude)> {
+    let time = 1 - rate.top()?;
+    let scale = Ball::new(Magnitude::power_of_two(time).to_binary(), Magnitude::ZERO);
+    for entry in matrix.iter_mut().flatten() {
+        *entry = entry.multiply(&scale, BITS);
+    }
+    let size = matrix.len();
+    let unit = |i: usize, j: usize| Ball::from_integer(&i32::from(i == j).into());
+    let mut sum: Matrix = (0..size).map(|i| (0..size).map(|j| unit(i, j)).collect()).collect();
+    let mut power = sum.clone();
+    for k in 1..TERMS {
+        let inverse = Ball::from_integer(&k.into()).reciprocal(BITS).ok()?;
+        power = product(&power, &matrix);
+        for (power, sum) in power.iter_mut().flatten().zip(sum.iter_mut().flatten()) {
+            *power = power.multiply(&inverse, BITS);
+            *sum = sum.add(power, BITS);
+        }
+    }
+    // e^(2A) = (e^A)², of which twice as much is left out, and a little.
+    for doubled in 0..MOST_DOUBLINGS {
+        let left_out = Magnitude::power_of_two(TERMS_LEFT_OUT + 2 * doubled);
+        let after = norm(&sum, weights, inverses).add(&left_out);
+        if after <= Magnitude::power_of_two(-1) {
+            return Some((time + doubled, after));
+        }
+        sum = product(&sum, &sum);
+    }
+    None
+}
+
+/// A bound of the size of an error of the state of a block, as it goes from cell to cell: what it was at an
+/// earlier instant, how long ago that is at least, and what came since.
+#[derive(Clone, Debug)]
+pub(crate) struct StateError {
+    earlier: Magnitude,
+    since: f64,
+    added: Magnitude,
+}
+
+impl StateError {
+    pub fn new(size: Magnitude) -> StateError {
+        StateError { earlier: size, since: 0.0, added: Magnitude::ZERO }
+    }
+
+    /// That of a state of which enclosures are known.
+    pub fn of(block: &Block, values: &[Number]) -> StateError {
+        let radius = |value: &Number| match value {
+            Number::Exact(_) => Magnitude::ZERO,
+            Number::Enclosed(ball) => *ball.radius(),
+        };
+        StateError::new(block.size(values.iter().map(radius)))
+    }
+
+    /// Now.
+    pub fn size(&self) -> Magnitude {
+        self.earlier.add(&self.added)
+    }
+
+    /// After a time, and with what came meanwhile.
+    pub fn after(mut self, length: &Number, added: &Magnitude, block: &Block) -> StateError {
+        self.added = self.added.add(added);
+        let Some((time, left)) = &block.decay else { return self };
+        let (length, bound) = length.ball(BITS).to_double();
+        self.since += ((length - bound.to_double()) * (1.0 - f64::EPSILON)).max(0.0);
+        let times = self.since / (*time as f64).exp2();
+        if times.is_finite() && times >= 1.0 {
+            let earlier = (0..(times as u64).min(MOST_TIMES))
+                .fold(self.earlier, |earlier, _| earlier.multiply(left));
+            return StateError::new(earlier.add(&self.added));
+        }
+        self
+    }
+}
+
+/// What is left after so many of these times is nothing to speak of.
+const MOST_TIMES: u64 = 64;
+
+impl Truncation {
+    /// A bound of the norm of the error of a block on a cell, by its size there and by what drives it: for
+    /// `y' = A y + B u` with `4 ‖A‖ ≤ γ` the derivatives obey
+    /// `|y^(j+1)|/γ^(j+1) ≤ |y^(j)|/γ^j/4 + ‖B u‖/γ`.
+    pub fn driven(&self, largest: &Magnitude, drive: &Magnitude) -> Magnitude {
+        (*largest).max(drive.multiply(&Magnitude::from_u64(4)).divide(3).scale(-self.rate))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::history::engine::Engine;
+    use crate::history::series::{CellNorm, Series};
+    use crate::language::{Source, read_scene};
+    use crate::network::Network;
+    use proptest::prelude::*;
+    use wavestep_polynomial::Rational;
+
+    /// The node of two masses, one of them on the ground, with springs, dampers and two bars.
+    fn with_node<T>(what: impl Fn(&Node<Number>, &System<Number>, &Truncation) -> T) -> T {
+        let text = "scene \"A\"\nbar a { impedance = 1, travel = 1 }\nmass m { mass = 1/2, velocity = 1 }\n\
+                    support s { stiffness = 3, damping = 1/5 }\nspring k { stiffness = 7 }\n\
+                    mass p { mass = 2 }\nbar b { impedance = 3, travel = 2 }\n\
+                    line free - a - m - s - k - p - b - free\nobserve v = velocity(m)";
+        let scene = read_scene(&Source::new("scene", text).unwrap(), &Default::default());
+        let network = Network::new(&scene.unwrap()).unwrap();
+        let engine = Engine::new(&network, 128).unwrap();
+        let node = engine.nodes.iter().position(|node| node.elements.len() == 4).unwrap();
+        what(&engine.nodes[node], &engine.states[node].system, &engine.cut)
+    }
+
+    fn rational(numerator: i64, denominator: i64) -> Rational {
+        Rational::new(numerator.into(), denominator.into())
+    }
+
+    fn cell(length: &Rational, cut: &Truncation) -> CellNorm {
+        CellNorm::new(Magnitude::from_rational(length), cut)
+    }
+
+    #[test]
+    fn a_damped_node_forgets() {
+        with_node(|node, system, _| {
+            let passivity = Passivity::of(node, system).unwrap();
+            let [block] = &passivity.blocks[..] else { panic!("one block") };
+            assert_eq!(block.members, [0, 1, 2, 3]);
+            let (_, left) = block.decay.expect("bars take energy up");
+            assert!(left <= Magnitude::power_of_two(-1));
+            let error = StateError::new(Magnitude::from_u64(1));
+            let later = error.after(&Number::integer(40), &Magnitude::ZERO, block).size();
+            assert!(later < Magnitude::power_of_two(-3), "{}", later.to_double());
+        });
+    }
+
+    proptest! {
+        /// What is known of a state with an error is true of every state within that error: it is moved by
+        /// all of it at the start, and by all of what inputs leave out.
+        #[test]
+        fn errors_are_bounded(
+            moved in prop::collection::vec(-4_i64..5, 4), inputs in prop::collection::vec(-9_i64..10, 10),
+            lengths in prop::collection::vec(1_i64..9, 1..6), kept in 1_usize..4,
+        ) {
+            with_node(|node, system, cut| {
+                let passivity = Passivity::of(node, system).unwrap();
+                let block = &passivity.blocks[0];
+                let bits = cut.bits;
+                let start: Vec<Number> = (1..5).map(|i| Number::Exact(rational(i, 3))).collect();
+                let mut other: Vec<Number> = start.iter().zip(&moved)
+                    .map(|(value, by)| value.add(&Number::Exact(rational(*by, 1000)), bits))
+                    .collect();
+                let error = block.size(moved.iter()
+                    .map(|by| Magnitude::from_rational(&rational(by.abs(), 1000))));
+                let mut state: Vec<Number> = start.iter().enumerate()
+                    .map(|(i, value)| value.widened(&block.entry(i, &error), bits))
+                    .collect();
+                let mut errors = vec![StateError::new(error)];
+                let mut exact = passivity.errors(&other);
+                for length in &lengths {
+                    let length = rational(*length, 40);
+                    let norm = cell(&length, cut);
+                    let series = |from: usize| {
+                        let all = inputs[from..from + 5].iter().map(|c| Number::Exact(rational(*c, 7)));
+                        Series::new(all.collect(), Magnitude::ZERO)
+                    };
+                    let whole = [series(0), series(5)];
+                    let short = whole.each_ref().map(|own| {
+                        let left = own.coefficients.iter().enumerate().map(|(k, c)| match k < kept {
+                            true => Magnitude::ZERO,
+                            false => c.magnitude(),
+                        });
+                        let left = norm.of_sizes(&left.collect::<Vec<_>>());
+                        Series::new(own.coefficients.iter().take(kept).cloned().collect(), left)
+                    });
+                    let solved = |state: &[Number], errors: &[StateError], input: &[Series]| {
+                        system.solve(&passivity, (state, errors), input, (&norm, cut))
+                    };
+                    let wide = solved(&state, &errors, &short);
+                    let narrow = solved(&other, &exact, &whole);
+                    for part in 0..9 {
+                        let x = Number::Exact(&length * rational(part, 8));
+                        let outputs = wide.velocities.iter().chain(&wide.state);
+                        for (a, b) in outputs.zip(narrow.velocities.iter().chain(&narrow.state)) {
+                            let mut pair = [a.clone(), b.clone()];
+                            for order in 0..3 {
+                                let [wide, narrow] = pair.each_ref().map(|own| own.value(&x, cut));
+                                let off = wide.subtract(&narrow, bits).ball(bits);
+                                assert!(off.contains_zero(), "order {order}: {off}");
+                                pair = pair.map(|own| own.derivative(cut));
+                            }
+                        }
+                    }
+                    let length = Number::Exact(length);
+                    (state, errors) = system.ended(&passivity, &wide, &errors, &length, cut);
+                    (other, exact) = system.ended(&passivity, &narrow, &exact, &length, cut);
+                    for (wide, narrow) in state.iter().zip(&other) {
+                        assert!(wide.subtract(narrow, bits).ball(bits).contains_zero());
+                    }
+                }
+            });
+        }
+    }
+}
