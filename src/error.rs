@@ -353,9 +353,7 @@ fn remedy_of_history(error: &HistoryError) -> String {
         HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
             "ask for an earlier end"
         }
-        HistoryError::Refused(_) | HistoryError::NoObservable(_) => {
-            "docs/scene-language.md says under `Contacts` what is followed"
-        }
+        HistoryError::Refused(_) => "docs/scene-language.md says under `Contacts` what is followed",
         _ => "ask for an earlier time",
     };
     usual.to_owned()

@@ -16,9 +16,6 @@ pub enum HistoryError {
     /// A value of the scene that is no number.
     #[error(transparent)]
     Value(EnclosureError),
-    /// The scene has no observable of this name.
-    #[error("`{0}` is no observable of this scene")]
-    NoObservable(String),
     /// Something that is not followed.
     #[error(transparent)]
     Refused(#[from] NotFollowed),

@@ -34,6 +34,5 @@ mod validity;
 
 pub use error::{HistoryError, NotFollowed, Question};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
-pub use phased::FollowedSignal;
-pub(crate) use phased::Follower;
+pub(crate) use phased::{FollowedSignal, Follower};
 pub use validity::Validity;

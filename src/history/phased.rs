@@ -11,7 +11,7 @@ use crate::history::moment::Moment;
 use crate::history::part::{Part, Source};
 use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
-use crate::network::{MeasuredValue, Network, Squared};
+use crate::network::{Network, Observed, Squared};
 use crate::scene::Dimension;
 use num_traits::Zero as _;
 use std::borrow::Cow;
@@ -126,7 +126,7 @@ struct Seen<'a> {
 }
 
 /// An observable of a scene whose contacts open, on a window of the user's time.
-pub struct FollowedSignal<'a> {
+pub(crate) struct FollowedSignal<'a> {
     follower: Rc<Follower<'a>>,
     seen: Seen<'a>,
     window: [Rational; 2],
@@ -137,19 +137,13 @@ pub struct FollowedSignal<'a> {
 
 impl<'a> FollowedSignal<'a> {
     /// Follows the scene until the end of the window, to see an observable that is linear in the motion.
-    pub fn new(
+    pub fn of_scene(
         network: &'a Network,
-        observable: &str,
+        observed: &Observed,
         window: [&Rational; 2],
     ) -> Result<Self, HistoryError> {
-        let mut measures = network.scaled.measures().iter();
-        let found = measures.find_map(|own| match &own.value {
-            MeasuredValue::Linear(terms) if own.name == observable => Some((terms, &own.unit)),
-            _ => None,
-        });
-        let (terms, unit) =
-            found.ok_or_else(|| HistoryError::NoObservable(observable.to_owned()))?;
-        let parts = Box::new(|engine: &Engine| engine.parts(network, terms, unit));
+        let (readings, unit) = (observed.readings.clone(), observed.unit.clone());
+        let parts = Box::new(move |engine: &Engine| engine.parts(network, &readings, &unit));
         let seen = Seen { parts, integrated: 0 };
         FollowedSignal::seen(&follower(network, window)?, seen, window)
     }

@@ -20,24 +20,24 @@ impl Network {
     /// Forms all observables of the scene.
     pub(crate) fn set_observables(&mut self) -> Result<(), NetworkError> {
         for measured in self.scaled.measures().to_vec() {
-            let value = match &measured.value {
+            let (value, readings) = match measured.value {
                 MeasuredValue::Linear(terms) => {
                     let mut sum = Observation::default();
-                    for term in terms {
+                    for term in &terms {
                         add(&mut sum, &self.reading(&term.of), &term.coefficient);
                     }
-                    ObservedValue::Linear(sum)
+                    (ObservedValue::Linear(sum), terms)
                 }
                 MeasuredValue::Energy(elements) => {
                     let mut parts = Vec::new();
                     for (coefficient, element) in elements {
-                        parts.extend(self.energy(&measured.name, coefficient, *element)?);
+                        parts.extend(self.energy(&measured.name, &coefficient, element)?);
                     }
-                    ObservedValue::Energy(parts)
+                    (ObservedValue::Energy(parts), Vec::new())
                 }
             };
             let (name, unit, dimension) = (measured.name, measured.unit, measured.dimension);
-            self.observables.push(Observed { name, value, unit, dimension });
+            self.observables.push(Observed { name, value, readings, unit, dimension });
         }
         Ok(())
     }

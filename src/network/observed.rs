@@ -1,7 +1,7 @@
 //! What an observable is in the waves of a network.
 
 use crate::expression::{Fraction, Root};
-use crate::network::reading::Reading;
+use crate::network::reading::{Reading, Term};
 use crate::recurrence::Observation;
 use crate::scene::Dimension;
 
@@ -11,6 +11,8 @@ pub struct Observed {
     pub name: String,
     /// In the scene's own scales.
     pub value: ObservedValue,
+    /// The readings that it is the sum of, where it is linear in the motion of a scene.
+    pub(crate) readings: Vec<Term>,
     /// The unit of its values, in metres, kilograms and seconds.
     pub unit: Root,
     /// The dimension of the unit; none for scenes without units.

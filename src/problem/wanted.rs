@@ -57,8 +57,9 @@ impl Wanted {
 
     fn linear(name: &str, observation: Observation) -> Wanted {
         let value = ObservedValue::Linear(observation);
-        let (name, unit) = (name.to_owned(), Root::from(Fraction::one()));
-        Wanted::of_observed(Observed { name, value, unit, dimension: Dimension::NONE }, None)
+        let (name, readings, unit) = (name.to_owned(), Vec::new(), Root::from(Fraction::one()));
+        let dimension = Dimension::NONE;
+        Wanted::of_observed(Observed { name, value, readings, unit, dimension }, None)
     }
 }
 

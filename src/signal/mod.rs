@@ -53,7 +53,7 @@ pub fn of_scene<'a>(
             Purpose::Values | Purpose::Stretches => signal,
         }));
     }
-    let followed = FollowedSignal::new(network, &observed.name, window)?;
+    let followed = FollowedSignal::of_scene(network, observed, window)?;
     Ok(match purpose {
         Purpose::Values | Purpose::Echoes => Box::new(followed),
         Purpose::Stretches => Box::new(followed.cut_at_breaks()?),

@@ -13,11 +13,11 @@ mod validity;
 use crate::support::mirror::mirrored;
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Limit, Value, value};
+use wavestep::evaluate::{Limit, Signal, Value, value};
 use wavestep::history::{Ending, Event, EventKind, History};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
-use wavestep::signal::{Purpose, of_scene};
+use wavestep::signal::{Purpose, SignalError, of_scene};
 use wavestep_polynomial::Rational;
 
 type Values<'a> = &'a [(&'a str, &'a str)];
@@ -51,6 +51,17 @@ fn rational(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
+/// An observable as it is followed through all phases.
+fn signal<'a>(
+    network: &'a Network,
+    name: &str,
+    window: [&Rational; 2],
+    purpose: Purpose,
+) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    let observed = network.observables().iter().find(|own| own.name == name).unwrap();
+    of_scene(network, observed, window, purpose)
+}
+
 /// The digits of an observable at times.
 fn values(
     network: &Network,
@@ -60,8 +71,7 @@ fn values(
     digits: usize,
 ) -> Vec<Value> {
     let window = [times.iter().min().unwrap(), times.iter().max().unwrap()];
-    let observed = network.observables().iter().find(|own| own.name == name).unwrap();
-    let signal = of_scene(network, observed, window, Purpose::Values).unwrap();
+    let signal = signal(network, name, window, Purpose::Values).unwrap();
     times.iter().map(|time| value(&*signal, time, limit, digits, 1 << 18).unwrap()).collect()
 }
 

@@ -1,9 +1,10 @@
 //! What is found and drawn across the phases of contacts agrees with values, events and closed forms.
 
-use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped};
+use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped, signal};
 use wavestep::evaluate::{EvaluateError, Goal, Limit, Place, Root, Search, Value};
-use wavestep::history::{EventKind, FollowedSignal, History};
+use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::network::Network;
+use wavestep::signal::Purpose;
 use wavestep_polynomial::Rational;
 
 const BITS: u64 = 1 << 10;
@@ -31,9 +32,9 @@ fn roots_and_extrema_are_those_of_the_events() {
     let network = shipped("saint-venant", &[("mu", "1")]);
     let history = History::of(&network, None, 15).unwrap();
     let window = [rational(0, 1), rational(9, 1)];
-    let signal = |name| FollowedSignal::new(&network, name, [&window[0], &window[1]]).unwrap();
-    let (force, velocity) = (signal("strain_impact"), signal("velocity"));
-    let [force, velocity] = [&force, &velocity].map(|signal| Search::new(signal).unwrap());
+    let seen = |name| signal(&network, name, window.each_ref(), Purpose::Stretches).unwrap();
+    let (force, velocity) = (seen("strain_impact"), seen("velocity"));
+    let [force, velocity] = [&force, &velocity].map(|signal| Search::new(&**signal).unwrap());
     let roots = force.roots(&rational(0, 1), 15, BITS).unwrap();
     let [first, second] = &roots.all[..] else { panic!("{roots:?}") };
     let [_, left, struck, again] = &history.events[..] else { panic!("four events") };
@@ -64,8 +65,8 @@ fn no_value_is_larger_than_the_largest() {
         let seen = network.observables().iter().map(|observed| observed.name.clone());
         let observable = seen.into_iter().find(|name| !matches!(&name[..], "energy" | "momentum"));
         let observable = observable.expect("an observable that can be searched");
-        let signal = FollowedSignal::new(&network, &observable, [&from, &to]).unwrap();
-        let search = Search::new(&signal).unwrap();
+        let signal = signal(&network, &observable, [&from, &to], Purpose::Stretches).unwrap();
+        let search = Search::new(&*signal).unwrap();
         let largest = search.extremum(Goal::Largest, 9, BITS).unwrap();
         let times: Vec<Rational> = (0..=40).map(|i| &to * rational(i, 40)).collect();
         let values = crate::history::values(&network, &observable, &times, Limit::Right, 9);
@@ -96,15 +97,12 @@ fn no_value_is_larger_than_the_largest() {
 #[test]
 fn empty_windows_are_refused() {
     let network = shipped("saint-venant", &[("mu", "1")]);
-    let (zero, one, early) = (rational(0, 1), rational(1, 1), rational(-1, 1));
-    let refused = |name, window| {
-        let signal = FollowedSignal::new(&network, name, window);
-        signal.and_then(FollowedSignal::cut_at_breaks).err().unwrap()
-    };
-    let instant = FollowedSignal::new(&network, "velocity", [&one, &one]).unwrap();
-    assert_eq!(Search::new(&instant).err(), Some(EvaluateError::EmptyWindow));
-    assert_eq!(refused("velocity", [&early, &one]), EvaluateError::EmptyWindow.into());
-    assert!(refused("speed", [&zero, &one]).to_string().contains("no observable"));
+    let (one, early) = (rational(1, 1), rational(-1, 1));
+    let velocity = |window| signal(&network, "velocity", window, Purpose::Stretches);
+    let instant = velocity([&one, &one]).unwrap();
+    assert_eq!(Search::new(&*instant).err(), Some(EvaluateError::EmptyWindow));
+    let refused = HistoryError::from(EvaluateError::EmptyWindow);
+    assert_eq!(velocity([&early, &one]).err(), Some(refused.into()));
 }
 
 /// A distance may be no rational share of a travel time: then that has a name, and its digits are the same
@@ -150,8 +148,8 @@ fn events_at_the_end_of_a_window_are_told() {
     let pressed = crate::history::refusals::pressed("3/2 - t");
     let network = network_of(&format!("{pressed}\nobserve wall = force(rod.right)"), &[]);
     let window = [rational(3, 2), rational(5, 2)];
-    let signal = FollowedSignal::new(&network, "wall", [&window[0], &window[1]]).unwrap();
-    let search = Search::new(&signal).unwrap();
+    let signal = signal(&network, "wall", window.each_ref(), Purpose::Stretches).unwrap();
+    let search = Search::new(&*signal).unwrap();
     let roots = search.roots(&rational(0, 1), 9, BITS).unwrap();
     let [Root::Arrival { time, .. } | Root::End { time }] = &roots.all[..] else {
         panic!("{roots:?}")
@@ -204,8 +202,8 @@ fn the_wall_takes_up_the_missing_momentum() {
 fn finer_digits_begin_with_the_coarser() {
     let network = shipped("saint-venant", &[("mu", "2")]);
     let window = [rational(0, 1), rational(6, 1)];
-    let signal = FollowedSignal::new(&network, "velocity", [&window[0], &window[1]]).unwrap();
-    let search = Search::new(&signal).unwrap();
+    let signal = signal(&network, "velocity", window.each_ref(), Purpose::Stretches).unwrap();
+    let search = Search::new(&*signal).unwrap();
     let time = |digits| match &search.roots(&rational(0, 1), digits, BITS).unwrap().all[..] {
         [Root::Simple { time, .. }, ..] => ball(time),
         other => panic!("{other:?}"),

@@ -5,7 +5,7 @@ use crate::hertz::HertzError;
 use crate::picture::PictureError;
 use wavestep::evaluate::EvaluateError;
 use wavestep::field::FieldError;
-use wavestep::history::HistoryError;
+use wavestep::signal::SignalError;
 use wavestep_draw::PlotError;
 
 #[derive(Debug, thiserror::Error)]
@@ -24,7 +24,7 @@ pub enum FigureError {
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
     #[error(transparent)]
-    History(#[from] HistoryError),
+    Signal(#[from] SignalError),
     #[error(transparent)]
     Picture(Box<PictureError>),
     #[error(transparent)]

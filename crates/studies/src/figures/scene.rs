@@ -4,10 +4,10 @@ use super::FigureError;
 use crate::picture::{Sampled, sampled};
 use std::collections::BTreeMap;
 use wavestep::evaluate::{ClosedSignal, EvaluateError};
-use wavestep::history::FollowedSignal;
 use wavestep::language::{self, Source};
 use wavestep::network::Network;
 use wavestep::recurrence::Recurrence;
+use wavestep::signal::{Purpose, of_scene};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
 
@@ -49,6 +49,8 @@ pub(super) fn followed(
     name: &str,
     last: &Rational,
 ) -> Result<Sampled, FigureError> {
-    let signal = FollowedSignal::new(network, name, [&Rational::default(), last])?;
-    Ok(sampled(&signal)?)
+    let observed = network.observables().iter().find(|observed| observed.name == name);
+    let observed = observed.expect("a built-in observable");
+    let signal = of_scene(network, observed, [&Rational::default(), last], Purpose::Stretches)?;
+    Ok(sampled(&*signal)?)
 }

@@ -1,9 +1,9 @@
 //! Lines that are drawn go through the values.
 
-use wavestep::evaluate::{Limit, Value, value};
-use wavestep::history::FollowedSignal;
+use wavestep::evaluate::{Limit, Signal, Value, value};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
+use wavestep::signal::{Purpose, of_scene};
 use wavestep_polynomial::Rational;
 use wavestep_studies::picture::{Prefixed, sampled};
 
@@ -16,6 +16,11 @@ fn network(text: &str, values: &[(&str, &str)]) -> Network {
 
 fn shipped(name: &str, values: &[(&str, &str)]) -> Network {
     network(wavestep::scenes::find(name).expect("a built-in scene").text, values)
+}
+
+fn signal<'a>(network: &'a Network, name: &str, window: &[Rational; 2]) -> Box<dyn Signal + 'a> {
+    let observed = network.observables().iter().find(|observed| observed.name == name).unwrap();
+    of_scene(network, observed, window.each_ref(), Purpose::Stretches).unwrap()
 }
 
 fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -37,13 +42,13 @@ fn lines_go_through_values() {
     ] {
         let network = shipped(name, values);
         let window = [rational(0, 1), rational(5, 1)];
-        let signal = FollowedSignal::new(&network, observable, [&window[0], &window[1]]).unwrap();
-        let line = sampled(&signal).unwrap();
+        let signal = signal(&network, observable, &window);
+        let line = sampled(&*signal).unwrap();
         let points = line.points.iter().filter(|(time, _)| time.is_finite());
         for (time, drawn) in points.step_by(7) {
             let at = Rational::from_float(*time).unwrap();
             let known = [Limit::Left, Limit::Right]
-                .map(|side| double(&value(&signal, &at, side, 12, 1 << 12).unwrap()));
+                .map(|side| double(&value(&*signal, &at, side, 12, 1 << 12).unwrap()));
             let off = known.map(|known| (known - drawn).abs());
             assert!(off[0].min(off[1]) < 1e-9, "{name} {observable} at {time}: {drawn} {known:?}");
         }
@@ -59,8 +64,8 @@ fn jumps_are_where_waves_pass() {
         &[],
     );
     let window = [rational(0, 1), rational(9, 1)];
-    let signal = FollowedSignal::new(&rod, "v", [&window[0], &window[1]]).unwrap();
-    assert_eq!(sampled(&signal).unwrap().jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
+    let signal = signal(&rod, "v", &window);
+    assert_eq!(sampled(&*signal).unwrap().jumps, [(0.5, 1.0, 0.0), (1.5, 0.0, -1.0)]);
 }
 
 #[test]
