@@ -289,8 +289,12 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn echoes(&self) -> Option<(usize, usize)> {
-        let Source::Scene { echoes, .. } = &self.source else { return None };
-        echoes.made.get()?.work()
+        let Source::Scene { network, echoes, .. } = &self.source else { return None };
+        match echoes.seen.is_empty() {
+            true => echoes.made.get()?.work(),
+            // What several signals share is not made until it is asked for.
+            false => self.scene_echoes(network, echoes).ok()?.work(),
+        }
     }
 
     fn instant(&self, stretch: usize) -> Option<Instant> {
