@@ -132,3 +132,17 @@ fn the_end_of_a_spring_is_struck_again() {
         assert_eq!((before.to_f64(), after.to_f64() >= 0.0), (0.0, true));
     }
 }
+
+/// A stiff specimen between long bars: its rate is some fifty of their travel times, and what is not known of it
+/// dies out as fast. So the precision hardly grows until nothing meets again, and cells are as many as arrivals.
+#[test]
+fn a_stiff_specimen_needs_few_cells_and_bits() {
+    let text = "scene \"A stiff specimen\"\nbar striker { impedance = 1, travel = 1/5, velocity = 1 }\n\
+        bar incident { impedance = 1, travel = 1 }\nspring specimen { stiffness = 26 }\n\
+        bar transmitter { impedance = 1, travel = 1 }\n\
+        line free - striker | incident - specimen - transmitter - free\ncontacts open\n\
+        observe force = force(specimen)";
+    let history = History::of(&network_of(text, &[]), None, 12).unwrap();
+    assert_eq!(history.ending, wavestep::Ending::Parted);
+    assert!(history.bits <= 352 && history.cells <= 1600, "{} {}", history.bits, history.cells);
+}
