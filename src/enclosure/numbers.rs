@@ -3,6 +3,7 @@
 use crate::ball::{Attempt, Ball, ComplexBall, Number, Precisions};
 use crate::enclosure::error::EnclosureError;
 use crate::enclosure::expression::enclose_expression;
+use crate::enclosure::zero::{Order, ZeroError, enclose_zero_of};
 use crate::expression::{Constant, Definition, Expression, Field, Fraction, Root};
 use std::cell::RefCell;
 use std::cmp::Ordering;
@@ -93,32 +94,28 @@ impl Numbers {
     }
 
     /// The zero of a polynomial, coefficients from the highest power down, that halving finds
-    /// between two numbers at which it has different signs; of the halves the lower one is taken
-    /// where the signs differ there.
+    /// between two numbers at which it has different signs.
     fn enclose_zero(
         &self,
         polynomial: &[Fraction],
-        (lower, upper): &(Rational, Rational),
+        between: &[Rational; 2],
         bits: u64,
     ) -> Result<Ball, EnclosureError> {
-        let sign = |x: &Rational| -> Result<Ordering, EnclosureError> {
-            let x = Fraction::constant(x);
-            let value = polynomial.iter().fold(Fraction::zero(), |sum, c| &(&sum * &x) + c);
-            self.compare(&value, &Fraction::zero())
-        };
-        let (mut lower, mut upper) = (lower.clone(), upper.clone());
-        let at_lower = sign(&lower)?;
-        let size = upper.clone().max(-lower.clone()).ceil().to_integer().bits();
-        let two = Rational::from_integer(2.into());
-        for _ in 0..bits + size {
-            let middle = (&lower + &upper) / &two;
-            match sign(&middle)? {
-                Ordering::Equal => return Ok(Ball::from_rational(&middle, bits)),
-                found if found == at_lower => lower = middle,
-                _ => upper = middle,
+        let function = |order, x: &Ball, bits| {
+            let (mut value, mut slope) = (Ball::zero(), Ball::zero());
+            for coefficient in polynomial {
+                slope = slope.multiply(x, bits).add(&value, bits);
+                value = value.multiply(x, bits).add(&self.enclose(coefficient, bits)?, bits);
             }
-        }
-        Ok(Ball::between(&lower, &upper, bits))
+            Ok(if order == Order::Value { value } else { slope })
+        };
+        enclose_zero_of(&function, between, bits).map_err(|error| match error {
+            ZeroError::Enclosure(error) => error,
+            ZeroError::SameSign | ZeroError::NotSimple => {
+                let best = Box::new(Ball::between(&between[0], &between[1], bits));
+                EnclosureError::Undecided { best, bits }
+            }
+        })
     }
 
     /// The complex zero that the method of Newton finds. Within `n |p(z)/p'(z)|` of any point `z`

@@ -27,88 +27,63 @@ pub enum ZeroError {
     Enclosure(#[from] EnclosureError),
 }
 
-/// An expression of one symbol with its derivative.
-struct Function<'a> {
-    value: &'a Expression,
-    slope: Expression,
-    symbol: &'a Symbol,
+/// A function, or its derivative, on a ball with so many bits.
+type Enclosures<'a> = dyn Fn(Order, &Ball, u64) -> Result<Ball, EnclosureError> + 'a;
+
+/// What is enclosed of a function.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Order {
+    Value,
+    Slope,
 }
 
-impl Function<'_> {
-    fn enclose(&self, expression: &Expression, x: &Ball, bits: u64) -> Result<Ball, ZeroError> {
-        let at = |symbol: &Symbol, _| (symbol == self.symbol).then(|| x.clone());
-        Ok(real_part(enclose_expression(expression, &at, bits)?)?)
-    }
-
-    /// The sign at a number; `None` where it is not decided.
-    fn sign(&self, x: &Rational) -> Result<Option<Ordering>, ZeroError> {
-        let attempt = |bits| {
-            let value = self.enclose(self.value, &Ball::from_rational(x, bits), bits)?;
-            let sign = value.sign().filter(|sign| sign.is_ne());
-            Ok(Attempt::of(sign, sign.is_some()))
-        };
-        Precisions::doubling(FIRST_BITS, LAST_BITS).raise(attempt).map(Attempt::best)
-    }
+/// The sign at a number; `None` where it is not decided.
+fn sign(function: &Enclosures<'_>, x: &Rational) -> Result<Option<Ordering>, ZeroError> {
+    let attempt = |bits| {
+        let value = function(Order::Value, &Ball::from_rational(x, bits), bits)?;
+        let sign = value.sign().filter(|sign| sign.is_ne());
+        Ok(Attempt::of(sign, sign.is_some()))
+    };
+    Precisions::doubling(FIRST_BITS, LAST_BITS).raise(attempt).map(Attempt::best)
 }
 
-/// A zero between two bounds at which an expression has different signs, to about `bits` bits.
+/// A zero between two bounds at which an expression has different signs, to about `bits` bits; see
+/// [`enclose_zero_of`].
+pub fn enclose_zero(
+    expression: &Expression,
+    symbol: &Symbol,
+    ends: &[Rational; 2],
+    bits: u64,
+) -> Result<Ball, ZeroError> {
+    let derivative = expression.derivative(symbol);
+    let function = |order, x: &Ball, bits| {
+        let expression = if order == Order::Value { expression } else { &derivative };
+        let at = |own: &Symbol, _| (own == symbol).then(|| x.clone());
+        real_part(enclose_expression(expression, &at, bits)?)
+    };
+    enclose_zero_of(&function, ends, bits)
+}
+
+/// A zero between two bounds at which a function has different signs, to about `bits` bits.
 ///
 /// The interval is halved, keeping a change of sign, until the derivative is known to a quarter on it: it then
 /// holds exactly one zero. From there on `m − f(m)/f'(X)` encloses that zero, by the mean value
 /// theorem, and is about twice as exact as the interval X around m. That there is only one zero
 /// between the given bounds is not proven.
-pub fn enclose_zero(
-    expression: &Expression,
-    symbol: &Symbol,
-    [low, high]: &[Rational; 2],
+pub(crate) fn enclose_zero_of(
+    function: &Enclosures<'_>,
+    ends: &[Rational; 2],
     bits: u64,
 ) -> Result<Ball, ZeroError> {
-    let function = Function { value: expression, slope: expression.derivative(symbol), symbol };
-    let (mut low, mut high) = (low.clone(), high.clone());
-    let first = function.sign(&low)?.ok_or(ZeroError::SameSign)?;
-    if function.sign(&high)? != Some(first.reverse()) {
-        return Err(ZeroError::SameSign);
-    }
-    let mut interval = Ball::between(&low, &high, FIRST_BITS);
-    let mut halvings = 0;
-    loop {
-        // With a slope that is known to a quarter, Newton's step less than halves the interval: its radius
-        // is at most (5/4)(1/4)/(3/4) of it.
-        if let Ok(slope) = function.enclose(&function.slope, &interval, FIRST_BITS)
-            && slope.radius().scale(2) < slope.midpoint().magnitude()
-        {
-            break;
-        }
-        if halvings == MAX_HALVINGS {
-            return Err(ZeroError::NotSimple);
-        }
-        halvings += 1;
-        // A zero in the middle itself is met by cutting elsewhere.
-        let cuts = [(1, 2), (3, 7)].map(|(a, b)| Rational::new(a.into(), b.into()));
-        let signed = cuts.iter().find_map(|share| {
-            let cut = &low + (&high - &low) * share;
-            match function.sign(&cut) {
-                Ok(Some(sign)) => Some(Ok((cut, sign))),
-                Ok(None) => None,
-                Err(error) => Some(Err(error)),
-            }
-        });
-        let (cut, sign) = signed.ok_or(ZeroError::NotSimple)??;
-        if sign == first {
-            low = cut
-        } else {
-            high = cut
-        }
-        interval = Ball::between(&low, &high, FIRST_BITS);
-    }
+    let mut interval = single_zero(function, ends)?;
     let precisions = Precisions::doubling(FIRST_BITS, 2 * bits + LAST_BITS);
     let mut working = precisions.first();
     loop {
         let middle = Rational::from(interval.midpoint());
         let point = Ball::from_rational(&middle, 2 * working + 64);
-        let slope = function.enclose(&function.slope, &interval, working)?;
+        let slope = function(Order::Slope, &interval, working)?;
         let inverse = slope.reciprocal(working).map_err(EnclosureError::Ball)?;
-        let value = function.enclose(expression, &point, 2 * working)?;
+        let value = function(Order::Value, &point, 2 * working)?;
         let next = point.subtract(&value.multiply(&inverse, 2 * working), 2 * working + 32);
         let is_smaller = next.radius().scale(1) < *interval.radius();
         if is_smaller {
@@ -124,6 +99,38 @@ pub fn enclose_zero(
             None => return Err(ZeroError::NotSimple),
         }
     }
+}
+
+/// An interval with exactly one zero, on which the derivative is known to a quarter.
+fn single_zero(function: &Enclosures<'_>, [low, high]: &[Rational; 2]) -> Result<Ball, ZeroError> {
+    let (mut low, mut high) = (low.clone(), high.clone());
+    let first = sign(function, &low)?.ok_or(ZeroError::SameSign)?;
+    if sign(function, &high)? != Some(first.reverse()) {
+        return Err(ZeroError::SameSign);
+    }
+    for _ in 0..=MAX_HALVINGS {
+        let interval = Ball::between(&low, &high, FIRST_BITS);
+        // With a slope that is known to a quarter, Newton's step less than halves the interval: its radius
+        // is at most (5/4)(1/4)/(3/4) of it.
+        if let Ok(slope) = function(Order::Slope, &interval, FIRST_BITS)
+            && slope.radius().scale(2) < slope.midpoint().magnitude()
+        {
+            return Ok(interval);
+        }
+        // A zero in the middle itself is met by cutting elsewhere.
+        let cuts = [(1, 2), (3, 7)].map(|(a, b)| Rational::new(a.into(), b.into()));
+        let signed = cuts.iter().find_map(|share| {
+            let cut = &low + (&high - &low) * share;
+            match sign(function, &cut) {
+                Ok(Some(sign)) => Some(Ok((cut, sign))),
+                Ok(None) => None,
+                Err(error) => Some(Err(error)),
+            }
+        });
+        let (cut, sign) = signed.ok_or(ZeroError::NotSimple)??;
+        if sign == first { low = cut } else { high = cut }
+    }
+    Err(ZeroError::NotSimple)
 }
 
 #[cfg(test)]

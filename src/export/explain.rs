@@ -269,7 +269,7 @@ fn definition(value: &Definition) -> Right {
                 format!("\\text{{the {part} part of an }} x \\text{{ with }} {latex} = 0"),
             )
         }
-        Definition::Zero { polynomial, between: (lower, upper) } => {
+        Definition::Zero { polynomial, between: [lower, upper] } => {
             let (text, latex) = both(|n| write_flat(&polynomial_in_x(polynomial), n));
             Right::Written(
                 format!("the x between {lower} and {upper} with {text} = 0"),

@@ -87,7 +87,7 @@ pub enum Definition {
     Root(Root),
     /// A zero of a polynomial, coefficients from the highest power down, between two numbers at
     /// which it has different signs: the one that halving finds.
-    Zero { polynomial: Vec<Fraction>, between: (Rational, Rational) },
+    Zero { polynomial: Vec<Fraction>, between: [Rational; 2] },
     /// The real or imaginary part of a complex zero of a polynomial, coefficients from the highest
     /// power down: the zero that the method of Newton finds from a starting point.
     ComplexZero {

@@ -9,9 +9,11 @@ use crate::expression::{Fraction, Root};
 use crate::network::error::NetworkError;
 use crate::network::layout::Layout;
 use crate::network::model::{Model, Scale, bar_roots};
+use crate::network::node::Side;
 use crate::network::reading::{Elements, Face, Field, Reading, Section, Term, section};
 use crate::scene::{
-    Body, Dimension, ElementIndex, Kind, Measure, Mistake, Observable, Place, Position, Scene, Seen,
+    Body, Dimension, ElementIndex, Joint, Kind, Measure, Mistake, Observable, Place, Position,
+    Scene, Seen,
 };
 use wavestep_polynomial::Rational;
 
@@ -141,12 +143,14 @@ impl<'a> Table<'a> {
         let elements = self.elements();
         let face = |element| elements.lump(element).map(Face::Left);
         let terms = match (seen.measure, &seen.place, section) {
-            (Measure::Velocity, _, Some(section)) => in_bar(1, Field::Velocity, section),
-            (Measure::Displacement, _, Some(section)) => in_bar(1, Field::Displacement, section),
-            (Measure::Force, _, Some(section)) => in_bar(1, Field::Force, section),
+            (Measure::Velocity, _, Some(section)) => self.in_bar(1, Field::Velocity, section),
+            (Measure::Displacement, _, Some(section)) => {
+                self.in_bar(1, Field::Displacement, section)
+            }
+            (Measure::Force, _, Some(section)) => self.in_bar(1, Field::Force, section),
             // Positive where it pulls.
             (Measure::Strain | Measure::Stress, _, Some(section)) => {
-                in_bar(-1, Field::Force, section)
+                self.in_bar(-1, Field::Force, section)
             }
             (Measure::Velocity, Place::Element(element), _) => {
                 face(*element).map(|face| vec![Term::one(Reading::Velocity(face))])
@@ -167,6 +171,31 @@ impl<'a> Table<'a> {
             _ => Err(Mistake::NotMeasurable),
         };
         Ok((terms.map_err(refused)?, unit))
+    }
+
+    fn in_bar(&self, sign: i64, field: Field, section: Section) -> Result<Vec<Term>, Mistake> {
+        if self.vanishes(field, &section) {
+            return Ok(Vec::new());
+        }
+        let coefficient = Fraction::constant(&Rational::from_integer(sign.into()));
+        Ok(vec![Term { coefficient, of: Reading::InBar(field, section) }])
+    }
+
+    /// Whether a boundary condition alone makes a field zero: the force at a free end, the motion at a fixed
+    /// one that cannot open.
+    fn vanishes(&self, field: Field, section: &Section) -> bool {
+        let Some(side) = section.end(Fraction::is_zero) else { return false };
+        let Some(node) = self.layout.ends[section.bar][side] else { return false };
+        let node = &self.layout.nodes[node];
+        let joints = &self.scene.line.joints;
+        let joint = if side == 0 { joints.first() } else { joints.last() };
+        let may_open = self.scene.contacts_open && joint == Some(&Joint::Contact);
+        let beyond = [node.left, node.right][side];
+        node.elements.is_empty()
+            && match field {
+                Field::Force => beyond == Side::Free,
+                Field::Velocity | Field::Displacement => beyond == Side::Fixed && !may_open,
+            }
     }
 
     fn body(&self, element: ElementIndex) -> Option<&'a Body> {
@@ -203,11 +232,6 @@ impl<'a> Table<'a> {
         };
         Ok(Some(section(self.layout, self.model, bar, time)))
     }
-}
-
-fn in_bar(sign: i64, field: Field, section: Section) -> Result<Vec<Term>, Mistake> {
-    let coefficient = Fraction::constant(&Rational::from_integer(sign.into()));
-    Ok(vec![Term { coefficient, of: Reading::InBar(field, section) }])
 }
 
 /// The time in which a wave goes a distance; in bars given by impedance distances are times.

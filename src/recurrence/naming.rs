@@ -78,7 +78,7 @@ impl Naming {
                 let positive = x > Rational::default();
                 let relation = if positive { Relation::Greater } else { Relation::Less };
                 let polynomial = polynomial.to_vec();
-                let zero = Definition::Zero { polynomial, between: (lower, x) };
+                let zero = Definition::Zero { polynomial, between: [lower, x] };
                 return Some(Fraction::symbol(&self.name("rho", zero, relation)));
             }
             before = Some((x, sign));

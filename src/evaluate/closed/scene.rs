@@ -371,7 +371,8 @@ impl<'a> SceneEchoes<'a> {
             None => {
                 let named = !recurrence.constants().is_empty();
                 let most = if named { MAX_EXACT_ECHOES_NAMED } else { MAX_EXACT_ECHOES };
-                let feasible = self.needed() <= most && !recurrence.has_named_rates();
+                let other_than_zero = || self.work().is_some_and(|(expanded, _)| expanded <= most);
+                let feasible = !recurrence.has_named_rates() && other_than_zero();
                 let exact = || self.solve_in(Exact::new(&statement.assumptions)).ok();
                 let echoes = feasible.then(exact).flatten().map(Rc::new);
                 self.known.borrow_mut().exact = Some(echoes.clone());

@@ -140,7 +140,7 @@ fn refusals_name_what_is_not_represented() {
             "#units" => make(model, &built_in("incommensurate", &[])).map(drop),
             "#observe" => {
                 let text =
-                    format!("scene \"A\"\n{BAR}line free - a - free\nobserve X = force(a.left)");
+                    format!("scene \"A\"\n{BAR}line free - a - free\nobserve X = force(a.at(1/4))");
                 make(model, &network(&text, &[])).unwrap().values(0, &[1.0]).map(drop)
             }
             "#momentum" => {
