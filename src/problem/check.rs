@@ -3,8 +3,9 @@
 use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
 use crate::evaluate::arrivals;
-use crate::expression::Condition;
+use crate::expression::{Condition, Expression};
 use crate::network::Network;
+use crate::recurrence::Statement;
 use crate::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
 use wavestep_polynomial::Symbol;
 
@@ -13,6 +14,9 @@ const PERIODS: usize = 6;
 
 /// The same where formulas hold several named constants.
 const PERIODS_WITH_CONSTANTS: usize = 2;
+
+/// Formulas with more terms are compared, and no longer ones.
+const MAX_TERMS: usize = 10_000;
 
 /// How many periods of a lattice are followed in a check.
 const FIRST_ECHOES: usize = 3;
@@ -134,22 +138,41 @@ impl Problem {
         };
         for n in 0..=periods {
             by_echo.advance().map_err(|error| self.explained(error.into()))?;
-            if ways == Derivations::ByEchoes {
-                continue;
+            if ways == Derivations::InTwoWays {
+                by_period.advance().map_err(|error| self.explained(error.into()))?;
+                agree(statement, n, &by_echo, &by_period)?;
             }
-            by_period.advance().map_err(|error| self.explained(error.into()))?;
-            for (wave, name) in statement.waves.iter().enumerate() {
-                let piece = by_echo.sum(wave).piece(n).ok();
-                let other = &by_period.pieces()[wave][n];
-                let difference =
-                    piece.map(|piece| statement.assumptions.reduced(&(&piece - other)));
-                if difference.is_none_or(|difference| !difference.is_zero()) {
-                    return Err(ProblemError::Disagreement(name.clone(), n));
-                }
+            if length(&by_echo, statement.waves.len()) > MAX_TERMS {
+                return Ok((ways, n));
             }
         }
         Ok((ways, periods))
     }
+}
+
+/// Whether both derivations give the same piece of each wave.
+fn agree(
+    statement: &Statement,
+    n: usize,
+    by_echo: &EchoByEcho<'_>,
+    by_period: &PeriodByPeriod<'_>,
+) -> Result<(), ProblemError> {
+    for (wave, name) in statement.waves.iter().enumerate() {
+        let piece = by_echo.sum(wave).piece(n).ok();
+        let other = &by_period.pieces()[wave][n];
+        let difference = piece.map(|piece| statement.assumptions.reduced(&(&piece - other)));
+        if difference.is_none_or(|difference| !difference.is_zero()) {
+            return Err(ProblemError::Disagreement(name.clone(), n));
+        }
+    }
+    Ok(())
+}
+
+/// How many terms the last echoes of all waves have.
+fn length(by_echo: &EchoByEcho<'_>, waves: usize) -> usize {
+    let last = (0..waves).filter_map(|wave| by_echo.transforms(wave).last());
+    let values = last.flat_map(|echo| echo.poles()).flat_map(|(_, row)| row);
+    values.flat_map(Expression::terms).map(|(_, value)| value.numerator().term_count()).sum()
 }
 
 fn general(solution: &Solution, wave: usize) -> General {

@@ -6,7 +6,7 @@ use super::scene::SceneEchoes;
 use super::stretch::Stretch;
 use crate::ball::{Ball, Magnitude, Value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::{At, Effort, Instant, Known, Limit, Point, Signal};
+use crate::evaluate::signal::{At, Effort, Instant, Known, Limit, Point, Signal, last_begun};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::{Expression, Field as _, Fraction, Root};
 use crate::network::{Network, Observed, ObservedValue};
@@ -151,6 +151,18 @@ impl<'a> ClosedSignal<'a> {
         Ok(self.form.get_or_init(|| form))
     }
 
+    /// A limit at a time after the start, from the pieces of its period.
+    fn enclosed(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+        let form = self.form()?;
+        let stretches = form.stretches(&Rational::default(), at)?;
+        let at = form.slowness().scale(at);
+        let begins = |stretch: usize| Ok(form.numbers().compare(stretches[stretch].from(), &at)?);
+        let stretch = stretches[last_begun(stretches.len(), side, begins)?].clone();
+        let enclose = move |bits| form.enclose(&stretch, 0, &at, bits);
+        let negligible = Magnitude::power_of_two(-(SCALE_BITS as i64));
+        Ok(Point { known: Known::Unknown, negligible, ..Point::irrational(enclose) })
+    }
+
     fn has_no_forcing(&self) -> bool {
         self.known_form().observation().forcing.is_zero()
     }
@@ -271,7 +283,10 @@ impl Signal for ClosedSignal<'_> {
 
     fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
         match &self.source {
-            Source::Recurrence { echoes, value } => echoes.point(value, at, side),
+            Source::Recurrence { echoes, value } => match echoes.point(value, at, side) {
+                Err(EvaluateError::TooManyPeriods { .. }) => self.enclosed(at, side),
+                told => told,
+            },
             Source::Scene { network, value, unit, exact, echoes } => {
                 match exact_form(network, value, unit, exact)? {
                     Some(echoes) => echoes.point(value, at, side),
