@@ -179,6 +179,7 @@ fn kind_of_evaluate(error: &EvaluateError) -> Kind {
         }
         EvaluateError::TooManyPeriods { .. }
         | EvaluateError::TooManyEchoes { .. }
+        | EvaluateError::TooMuchMemory { .. }
         | EvaluateError::TooManyCells { .. }
         | EvaluateError::TooManyRoots { .. }
         | EvaluateError::Ball(BallError::ArgumentTooLarge) => Kind::TooMuchWork,

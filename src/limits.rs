@@ -77,6 +77,9 @@ pub const MAX_ECHOES: usize = 20_000;
 /// Periods whose pieces are held: their coefficients grow with the square of that.
 pub const MAX_PIECES: usize = 2_000;
 
+/// Bytes of the echoes or pieces of a scene at one precision, as foreseen when the first are known.
+pub const MAX_WAVE_BYTES: u64 = 2_000_000_000;
+
 /// Echoes that are summed for a value in doubles: the cost grows with the square.
 pub const MAX_SUMMED_ECHOES: usize = 5_000;
 

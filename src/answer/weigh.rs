@@ -58,7 +58,7 @@ pub enum Verdict {
     Picked,
     #[error("proven to be good enough")]
     GoodEnough,
-    #[error("its proven bound is larger than the tolerance")]
+    #[error("the bound to be proven is expected to be larger than the tolerance")]
     BoundTooLarge,
     #[error("its error is measured, not proven")]
     Measured,

@@ -46,6 +46,17 @@ pub enum EvaluateError {
         /// How many are allowed.
         limit: usize,
     },
+    /// Echoes or pieces until a time would take more memory than is used for them.
+    #[error(
+        "the waves until this time would take about {gigabytes} GB of memory; until about {percent} % of \
+         it they fit"
+    )]
+    TooMuchMemory {
+        /// About how much memory they would take.
+        gigabytes: u64,
+        /// About what share of the time can be had.
+        percent: u64,
+    },
     /// A time after the last one that an evaluator was made for.
     #[error("the time is after the last one that was prepared for")]
     AfterLast,

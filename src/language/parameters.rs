@@ -14,7 +14,7 @@ use crate::expression::{Condition, Fraction};
 type Outcome<T> = Result<T, Diagnostic>;
 
 /// Declares a symbol in the scope, with the value given for it. It is known afterwards even if it
-/// is refused, so that its uses are not refused too.
+/// is refused, without its value, so that its uses are not refused too.
 pub(super) fn declare(
     scope: &mut Scope,
     declared: &syntax::Symbol,
@@ -32,16 +32,16 @@ pub(super) fn declare(
             })?,
         }),
     };
-    match (value, condition) {
-        (Some(value), Some(condition)) if !condition.holds(&value) => {
-            Err(outside(scope, name, &value, &condition))
+    let refused = match (&value, &condition) {
+        (Some(value), Some(condition)) if !condition.holds(value) => {
+            Some(outside(scope, name, value, condition))
         }
-        (Some(_), _) => Ok(()),
-        (None, condition) => {
-            scope.assumptions.declare_symbol(symbol(&name.value), condition);
-            Ok(())
-        }
-    }
+        (Some(_), _) => return Ok(()),
+        (None, _) => None,
+    };
+    scope.symbols.insert(name.value.clone(), None);
+    scope.assumptions.declare_symbol(symbol(&name.value), condition);
+    refused.map_or(Ok(()), Err)
 }
 
 fn outside(scope: &Scope, name: &Name, value: &Rational, condition: &Condition) -> Diagnostic {

@@ -91,6 +91,12 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
         self.expanded
     }
 
+    /// How many coefficients the last echoes of all waves have.
+    pub(crate) fn last_coefficients(&self) -> usize {
+        let last = self.echoes.iter().filter_map(|echoes| echoes.last());
+        last.flat_map(Transform::poles).map(|(_, row)| row.len()).sum()
+    }
+
     /// Solves for the next echo of each wave.
     pub(crate) fn expand(&mut self) -> Result<(), Failed<F::Error>> {
         for i in 0..self.steps.len() {

@@ -1,6 +1,7 @@
 //! Questions that have an answer, each of which was once refused, or not answered in time.
 
-use wavestep::{Error, Problem};
+use wavestep::problem::{Checked, Derivations};
+use wavestep::{Error, Method, Problem};
 
 /// A ram, a cushion and a helmet on a pile with dashpots along it: two dashpots and a bar between two
 /// bars of one impedance divide by `(δ + 2)² (4δ + 1)`.
@@ -56,7 +57,7 @@ fn boundary_conditions_make_observables_zero() -> Result<(), Error> {
     for (problem, zero, other) in [(&held, "motion", "push_back"), (&free, "push_back", "motion")] {
         let zero = problem.signal(zero)?;
         assert_eq!(zero.at("20/3", 30)?.to_text(30), "0");
-        assert_eq!(zero.values_by(&["20/3"], wavestep::Method::Certified)?.values, [0.0]);
+        assert_eq!(zero.values_by(&["20/3"], Method::Certified)?.values, [0.0]);
         assert_ne!(problem.signal(other)?.at("20/3", 12)?.to_f64(), 0.0);
     }
     Ok(())
@@ -84,5 +85,66 @@ fn a_pulse_in_many_parts_that_has_passed_is_zero() -> Result<(), Error> {
     );
     let gauge = Problem::read("ramps.wave", text)?.signal("gauge")?.at("0.6 ms", 15)?;
     assert_eq!(gauge.to_text(15), "0");
+    Ok(())
+}
+
+/// Four named rates and springs beside dashpots: the formulas of the second echo have half a million terms.
+#[test]
+fn a_check_ends_before_formulas_are_too_long() -> Result<(), Error> {
+    let soil = "damping = 60 kN*s/m, stiffness = 25 MN/m }";
+    let problem = Problem::read("pile.wave", PILE.replace("damping = 60 kN*s/m }", soil)).unwrap();
+    let Checked::Periods(found) = problem.check()? else { panic!("on a grid") };
+    assert_eq!(found.derived, (Derivations::ByEchoes, 1));
+    Ok(())
+}
+
+/// The rates of the masses are zeros of polynomials whose coefficients are themselves named: they are
+/// wanted with thousands of bits, since the load has ended and the end is free.
+#[test]
+fn rates_are_enclosed_with_many_bits() -> Result<(), Error> {
+    let text = "scene \"A\"\nload push { force = 1/3*t^2, until = 2 }\n\
+        bar one { modulus = 1/4, density = 2, diameter = 3/4, length = 1, velocity = -1 }\n\
+        mass m { mass = 1/8, velocity = -1 }\nsupport foot { stiffness = 1/3, damping = 1 }\n\
+        spring pad { stiffness = 1 }\nmass cap { mass = 5/4, velocity = -1 }\n\
+        bar two { modulus = 5/4, density = 2/5, diameter = 2/3, length = 1 }\n\
+        line free - push - one | m - foot - pad - cap - two - free\n\
+        observe head = strain(one.left)\nobserve v = velocity(cap)\n";
+    let problem = Problem::read("masses.wave", text)?;
+    assert_eq!(problem.signal("head")?.values_by(&["16/3"], Method::Certified)?.values, [0.0]);
+    let v = problem.signal("v")?;
+    let [few, many] = [v.at("16/3", 30)?, v.at("16/3", 300)?].map(|value| value.to_string());
+    assert!(many.starts_with(&few[..28]), "{few} {many}");
+    Ok(())
+}
+
+/// Echoes of a sum over all earlier periods have no closed form; pieces in balls go further.
+#[test]
+fn sums_over_periods_have_late_values() -> Result<(), Error> {
+    let text = "recurrence \"Sums\"\nperiod 1/512, local s, time t\nwave w, total\n\
+        equation w[n]' + 2*w[n] = -1 - sum(w[k], k < n)\ncontinuous w[n] starts at 0\n\
+        equation total[n] = w[n] + sum(w[k], k < n)\n";
+    let problem = Problem::read("sums.wave", text)?;
+    let total = problem.signal("total")?;
+    let value = total.at("7/8", 12)?.to_f64();
+    let marched = total.values_by(&["7/8"], Method::Marched { proven: false })?.values[0];
+    assert!((value - marched).abs() < 1e-11, "{value} {marched}");
+    Ok(())
+}
+
+/// Echoes of one second would take hundreds of gigabytes: that is known, and said, after the first of them.
+#[test]
+fn what_does_not_fit_into_memory_is_refused_at_once() -> Result<(), Error> {
+    let text = "scene \"A\"\nmaterial brass { modulus = 100 GPa, density = 8500 kg/m^3 }\n\
+        bar striker { material = brass, diameter = 20 mm, length = 250 mm, velocity = 5 m/s }\n\
+        bar input { material = brass, diameter = 20 mm, length = 1250 mm }\n\
+        spring sample { stiffness = 30 kN/mm }\nbar output { material = brass, diameter = 20 mm }\n\
+        line free - striker - input - sample - output - endless\nobserve force = force(sample)\n";
+    let problem = Problem::read("bars.wave", text)?;
+    let force = problem.signal("force")?;
+    for error in [force.at("2 s", 6).err(), force.roots("0 s"..="2 s", 6).err()] {
+        let error = error.expect("it does not fit");
+        assert!(error.is_too_much_work(), "{error}");
+    }
+    assert!(force.at("20 ms", 6)?.to_f64() != 0.0);
     Ok(())
 }

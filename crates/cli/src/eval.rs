@@ -6,11 +6,20 @@ use super::failure::Failure;
 use super::input;
 use super::progress;
 use super::rows::{times, written};
+use super::validity::note_search;
+use num_rational::BigRational;
 use wavestep::answer::Accuracy;
-use wavestep::problem::Digits;
+use wavestep::problem::{Digits, Problem};
 
 /// The digits that are asked for where nothing is said.
 const USUAL_DIGITS: usize = 15;
+
+/// Says where a contact that stays closed would pull before the last of some times.
+fn note_pulling(problem: &Problem, times: &[BigRational]) {
+    if let Some(last) = times.iter().max() {
+        note_search(problem, last);
+    }
+}
 
 pub fn run(options: &Eval) -> Result<String, Failure> {
     input::digits(options.digits)?;
@@ -35,6 +44,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
         let found = problem.doubles(name, &times, limit, accuracy);
         let found = found.map_err(|error| doubles::refused(error, times.len(), options.explain))?;
         doubles::tell(&found, times.len(), tolerance, options.explain);
+        note_pulling(&problem, &times);
         let unit = problem.wanted(name)?.unit();
         return Ok(doubles::written(&found, &problem, &unit, &times, options));
     }
@@ -45,6 +55,7 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     let progress = progress::counted(times.len());
     let found = problem.proven(&wanted, &times, digits, &|| progress.inc(1))?;
     drop(progress);
+    note_pulling(&problem, &times);
     if let Some((expanded, needed)) = found.echoes {
         eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");
     }

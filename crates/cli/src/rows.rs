@@ -12,6 +12,9 @@ use wavestep::problem::{self, Problem, Wanted, evenly_spaced};
 /// The most times that are evaluated at once.
 const MAX_POINTS: usize = 1_000_000;
 
+/// Times as longer fractions are given in decimals where few of them are all.
+const MAX_FRACTION: usize = 40;
+
 /// More digits than a ball of the highest precision has.
 pub const ALL_DIGITS: usize = 1 << 30;
 
@@ -70,7 +73,9 @@ pub fn lines<'a>(
     let spaced = |unit: &str| if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let (unit, second) = (spaced(unit), spaced(problem.time_unit()));
     let line = |(time, value): (&BigRational, String)| {
-        let time = if second.is_empty() { time.to_string() } else { in_decimals(time) };
+        let fraction = time.to_string();
+        let is_short = second.is_empty() && fraction.len() <= MAX_FRACTION;
+        let time = if is_short { fraction } else { in_decimals(time) };
         format!("{}({time}{second}{limit}) = {value}{unit}\n", options.quantity)
     };
     rows.map(line).collect()

@@ -34,7 +34,7 @@ pub fn note_derivation(problem: &Problem) {
     eprintln!("note: {note}");
 }
 
-/// Says that a search until this time goes beyond the form with closed contacts, where that is soon known.
+/// Says that values or a search until this time go beyond the form with closed contacts, where that is soon known.
 pub fn note_search(problem: &Problem, last: &BigRational) {
     if let Some((time, [left, right])) = problem.pulls(last, DIGITS) {
         eprintln!(

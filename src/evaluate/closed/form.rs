@@ -7,10 +7,12 @@
 //! there.
 
 use crate::enclosure::Numbers;
+use crate::evaluate::closed::memory::Memory;
 use crate::evaluate::closed::periods::Periods;
 use crate::evaluate::closed::scene::{Echoes, SceneEchoes, solve_in, whole_periods};
 use crate::evaluate::error::EvaluateError;
 use crate::expression::{Fraction, Root};
+use crate::limits::MAX_PIECES;
 use crate::network::{Network, Unfolded};
 use crate::recurrence::{Observation, Recurrence};
 use crate::solution::Demand;
@@ -24,6 +26,9 @@ pub(super) const MAX_STRETCHES: usize = 200_000;
 
 /// The most periods that are counted.
 const MAX_ORDER: usize = 1_000_000_000;
+
+/// So many pieces always fit.
+const FEW_PIECES: usize = 400;
 
 /// At how many precisions the waves are held at once.
 const MAX_PRECISIONS: usize = 3;
@@ -210,7 +215,7 @@ impl ClosedForm {
             )?)),
             Some(lattice) => {
                 let demand = self.demand(&lattice.arrivals);
-                let (echoes, _) = solve_in(&self.recurrence, self.numbers.field(bits), demand)?;
+                let (echoes, _) = self.solve_echoes(demand, bits)?;
                 Solved::Echoes(Rc::new(echoes))
             }
         };
@@ -222,6 +227,22 @@ impl ClosedForm {
         }
         known.insert(bits, solved.clone());
         Ok(solved)
+    }
+
+    /// Refuses windows of more pieces than are held, before the first are worked out.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooManyEchoes`], [`EvaluateError::TooMuchMemory`]
+    pub(super) fn foresee(&self, to: &Rational, bits: u64) -> Result<(), EvaluateError> {
+        let order = self.order(to)?;
+        if self.lattice.is_some() || order < FEW_PIECES {
+            return Ok(());
+        }
+        if order > MAX_PIECES + 1 {
+            let (echoes, limit) = (order as u128, MAX_PIECES);
+            return Err(EvaluateError::TooManyEchoes { echoes, limit });
+        }
+        Periods::new(&self.recurrence, self.numbers.clone(), bits)?.foresee(order)
     }
 
     /// The echoes that are there until a time, by wave and number, with their numbers and delays.
@@ -246,9 +267,13 @@ impl ClosedForm {
                 (0..=order).map(|k| (k, delay(k))).collect()
             }
         };
-        let (echoes, _) =
-            solve_in(&self.recurrence, self.numbers.field(bits), self.demand(&arrivals))?;
+        let (echoes, _) = self.solve_echoes(self.demand(&arrivals), bits)?;
         Ok((echoes, arrivals))
+    }
+
+    fn solve_echoes(&self, demand: Demand, bits: u64) -> Result<(Echoes, usize), EvaluateError> {
+        let field = self.numbers.field(bits);
+        Ok(solve_in(&self.recurrence, field, demand, Memory::of_balls(bits))?)
     }
 
     /// The echoes that are needed for those of the waves that are seen.

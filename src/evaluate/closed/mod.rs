@@ -9,6 +9,7 @@
 mod contribution;
 mod exact;
 mod form;
+mod memory;
 mod modular;
 mod periods;
 mod scene;

@@ -10,6 +10,7 @@
 
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
+use crate::evaluate::closed::memory::Memory;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::transforms::{divided_powers, dot, exponential, later};
 use crate::expression::{Field as _, Fraction, Transform};
@@ -18,6 +19,12 @@ use crate::solution::{FieldForm, FieldStep};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::Rational;
+
+/// About how many bits are lost from one period to the next.
+const LOST_BITS: u64 = 2;
+
+/// How many periods tell what all of them take.
+const FORESEEN: usize = 128;
 
 /// The pieces of all waves, by wave and period.
 ///
@@ -79,6 +86,21 @@ impl Periods {
     pub(crate) fn advance_to(&mut self, n: usize) -> Result<(), EvaluateError> {
         while self.pieces.first().is_some_and(|pieces| pieces.len() <= n) {
             self.advance()?;
+        }
+        Ok(())
+    }
+
+    /// Foresees from the first periods what all up to the n-th will take, with the bits that they lose.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooMuchMemory`]
+    pub(crate) fn foresee(&mut self, n: usize) -> Result<(), EvaluateError> {
+        let mut memory = Memory::of_balls(self.bits + LOST_BITS * n as u64);
+        for _ in 0..FORESEEN.min(n) {
+            self.advance()?;
+            let last = self.pieces.iter().filter_map(|pieces| pieces.last());
+            let coefficients = last.flat_map(|piece| piece.poles()).map(|(_, row)| row.len());
+            memory.add(coefficients.sum(), n)?;
         }
         Ok(())
     }

@@ -5,7 +5,8 @@
 //! place that is observed.
 
 use crate::ball::{Ball, BallError, Binary, ComplexBall, Magnitude};
-use crate::enclosure::{Numbers, real_part};
+use crate::enclosure::{EnclosureError, Numbers, real_part};
+use crate::evaluate::closed::memory::Memory;
 use crate::evaluate::closed::modular;
 use crate::evaluate::closed::modular::{Modular, Residue};
 use crate::evaluate::error::EvaluateError;
@@ -307,15 +308,19 @@ impl<'a> SceneEchoes<'a> {
         if let Some(known) = self.known.borrow().enclosed.get(&bits) {
             return Ok(known.clone());
         }
-        let echoes = Rc::new(self.solve_in(numbers.field(bits))?);
+        let echoes = Rc::new(self.solve_in(numbers.field(bits), Memory::of_balls(bits))?);
         self.known.borrow_mut().enclosed.insert(bits, echoes.clone());
         Ok(echoes)
     }
 
     /// All echoes that are wanted, with coefficients in a field.
-    fn solve_in<F: Field>(&self, field: F) -> Result<Echoes<F::Value>, F::Error> {
+    fn solve_in<F: Field>(
+        &self,
+        field: F,
+        memory: Memory,
+    ) -> Result<Echoes<F::Value>, Unsolved<F::Error>> {
         let demand = self.demand.borrow().clone();
-        let (echoes, expanded) = solve_in(self.unfolded.recurrence(), field, demand)?;
+        let (echoes, expanded) = solve_in(self.unfolded.recurrence(), field, demand, memory)?;
         self.expanded.set(expanded);
         Ok(echoes)
     }
@@ -324,7 +329,8 @@ impl<'a> SceneEchoes<'a> {
         if let Some(known) = &self.known.borrow().residues {
             return known.clone();
         }
-        let residues = self.solve_in(Modular).ok().map(Rc::new);
+        let residues =
+            self.solve_in(Modular, Memory::of(size_of::<Residue>() as u64)).ok().map(Rc::new);
         self.known.borrow_mut().residues = Some(residues.clone());
         residues
     }
@@ -373,7 +379,8 @@ impl<'a> SceneEchoes<'a> {
                 let most = if named { MAX_EXACT_ECHOES_NAMED } else { MAX_EXACT_ECHOES };
                 let other_than_zero = || self.work().is_some_and(|(expanded, _)| expanded <= most);
                 let feasible = !recurrence.has_named_rates() && other_than_zero();
-                let exact = || self.solve_in(Exact::new(&statement.assumptions)).ok();
+                let memory = Memory::of(size_of::<Expression>() as u64);
+                let exact = || self.solve_in(Exact::new(&statement.assumptions), memory).ok();
                 let echoes = feasible.then(exact).flatten().map(Rc::new);
                 self.known.borrow_mut().exact = Some(echoes.clone());
                 echoes
@@ -423,16 +430,36 @@ impl<'a> SceneEchoes<'a> {
     }
 }
 
+/// Why echoes are not worked out.
+pub(crate) enum Unsolved<E> {
+    /// A coefficient cannot be had in its field.
+    InField(E),
+    /// They would take too much memory.
+    TooLong(EvaluateError),
+}
+
+impl From<Unsolved<EnclosureError>> for EvaluateError {
+    fn from(error: Unsolved<EnclosureError>) -> EvaluateError {
+        match error {
+            Unsolved::InField(error) => error.into(),
+            Unsolved::TooLong(error) => error,
+        }
+    }
+}
+
 /// The echoes that are wanted, with coefficients in a field, and how many of them are not zero.
 pub(crate) fn solve_in<F: Field>(
     recurrence: &Recurrence,
     field: F,
     demand: Demand,
-) -> Result<(Echoes<F::Value>, usize), F::Error> {
-    let last = demand.last();
-    let mut solver = EchoByEcho::in_field(recurrence, field)?.wanting(demand);
-    for _ in 0..last.map_or(0, |last| last + 1) {
-        solver.expand().map_err(|failed| failed.reason)?;
+    mut memory: Memory,
+) -> Result<(Echoes<F::Value>, usize), Unsolved<F::Error>> {
+    let count = demand.last().map_or(0, |last| last + 1);
+    let mut solver = EchoByEcho::in_field(recurrence, field).map_err(Unsolved::InField)?;
+    solver = solver.wanting(demand);
+    for _ in 0..count {
+        solver.expand().map_err(|failed| Unsolved::InField(failed.reason))?;
+        memory.add(solver.last_coefficients(), count).map_err(Unsolved::TooLong)?;
     }
     let expanded = solver.expanded();
     Ok((solver.into_transforms(), expanded))

@@ -9,6 +9,7 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{At, Effort, Instant, Known, Limit, Point, Signal, last_begun};
 use crate::evaluate::taylor::Taylor;
 use crate::expression::{Expression, Field as _, Fraction, Root};
+use crate::limits::MAX_PIECES;
 use crate::network::{Network, Observed, ObservedValue};
 use crate::recurrence::Observation;
 use crate::solution::Solution;
@@ -284,7 +285,16 @@ impl Signal for ClosedSignal<'_> {
     fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
         match &self.source {
             Source::Recurrence { echoes, value } => match echoes.point(value, at, side) {
-                Err(EvaluateError::TooManyPeriods { .. }) => self.enclosed(at, side),
+                // Pieces in balls may go further.
+                Err(EvaluateError::TooManyPeriods { periods, limit }) => {
+                    match periods <= MAX_PIECES.into() {
+                        true => self.enclosed(at, side),
+                        false => {
+                            let limit = limit.max(MAX_PIECES);
+                            Err(EvaluateError::TooManyPeriods { periods, limit })
+                        }
+                    }
+                }
                 told => told,
             },
             Source::Scene { network, value, unit, exact, echoes } => {
@@ -338,6 +348,7 @@ impl Signal for ClosedSignal<'_> {
             return Ok(stretches.len());
         }
         let (form, [from, to]) = (self.form()?, &self.window);
+        form.foresee(to, FIRST_BITS)?;
         let stretches = form.audible(form.stretches(from, to)?, FIRST_BITS)?;
         Ok(self.stretches.get_or_init(|| stretches).len())
     }

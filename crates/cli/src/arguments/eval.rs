@@ -58,8 +58,8 @@ pub struct Eval {
     /// largest value
     #[arg(long, value_name = "TOL", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
     pub tol: Option<String>,
-    /// In doubles, by this method or model: certified, compiled, marched, stable, double-double,
-    /// plain, expanded; rigid, third, modes[:N], leapfrog[:CELLS[,CFL]], steps[:TOL]
+    /// In doubles, by this method or model: certified, compiled, marched, marched-unproven, stable,
+    /// double-double, plain, expanded; rigid, third, modes[:N], leapfrog[:CELLS[,CFL]], steps[:TOL]
     #[arg(long, value_name = "NAME", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
     pub method: Option<String>,
     /// Say on standard error which method was picked, and why

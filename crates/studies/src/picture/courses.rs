@@ -61,6 +61,9 @@ pub fn courses(
                 values
             }
         };
+        if values.points.iter().any(|(_, value)| value.is_infinite()) {
+            return Err(PictureError::TooLarge(wanted.name().to_owned()));
+        }
         let (name, dimension) = (wanted.name().to_owned(), wanted.dimension());
         courses.push(Course { name, dimension, measure: problem.measure(&wanted), values });
     }

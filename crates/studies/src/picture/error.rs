@@ -13,6 +13,8 @@ pub enum PictureError {
     NoBars,
     #[error("nothing is observed in this scene")]
     NothingObserved,
+    #[error("values of {0} are too large for doubles, and cannot be drawn")]
+    TooLarge(String),
     #[error(transparent)]
     Problem(Box<ProblemError>),
     #[error(transparent)]
