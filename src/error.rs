@@ -341,6 +341,9 @@ fn remedy_of_evaluate(error: &EvaluateError) -> String {
             "ask for a shorter window"
         }
         EvaluateError::NotReal => "observe a wave in which both poles of each complex pair occur",
+        EvaluateError::TooMuchMemory { .. } => {
+            "ask for an earlier time, or for doubles by the method marched"
+        }
         EvaluateError::AccuracyNotReached { .. } => "allow more bits, or ask for fewer digits",
         _ => "ask for an earlier time",
     };

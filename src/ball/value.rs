@@ -60,10 +60,20 @@ impl Value {
     pub fn certify<E>(
         digits: usize,
         limit_bits: u64,
+        enclosure: impl FnMut(u64) -> Result<Ball, E>,
+    ) -> Result<Value, E> {
+        Value::certify_from(0, digits, limit_bits, enclosure)
+    }
+
+    /// The same where fewer bits than these are known to tell nothing, or cost no less.
+    pub(crate) fn certify_from<E>(
+        bits: u64,
+        digits: usize,
+        limit_bits: u64,
         mut enclosure: impl FnMut(u64) -> Result<Ball, E>,
     ) -> Result<Value, E> {
         // log_2 10 < 10/3.
-        let first = (10 * digits as u64).div_ceil(3) + SPARE_BITS;
+        let first = bits.max((10 * digits as u64).div_ceil(3) + SPARE_BITS);
         let mut best: Option<Ball> = None;
         let attempt = |bits| {
             let ball = enclosure(bits)?;

@@ -94,9 +94,12 @@ impl Point<'_> {
         Ok(match &self.known {
             Known::Rational(value) => Some(value.clone()),
             Known::Irrational => None,
-            Known::Unknown => match self.may_be_zero(TIE_BITS)?.then(&self.decide) {
-                Some(Known::Rational(value)) => Some(value),
-                _ => None,
+            Known::Unknown => match self.told_from_zero(TIE_BITS)? {
+                Some(_) => None,
+                None => match (self.decide)() {
+                    Known::Rational(value) => Some(value),
+                    Known::Irrational | Known::Unknown => None,
+                },
             },
         })
     }
@@ -104,7 +107,8 @@ impl Point<'_> {
     /// The digits of what may be zero, or half-way between two decimals.
     fn suspicious(&self, digits: usize, limit_bits: u64) -> Result<Value, EvaluateError> {
         let mut limit_bits = limit_bits;
-        if self.may_be_zero(limit_bits)? {
+        let told = self.told_from_zero(limit_bits)?;
+        if told.is_none() {
             match (self.decide)() {
                 Known::Rational(value) => return Ok(Value::Exact(value)),
                 Known::Irrational => {}
@@ -113,7 +117,7 @@ impl Point<'_> {
             }
         }
         let tie_bits = TIE_BITS.max(8 * digits as u64).min(limit_bits);
-        match Value::certify(digits, tie_bits, &self.enclose)? {
+        match Value::certify_from(told.unwrap_or(0), digits, tie_bits, &self.enclose)? {
             Value::Certified { decimal, ball } if ball.is_exact() && decimal.is_zero() => {
                 return Ok(Value::Exact(Rational::default()));
             }
@@ -132,14 +136,14 @@ impl Point<'_> {
         }
     }
 
-    /// Whether a value is so small that it may be zero, with precision raised until that can be told.
-    fn may_be_zero(&self, limit_bits: u64) -> Result<bool, EvaluateError> {
+    /// The bits that tell a value from zero, rising; none where it is so small that it may be zero.
+    fn told_from_zero(&self, limit_bits: u64) -> Result<Option<u64>, EvaluateError> {
         let attempt = |bits| {
             let ball = (self.enclose)(bits)?;
             Ok(match ball.contains_zero() {
-                false => Attempt::Done(false),
-                true if *ball.radius() <= self.negligible => Attempt::Done(true),
-                true => Attempt::NotYet(false),
+                false => Attempt::Done(Some(bits)),
+                true if *ball.radius() <= self.negligible => Attempt::Done(None),
+                true => Attempt::NotYet(Some(bits)),
             })
         };
         Precisions::doubling(LOOK_BITS, limit_bits.max(LOOK_BITS)).raise(attempt).map(Attempt::best)

@@ -27,6 +27,12 @@ use wavestep_polynomial::Rational;
 /// The precision at which echoes are first worked out.
 const FIRST_BITS: u64 = 128;
 
+/// In so many echoes one bit is lost, about.
+const ECHOES_A_BIT: u64 = 4;
+
+/// At how many precisions echoes are held at once.
+const MAX_PRECISIONS: usize = 2;
+
 /// A value that is zero but for as many bits is suspected to be zero.
 const SUSPICION_BITS: u64 = 64;
 
@@ -303,13 +309,19 @@ impl<'a> SceneEchoes<'a> {
         Ok(real_part(sum)?)
     }
 
-    /// All echoes that are wanted, with so many bits.
+    /// All echoes that are wanted, with so many bits at least.
     pub(crate) fn solved(&self, numbers: &Numbers, bits: u64) -> Result<Rc<Echoes>, EvaluateError> {
-        if let Some(known) = self.known.borrow().enclosed.get(&bits) {
+        if let Some((_, known)) = self.known.borrow().enclosed.range(bits..).next() {
             return Ok(known.clone());
         }
-        let echoes = Rc::new(self.solve_in(numbers.field(bits), Memory::of_balls(bits))?);
-        self.known.borrow_mut().enclosed.insert(bits, echoes.clone());
+        let lost = self.needed() as u64 / ECHOES_A_BIT;
+        let memory = Memory::of_balls(bits.max(FIRST_BITS + lost));
+        let echoes = Rc::new(self.solve_in(numbers.field(bits), memory)?);
+        let enclosed = &mut self.known.borrow_mut().enclosed;
+        while enclosed.len() >= MAX_PRECISIONS {
+            enclosed.pop_first();
+        }
+        enclosed.insert(bits, echoes.clone());
         Ok(echoes)
     }
 

@@ -58,7 +58,8 @@ fn tolerances_are_honoured() {
                 let tolerance = 10f64.powf(random.random_range(-14.5..-1.0));
                 let line = format!("eval {scene} --at {time} --side {side}");
                 let (stdout, stderr) = both(&format!("{line} --tol abs:{tolerance:e}"));
-                assert!(stderr.is_empty(), "{line}: {stderr}");
+                let mut said = stderr.lines();
+                assert!(said.all(|told| told.starts_with("note: from t = ")), "{line}: {stderr}");
                 let (value, rounding) = in_digits(&line);
                 let error = (exact(printed(&stdout)) - value).abs();
                 assert!(error <= exact(tolerance) + rounding, "{line} {tolerance:e}");
@@ -342,4 +343,45 @@ fn a_file_is_written_whole_or_not_at_all() {
     let line = "export rigid-mass --set mu=1 --as c --quantity f --to 2 -o";
     assert_eq!(run(anywhere(), &words(&format!("{line} {}", file.display()))).0, 2);
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+// ---- What is said of values ---------------------------------------------------------------------
+
+#[test]
+fn times_of_few_digits_are_printed_so() {
+    let (out, _) = both("eval rigid-mass --set mu=1 --quantity f --at 1e-300 --digits 3");
+    assert_eq!(out, "f(1e-300) = 1.00\n");
+    let (out, _) = both("eval rigid-mass --set mu=1 --quantity f --at 1/3 --digits 3");
+    assert!(out.starts_with("f(1/3) = "), "{out}");
+}
+
+#[test]
+fn a_value_outside_its_range_is_one_error() {
+    let (code, _, err) = run(anywhere(), &words("check saint-venant --set mu=0"));
+    assert_eq!((code, err.matches("error:").count()), (2, 1), "{err}");
+    assert!(err.contains("outside the range"), "{err}");
+}
+
+#[test]
+fn values_beyond_a_pulling_contact_are_noted() {
+    for accuracy in ["", " --tol 1e-6"] {
+        let (_, err) = both(&format!("eval hopkinson --quantity force --at 1ms{accuracy}"));
+        let note = "between striker and incident would pull; with `contacts open` it opens then";
+        assert!(err.contains(note), "{err}");
+    }
+    let (_, err) = both("eval hopkinson --quantity force --at 100us");
+    assert!(!err.contains("would pull"), "{err}");
+}
+
+#[test]
+fn a_picture_of_values_beyond_doubles_is_refused() {
+    let folder = folder("too-large");
+    let scene = folder.join("large.wave");
+    let text = "scene \"A\"\nload push { force = 1e400 }\nbar b { impedance = 1, travel = 1 }\n\
+        line free - push - b - free\nobserve f = force(b.at(1/2))\n";
+    fs::write(&scene, text).unwrap();
+    let scene = scene.to_str().unwrap();
+    let arguments = ["plot", scene, "--quantity", "f", "--to", "4", "-o", "large.svg"];
+    let (code, _, err) = run(&folder, &arguments);
+    assert!(code != 0 && err.contains("values of f are too large for doubles"), "{err}");
 }
