@@ -122,8 +122,8 @@ impl From<PictureError> for Failure {
                 Failure::usage(error.to_string(), "give --quantity NAME")
             }
             PictureError::TooLarge(_) => {
-                let remedy = "choose another quantity or window".to_owned();
-                Failure::Computation(error.to_string(), remedy)
+                let remedy = "choose another quantity or window";
+                Failure::new(COMPUTATION, error.to_string(), remedy)
             }
             PictureError::Plot(error) => error.into(),
             error => Failure::usage(error.to_string(), "see `wavestep plot --help`"),

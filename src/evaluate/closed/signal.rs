@@ -157,7 +157,7 @@ impl<'a> ClosedSignal<'a> {
         let form = self.form()?;
         let stretches = form.stretches(&Rational::default(), at)?;
         let at = form.slowness().scale(at);
-        let begins = |stretch: usize| Ok(form.numbers().compare(stretches[stretch].from(), &at)?);
+        let begins = |stretch: usize| form.numbers().compare(stretches[stretch].from(), &at);
         let stretch = stretches[last_begun(stretches.len(), side, begins)?].clone();
         let enclose = move |bits| form.enclose(&stretch, 0, &at, bits);
         let negligible = Magnitude::power_of_two(-(SCALE_BITS as i64));
