@@ -13,7 +13,7 @@ use wavestep::ball::Decimal;
 use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, Value};
 use wavestep::expression::{ExponentialSum, Expression};
 use wavestep::language::{Source, parse_number, read_recurrence};
-use wavestep::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
+use wavestep::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_PIECES};
 use wavestep::recurrence::Recurrence;
 use wavestep::solution::{PeriodByPeriod, Solution};
 
@@ -671,7 +671,7 @@ fn late_times_are_refused() {
          continuous f[n] starts at 1\n",
         &[],
     );
-    refused(&Solution::new(formless), whole(MAX_ORDER_WITHOUT_FORM + 1), MAX_ORDER_WITHOUT_FORM);
+    refused(&Solution::new(formless), whole(MAX_PIECES + 1), MAX_PIECES);
 }
 
 #[test]

@@ -27,6 +27,9 @@ pub(super) const MAX_STRETCHES: usize = 200_000;
 /// The most periods that are counted.
 const MAX_ORDER: usize = 1_000_000_000;
 
+/// The precision of the first pieces, which tell what all will take.
+const FORESEEING_BITS: u64 = 192;
+
 /// So many pieces always fit.
 const FEW_PIECES: usize = 400;
 
@@ -229,11 +232,11 @@ impl ClosedForm {
         Ok(solved)
     }
 
-    /// Refuses windows of more pieces than are held, before the first are worked out.
+    /// Refuses a time until which all pieces are more than can be held, before they are worked out.
     ///
     /// # Errors
     /// [`EvaluateError::TooManyEchoes`], [`EvaluateError::TooMuchMemory`]
-    pub(super) fn foresee(&self, to: &Rational, bits: u64) -> Result<(), EvaluateError> {
+    pub fn foresee(&self, to: &Rational) -> Result<(), EvaluateError> {
         let order = self.order(to)?;
         if self.lattice.is_some() || order < FEW_PIECES {
             return Ok(());
@@ -242,7 +245,7 @@ impl ClosedForm {
             let (echoes, limit) = (order as u128, MAX_PIECES);
             return Err(EvaluateError::TooManyEchoes { echoes, limit });
         }
-        Periods::new(&self.recurrence, self.numbers.clone(), bits)?.foresee(order)
+        Periods::new(&self.recurrence, self.numbers.clone(), FORESEEING_BITS)?.foresee(order)
     }
 
     /// The echoes that are there until a time, by wave and number, with their numbers and delays.

@@ -348,7 +348,6 @@ impl Signal for ClosedSignal<'_> {
             return Ok(stretches.len());
         }
         let (form, [from, to]) = (self.form()?, &self.window);
-        form.foresee(to, FIRST_BITS)?;
         let stretches = form.audible(form.stretches(from, to)?, FIRST_BITS)?;
         Ok(self.stretches.get_or_init(|| stretches).len())
     }

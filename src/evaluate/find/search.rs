@@ -56,6 +56,9 @@ impl<'a> Search<'a> {
         if window[1] <= window[0] || *window[0] < Rational::default() {
             return Err(EvaluateError::EmptyWindow);
         }
+        if let Ok(form) = signal.closed_form() {
+            form.foresee(window[1])?;
+        }
         let (bits, work) = (Cell::new(FIRST_BITS), Cell::new(0));
         let (count, window) = (signal.count()?, window.map(Clone::clone));
         let most_bits = signal.most_bits();

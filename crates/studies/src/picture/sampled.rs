@@ -33,6 +33,9 @@ pub fn sampled(function: &dyn Signal) -> Result<Sampled, EvaluateError> {
     if from >= to {
         return Err(EvaluateError::EmptyWindow);
     }
+    if let Ok(form) = function.closed_form() {
+        form.foresee(to)?;
+    }
     let count = function.count()?;
     let ends: Result<Vec<Ends>, _> =
         (0..count).map(|stretch| Ends::of(function, stretch)).collect();
