@@ -459,13 +459,16 @@ impl From<Unsolved<EnclosureError>> for EvaluateError {
     }
 }
 
-/// The echoes that are wanted, with coefficients in a field, and how many of them are not zero.
+/// Echoes, and how many of them are not zero.
+type Expanded<V> = (Echoes<V>, usize);
+
+/// The echoes that are wanted, with coefficients in a field.
 pub(crate) fn solve_in<F: Field>(
     recurrence: &Recurrence,
     field: F,
     demand: Demand,
     mut memory: Memory,
-) -> Result<(Echoes<F::Value>, usize), Unsolved<F::Error>> {
+) -> Result<Expanded<F::Value>, Unsolved<F::Error>> {
     let count = demand.last().map_or(0, |last| last + 1);
     let mut solver = EchoByEcho::in_field(recurrence, field).map_err(Unsolved::InField)?;
     solver = solver.wanting(demand);
