@@ -47,8 +47,8 @@ fn sign(function: &Enclosures<'_>, x: &Rational) -> Result<Option<Ordering>, Zer
     Precisions::doubling(FIRST_BITS, LAST_BITS).raise(attempt).map(Attempt::best)
 }
 
-/// A zero between two bounds at which an expression has different signs, to about `bits` bits; see
-/// [`enclose_zero_of`].
+/// A zero between two bounds at which an expression has different signs, to about `bits` bits: found by halving
+/// until its derivative is known well enough for Newton's method.
 pub fn enclose_zero(
     expression: &Expression,
     symbol: &Symbol,
