@@ -76,6 +76,7 @@ mod tests {
             panic!("ten times as many take a hundred times as much")
         };
         assert!(step < 64 && (9..=11).contains(&percent), "{step} {percent}");
-        assert!((90..120).contains(&(gigabytes * 1_000_000_000 / MAX_WAVE_BYTES)), "{gigabytes}");
+        // A power read off the first echoes is a little low: 32·33/(16·17) is 2^1.96.
+        assert!((75..=100).contains(&(gigabytes * 1_000_000_000 / MAX_WAVE_BYTES)), "{gigabytes}");
     }
 }
