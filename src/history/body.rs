@@ -2,6 +2,7 @@
 
 use crate::ball::{Ball, Magnitude, Number};
 use crate::evaluate::Limit;
+use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
@@ -50,13 +51,19 @@ pub(crate) fn parts(network: &Network, parted: &[usize]) -> Vec<Range<usize>> {
 }
 
 impl Engine {
-    /// Energy and momentum of an element at an instant.
+    /// Energy and momentum of an element at an instant; the energy with few digits if asked for roughly.
     ///
     /// # Errors
     /// [`HistoryError::AfterLast`]; as [`Clock::compare`](crate::history::moment::Clock::compare).
-    pub fn held(&self, network: &Network, element: ElementIndex, moment: &Moment) -> Outcome<Held> {
+    pub fn held(
+        &self,
+        network: &Network,
+        element: ElementIndex,
+        moment: &Moment,
+        square: Integrand,
+    ) -> Outcome<Held> {
         let elements = self.elements(network);
-        let energy = self.energy_of(elements, element, moment, Limit::Right)?;
+        let energy = self.energy_of(elements, element, (moment, Limit::Right), square)?;
         let Ok(terms) = elements.momentum(element) else {
             return Ok(Held { energy, momentum: None });
         };
@@ -78,11 +85,12 @@ impl Engine {
         network: &Network,
         part: &Range<usize>,
         moment: &Moment,
+        square: Integrand,
     ) -> Outcome<Held> {
         let bits = self.cut.bits;
         let mut all = Held { energy: Some(Number::zero()), momentum: Some(Number::zero()) };
         for element in &network.scene().line.elements[part.clone()] {
-            let held = self.held(network, *element, moment)?;
+            let held = self.held(network, *element, moment, square)?;
             all.energy = sum(all.energy, held.energy, bits);
             all.momentum = sum(all.momentum, held.momentum, bits);
         }
@@ -154,7 +162,7 @@ impl Engine {
         let Some(mass) = self.mass_of(network, part)?.filter(|mass| !mass.is_zero()) else {
             return Ok(None);
         };
-        let momentum = self.held_by(network, part, moment)?.momentum;
+        let momentum = self.held_by(network, part, moment, Integrand::RoughSquare)?.momentum;
         let inverse = mass.reciprocal(bits)?;
         Ok(momentum.map(|momentum| momentum.multiply(&inverse, bits)))
     }
@@ -217,7 +225,7 @@ impl Engine {
             _ => return Ok(Drift::Unknown),
         }
         let grounded = self.is_grounded(network, part);
-        let held = self.held_by(network, part, moment)?;
+        let held = self.held_by(network, part, moment, Integrand::RoughSquare)?;
         let (Some(mut energy), Some(momentum)) = (held.energy, held.momentum) else {
             return Ok(Drift::Unknown);
         };
@@ -258,7 +266,8 @@ impl Engine {
         for element in elements.iter().filter(|element| self.layout.bar(**element) != Some(bar)) {
             alone &= matches!(&network.scene().elements[*element].kind, Kind::Spring(spring)
                 if spring.damping.is_zero());
-            let Some(own) = self.held(network, *element, moment)?.energy else {
+            let square = Integrand::RoughSquare;
+            let Some(own) = self.held(network, *element, moment, square)?.energy else {
                 return Ok(Drift::Unknown);
             };
             energy = energy.add(&own, bits);

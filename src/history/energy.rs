@@ -5,7 +5,7 @@
 //! difference of two of their values, and the whole cell one value that is kept.
 
 use crate::ball::{Magnitude, Number};
-use crate::history::series::{Series, Truncation};
+use crate::history::series::{CellNorm, Series, Truncation};
 use std::cell::OnceCell;
 
 /// `∫_0^x f²` of a series `f(x) = Σ c_k x^k`.
@@ -127,6 +127,7 @@ pub(crate) struct Wave {
     length: Number,
     integral: OnceCell<Kept<Series>>,
     energy: OnceCell<Kept<Energy>>,
+    rough_energy: OnceCell<Kept<Energy>>,
 }
 
 /// Which integral of a wave is meant.
@@ -136,12 +137,18 @@ pub(crate) enum Integrand {
     Wave,
     /// `∫ w² dt`.
     Square,
+    /// The same with few digits: for bounds.
+    RoughSquare,
 }
+
+/// The precision of what is worked out roughly.
+const ROUGH_BITS: u64 = 64;
 
 impl Wave {
     /// A wave on a cell of this length.
     pub fn new(series: Series, length: Number) -> Wave {
-        Wave { series, length, integral: OnceCell::new(), energy: OnceCell::new() }
+        let (integral, energy, rough_energy) = Default::default();
+        Wave { series, length, integral, energy, rough_energy }
     }
 
     /// The series.
@@ -165,11 +172,26 @@ impl Wave {
         })
     }
 
+    /// The energy of the polynomial with so few terms as tell it roughly; all of an exact one.
+    fn rough_energy(&self, cut: &Truncation) -> &Kept<Energy> {
+        if self.series.is_exact() {
+            return self.energy(cut);
+        }
+        self.rough_energy.get_or_init(|| {
+            let rough = Truncation { bits: ROUGH_BITS, ..*cut };
+            let norm = CellNorm::new(self.length.magnitude(), &rough);
+            let antiderivative = self.series.bare(&norm, &rough).energy(&rough);
+            let whole = antiderivative.value(&self.length);
+            Kept { antiderivative, whole }
+        })
+    }
+
     /// An integral from the start of the cell to a time after it.
     pub fn until(&self, integrand: Integrand, time: &Number, cut: &Truncation) -> Number {
         match integrand {
             Integrand::Wave => self.integral(cut).antiderivative.value(time, cut),
             Integrand::Square => self.energy(cut).antiderivative.value(time),
+            Integrand::RoughSquare => self.rough_energy(cut).antiderivative.value(time),
         }
     }
 
@@ -178,6 +200,7 @@ impl Wave {
         match integrand {
             Integrand::Wave => &self.integral(cut).whole,
             Integrand::Square => &self.energy(cut).whole,
+            Integrand::RoughSquare => &self.rough_energy(cut).whole,
         }
     }
 }
@@ -186,7 +209,6 @@ impl Wave {
 pub(in crate::history) mod tests {
     use super::*;
     use crate::ball::Ball;
-    use crate::history::series::CellNorm;
     use num_traits::Signed as _;
     use proptest::prelude::*;
     use wavestep_polynomial::Rational;

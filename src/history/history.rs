@@ -6,6 +6,7 @@ use crate::evaluate::Limit;
 use crate::expression::{Expression, Fraction, Root};
 use crate::history::body::parts;
 use crate::history::closed_form;
+use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
@@ -488,7 +489,7 @@ impl Story<'_> {
         };
         let mut bodies = Vec::new();
         for part in self.parts(closed) {
-            let held = engine.held_by(self.network, &part, moment)?;
+            let held = engine.held_by(self.network, &part, moment, Integrand::Square)?;
             let velocity = engine.mean_velocity(self.network, &part, moment)?;
             let mass = engine.mass_of(self.network, &part)?;
             let carried = match (&held.momentum, &velocity) {

@@ -147,8 +147,8 @@ impl Engine {
         &self,
         elements: Elements<'_>,
         element: ElementIndex,
-        moment: &Moment,
-        limit: Limit,
+        (moment, limit): (&Moment, Limit),
+        square: Integrand,
     ) -> Outcome<Option<Number>> {
         let bits = self.cut.bits;
         let Ok(parts) = elements.energy(element) else { return Ok(None) };
@@ -161,7 +161,7 @@ impl Engine {
                     let square = value.multiply(&value, bits);
                     square.multiply(&self.clock.number(&term.coefficient)?, bits)
                 }
-                Energy::InBar(bar) => self.energy_in(bar, moment)?,
+                Energy::InBar(bar) => self.energy_in(bar, moment, square)?,
             };
             energy = energy.add(&value, bits);
         }
@@ -170,7 +170,7 @@ impl Engine {
 
     /// The energy of a bar, of the waves that entered in the last travel time; what comes from the far side of
     /// an endless bar is nothing.
-    fn energy_in(&self, bar: usize, moment: &Moment) -> Outcome<Number> {
+    fn energy_in(&self, bar: usize, moment: &Moment, square: Integrand) -> Outcome<Number> {
         let (impedance, travel) = &self.bars[bar];
         let start = match travel {
             Some(travel) => moment.before(travel),
@@ -180,7 +180,7 @@ impl Engine {
         for (track, end) in self.waves[bar].iter().zip(self.layout.ends[bar]) {
             if end.is_some() {
                 let window = [&start, moment];
-                let own = track.integral(Integrand::Square, &self.clock, window, &self.cut)?;
+                let own = track.integral(square, &self.clock, window, &self.cut)?;
                 energy = energy.add(&own, self.cut.bits);
             }
         }
