@@ -507,6 +507,27 @@ mod tests {
         assert_eq!(line.derivative(&few), Series::constant(Number::integer(5)));
     }
 
+    /// Moved to an enclosed place, or seen there, a series is what it is at every place of the enclosure.
+    #[test]
+    fn enclosed_places_are_enclosed() {
+        let cut = truncation(128, 0);
+        let f = decay(&cut);
+        let by = rational(1, 1000);
+        let place = |part: i64| rational(1, 3) + &by * rational(part, 4);
+        let ball = Number::Enclosed(Ball::between(&place(-4), &place(4), 128));
+        let shifted = f.shift(&ball, &cut);
+        let x = rational(1, 5);
+        for part in -4..=4 {
+            let told = f.value(&ball, &cut).ball(900);
+            assert!(told.subtract(&exponential(&place(part)), 900).contains_zero(), "{part}");
+            assert!(told.magnitude() < Magnitude::from_u64(1));
+            let told = shifted.value(&Number::Exact(x.clone()), &cut).ball(900);
+            let there = exponential(&(place(part) + &x));
+            assert!(told.subtract(&there, 900).contains_zero(), "{part}");
+            assert!(told.magnitude() < Magnitude::from_u64(1));
+        }
+    }
+
     proptest! {
         /// The norm of a cell bounds every derivative of a polynomial on the cell; what is settled or cut to few
         /// terms is still the same function.
