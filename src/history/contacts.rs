@@ -119,19 +119,30 @@ impl Engine {
     }
 
     /// The guards of the contacts of a node on a cell.
-    pub fn guards(&self, node: usize, motion: &Motion, norm: &CellNorm) -> Vec<Guard> {
+    pub fn guards(
+        &self,
+        node: usize,
+        motion: &Motion,
+        input: &[Series],
+        norm: &CellNorm,
+    ) -> Vec<Guard> {
+        if self.nodes[node].contacts().next().is_none() {
+            return Vec::new();
+        }
         let (bits, runs) = (self.cut.bits, self.nodes[node].runs());
+        let state = &self.states[node];
+        let starts = state.system.starts(&state.state, input, &self.cut);
         let guard = |(contact, run): (usize, usize)| {
-            let closed = self.states[node].system.closed.iter().position(|own| own.0 == contact);
+            let closed = state.system.closed.iter().position(|own| own.0 == contact);
             if let Some(row) = closed {
-                let (series, starts) = (&motion.forces[row], &motion.starts[runs + row]);
+                let (series, starts) = (&motion.forces[row], &starts[runs + row]);
                 return Guard { apart: None, series: series.clone(), starts: starts.clone() };
             }
             let own = &self.open[contact];
             let apart = motion.velocities[run + 1].subtract(&motion.velocities[run], bits);
             let series = apart.integral_over(own.gap.clone(), &norm.length, &self.cut);
+            let [left, right] = [run, run + 1].map(|run| &starts[run]);
             let mut starts = vec![own.gap.clone()];
-            let [left, right] = [run, run + 1].map(|run| &motion.starts[run]);
             for (k, (left, right)) in (1..).zip(left.iter().zip(right)) {
                 starts.push(right.subtract(left, bits).over(k, bits));
             }

@@ -434,7 +434,7 @@ impl Engine {
             let (system, cut) = (&state.system, &self.cut);
             let known = (&state.state[..], &state.errors[..]);
             let motion = system.solve(&state.passivity, known, &inputs, (&norm, cut));
-            let guards = self.guards(node, &motion, &norm);
+            let guards = self.guards(node, &motion, &inputs, &norm);
             let changes = self.changes(node, &guards)?;
             if changes.is_empty() {
                 return Ok(match self.first_change(node, &guards, &length, &norm) {

@@ -7,7 +7,7 @@ use crate::history::series::{CellNorm, Series, Truncation};
 use crate::network::{Node, System, dot};
 
 /// So many derivatives at the start of a cell are enclosed one by one.
-pub(crate) const STARTS: usize = 6;
+const STARTS: usize = 16;
 
 /// Polynomials of a higher degree do not act on a state that is kept exact.
 const MAX_EXACT_DEGREE: usize = 4;
@@ -23,8 +23,6 @@ pub(crate) struct Motion {
     pub velocities: Vec<Series>,
     /// The force of each closed contact, as they stand in [`System::closed`].
     pub forces: Vec<Series>,
-    /// Enclosures of the first coefficients of velocities, then of forces.
-    pub starts: Vec<Vec<Number>>,
 }
 
 /// What is added to an error.
@@ -105,8 +103,7 @@ impl System<Number> {
             self.output.iter().map(|row| combined(row, states.iter().chain(input), cut.bits));
         let velocities = outputs.by_ref().take(self.group.len()).collect();
         let forces = outputs.collect();
-        let starts = self.starts(state, input, cut);
-        Motion { state: states, added, velocities, forces, starts }
+        Motion { state: states, added, velocities, forces }
     }
 
     /// What leaves at a side: the velocity of its run less what arrives there.
@@ -123,8 +120,8 @@ impl System<Number> {
         combined(&row, motion.state.iter().chain(input), bits)
     }
 
-    /// Enclosures of the first coefficients of all outputs.
-    fn starts(&self, state: &[Number], input: &[Series], cut: &Truncation) -> Vec<Vec<Number>> {
+    /// Enclosures of the first coefficients of all outputs, velocities of runs and then forces of contacts.
+    pub fn starts(&self, state: &[Number], input: &[Series], cut: &Truncation) -> Vec<Vec<Number>> {
         let mut starts = vec![Vec::with_capacity(STARTS); self.output.len()];
         let mut next = state.to_vec();
         for k in 0..STARTS {

@@ -259,7 +259,8 @@ impl StateError {
         let Some((time, left)) = &block.decay else { return self };
         let (length, bound) = length.ball(BITS).to_double();
         self.since += ((length - bound.to_double()) * (1.0 - f64::EPSILON)).max(0.0);
-        let times = self.since / (*time as f64).exp2();
+        // Less than what roundings of the sum may have added.
+        let times = self.since / (*time as f64).exp2() * (1.0 - 1e-9);
         if times.is_finite() && times >= 1.0 {
             let earlier = (0..(times as u64).min(MOST_TIMES))
                 .fold(self.earlier, |earlier, _| earlier.multiply(left));

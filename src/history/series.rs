@@ -63,7 +63,8 @@ impl Truncation {
 fn growth(z: &Magnitude) -> Magnitude {
     let halves = z.multiply(&Magnitude::from_u64(3)).scale(-1);
     let Some(top) = halves.top() else { return Magnitude::power_of_two(0) };
-    let exponent = if top <= 0 { 1 } else { 1_i64 << top.min(40) };
+    // Times of 2^60 units of the fastest rate are not followed.
+    let exponent = if top <= 0 { 1 } else { 1_i64 << top.min(60) };
     Magnitude::power_of_two(exponent)
 }
 
@@ -346,21 +347,16 @@ impl Series {
     /// `P(x)`. Where `x` is enclosed, by the value and the slope `s` at its midpoint `m`:
     /// `|P(x) − P(m)| ≤ |x − m| (|s| + |x − m| Σ k(k−1)/2 |c_k| |x|^(k−2))`.
     pub fn polynomial(&self, x: &Number, bits: u64) -> Number {
-        let evaluated = |x: &Number| {
+        if x.exact().is_some() {
             let terms = self.coefficients.iter().rev();
-            terms.fold((Number::zero(), Number::zero()), |(sum, slope), c| {
-                let slope = slope.multiply(x, bits).add(&sum, bits);
-                (sum.multiply(x, bits).add(c, bits), slope)
-            })
-        };
-        let (middle, radius) = match x {
-            Number::Exact(_) => {
-                let terms = self.coefficients.iter().rev();
-                return terms.fold(Number::zero(), |sum, c| sum.multiply(x, bits).add(c, bits));
-            }
-            Number::Enclosed(_) => x.split(bits),
-        };
-        let (value, slope) = evaluated(&middle);
+            return terms.fold(Number::zero(), |sum, c| sum.multiply(x, bits).add(c, bits));
+        }
+        let (middle, radius) = x.split(bits);
+        let terms = self.coefficients.iter().rev();
+        let (value, slope) = terms.fold((Number::zero(), Number::zero()), |(sum, slope), c| {
+            let slope = slope.multiply(&middle, bits).add(&sum, bits);
+            (sum.multiply(&middle, bits).add(c, bits), slope)
+        });
         let reach = x.magnitude();
         let bends = self.coefficients.iter().enumerate().skip(2).rev();
         let bend = bends.fold(Magnitude::ZERO, |sum, (k, c)| {
@@ -383,11 +379,6 @@ impl Series {
     pub fn size_from(&self, n: usize, w: &Magnitude) -> Magnitude {
         let terms = self.coefficients.iter().skip(n).rev();
         terms.fold(Magnitude::ZERO, |sum, c| sum.multiply(w).add(&c.magnitude()))
-    }
-
-    /// A bound of `|e'|`.
-    pub fn rest_of_slope(&self, cut: &Truncation) -> Magnitude {
-        cut.per_time(&self.rest)
     }
 
     /// `start + ∫_0^x f`, on a cell that is no longer than the longest: `‖∫e‖ ≤ max(h, 1/γ) ‖e‖`.
@@ -414,7 +405,7 @@ impl Series {
     pub fn derivative(&self, cut: &Truncation) -> Series {
         let terms = self.coefficients.iter().enumerate().skip(1);
         let slopes = terms.map(|(k, c)| c.multiply(&Number::integer(k as i64), cut.bits));
-        Series::new(slopes.collect(), self.rest_of_slope(cut))
+        Series::new(slopes.collect(), cut.per_time(&self.rest))
     }
 }
 
