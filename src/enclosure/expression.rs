@@ -91,6 +91,14 @@ fn polynomial(p: &Polynomial, powers: &Powers, bits: u64) -> ComplexBall {
     sum
 }
 
+/// The real part of a value that is real: zero lies in the enclosure of its imaginary part.
+pub(crate) fn real_part(value: ComplexBall) -> Result<Ball, EnclosureError> {
+    match value.imaginary().contains_zero() {
+        true => Ok(value.real().clone()),
+        false => Err(EnclosureError::NotReal),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -10,6 +10,6 @@ mod zero;
 
 pub use error::EnclosureError;
 pub use expression::enclose_expression;
+pub(crate) use expression::real_part;
 pub use numbers::Numbers;
-pub(crate) use numbers::real_part;
 pub use zero::enclose_zero;

@@ -2,7 +2,7 @@
 
 use crate::ball::{Attempt, Ball, ComplexBall, Number, Precisions};
 use crate::enclosure::error::EnclosureError;
-use crate::enclosure::expression::enclose_expression;
+use crate::enclosure::expression::{enclose_expression, real_part};
 use crate::enclosure::zero::{Order, ZeroError, enclose_zero_of};
 use crate::expression::{Constant, Definition, Expression, Field, Fraction, Root};
 use std::cell::RefCell;
@@ -200,14 +200,6 @@ impl Numbers {
     /// The field of enclosures with so many bits.
     pub(crate) fn field(&self, bits: u64) -> Enclosing<'_> {
         Enclosing { numbers: self, bits }
-    }
-}
-
-/// The real part of a value that is real: zero lies in the enclosure of its imaginary part.
-pub(crate) fn real_part(value: ComplexBall) -> Result<Ball, EnclosureError> {
-    match value.imaginary().contains_zero() {
-        true => Ok(value.real().clone()),
-        false => Err(EnclosureError::NotReal),
     }
 }
 

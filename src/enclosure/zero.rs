@@ -1,8 +1,7 @@
 //! The zero of an exact expression of one symbol, enclosed by Newton's method with balls.
 
 use super::error::EnclosureError;
-use super::expression::enclose_expression;
-use super::numbers::real_part;
+use super::expression::{enclose_expression, real_part};
 use crate::ball::{Attempt, Ball, Precisions};
 use crate::expression::Expression;
 use std::cmp::Ordering;

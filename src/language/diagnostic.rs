@@ -4,8 +4,7 @@
 use std::error::Error;
 use std::fmt;
 
-use super::source::Source;
-use super::syntax::Span;
+use super::source::{Source, Span};
 
 /// One error in a text: a message, the place it is about, places that help to understand it, and a
 /// remedy.

@@ -37,8 +37,7 @@ pub use constant::constant;
 pub use diagnostic::{Diagnostic, Label, closest};
 pub use lowering::ExactFormula;
 pub use name::{RESERVED, normalise as normalise_name};
-pub use source::Source;
-pub use syntax::Span;
+pub use source::{Source, Span};
 
 use syntax::{Expression, Listing, Recurrence, Scene};
 

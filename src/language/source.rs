@@ -5,7 +5,35 @@ use crate::limits::MAX_SOURCE_BYTES;
 use std::sync::Arc;
 
 use super::diagnostic::Diagnostic;
-use super::syntax::Span;
+
+/// A half-open range of bytes in a text.
+///
+/// ```
+/// let text = "scene \"A\"\nline fre - free";
+/// let error = wavestep::Problem::read("a.wave", text).err().unwrap();
+/// assert_eq!(error.diagnostics()[0].span(), wavestep::Span { start: 15, end: 18 });
+/// # Ok::<(), wavestep::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// The first byte.
+    pub start: usize,
+    /// The byte after the last; equal to `start` for a place between two characters.
+    pub end: usize,
+}
+
+impl Span {
+    /// The bytes from `start` up to, not including, `end`.
+    #[must_use]
+    pub const fn new(start: usize, end: usize) -> Self {
+        Self { start, end }
+    }
+
+    /// From the start of this span to the end of a later one.
+    pub(super) const fn to(self, later: Self) -> Self {
+        Self::new(self.start, later.end)
+    }
+}
 
 /// A checked text and its name; cloning is cheap.
 ///

@@ -8,10 +8,9 @@ use crate::expression::{Expression, Fraction};
 use crate::network::clocks::Clocks;
 use crate::network::delay::Lattice;
 use crate::network::error::NetworkError;
-use crate::network::fields::FieldBars;
 use crate::network::model::Model;
 use crate::network::node::{ElementLaw, Node, Side};
-use crate::network::observed::Observed;
+use crate::network::observed::{FieldBar, Observed};
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, Recurrence, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
@@ -56,6 +55,13 @@ pub struct Network {
     pub(super) derived: OnceLock<Result<Recurrence, NetworkError>>,
     /// The bars with their waves, once fields were asked for.
     pub(super) fields: OnceLock<Result<Box<FieldBars>, NetworkError>>,
+}
+
+/// The bars of a scene, from left to right, and its network with the integrals of their waves.
+#[derive(Clone, Debug)]
+pub(crate) struct FieldBars {
+    pub network: Network,
+    pub bars: Vec<FieldBar>,
 }
 
 impl ScaledScene {

@@ -1,50 +1,14 @@
 //! The bars of a scene with the waves that enter them, of which fields are made, and what velocities,
 //! strains and lengths are in the scale of the scene.
 
-use crate::expression::{Expression, Fraction, Root};
-use crate::network::equations::Network;
+use crate::expression::{Expression, Fraction};
+use crate::network::equations::{FieldBars, Network};
 use crate::network::error::NetworkError;
 use crate::network::measures::unit;
-use crate::network::model::{ModelBar, bar_roots};
-use crate::network::observe::seen;
-use crate::recurrence::{Observation, WaveIndex};
-use crate::scene::{ElementIndex, Kind, Measure};
-
-/// A wave as it enters a bar, its integral over time since the start, and the integral of that.
-pub(crate) type Entering = [Observation; 3];
-
-/// Where a bar ends.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Extent {
-    /// At both ends.
-    Finite,
-    /// At the left end only.
-    ToTheRight,
-    /// At the right end only.
-    ToTheLeft,
-}
-
-/// A bar with its waves, in the scales of the scene.
-#[derive(Clone, Debug)]
-pub(crate) struct FieldBar {
-    pub element: ElementIndex,
-    pub extent: Extent,
-    pub data: ModelBar,
-    /// The wave to the right, which enters at the left end, and the one to the left; none for what comes
-    /// from the far side of an endless bar.
-    pub entering: [Option<Entering>; 2],
-    /// The units of velocity, strain, displacement and force, in those of the user.
-    pub units: [Root; 4],
-    /// The way of a wave in a time of 1.
-    pub reach: Root,
-}
-
-/// The bars of a scene, from left to right, and its network with the integrals of their waves.
-#[derive(Clone, Debug)]
-pub(crate) struct FieldBars {
-    pub network: Network,
-    pub bars: Vec<FieldBar>,
-}
+use crate::network::model::bar_roots;
+use crate::network::observed::{Entering, Extent, FieldBar};
+use crate::recurrence::{Observation, ObservedWave, WaveIndex};
+use crate::scene::{Kind, Measure};
 
 impl Network {
     /// The bars with their waves. They are worked out once.
@@ -90,7 +54,7 @@ impl Network {
     fn entering(&mut self, wave: WaveIndex, delay: &Fraction) -> Entering {
         let integral = self.integral(wave);
         [wave, integral, self.integral(integral)].map(|wave| Observation {
-            waves: vec![seen(wave, delay.clone(), &Fraction::one())],
+            waves: vec![ObservedWave::new(wave, delay.clone(), &Fraction::one())],
             forcing: Expression::zero(),
         })
     }

@@ -85,7 +85,7 @@ impl Network {
         let waves = self.waves_of(section.bar).into_iter().zip(&section.delays).zip(coefficients);
         let waves = waves.filter_map(|((wave, delay), coefficient)| {
             let ((wave, lead), delay) = (wave?, delay.as_ref()?);
-            Some(seen(wave, delay - lead, coefficient))
+            Some(ObservedWave::new(wave, delay - lead, coefficient))
         });
         waves.collect()
     }
@@ -155,7 +155,7 @@ impl Network {
             velocity = constant(&common.unwrap_or_else(Fraction::zero));
         }
         let delay = -&self.clocks.leads[place];
-        velocity.waves.push(seen(wave, delay, &Fraction::one()));
+        velocity.waves.push(ObservedWave::new(wave, delay, &Fraction::one()));
         velocity
     }
 
@@ -174,7 +174,7 @@ impl Network {
             _ => Role::Compression(own.element),
         };
         let wave = self.wave(role).map(|wave| (wave, -&self.clocks.leads[lump.node]));
-        let waves = wave.map(|(wave, delay)| seen(wave, delay, &Fraction::one()));
+        let waves = wave.map(|(wave, delay)| ObservedWave::new(wave, delay, &Fraction::one()));
         Observation { waves: waves.into_iter().collect(), forcing: Expression::zero() }
     }
 
@@ -187,9 +187,13 @@ impl Network {
         let waves = self.waves_of(bar).map(|wave| wave.map(|(wave, lead)| (wave, -lead)));
         for (wave, entered) in waves.into_iter().flatten() {
             let integral = self.integral(wave);
-            momentum.waves.push(seen(integral, entered.clone(), &data.impedance));
+            momentum.waves.push(ObservedWave::new(integral, entered.clone(), &data.impedance));
             if let Some(travel) = &data.travel {
-                momentum.waves.push(seen(integral, &entered + travel, &-&data.impedance));
+                momentum.waves.push(ObservedWave::new(
+                    integral,
+                    &entered + travel,
+                    &-&data.impedance,
+                ));
             }
         }
         momentum
@@ -237,7 +241,7 @@ impl Network {
         let parts = ways.filter_map(|(direction, (wave, before))| {
             let (wave, lead) = wave?;
             let mut of = constant(&before);
-            of.waves.push(seen(wave, -lead, &Fraction::one()));
+            of.waves.push(ObservedWave::new(wave, -lead, &Fraction::one()));
             let window = data.travel.clone().map_or(Window::Always, Window::Last);
             let squared = Squared::Entering { bar, direction };
             let coefficient = coefficient * &data.impedance;
@@ -249,10 +253,6 @@ impl Network {
 
 fn constant(value: &Fraction) -> Observation {
     Observation { waves: Vec::new(), forcing: value.clone().into() }
-}
-
-pub(super) fn seen(wave: WaveIndex, delay: Fraction, coefficient: &Fraction) -> ObservedWave {
-    ObservedWave { coefficient: coefficient.clone().into(), wave, slope: false, delay }
 }
 
 /// Adds `factor · other`; waves that are seen twice are joined.

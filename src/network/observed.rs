@@ -1,9 +1,10 @@
-//! What an observable is in the waves of a network.
+//! What an observable is in the waves of a network, and the waves of a bar, of which its fields are made.
 
 use crate::expression::{Fraction, Root};
+use crate::network::model::ModelBar;
 use crate::network::reading::{Reading, Term};
 use crate::recurrence::Observation;
-use crate::scene::Dimension;
+use crate::scene::{Dimension, ElementIndex};
 
 /// An observable of a scene: what it is in the waves, and its unit.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -61,4 +62,33 @@ pub enum Window {
     Last(Fraction),
     /// All since the start.
     Always,
+}
+
+/// A wave as it enters a bar, its integral over time since the start, and the integral of that.
+pub(crate) type Entering = [Observation; 3];
+
+/// Where a bar ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Extent {
+    /// At both ends.
+    Finite,
+    /// At the left end only.
+    ToTheRight,
+    /// At the right end only.
+    ToTheLeft,
+}
+
+/// A bar with its waves, in the scales of the scene.
+#[derive(Clone, Debug)]
+pub(crate) struct FieldBar {
+    pub element: ElementIndex,
+    pub extent: Extent,
+    pub data: ModelBar,
+    /// The wave to the right, which enters at the left end, and the one to the left; none for what comes
+    /// from the far side of an endless bar.
+    pub entering: [Option<Entering>; 2],
+    /// The units of velocity, strain, displacement and force, in those of the user.
+    pub units: [Root; 4],
+    /// The way of a wave in a time of 1.
+    pub reach: Root,
 }

@@ -5,7 +5,7 @@
 //! certainly, there is one in between for which it is zero; halving keeps such a pair. Whether
 //! there is only one is not proven.
 
-use super::{Problem, ProblemError};
+use super::{EqualError, Problem, ProblemError};
 use crate::evaluate::{Goal, Search};
 use crate::expression::Fraction;
 use crate::language::{self, Source};
@@ -40,29 +40,6 @@ pub struct Crossing {
     /// With how many bits the extrema cannot be told apart in between, where these are farther apart than
     /// the digits asked for.
     pub undecided: Option<u64>,
-}
-
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum EqualError {
-    #[error("{digits} digits of a symbol are too many")]
-    TooManyDigits { digits: usize, limit: usize },
-    #[error("the extrema cannot be told apart at an end of the range")]
-    EqualAtEnd,
-    #[error("the extremum in the {} window is the larger one at both ends of the range", larger(*.0))]
-    NoChange(Ordering),
-    #[error("the times of {times} do not ascend at {symbol} = {value}")]
-    NotAscending {
-        /// What errors call the times.
-        times: String,
-        symbol: String,
-        value: Rational,
-    },
-    #[error("the time `{text}` is no number from 0 on at {value}")]
-    NoTime { text: String, symbol: String, value: Rational },
-}
-
-fn larger(sign: Ordering) -> &'static str {
-    if sign == Ordering::Greater { "first" } else { "second" }
 }
 
 #[doc(hidden)]

@@ -1,6 +1,5 @@
 //! Why a problem has no answer.
 
-use super::{EqualError, LockRefusal};
 use crate::answer::{InvalidMethod, InvalidTolerance, Tolerance, WayError};
 use crate::evaluate::{EvaluateError, MethodError};
 use crate::field::FieldError;
@@ -13,6 +12,7 @@ use crate::network::{NetworkError, ScaledScene};
 use crate::scene::Dimension;
 use crate::signal::SignalError;
 use crate::solution::SolveError;
+use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// Why a problem is not read, or has no answer to what is asked of it.
@@ -150,6 +150,49 @@ pub enum ProblemError {
     History(HistoryError),
     #[error(transparent)]
     Field(Box<FieldError>),
+}
+
+/// Why a problem is not locked as asked for.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum LockRefusal {
+    #[error("where contacts open there are no periods of which pieces could be locked")]
+    PeriodsWhereContactsOpen,
+    #[error("there are no events here: no contacts open")]
+    NoEvents,
+    #[error("values are not locked in scenes with units")]
+    ValuesWithUnits,
+    #[error("values are not locked in scenes with constants such as {0}")]
+    ValuesWithConstants(Symbol),
+    #[error("it is not said through which period the pieces are to be locked")]
+    NoLastPeriod,
+    #[error("pieces are locked, and contacts open now")]
+    PiecesLocked,
+    #[error("events are locked, and no contacts open now")]
+    EventsLocked,
+}
+
+/// Why no value of a symbol with equal extrema is found.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum EqualError {
+    #[error("{digits} digits of a symbol are too many")]
+    TooManyDigits { digits: usize, limit: usize },
+    #[error("the extrema cannot be told apart at an end of the range")]
+    EqualAtEnd,
+    #[error("the extremum in the {} window is the larger one at both ends of the range", larger(*.0))]
+    NoChange(Ordering),
+    #[error("the times of {times} do not ascend at {symbol} = {value}")]
+    NotAscending {
+        /// What errors call the times.
+        times: String,
+        symbol: String,
+        value: Rational,
+    },
+    #[error("the time `{text}` is no number from 0 on at {value}")]
+    NoTime { text: String, symbol: String, value: Rational },
+}
+
+fn larger(sign: Ordering) -> &'static str {
+    if sign == Ordering::Greater { "first" } else { "second" }
 }
 
 /// What needs commensurate travel times.

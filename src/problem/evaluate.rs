@@ -51,14 +51,17 @@ impl Problem {
             (Some(from), Some(to), _) => (from, to),
             _ => return Ok(Proven { values: Vec::new(), echoes: None }),
         };
-        if count_echoes && self.contacts_open() {
+        if count_echoes && !self.has_periods() {
             return Err(ProblemError::NoPeriodsWhereContactsOpen);
         }
         let all = |signal: &dyn Signal| -> Result<Vec<Value>, ProblemError> {
             let mut values = Vec::with_capacity(times.len());
             for time in times {
                 match evaluate::digits(signal, time, limit, count, max_bits) {
-                    Err(EvaluateError::AccuracyNotReached { best, .. }) if self.contacts_open() => {
+                    // More bits than those tried do not help.
+                    Err(EvaluateError::AccuracyNotReached { best, .. })
+                        if signal.most_bits() < u64::MAX =>
+                    {
                         let (name, time) = (wanted.name().to_owned(), time.clone());
                         let best = best.to_decimal(count).to_string();
                         return Err(ProblemError::Undecided { name, time, best });
@@ -145,7 +148,7 @@ impl Problem {
         if let Kind::LocalContact(_) = &self.kind {
             return Err(ProblemError::NoPeriodsWithLocalContact(self.local_contact()));
         }
-        if self.contacts_open() {
+        if !self.has_periods() {
             return Err(ProblemError::NoPeriodsWhereContactsOpen);
         }
         let refuse = || ProblemError::NoPeriods(wanted.name().to_owned());

@@ -1,9 +1,9 @@
 //! Locks of a problem: pieces and values, or events where contacts open.
 
 use super::bounds::refuse_pieces;
-use super::{Kind, Problem, ProblemError};
+use super::{Kind, LockRefusal, Problem, ProblemError};
 use crate::lock::{Difference, Extent, Lock, Request};
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::Rational;
 
 /// The results to lock.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -18,32 +18,13 @@ pub struct ToLock {
     pub digits: usize,
 }
 
-/// Why a problem is not locked as asked for.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum LockRefusal {
-    #[error("where contacts open there are no periods of which pieces could be locked")]
-    PeriodsWhereContactsOpen,
-    #[error("there are no events here: no contacts open")]
-    NoEvents,
-    #[error("values are not locked in scenes with units")]
-    ValuesWithUnits,
-    #[error("values are not locked in scenes with constants such as {0}")]
-    ValuesWithConstants(Symbol),
-    #[error("it is not said through which period the pieces are to be locked")]
-    NoLastPeriod,
-    #[error("pieces are locked, and contacts open now")]
-    PiecesLocked,
-    #[error("events are locked, and no contacts open now")]
-    EventsLocked,
-}
-
 #[doc(hidden)]
 impl Problem {
     /// What is locked: derived now.
     pub fn lock(&self, asked: &ToLock) -> Result<Lock, ProblemError> {
         let ToLock { through, until, times, digits } = asked.clone();
         let request = Request { times, digits, set: self.values.clone() };
-        if self.contacts_open() {
+        if !self.has_periods() {
             if through.is_some() {
                 return Err(LockRefusal::PeriodsWhereContactsOpen.into());
             }
@@ -65,13 +46,11 @@ impl Problem {
 
     /// How the problem, derived now, differs from a lock.
     pub fn differences(&self, locked: &Lock) -> Result<Vec<Difference>, ProblemError> {
-        let now = match (locked.extent(), self.contacts_open()) {
-            (Extent::Pieces { through }, false) => {
-                self.pieces_to_lock(through, locked.request())?
-            }
-            (Extent::Events { until }, true) => self.events_to_lock(until, locked.request())?,
-            (Extent::Pieces { .. }, true) => return Err(LockRefusal::PiecesLocked.into()),
-            (Extent::Events { .. }, false) => return Err(LockRefusal::EventsLocked.into()),
+        let now = match (locked.extent(), self.has_periods()) {
+            (Extent::Pieces { through }, true) => self.pieces_to_lock(through, locked.request())?,
+            (Extent::Events { until }, false) => self.events_to_lock(until, locked.request())?,
+            (Extent::Pieces { .. }, false) => return Err(LockRefusal::PiecesLocked.into()),
+            (Extent::Events { .. }, true) => return Err(LockRefusal::EventsLocked.into()),
         };
         Ok(locked.differences(&now))
     }

@@ -21,6 +21,7 @@ use crate::language::{self, Source, Stated};
 use crate::network::{Network, NetworkError, ScaledScene};
 use crate::recurrence::Recurrence;
 use crate::scene::{PI, Scene};
+use crate::signal;
 use crate::solution::Solution;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -28,11 +29,11 @@ use wavestep_polynomial::{Rational, Symbol};
 
 pub use check::{Checked, Derivations, General, Periods, Solved};
 pub use derive::{Derived, Form, Functions, GeneralFormulas, Orders, Symbols, ToDerive};
-pub use equal::{Crossing, EqualError, EqualExtrema};
-pub use error::{Missing, ProblemError};
+pub use equal::{Crossing, EqualExtrema};
+pub use error::{EqualError, LockRefusal, Missing, ProblemError};
 pub use evaluate::{Digits, Proven};
 pub use given::{Given, number};
-pub use lock::{LockRefusal, ToLock};
+pub use lock::ToLock;
 pub use times::{evenly_spaced, two_figures, window};
 pub use validity::{Holds, Pressed};
 pub use wanted::Wanted;
@@ -183,9 +184,9 @@ impl Problem {
         Ok(self.solution()?.recurrence())
     }
 
-    /// Whether contacts open and close.
-    fn contacts_open(&self) -> bool {
-        matches!(&self.kind, Kind::Line { network, .. } if network.scene().contacts_open)
+    /// Whether there are periods and echoes, not events.
+    fn has_periods(&self) -> bool {
+        !matches!(&self.kind, Kind::Line { network, .. } if !signal::has_periods(network))
     }
 
     /// Whether waves return at times without a common measure.

@@ -58,9 +58,9 @@ impl Problem {
     pub fn holds(&self, digits: usize) -> Option<Holds> {
         let network = self.with_contacts()?;
         Some(match Validity::of(network, None, digits, CELLS) {
-            Ok(Validity::Until { time, between }) => match self.contacts_open() {
-                true => Holds::UntilTheyPart(time, between),
-                false => Holds::UntilItPulls(time, between),
+            Ok(Validity::Until { time, between }) => match self.has_periods() {
+                true => Holds::UntilItPulls(time, between),
+                false => Holds::UntilTheyPart(time, between),
             },
             Ok(Validity::Followed(time)) => Holds::AtLeastUntil(time),
             Err(_) => Holds::AsLongAs(pressed(network.scene())),
@@ -70,7 +70,7 @@ impl Problem {
     /// The first time at which a contact that stays closed would pull, and what is beside it, where that
     /// is before a time and soon known.
     pub fn pulls(&self, before: &Rational, digits: usize) -> Option<(Value, [String; 2])> {
-        let network = self.with_contacts().filter(|_| !self.contacts_open())?;
+        let network = self.with_contacts().filter(|_| self.has_periods())?;
         match Validity::of(network, Some(before), digits, FEW_CELLS) {
             Ok(Validity::Until { time, between }) => Some((time, between)),
             _ => None,

@@ -107,7 +107,7 @@ impl Problem {
             }
             Kind::Line { network, .. } => {
                 let found = of_network(network, &known);
-                if found.as_ref().is_some_and(|found| found.place.is_none()) && self.contacts_open()
+                if !self.has_periods() && found.as_ref().is_some_and(|found| found.place.is_none())
                 {
                     return Err(ProblemError::WaveOfClosedContacts(known));
                 }

@@ -45,6 +45,13 @@ pub struct ObservedWave {
     pub delay: Fraction,
 }
 
+impl ObservedWave {
+    /// The value of a wave.
+    pub(crate) fn new(wave: WaveIndex, delay: Fraction, coefficient: &Fraction) -> ObservedWave {
+        ObservedWave { coefficient: coefficient.clone().into(), wave, slope: false, delay }
+    }
+}
+
 /// All that a person states of a recurrence.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Statement {

@@ -1,7 +1,7 @@
 //! Energies as signals: `Σ c q²` of masses and springs, `Σ c ∫ q² dt` of the waves in bars.
 
-use super::SignalError;
 use super::operations::{Combination, Integral, Operation, Product, Scale};
+use super::{SignalError, has_periods};
 use crate::evaluate::{ClosedSignal, EvaluateError, Signal};
 use crate::expression::{Fraction, Root};
 use crate::history::{FollowedSignal, Follower};
@@ -83,7 +83,7 @@ fn squared<'a>(
     to: &Rational,
 ) -> Result<Vec<Rc<dyn Signal + 'a>>, SignalError> {
     let windows = terms.iter().zip(reaches.iter().map(|from| [from, to]));
-    if !network.scene().contacts_open {
+    if has_periods(network) {
         let squared: Vec<_> = windows.map(|(term, window)| (&term.of, window)).collect();
         let signals = ClosedSignal::several(network, &squared, to)?.into_iter();
         return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());

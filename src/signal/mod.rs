@@ -2,8 +2,8 @@
 //!
 //! Where contacts stay closed, waves have a closed form, which is cheap and exact; where they open, the
 //! scene is followed from cell to cell. Energies are sums of squares of such signals, in bars integrated
-//! over the last travel time. Who has a signal need not know which it is. Only what is no signal, such as
-//! locks, remarks and refusals, asks elsewhere whether contacts open.
+//! over the last travel time. Who has a signal need not know which it is; what is no signal, such as a lock,
+//! asks whether there are periods.
 
 mod energy;
 mod operations;
@@ -36,6 +36,12 @@ pub enum Purpose {
     Stretches,
 }
 
+/// Whether the waves of a scene have periods and echoes, which can be counted; else it is followed, and has
+/// events.
+pub fn has_periods(network: &Network) -> bool {
+    !network.scene().contacts_open
+}
+
 /// An observable of a scene on a window of the user's time.
 pub fn of_scene<'a>(
     network: &'a Network,
@@ -46,7 +52,7 @@ pub fn of_scene<'a>(
     if let ObservedValue::Energy(terms) = &observed.value {
         return energy::of_scene(network, terms, &observed.unit, window);
     }
-    if !network.scene().contacts_open {
+    if has_periods(network) {
         let signal = ClosedSignal::of_scene(network, observed, window)?;
         return Ok(Box::new(match purpose {
             Purpose::Echoes => signal.echo_by_echo(),
@@ -71,9 +77,9 @@ pub(crate) fn entering_waves<'a>(
     last: &Rational,
 ) -> Result<Vec<[Option<EnteringWave<'a>>; 2]>, SignalError> {
     let window = [&Rational::zero(), last];
-    let follower = match network.scene().contacts_open {
-        true => Some(Follower::new(network, last)?),
-        false => None,
+    let follower = match has_periods(network) {
+        true => None,
+        false => Some(Follower::new(network, last)?),
     };
     let FieldBars { network: own, bars } = network.field_bars().map_err(EvaluateError::from)?;
     let mut signals: Vec<Box<dyn Signal + 'a>> = Vec::new();

@@ -7,13 +7,14 @@
 //! there.
 
 use crate::enclosure::Numbers;
+use crate::evaluate::closed::echoes::{Arriving, Echoes, solve_in, whole_periods};
 use crate::evaluate::closed::memory::Memory;
 use crate::evaluate::closed::periods::Periods;
-use crate::evaluate::closed::scene::{Echoes, SceneEchoes, solve_in, whole_periods};
+
 use crate::evaluate::error::EvaluateError;
 use crate::expression::{Fraction, Root};
 use crate::limits::MAX_PIECES;
-use crate::network::{Network, Unfolded};
+use crate::network::Network;
 use crate::recurrence::{Observation, Recurrence};
 use crate::solution::Demand;
 use std::cell::RefCell;
@@ -46,7 +47,7 @@ pub struct ClosedForm {
     pub(super) slowness: Fraction,
     pub(super) numbers: Rc<Numbers>,
     /// The echoes, where arrivals lie on no grid.
-    pub(super) lattice: Option<Rc<Scattered>>,
+    pub(super) lattice: Option<Rc<Arriving>>,
     /// All that is seen of the waves, here and in other views of them.
     seen: Rc<Observation>,
     /// The waves, by bits.
@@ -55,15 +56,6 @@ pub struct ClosedForm {
 
 /// The waves, by bits.
 type ByBits = BTreeMap<u64, Rc<RefCell<Solved>>>;
-
-/// Echoes on a lattice of several periods.
-pub(super) struct Scattered {
-    pub(super) unfolded: Unfolded,
-    /// By number, with their delays.
-    pub(super) arrivals: Vec<(usize, Fraction)>,
-    /// Until when they are known.
-    pub(super) last: Fraction,
-}
 
 /// The waves, in balls.
 pub(super) enum Solved {
@@ -98,11 +90,10 @@ impl ClosedForm {
             let recurrence = network.recurrence()?;
             return ClosedForm::on_grid(&recurrence, observation, unit, slowness);
         }
-        let last = slowness.scale(last);
-        let evaluator = SceneEchoes::new(network, &last)?;
-        let (unfolded, arrivals) = evaluator.into_parts();
-        let signal = ClosedForm::on_grid(unfolded.recurrence(), observation, unit, slowness)?;
-        Ok(ClosedForm { lattice: Some(Rc::new(Scattered { unfolded, arrivals, last })), ..signal })
+        let arriving = Arriving::of(network, &slowness.scale(last))?;
+        let recurrence = arriving.unfolded.recurrence();
+        let signal = ClosedForm::on_grid(recurrence, observation, unit, slowness)?;
+        Ok(ClosedForm { lattice: Some(Rc::new(arriving)), ..signal })
     }
 
     fn on_grid(

@@ -7,6 +7,7 @@
 //! a window of time.
 
 mod contribution;
+mod echoes;
 mod exact;
 mod form;
 mod memory;

@@ -4,20 +4,20 @@
 //! exactly; the echoes are then worked out with coefficients in balls, and those alone that reach the
 //! place that is observed.
 
-use crate::ball::{Ball, BallError, Binary, ComplexBall, Magnitude};
-use crate::enclosure::{EnclosureError, Numbers, real_part};
+use crate::ball::{Ball, BallError, Binary, Magnitude};
+use crate::enclosure::{Numbers, real_part};
+use crate::evaluate::closed::echoes::{Arriving, Echoes, Unsolved, solve_in};
 use crate::evaluate::closed::memory::Memory;
 use crate::evaluate::closed::modular;
 use crate::evaluate::closed::modular::{Modular, Residue};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::{Known, Limit, Point};
+use crate::evaluate::signal::{Known, Limit, Point, has_begun};
 use crate::evaluate::transforms::value_at;
-use crate::expression::{Exact, Expression, Field, Fraction, Root, Transform};
-use crate::limits::MAX_ECHOES;
-use crate::network::{Network, Unfolded};
-use crate::recurrence::{Observation, Recurrence, WaveIndex};
-use crate::solution::{Demand, EchoByEcho};
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use crate::expression::{Exact, Expression, Field, Fraction, Root};
+use crate::network::Network;
+use crate::recurrence::{Observation, WaveIndex};
+use crate::solution::Demand;
+use num_traits::Zero;
 use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -47,16 +47,10 @@ const WIDE: i64 = 1 << 20;
 const MAX_EXACT_ECHOES: usize = 1_000;
 const MAX_EXACT_ECHOES_NAMED: usize = 100;
 
-/// The echoes of all waves, by wave and number.
-pub(crate) type Echoes<V = ComplexBall> = Vec<Vec<Transform<V>>>;
-
 /// Evaluates observables of a scene, up to a last time.
 pub struct SceneEchoes<'a> {
     network: &'a Network,
-    unfolded: Unfolded,
-    /// When each echo arrives, by number.
-    arrivals: Vec<(usize, Fraction)>,
-    last: Fraction,
+    arriving: Arriving,
     numbers: Numbers,
     /// What was asked for before.
     wanted: RefCell<Vec<Observation>>,
@@ -77,75 +71,26 @@ struct Solved {
 }
 
 /// An echo that has arrived: its wave and number, the coefficient it is seen with, and for how long.
-pub(crate) struct Arrived {
-    pub wave: WaveIndex,
-    pub number: usize,
-    pub coefficient: Expression,
-    pub since: Fraction,
+struct Arrived {
+    wave: WaveIndex,
+    number: usize,
+    coefficient: Expression,
+    since: Fraction,
 }
 
 impl<'a> SceneEchoes<'a> {
     /// An evaluator for times up to `last`, in the scale of the scene.
-    ///
-    /// # Errors
-    /// [`EvaluateError::MissingValue`] where a symbol is left, [`EvaluateError::TooManyEchoes`]
-    /// where more echoes arrive until then than are worked out.
     pub fn new(network: &'a Network, last: &Fraction) -> Result<SceneEchoes<'a>, EvaluateError> {
-        let numbers = Numbers::new(&network.model().constants);
-        let mut symbols = network.model().assumptions.symbols().map(|(symbol, _)| symbol);
-        if let Some(symbol) = symbols.find(|symbol| numbers.value(symbol, 64).is_none()) {
-            return Err(EvaluateError::MissingValue(symbol.clone()));
-        }
-        // A wave is seen at most as long before its own clock as that clock is late.
-        let mut latest = Fraction::zero();
-        for late in network.leads() {
-            if numbers.compare(late, &latest)? == Ordering::Greater {
-                latest = late.clone();
-            }
-        }
-        let latest = last + &latest;
-        let mut bounds = Vec::new();
-        for (period, lag) in network.lattice().periods().iter().zip(network.largest_lags()) {
-            // In a direction without lags nothing arrives but at once.
-            bounds.push(if lag == 0 {
-                0
-            } else {
-                whole_periods(&numbers, &latest, period, MAX_ECHOES)?
-            });
-        }
-        let total =
-            bounds.iter().fold(1_u128, |product, bound| product.saturating_mul(*bound as u128 + 1));
-        if total > MAX_ECHOES as u128 {
-            return Err(EvaluateError::TooManyEchoes { echoes: total, limit: MAX_ECHOES });
-        }
-        let unfolded = network.unfold(&bounds)?;
-        if let Some(symbol) = unfolded.recurrence().symbols().next() {
-            return Err(EvaluateError::MissingValue(symbol.clone()));
-        }
-        let delay = |k| (k, unfolded.delay(k).expect("within the bounds"));
-        let arrivals = unfolded.numbers().map(delay).collect();
-        let demand = RefCell::new(Demand::none(unfolded.recurrence()));
+        let arriving = Arriving::of(network, last)?;
         Ok(SceneEchoes {
             network,
-            arrivals,
-            last: last.clone(),
-            numbers: Numbers::new(unfolded.recurrence().constants()),
+            numbers: Numbers::new(arriving.unfolded.recurrence().constants()),
             wanted: RefCell::default(),
             known: RefCell::default(),
-            demand,
+            demand: RefCell::new(Demand::none(arriving.unfolded.recurrence())),
             expanded: Cell::new(0),
-            unfolded,
+            arriving,
         })
-    }
-
-    /// The recurrence with lags on the lattice, and the echoes that can arrive, with their delays.
-    pub(crate) fn into_parts(self) -> (Unfolded, Vec<(usize, Fraction)>) {
-        (self.unfolded, self.arrivals)
-    }
-
-    /// The numbers of the scene's constants.
-    pub(crate) fn numbers(&self) -> &Numbers {
-        &self.numbers
     }
 
     /// How many echoes can reach what was asked for.
@@ -156,19 +101,13 @@ impl<'a> SceneEchoes<'a> {
     /// How many echoes other than zero are worked out, and how many can reach what was asked for.
     pub fn work(&self) -> Option<(usize, usize)> {
         if self.expanded.get() == 0 {
-            self.solved(self.numbers(), FIRST_BITS).ok()?;
+            self.solved(FIRST_BITS).ok()?;
         }
         Some((self.expanded.get(), self.needed()))
     }
 
     /// An observable in a unit at a time in the scale of the scene, zero before the start.
-    ///
-    /// # Errors
-    /// [`EvaluateError::AfterLast`]; where two times cannot be told apart.
-    ///
-    /// # Cost
-    /// That of the echoes that reach the place: for `n` of them in a bar O(n³) operations of the
-    /// working precision, once for all times.
+    /// The `n` echoes that reach the place in a bar take O(n³) operations, once for all times.
     pub fn point(
         &self,
         observation: &Observation,
@@ -176,28 +115,27 @@ impl<'a> SceneEchoes<'a> {
         at: &Fraction,
         side: Limit,
     ) -> Result<Point<'_>, EvaluateError> {
-        let numbers = self.numbers();
-        if numbers.compare(at, &Fraction::zero())? == Ordering::Less {
+        if self.numbers.compare(at, &Fraction::zero())? == Ordering::Less {
             return Ok(Point::exact(Rational::zero()));
         }
-        if numbers.compare(at, &self.last)? == Ordering::Greater {
+        if self.numbers.compare(at, &self.arriving.last)? == Ordering::Greater {
             return Err(EvaluateError::AfterLast);
         }
         let unit = unit.clone();
-        let arrived = self.arrived(numbers, observation, at, side)?;
-        let forced = self.forcing(numbers, observation, at, side)?;
+        let arrived = self.arrived(observation, at, side)?;
+        let forced = self.forcing(observation, at, side)?;
         if arrived.is_empty() && forced.is_zero() {
             return Ok(Point::exact(Rational::zero()));
         }
-        self.want_until_last(numbers, observation)?;
+        self.want_until_last(observation)?;
         if let Some(value) = self.rational_value(&arrived, &forced, &unit) {
             return Ok(Point::exact(value));
         }
         let sum = Rc::new((arrived, forced));
         let known = Rc::clone(&sum);
-        let enclose = move |bits| self.enclose(self.numbers(), &sum.0, &sum.1, bits);
-        let exact = move || self.exact(&known.0, &known.1);
-        let size = numbers.enclose_root(&unit, SUSPICION_BITS)?.magnitude();
+        let enclose = move |bits| self.enclose(&sum.0, &sum.1, bits);
+        let exact = move || self.exact_later(&known.0, &known.1, &Fraction::zero());
+        let size = self.numbers.enclose_root(&unit, SUSPICION_BITS)?.magnitude();
         let factor = unit.exact().and_then(|unit| unit.as_constant());
         let decide = move || match (exact(), &factor) {
             (Some(sum), _) if sum.is_zero() => Known::Rational(Rational::zero()),
@@ -210,7 +148,7 @@ impl<'a> SceneEchoes<'a> {
         };
         let in_unit = move |bits| {
             let value = patient(enclose(bits), bits)?;
-            Ok(value.multiply(&numbers.enclose_root(&unit, bits)?, bits))
+            Ok(value.multiply(&self.numbers.enclose_root(&unit, bits)?, bits))
         };
         Ok(Point {
             known: Known::Unknown,
@@ -222,9 +160,8 @@ impl<'a> SceneEchoes<'a> {
     }
 
     /// What is seen of the waves at a time.
-    pub(crate) fn arrived(
+    fn arrived(
         &self,
-        numbers: &Numbers,
         observation: &Observation,
         at: &Fraction,
         side: Limit,
@@ -232,11 +169,9 @@ impl<'a> SceneEchoes<'a> {
         let mut arrived = Vec::new();
         for seen in &observation.waves {
             let time = at - &seen.delay;
-            for (number, delay) in &self.arrivals {
+            for (number, delay) in &self.arriving.arrivals {
                 let since = &time - delay;
-                let order = numbers.compare(&since, &Fraction::zero())?;
-                if order == Ordering::Greater || (order == Ordering::Equal && side == Limit::Right)
-                {
+                if has_begun(self.numbers.compare(&Fraction::zero(), &since)?, side) {
                     let (wave, coefficient) = (seen.wave, seen.coefficient.clone());
                     arrived.push(Arrived { wave, number: *number, coefficient, since });
                 }
@@ -246,16 +181,13 @@ impl<'a> SceneEchoes<'a> {
     }
 
     /// What is added to the waves at a time.
-    pub(crate) fn forcing(
+    fn forcing(
         &self,
-        numbers: &Numbers,
         observation: &Observation,
         at: &Fraction,
         side: Limit,
     ) -> Result<Expression, EvaluateError> {
-        let order = numbers.compare(at, &Fraction::zero())?;
-        let begun =
-            order == Ordering::Greater || (order == Ordering::Equal && side == Limit::Right);
+        let begun = has_begun(self.numbers.compare(&Fraction::zero(), at)?, side);
         match begun && !observation.forcing.is_zero() {
             true => Ok(observation.forcing.substitute(&self.network.scene().time, at)?),
             false => Ok(Expression::zero()),
@@ -264,37 +196,32 @@ impl<'a> SceneEchoes<'a> {
 
     /// Notes that all echoes are needed that are seen until the last time, once for all times before;
     /// what was worked out without them is dropped.
-    pub(crate) fn want_until_last(
-        &self,
-        numbers: &Numbers,
-        observation: &Observation,
-    ) -> Result<(), EvaluateError> {
+    pub(crate) fn want_until_last(&self, observation: &Observation) -> Result<(), EvaluateError> {
         if self.wanted.borrow().contains(observation) {
             return Ok(());
         }
         self.wanted.borrow_mut().push(observation.clone());
         for Arrived { wave, number, .. } in
-            self.arrived(numbers, observation, &self.last, Limit::Right)?
+            self.arrived(observation, &self.arriving.last, Limit::Right)?
         {
             let mut demand = self.demand.borrow_mut();
             if !demand.wants(wave, number) {
-                let exists = |k| self.unfolded.counts(k).is_some();
-                demand.add_where(self.unfolded.recurrence(), wave, number, exists);
+                let exists = |k| self.arriving.unfolded.counts(k).is_some();
+                demand.add_where(self.arriving.unfolded.recurrence(), wave, number, exists);
                 *self.known.borrow_mut() = Solved::default();
             }
         }
         Ok(())
     }
 
-    pub(crate) fn enclose(
+    fn enclose(
         &self,
-        numbers: &Numbers,
         arrived: &[Arrived],
         forced: &Expression,
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
-        let echoes = self.solved(numbers, bits)?;
-        let field = numbers.field(bits);
+        let echoes = self.solved(bits)?;
+        let field = self.numbers.field(bits);
         let mut sum = field.embed(forced)?;
         for Arrived { wave, number, coefficient, since } in arrived {
             let echo = &echoes[*wave][*number];
@@ -303,20 +230,20 @@ impl<'a> SceneEchoes<'a> {
             }
             let x = field.embed(&since.clone().into())?;
             let coefficient = field.embed(coefficient)?;
-            let value = value_at(echo, &x, numbers, bits)?;
+            let value = value_at(echo, &x, &self.numbers, bits)?;
             sum = sum.add(&value.multiply(&coefficient, bits), bits);
         }
         Ok(real_part(sum)?)
     }
 
     /// All echoes that are wanted, with so many bits at least.
-    pub(crate) fn solved(&self, numbers: &Numbers, bits: u64) -> Result<Rc<Echoes>, EvaluateError> {
+    fn solved(&self, bits: u64) -> Result<Rc<Echoes>, EvaluateError> {
         if let Some((_, known)) = self.known.borrow().enclosed.range(bits..).next() {
             return Ok(known.clone());
         }
         let lost = self.needed() as u64 / ECHOES_A_BIT;
         let memory = Memory::of_balls(bits.max(FIRST_BITS + lost));
-        let echoes = Rc::new(self.solve_in(numbers.field(bits), memory)?);
+        let echoes = Rc::new(self.solve_in(self.numbers.field(bits), memory)?);
         let enclosed = &mut self.known.borrow_mut().enclosed;
         while enclosed.len() >= MAX_PRECISIONS {
             enclosed.pop_first();
@@ -332,7 +259,8 @@ impl<'a> SceneEchoes<'a> {
         memory: Memory,
     ) -> Result<Echoes<F::Value>, Unsolved<F::Error>> {
         let demand = self.demand.borrow().clone();
-        let (echoes, expanded) = solve_in(self.unfolded.recurrence(), field, demand, memory)?;
+        let (echoes, expanded) =
+            solve_in(self.arriving.unfolded.recurrence(), field, demand, memory)?;
         self.expanded.set(expanded);
         Ok(echoes)
     }
@@ -347,11 +275,6 @@ impl<'a> SceneEchoes<'a> {
         residues
     }
 
-    /// The sum as one exact expression; `None` where an echo cannot be given exactly.
-    pub(crate) fn exact(&self, arrived: &[Arrived], forced: &Expression) -> Option<Expression> {
-        self.exact_later(arrived, forced, &Fraction::zero())
-    }
-
     /// What is seen on a stretch, exactly, at a time that may hold a symbol: of the waves that have arrived
     /// when the stretch begins.
     pub(crate) fn exact_since(
@@ -360,10 +283,9 @@ impl<'a> SceneEchoes<'a> {
         from: &Fraction,
         at: &Fraction,
     ) -> Option<Expression> {
-        let numbers = self.numbers();
-        self.want_until_last(numbers, observation).ok()?;
-        let arrived = self.arrived(numbers, observation, from, Limit::Right).ok()?;
-        let begun = numbers.compare(from, &Fraction::zero()).ok()? != Ordering::Less;
+        self.want_until_last(observation).ok()?;
+        let arrived = self.arrived(observation, from, Limit::Right).ok()?;
+        let begun = self.numbers.compare(from, &Fraction::zero()).ok()? != Ordering::Less;
         let forced = match begun {
             true => observation.forcing.substitute(&self.network.scene().time, at).ok()?,
             false => Expression::zero(),
@@ -374,14 +296,14 @@ impl<'a> SceneEchoes<'a> {
         }
     }
 
-    /// The sum as an exact expression, so much later than now.
+    /// The sum as one exact expression, so much later than now; `None` where an echo cannot be given exactly.
     fn exact_later(
         &self,
         arrived: &[Arrived],
         forced: &Expression,
         later: &Fraction,
     ) -> Option<Expression> {
-        let recurrence = self.unfolded.recurrence();
+        let recurrence = self.arriving.unfolded.recurrence();
         let statement = recurrence.statement();
         let known = self.known.borrow().exact.clone();
         let echoes = match known {
@@ -438,46 +360,8 @@ impl<'a> SceneEchoes<'a> {
         if groups.values().any(|residue| !residue.is_zero()) {
             return None;
         }
-        Some(self.exact(arrived, forced)?.as_constant()? * unit)
+        Some(self.exact_later(arrived, forced, &Fraction::zero())?.as_constant()? * unit)
     }
-}
-
-/// Why echoes are not worked out.
-pub(crate) enum Unsolved<E> {
-    /// A coefficient cannot be had in its field.
-    InField(E),
-    /// They would take too much memory.
-    TooLong(EvaluateError),
-}
-
-impl From<Unsolved<EnclosureError>> for EvaluateError {
-    fn from(error: Unsolved<EnclosureError>) -> EvaluateError {
-        match error {
-            Unsolved::InField(error) => error.into(),
-            Unsolved::TooLong(error) => error,
-        }
-    }
-}
-
-/// Echoes, and how many of them are not zero.
-type Expanded<V> = (Echoes<V>, usize);
-
-/// The echoes that are wanted, with coefficients in a field.
-pub(crate) fn solve_in<F: Field>(
-    recurrence: &Recurrence,
-    field: F,
-    demand: Demand,
-    mut memory: Memory,
-) -> Result<Expanded<F::Value>, Unsolved<F::Error>> {
-    let count = demand.last().map_or(0, |last| last + 1);
-    let mut solver = EchoByEcho::in_field(recurrence, field).map_err(Unsolved::InField)?;
-    solver = solver.wanting(demand);
-    for _ in 0..count {
-        solver.expand().map_err(|failed| Unsolved::InField(failed.reason))?;
-        memory.add(solver.last_coefficients(), count).map_err(Unsolved::TooLong)?;
-    }
-    let expanded = solver.expanded();
-    Ok((solver.into_transforms(), expanded))
 }
 
 /// Treats a division by what may be zero as unbounded, so that callers retry with more bits.
@@ -488,27 +372,4 @@ fn patient(found: Result<Ball, EvaluateError>, bits: u64) -> Result<Ball, Evalua
         }
         found => found,
     }
-}
-
-/// How many whole periods fit into a time, or one more.
-///
-/// # Errors
-/// [`EvaluateError::TooManyEchoes`] beyond the limit.
-pub(crate) fn whole_periods(
-    numbers: &Numbers,
-    time: &Fraction,
-    period: &Fraction,
-    limit: usize,
-) -> Result<usize, EvaluateError> {
-    let time = numbers.enclose(time, 64)?;
-    let inverse = numbers.enclose(period, 64)?.reciprocal(64).map_err(EvaluateError::Ball)?;
-    let upper = Rational::from(&time.multiply(&inverse, 64).endpoints().1);
-    let periods = upper.floor().to_integer();
-    if periods.is_negative() {
-        return Ok(0);
-    }
-    periods.to_usize().filter(|periods| *periods <= limit).ok_or_else(|| {
-        let echoes = periods.to_u128().unwrap_or(u128::MAX).saturating_add(u128::one());
-        EvaluateError::TooManyEchoes { echoes, limit }
-    })
 }

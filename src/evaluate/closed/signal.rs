@@ -235,7 +235,7 @@ impl<'a> ClosedSignal<'a> {
         }
         let echoes = SceneEchoes::new(network, &network.scaled_time(&self.window[1]))?;
         for observation in seen {
-            echoes.want_until_last(echoes.numbers(), observation)?;
+            echoes.want_until_last(observation)?;
         }
         Ok(made.get_or_init(|| echoes))
     }

@@ -2,7 +2,7 @@
 
 use super::form::{ClosedForm, MAX_STRETCHES};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::closed::scene::whole_periods;
+use crate::evaluate::closed::echoes::whole_periods;
 use crate::evaluate::error::EvaluateError;
 use crate::expression::Fraction;
 use crate::limits::MAX_ECHOES;
