@@ -156,11 +156,11 @@ impl FieldEvaluator<'_> {
     }
 
     fn double(&self, value: &Root) -> Result<f64, FieldError> {
-        Ok(self.numbers.enclose_root(value, FIRST_BITS)?.to_double().0)
+        Ok(self.waves.numbers.enclose_root(value, FIRST_BITS)?.to_double().0)
     }
 
     pub(super) fn double_of(&self, value: &Fraction) -> Result<f64, FieldError> {
-        Ok(self.numbers.enclose(value, FIRST_BITS)?.to_double().0)
+        Ok(self.waves.numbers.enclose(value, FIRST_BITS)?.to_double().0)
     }
 
     /// A wave in strips, from one travel time before the window to its end, and its fronts.
@@ -172,10 +172,12 @@ impl FieldEvaluator<'_> {
         strips: usize,
     ) -> Result<(Vec<Strip>, Vec<Front>), FieldError> {
         let scaled = |time: &Rational| self.network().scaled_time(time);
-        let drawn = DrawnWave { fields: self, wave, unit: self.time_unit(FIRST_BITS)? };
+        let drawn = DrawnWave { fields: self, wave, unit: self.waves.time_unit(FIRST_BITS)? };
         let (first, last) = (&scaled(from) - span, scaled(to));
         let mut ends = vec![first.clone()];
-        ends.extend(self.fronts(wave, [&first, &last])?.into_iter().filter(|at| *at != first));
+        ends.extend(
+            self.waves.fronts(wave, [&first, &last])?.into_iter().filter(|at| *at != first),
+        );
         ends.push(last.clone());
         ends.dedup();
         let density = strips as f64 / (drawn.seconds(&last)? - drawn.seconds(&first)?);
@@ -202,7 +204,7 @@ struct DrawnWave<'a> {
 
 impl DrawnWave<'_> {
     fn seconds(&self, time: &Fraction) -> Result<f64, FieldError> {
-        let ball = self.fields.numbers.enclose(time, FIRST_BITS)?;
+        let ball = self.fields.waves.numbers.enclose(time, FIRST_BITS)?;
         Ok(ball.multiply(&self.unit, FIRST_BITS).to_double().0)
     }
 
@@ -212,7 +214,7 @@ impl DrawnWave<'_> {
         let fine = Magnitude::power_of_two(-FINE_BITS);
         let attempt = |bits| {
             let instant = Instant { at, side, is_drawn: true };
-            let ball = self.fields.wave(self.wave, order, instant, bits)?;
+            let ball = self.fields.waves.value(self.wave, order, instant, bits)?;
             if *ball.radius() > fine {
                 let best = Box::new(ball);
                 let error = EvaluateError::AccuracyNotReached { best, bits };

@@ -13,16 +13,13 @@
 //! of `F(t − a)` follows in the same way from `∫F dt`.
 
 use super::fields::{BarFields, Bounded, Fields};
-use super::wave::{Drawn, Entering, Heading, Instant, Levels, Order, levels};
+use super::wave::{Entering, Heading, Instant, Order, Waves};
 use super::{FIRST_BITS, FieldError, MAX_BITS, Mesh, Sampling};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
-use crate::enclosure::Numbers;
 use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar, Network};
 use crate::scene::Kind;
-use crate::signal;
-use std::cell::OnceCell;
 use wavestep_polynomial::Rational;
 
 /// Radii so far below the largest value need no more bits: a double has 53.
@@ -35,10 +32,7 @@ const NEGLIGIBLE_BITS: i64 = 400;
 pub struct FieldEvaluator<'a> {
     network: &'a Network,
     pub(super) bars: &'a [FieldBar],
-    /// Of each bar the waves to the right and to the left; none for what comes from afar.
-    pub(super) waves: Vec<[Option<Levels<'a>>; 2]>,
-    pub(super) drawn: OnceCell<Vec<[Option<Drawn>; 2]>>,
-    pub(super) numbers: Numbers,
+    pub(super) waves: Waves<'a>,
     last: Rational,
     /// The length of endless bars in pictures.
     pub(super) reach: Option<Rational>,
@@ -74,13 +68,10 @@ impl<'a> FieldEvaluator<'a> {
         if *last < Rational::default() {
             return Err(FieldError::Negative(last.clone()));
         }
-        let waves = signal::entering_waves(network, last)?.into_iter();
         Ok(FieldEvaluator {
-            waves: waves.map(|pair| pair.map(|wave| wave.map(levels))).collect(),
+            waves: Waves::new(network, last)?,
             bars: &network.field_bars()?.bars,
             network,
-            drawn: OnceCell::new(),
-            numbers: Numbers::new(&network.model().constants),
             last: last.clone(),
             reach: None,
         })
@@ -168,7 +159,7 @@ impl<'a> FieldEvaluator<'a> {
                 MeshPoint { delays, from_larger: inside || j == 0, is_drawn: false }
             })
             .collect();
-        let length = self.numbers.enclose_root(&length, FIRST_BITS)?;
+        let length = self.waves.numbers.enclose_root(&length, FIRST_BITS)?;
         let place = |j| length.multiply_rational(&share(j), FIRST_BITS).to_double().0;
         let x = (0..=mesh.cells()).map(place).collect();
         let (found, bits) = self.fine(|bits| match mesh.sampling() {
@@ -213,7 +204,7 @@ impl<'a> FieldEvaluator<'a> {
         let delay = match delay.exact().filter(|delay| delay.as_constant().is_some()) {
             Some(delay) => delay,
             None => {
-                let ball = self.numbers.enclose_root(&delay, FIRST_BITS)?;
+                let ball = self.waves.numbers.enclose_root(&delay, FIRST_BITS)?;
                 Fraction::constant(&Rational::from(ball.midpoint()))
             }
         };
@@ -231,7 +222,7 @@ impl<'a> FieldEvaluator<'a> {
     ) -> Result<Ball, FieldError> {
         let at = at - &point.delays[wave.heading as usize];
         let instant = Instant { at: &at, side, is_drawn: point.is_drawn };
-        self.wave(wave, order, instant, bits)
+        self.waves.value(wave, order, instant, bits)
     }
 
     pub(super) fn at_points(
@@ -273,7 +264,7 @@ impl<'a> FieldEvaluator<'a> {
             let inverse = match width.is_zero() {
                 true => Ball::zero(),
                 false => {
-                    let width = self.numbers.enclose(&width, bits)?;
+                    let width = self.waves.numbers.enclose(&width, bits)?;
                     width.reciprocal(bits).map_err(EvaluateError::Ball)?
                 }
             };
@@ -302,7 +293,7 @@ impl<'a> FieldEvaluator<'a> {
     ) -> Result<[Vec<Bounded>; 4], FieldError> {
         let mut values: [Vec<Bounded>; 4] = Default::default();
         for (place, unit) in bar.units.iter().enumerate() {
-            let unit = self.numbers.enclose_root(unit, bits)?;
+            let unit = self.waves.numbers.enclose_root(unit, bits)?;
             values[place] = found
                 .iter()
                 .map(|([velocity, force, displacement], _)| match place {
@@ -334,7 +325,7 @@ impl State {
         at: &Fraction,
         bits: u64,
     ) -> Result<State, FieldError> {
-        let enclose = |value: &Fraction| evaluator.numbers.enclose(value, bits);
+        let enclose = |value: &Fraction| evaluator.waves.numbers.enclose(value, bits);
         let velocity = enclose(&bar.data.velocity)?;
         let displacement = velocity.multiply(&enclose(at)?, bits);
         let (force, impedance) = (enclose(&bar.data.force)?, enclose(&bar.data.impedance)?);

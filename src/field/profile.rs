@@ -56,12 +56,12 @@ impl FieldEvaluator<'_> {
         for heading in [Heading::Right, Heading::Left] {
             let grows = heading == Heading::Right || bar.extent == Extent::ToTheLeft;
             let wave = Entering { bar: bar_place, heading };
-            for entered in self.fronts(wave, [&(&at - &span), &at])? {
+            for entered in self.waves.fronts(wave, [&(&at - &span), &at])? {
                 let delay = &at - &entered;
                 places.push(if grows { delay } else { &span - &delay });
             }
         }
-        let numbers = &self.numbers;
+        let numbers = &self.waves.numbers;
         let mut failed = None;
         places.sort_by(|a, b| {
             numbers.compare(a, b).unwrap_or_else(|error| {

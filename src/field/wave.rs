@@ -12,18 +12,18 @@
 //! Pictures show both sides of a front. Where the instant of an event is only enclosed, one number stands
 //! for it in all waves, so that fronts that meet are drawn at one place.
 
-use super::{FIRST_BITS, FieldError, FieldEvaluator};
+use super::{FIRST_BITS, FieldError};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
+use crate::enclosure::Numbers;
 use crate::evaluate::{At, EvaluateError, Limit, Signal, has_begun, last_begun};
 use crate::expression::Fraction;
 use crate::limits::MAX_HISTORY_BITS;
-use crate::signal::EnteringWave;
+use crate::network::Network;
+use crate::signal::{self, EnteringWave};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
-
-/// The precision with which times are compared first.
-const COARSE_BITS: u64 = 64;
+use wavestep_polynomial::Rational;
 
 /// How narrow the enclosure of an event is before a number stands for it, in bits.
 const STAND_IN_BITS: i64 = 100;
@@ -70,16 +70,6 @@ pub(super) struct Instant<'a> {
     pub is_drawn: bool,
 }
 
-/// A signal with enclosures of when its stretches begin, in the scale of the scene, by which the stretch
-/// of most times is found.
-pub(super) struct Level<'a> {
-    signal: Box<dyn Signal + 'a>,
-    starts: OnceCell<Vec<Ball>>,
-}
-
-/// A wave, its integral, and the integral of that.
-pub(super) type Levels<'a> = [Level<'a>; 3];
-
 /// When a wave changes, in numbers: exact instants, or the middles of their enclosures.
 pub(super) struct Drawn {
     /// When the stretches of the wave and of its integral begin.
@@ -91,14 +81,27 @@ pub(super) struct Drawn {
 /// When events without an exact instant are, in the scale of the scene.
 type Events = BTreeMap<(u64, usize), Ball>;
 
-/// The signals of a wave.
-pub(super) fn levels(wave: EnteringWave<'_>) -> Levels<'_> {
-    wave.map(|signal| Level { signal, starts: OnceCell::new() })
+/// The waves of the bars of a scene, until a time.
+pub(super) struct Waves<'a> {
+    pub numbers: Numbers,
+    slowness: &'a Fraction,
+    /// Of each bar the waves to the right and to the left; none for what comes from afar.
+    entering: Vec<[Option<EnteringWave<'a>>; 2]>,
+    drawn: OnceCell<Vec<[Option<Drawn>; 2]>>,
 }
 
-impl FieldEvaluator<'_> {
+impl<'a> Waves<'a> {
+    pub fn new(network: &'a Network, last: &Rational) -> Result<Waves<'a>, FieldError> {
+        Ok(Waves {
+            numbers: Numbers::new(&network.model().constants),
+            slowness: &network.model().slowness,
+            entering: signal::entering_waves(network, last)?,
+            drawn: OnceCell::new(),
+        })
+    }
+
     /// An enclosure of a wave, its slope or its integral, in the scale of the scene.
-    pub(super) fn wave(
+    pub fn value(
         &self,
         wave: Entering,
         order: Order,
@@ -107,21 +110,23 @@ impl FieldEvaluator<'_> {
     ) -> Result<Ball, FieldError> {
         let Instant { at, side, is_drawn } = instant;
         let place = wave.heading as usize;
-        let Some(levels) = &self.waves[wave.bar][place] else { return Ok(Ball::zero()) };
+        let Some(levels) = &self.entering[wave.bar][place] else { return Ok(Ball::zero()) };
         let (level, derivative) = match order {
             Order::Slope => (0, 1),
             Order::Value => (0, 0),
             Order::Integral => (1, 0),
             Order::DoubleIntegral => (2, 0),
         };
-        let signal = &*levels[level].signal;
+        let signal = &*levels[level];
         let drawn = if is_drawn { self.drawn()?[wave.bar][place].as_ref() } else { None };
-        let stretch = match drawn.and_then(|drawn| drawn.starts.get(level)) {
-            Some(starts) => {
-                last_begun(starts.len(), side, |i| self.numbers.compare(&starts[i], at))?
+        let starts = drawn.and_then(|drawn| drawn.starts.get(level));
+        let begins = |stretch: usize| match starts {
+            Some(starts) => Ok(self.numbers.compare(&starts[stretch], at)?),
+            None => {
+                signal.begins(stretch, at).map_err(|error| self.undecided(signal, stretch, error))
             }
-            None => self.stretch_at(&levels[level], at, side)?,
         };
+        let stretch = last_begun(signal.count()?, side, begins)?;
         if stretch == 0 {
             let begun = self.numbers.compare(at, &Fraction::zero())?;
             let side = if level > 0 { Limit::Left } else { side };
@@ -136,36 +141,8 @@ impl FieldEvaluator<'_> {
         })
     }
 
-    /// The stretch of a time from the start on.
-    fn stretch_at(
-        &self,
-        level: &Level<'_>,
-        at: &Fraction,
-        side: Limit,
-    ) -> Result<usize, FieldError> {
-        let signal = &*level.signal;
-        let starts = match level.starts.get() {
-            Some(starts) => starts,
-            None => {
-                let starts = 0..signal.count()?;
-                let starts = starts.map(|stretch| self.start(signal, stretch, COARSE_BITS));
-                let starts = starts.collect::<Result<_, _>>()?;
-                level.starts.get_or_init(|| starts)
-            }
-        };
-        let near = self.numbers.enclose(at, COARSE_BITS)?;
-        last_begun(starts.len(), side, |stretch| {
-            match starts[stretch].subtract(&near, COARSE_BITS).sign() {
-                Some(order) => Ok(order),
-                None => signal
-                    .begins(stretch, at)
-                    .map_err(|error| self.undecided(signal, stretch, error)),
-            }
-        })
-    }
-
     /// The fronts of a wave that enter in a window.
-    pub(super) fn fronts(
+    pub fn fronts(
         &self,
         wave: Entering,
         [from, to]: [&Fraction; 2],
@@ -183,14 +160,14 @@ impl FieldEvaluator<'_> {
     }
 
     /// One in the scale of the scene in the user's unit of time.
-    pub(super) fn time_unit(&self, bits: u64) -> Result<Ball, FieldError> {
-        let slowness = self.numbers.enclose(&self.network().model().slowness, bits)?;
+    pub fn time_unit(&self, bits: u64) -> Result<Ball, FieldError> {
+        let slowness = self.numbers.enclose(self.slowness, bits)?;
         Ok(slowness.reciprocal(bits).map_err(EvaluateError::Ball)?)
     }
 
     /// When a stretch begins, in the scale of the scene.
     fn start(&self, signal: &dyn Signal, stretch: usize, bits: u64) -> Result<Ball, FieldError> {
-        let slowness = self.numbers.enclose(&self.network().model().slowness, bits)?;
+        let slowness = self.numbers.enclose(self.slowness, bits)?;
         Ok(signal.time(stretch, Limit::Right, bits)?.multiply(&slowness, bits))
     }
 
@@ -211,15 +188,12 @@ impl FieldEvaluator<'_> {
         }
         let attempt = |bits| {
             let mut events = Events::new();
-            let mut drawn = Vec::with_capacity(self.waves.len());
-            for [right, left] in &self.waves {
-                let mut of = |levels: &Option<Levels<'_>>| {
-                    levels
-                        .as_ref()
-                        .map(|levels| self.drawn_of(levels, &mut events, bits))
-                        .transpose()
-                };
-                drawn.push([of(right)?, of(left)?]);
+            let mut drawn = Vec::with_capacity(self.entering.len());
+            for pair in &self.entering {
+                let [right, left] = pair.each_ref().map(|wave| {
+                    wave.as_ref().map(|wave| self.drawn_of(wave, &mut events, bits)).transpose()
+                });
+                drawn.push([right?, left?]);
             }
             let narrow = Magnitude::power_of_two(-STAND_IN_BITS);
             let is_narrow = events.values().all(|event| *event.radius() <= narrow);
@@ -231,7 +205,7 @@ impl FieldEvaluator<'_> {
 
     fn drawn_of(
         &self,
-        [wave, integral, _]: &Levels<'_>,
+        [wave, integral, _]: &EnteringWave<'_>,
         events: &mut Events,
         bits: u64,
     ) -> Result<Drawn, FieldError> {
@@ -241,8 +215,8 @@ impl FieldEvaluator<'_> {
             let _ = signal.time(0, Limit::Right, bits)?;
             (0..count).map(|stretch| self.stand_in(signal, stretch, events, bits)).collect()
         };
-        let wave = &*wave.signal;
-        let starts = [starts(wave)?, starts(&*integral.signal)?];
+        let wave = &**wave;
+        let starts = [starts(wave)?, starts(&**integral)?];
         let mut fronts = Vec::new();
         for (stretch, start) in starts[0].iter().enumerate() {
             if self.is_front(wave, stretch, bits)? {
@@ -295,8 +269,6 @@ mod tests {
     use super::*;
     use crate::evaluate::digits;
     use crate::language::{Source, parse_number, read_scene};
-    use crate::network::Network;
-    use wavestep_polynomial::Rational;
 
     fn number(text: &str) -> Rational {
         parse_number(text).unwrap()
@@ -315,7 +287,7 @@ mod tests {
     #[test]
     fn a_number_stands_for_an_enclosed_instant() {
         let network = built_in("saint-venant");
-        let fields = FieldEvaluator::new(&network, &number("31/10")).unwrap();
+        let fields = Waves::new(&network, &number("31/10")).unwrap();
         let window = ["301/100", "31/10"].map(|time| Fraction::constant(&number(time)));
         let fronts = fields.fronts(ROD, window.each_ref()).unwrap();
         let [release] = &fronts[..] else { panic!("{fronts:?}") };
@@ -323,7 +295,7 @@ mod tests {
         assert!((told - 3.0 - (-2.0_f64).exp() / 2.0).abs() < 1e-15);
         let ask = |at, order, side, is_drawn| {
             let instant = Instant { at, side, is_drawn };
-            fields.wave(ROD, order, instant, 64).map(|ball| ball.to_double().0)
+            fields.value(ROD, order, instant, 64).map(|ball| ball.to_double().0)
         };
         let drawn = |order, side| ask(release, order, side, true).unwrap();
         for order in [Order::Value, Order::Integral] {
@@ -347,11 +319,11 @@ mod tests {
     fn integrals_follow_the_wave() {
         for name in ["saint-venant", "mass-on-fixed-bar"] {
             let network = built_in(name);
-            let fields = FieldEvaluator::new(&network, &number("4")).unwrap();
+            let fields = Waves::new(&network, &number("4")).unwrap();
             let value = |order, thousandths: i64| {
                 let at = Fraction::constant(&Rational::new(thousandths.into(), 1000.into()));
                 let instant = Instant { at: &at, side: Limit::Right, is_drawn: false };
-                fields.wave(ROD, order, instant, 64).unwrap().to_double().0
+                fields.value(ROD, order, instant, 64).unwrap().to_double().0
             };
             for from in [0_i64, 950, 1300, 2100, 3040, 3800] {
                 let orders = [Order::Slope, Order::Value, Order::Integral, Order::DoubleIntegral];
@@ -367,11 +339,10 @@ mod tests {
                     );
                 }
             }
-            let levels = fields.waves[ROD.bar][ROD.heading as usize].as_ref().unwrap();
+            let levels = fields.entering[ROD.bar][ROD.heading as usize].as_ref().unwrap();
             let orders = [Order::Value, Order::Integral, Order::DoubleIntegral];
             for (level, order) in levels.iter().zip(orders) {
-                let digits =
-                    digits(&*level.signal, &number("2.1"), Limit::Right, 15, 1 << 12).unwrap();
+                let digits = digits(&**level, &number("2.1"), Limit::Right, 15, 1 << 12).unwrap();
                 assert!((digits.to_f64() - value(order, 2100)).abs() < 1e-14, "{name} {order:?}");
             }
             assert_eq!(value(Order::Value, -10), 0.0);
