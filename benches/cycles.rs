@@ -6,7 +6,8 @@
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
-use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Term};
+use wavestep_kernels::double_double::DoubleDouble;
+use wavestep_kernels::echoes::{EchoSum, Echoes, Expansion, Family, Method, Term};
 use wavestep_kernels::{Level, Limit, Piece, Table};
 
 /// Points of a table. With their times they fill more than a cache of the second level.
@@ -121,21 +122,20 @@ fn main() {
     let golden = 0.618_033_988_749_894_9;
     let scattered: Vec<f64> =
         (0..POINTS).map(|i| (i as f64 * golden).fract() * plain.end()).collect();
-    let step = plain.end() / POINTS as f64 * (1.0 - 1e-9);
+    let ascending: Vec<f64> = (0..POINTS).map(|i| i as f64 * plain.end() / POINTS as f64).collect();
     let mut out = vec![1.0; POINTS];
     measure("stores", POINTS, || black_box(&mut out).fill(black_box(1.0)));
     for level in Level::available() {
         let name = |what: &str| format!("{what}/{level:?}");
         let at = |table| Table::evaluator(table).with_level(level);
         let (plain, certified) = (at(&plain), at(&certified));
-        measure(&name("grid"), POINTS, || plain.grid(0.0, step, black_box(&mut out)));
-        measure(&name("fine grid"), POINTS, || plain.grid(0.0, step / 16.0, black_box(&mut out)));
-        measure(&name("grid in cache"), CACHED, || {
-            plain.grid(0.0, step / 16.0, black_box(&mut out[..CACHED]));
+        measure(&name("ascending"), POINTS, || plain.sorted(&ascending, black_box(&mut out)));
+        measure(&name("ascending in cache"), CACHED, || {
+            plain.sorted(&ascending[..CACHED], black_box(&mut out[..CACHED]));
         });
         measure(&name("unsorted"), POINTS, || plain.unsorted(&scattered, black_box(&mut out)));
-        measure(&name("rounded grid"), POINTS, || {
-            black_box(certified.rounded_grid(0.0, step, &mut out));
+        measure(&name("rounded ascending"), POINTS, || {
+            black_box(certified.rounded_sorted(&ascending, &mut out));
         });
         measure(&name("rounded unsorted"), POINTS, || {
             black_box(certified.rounded_unsorted(&scattered, &mut out));
@@ -146,5 +146,13 @@ fn main() {
         measure(&format!("echoes, n = {n}"), times.len(), || {
             sum.fill(black_box(&times), Limit::Right, &mut out[..ECHO_POINTS]).expect("in range");
         });
+        for method in Method::ALL {
+            measure(&format!("echoes one by one, {method:?}, n = {n}"), 16, || {
+                for time in &times[..16] {
+                    let time = DoubleDouble::from(*time);
+                    black_box(sum.value(method, time, Limit::Right).expect("in range"));
+                }
+            });
+        }
     }
 }

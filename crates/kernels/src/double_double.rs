@@ -51,33 +51,6 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, error)
 }
 
-/// The sum `a + b` rounded to odd: the exact sum if it is a double, else that one of its two
-/// neighbours whose last bit is 1.
-#[inline(always)]
-fn sum_rounded_to_odd(a: f64, b: f64) -> f64 {
-    let (sum, error) = two_sum(a, b);
-    if error == 0.0 || sum.to_bits() & 1 == 1 {
-        return sum;
-    }
-    // The sum is not 0, since its error is less. Bits count away from 0.
-    let outwards = (error > 0.0) == (sum > 0.0);
-    f64::from_bits(if outwards { sum.to_bits() + 1 } else { sum.to_bits() - 1 })
-}
-
-/// `a b + c` rounded once, without an instruction for it.
-///
-/// The algorithm and its proof: S. Boldo and G. Melquiond, *Emulation of a FMA and correctly rounded
-/// sums: proved algorithms using rounding to odd*, IEEE Transactions on Computers 57 (2008). It needs
-/// the product's error to be a double, so the conditions of [`two_product`] hold here, too; a product
-/// out of range gives a NaN or an infinity. About 40 operations.
-#[inline(always)]
-pub fn fused_multiply_add(a: f64, b: f64, c: f64) -> f64 {
-    let (product, product_error) = two_product(a, b);
-    let (small, small_error) = two_sum(c, product_error);
-    let (sum, sum_error) = two_sum(product, small);
-    sum + sum_rounded_to_odd(small_error, sum_error)
-}
-
 /// A number of about 106 bits: the sum of two doubles.
 ///
 /// # Invariants

@@ -4,11 +4,9 @@
 //! in one piece, that piece's coefficients are broadcast; where they lie in two neighbours, each lane
 //! takes the coefficients of one of them; where they lie in a few neighbouring pieces, each of these is
 //! evaluated and the right lanes are taken; else every lane gathers its own coefficients. All of these
-//! perform the same operations on a point and give the same double. On ascending grids the blocks that
-//! lie in one piece are counted beforehand, and are not looked at one by one.
+//! perform the same operations on a point and give the same double.
 
 use super::horner::{Blended, Broadcast, Evaluate, Transposed};
-use super::points::Points;
 use super::{Simd, Task};
 use crate::table::Table;
 
@@ -36,21 +34,21 @@ pub(crate) enum Neighbours {
 
 /// The evaluation of many points, as many as `out` has places. The output is the indices of those in
 /// doubt.
-pub(crate) struct Many<'a, P, E> {
+pub(crate) struct Many<'a, E> {
     pub(crate) table: &'a Table,
-    pub(crate) points: P,
+    pub(crate) times: &'a [f64],
     pub(crate) evaluate: E,
     pub(crate) neighbours: Neighbours,
     pub(crate) out: &'a mut [f64],
 }
 
-impl<P: Points, E: Evaluate> Task for Many<'_, P, E> {
+impl<E: Evaluate> Task for Many<'_, E> {
     type Output = Vec<usize>;
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Vec<usize> {
-        let Self { table, points, evaluate, neighbours, out } = self;
-        let job = Job { simd, table, points, evaluate, neighbours };
+        let Self { table, times, evaluate, neighbours, out } = self;
+        let job = Job { simd, table, times, evaluate, neighbours };
         let mut undecided = Vec::new();
         match if S::MANY_REGISTERS { E::MANY_IN_FLIGHT } else { E::FEW_IN_FLIGHT } {
             8.. => job.run::<8>(out, &mut undecided),
@@ -63,15 +61,26 @@ impl<P: Points, E: Evaluate> Task for Many<'_, P, E> {
 }
 
 /// What is evaluated, and how.
-struct Job<'a, S, P, E> {
+struct Job<'a, S, E> {
     simd: S,
     table: &'a Table,
-    points: P,
+    times: &'a [f64],
     evaluate: E,
     neighbours: Neighbours,
 }
 
-impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
+impl<S: Simd, E: Evaluate> Job<'_, S, E> {
+    /// The times from index `at` on, all of which exist.
+    #[inline(always)]
+    fn times<const N: usize>(&self, at: usize) -> [S::Values; N] {
+        let times = &self.times[at..][..N * S::LANES];
+        let mut vectors = [self.simd.splat(0.0); N];
+        for j in 0..N {
+            vectors[j] = self.simd.load(&times[j * S::LANES..]);
+        }
+        vectors
+    }
+
     /// Every lane with its own piece; NaN, without doubt, outside the table. The pieces of all vectors
     /// are looked up first, so that one search need not wait for another, and then all of them are
     /// evaluated together, so that one step need not wait for the step before.
@@ -112,10 +121,6 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
     fn inside<const N: usize>(&self, times: &[S::Values; N], (lower, upper): (f64, f64)) -> bool {
         let simd = self.simd;
         let (lower, upper) = (simd.splat(lower), simd.splat(upper));
-        if self.points.ascend() {
-            let from = simd.at_least(times[0], lower);
-            return simd.all(from) && simd.all(simd.less(times[N - 1], upper));
-        }
         let mut inside = simd.both(simd.at_least(times[0], lower), simd.less(times[0], upper));
         for &t in &times[1..] {
             let this = simd.both(simd.at_least(t, lower), simd.less(t, upper));
@@ -140,29 +145,6 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         (few && self.inside(times, lookup.span(first, last))).then_some((first, last))
     }
 
-    /// How many whole blocks from index `at` on, `most` at most, certainly lie in a piece.
-    ///
-    /// The number is guessed by a division. Points ascend, so all of them lie in the piece if the
-    /// first and the last vector do, and this is compared. A guess that is too large by a little is
-    /// lowered by one block; one that is too small costs time alone.
-    #[inline(always)]
-    fn blocks_within<const N: usize>(&self, at: usize, piece: usize, most: usize) -> usize {
-        let (lower, upper) = self.table.lookup.span(piece, piece);
-        let size = N * S::LANES;
-        let guess = (self.points.guess_below(at, upper) / size).min(most);
-        for blocks in [guess, guess.saturating_sub(1)] {
-            if blocks == 0 {
-                break;
-            }
-            let [first] = self.points.times::<S, 1>(self.simd, at);
-            let [last] = self.points.times::<S, 1>(self.simd, at + blocks * size - S::LANES);
-            if self.inside(&[first, last], (lower, upper)) {
-                return blocks;
-            }
-        }
-        0
-    }
-
     /// One block. `piece` is where the block before ended.
     #[inline(always)]
     fn block<const N: usize>(
@@ -172,7 +154,7 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         room: &mut [S::Values],
     ) -> ([S::Values; N], [u32; N]) {
         let (simd, table) = (self.simd, self.table);
-        let times: [S::Values; N] = self.points.times(simd, at);
+        let times: [S::Values; N] = self.times(at);
         if self.neighbours == Neighbours::Together {
             if self.inside(&times, table.lookup.span(*piece, *piece)) {
                 let rows = Broadcast::new(E::rows(table), *piece);
@@ -234,9 +216,9 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
     ) {
         for (i, chunk) in out.chunks_mut(S::LANES).enumerate() {
             let at = at + i * S::LANES;
-            let times = [self.points.times_padded(self.simd, at)];
-            let ([values], [doubt]) = self.gathered(&times, room);
-            let mut lanes = [0.0; 8];
+            let mut lanes = [f64::NAN; 8];
+            lanes[..chunk.len()].copy_from_slice(&self.times[at..][..chunk.len()]);
+            let ([values], [doubt]) = self.gathered(&[self.simd.load(&lanes)], room);
             self.simd.store(values, &mut lanes);
             chunk.copy_from_slice(&lanes[..chunk.len()]);
             collect(at, doubt & ((1 << chunk.len()) - 1), undecided);
@@ -278,22 +260,10 @@ impl<S: Simd, P: Points, E: Evaluate> Job<'_, S, P, E> {
         let (mut at, mut piece) = (head.len(), 0);
         let size = N * S::LANES;
         let mut blocks = body.chunks_exact_mut(size);
-        while blocks.len() > 0 {
-            if self.neighbours == Neighbours::Together && self.points.ascend() {
-                let rows = Broadcast::new(E::rows(self.table), piece);
-                let within = self.blocks_within::<N>(at, piece, blocks.len());
-                for block in blocks.by_ref().take(within) {
-                    let times: [S::Values; N] = self.points.times(simd, at);
-                    let values = self.evaluate.evaluate(simd, self.table, rows, &times);
-                    self.write((at, block), stores, values, undecided);
-                    at += size;
-                }
-            }
-            if let Some(block) = blocks.next() {
-                let values = self.block::<N>(at, &mut piece, &mut room);
-                self.write((at, block), stores, values, undecided);
-                at += size;
-            }
+        for block in &mut blocks {
+            let values = self.block::<N>(at, &mut piece, &mut room);
+            self.write((at, block), stores, values, undecided);
+            at += size;
         }
         self.partial(at, blocks.into_remainder(), &mut room, undecided);
         if streams {

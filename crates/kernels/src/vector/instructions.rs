@@ -1,13 +1,13 @@
 //! The instructions of x86-64, and the choice of a level at run time.
 //!
-//! This is the only file with unsafe code. Two things need it: instructions may be used only where
+//! Two things need it: instructions may be used only where
 //! the machine has them, which holds in all code that is generic over a level's type, because
 //! [`dispatch`] alone names these types; and pointers may be read and written only within their slices,
 //! which is asserted before.
 #![allow(unsafe_code)]
 
 use super::eight::Eight;
-use super::parts::Parts;
+#[cfg(not(target_arch = "x86_64"))]
 use super::scalar::Scalar;
 use super::{Simd, Task};
 use crate::Level;
@@ -32,7 +32,7 @@ pub(crate) fn dispatch<T: Task>(level: Level, task: T) -> T::Output {
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{Eight, Parts, Scalar, Simd, Task};
+    use super::{Eight, Simd, Task};
     use crate::double_double::SPLITTER;
     use std::arch::x86_64::*;
 
@@ -196,35 +196,6 @@ mod x86 {
                 let kept = self.subtract(sum, anchored);
                 (sum, instruction!($multiply_subtract(a, b, kept)))
             }
-
-            #[inline(always)]
-            fn grid<const N: usize>(
-                self,
-                first: usize,
-                from: f64,
-                step: f64,
-                _: &Parts,
-            ) -> [Self::Values; N] {
-                // Below 2⁵³ the sum of two indices is exact; beyond, each index is rounded alone.
-                if first < 1 << 52 {
-                    let mut times: [Self::Values; N] = self.indices(first);
-                    let (from, step) = (self.splat(from), self.splat(step));
-                    for time in &mut times {
-                        *time = self.multiply_add(*time, step, from);
-                    }
-                    return times;
-                }
-                let mut times = [self.splat(0.0); N];
-                for (j, time) in times.iter_mut().enumerate() {
-                    let mut lanes = [0.0; 8];
-                    for (lane, time) in lanes.iter_mut().enumerate() {
-                        let index = first + j * Self::LANES + lane;
-                        *time = (index as f64).mul_add(step, from);
-                    }
-                    *time = self.load(&lanes);
-                }
-                times
-            }
         };
     }
 
@@ -235,12 +206,6 @@ mod x86 {
             let scaled = self.multiply(self.splat(SPLITTER), a);
             let high = self.subtract(scaled, self.subtract(scaled, a));
             (high, self.subtract(a, high))
-        }
-
-        /// `start + i slope`.
-        #[inline(always)]
-        fn line(self, i: __m128d, [start, slope]: [f64; 2]) -> __m128d {
-            self.add(self.splat(start), self.multiply(i, self.splat(slope)))
         }
     }
 
@@ -322,34 +287,6 @@ mod x86 {
                 columns[0] = instruction!(_mm_unpacklo_pd(first, second));
                 columns[1] = instruction!(_mm_unpackhi_pd(first, second));
             }
-        }
-
-        /// Exact sums and two ends of the rest, see [`Parts`]. The rare sums that these do not
-        /// decide are rounded one by one.
-        #[inline(always)]
-        fn grid<const N: usize>(
-            self,
-            first: usize,
-            from: f64,
-            step: f64,
-            parts: &Parts,
-        ) -> [__m128d; N] {
-            let indices: [__m128d; N] = self.indices(first);
-            let mut times = indices;
-            let mut decided = self.equal(self.splat(0.0), self.splat(0.0));
-            for (time, i) in times.iter_mut().zip(indices) {
-                let coarse = self.line(i, parts.coarse);
-                let down = self.add(coarse, self.line(i, parts.below));
-                *time = self.add(coarse, self.line(i, parts.above));
-                decided = self.both(decided, self.equal(down, *time));
-            }
-            if self.all(decided) {
-                return times;
-            }
-            for (j, time) in times.iter_mut().enumerate() {
-                *time = self.load(&Scalar::<false>.grid::<2>(first + 2 * j, from, step, parts));
-            }
-            times
         }
     }
 

@@ -8,8 +8,7 @@ mod blocks;
 mod eight;
 mod horner;
 mod instructions;
-mod parts;
-mod points;
+#[cfg(any(test, not(target_arch = "x86_64")))]
 mod scalar;
 mod simd;
 mod work;
@@ -19,7 +18,6 @@ pub(crate) use blocks::{Many, Neighbours};
 use eight::Eight;
 pub(crate) use horner::{Certified, Evaluate, Plain};
 pub(crate) use instructions::dispatch;
-pub(crate) use points::{Grid, Points, Times};
 #[cfg(any(test, target_arch = "aarch64"))]
 use scalar::Scalar;
 pub(crate) use simd::{Simd, Task};

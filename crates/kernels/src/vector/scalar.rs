@@ -2,8 +2,7 @@
 
 use super::Simd;
 use super::eight::Eight;
-use super::parts::{MAX_STEP, Parts};
-use crate::double_double::{fused_multiply_add, two_product};
+use crate::double_double::two_product;
 
 /// One double. With `FUSED`, only to be used where the machine fuses multiply-adds: elsewhere
 /// [`f64::mul_add`] is a slow call.
@@ -63,21 +62,6 @@ impl<const FUSED: bool> Simd for Scalar<FUSED> {
     #[inline(always)]
     fn transpose(self, values: &[f64], offsets: usize, columns: &mut [f64]) {
         columns.copy_from_slice(&values[offsets..][..columns.len()]);
-    }
-
-    #[inline(always)]
-    fn grid<const N: usize>(self, first: usize, from: f64, step: f64, _: &Parts) -> [f64; N] {
-        // Steps that are hardly ever met go to the library, which rounds once, too.
-        let mut times = [0.0; N];
-        for (j, time) in times.iter_mut().enumerate() {
-            let i = (first + j) as f64;
-            *time = if FUSED || step.abs() > MAX_STEP {
-                i.mul_add(step, from)
-            } else {
-                fused_multiply_add(i, step, from)
-            };
-        }
-        times
     }
 
     #[inline(always)]

@@ -1,6 +1,5 @@
 //! The operations of vectors of doubles, and tasks written in them.
 
-use super::parts::Parts;
 use crate::lanes::Lanes;
 
 /// The operations of a vector of doubles.
@@ -69,40 +68,11 @@ pub(crate) trait Simd: Copy {
     /// `columns[c]` gets the doubles at offset + c, one a lane. The number of columns is a multiple
     /// of 8; it and an offset together are not beyond the slice.
     fn transpose(self, values: &[f64], offsets: Self::Offsets, columns: &mut [Self::Values]);
-    /// `RN(from + i step)` for `i = first, first + 1, …`, one a lane, of a grid with such parts.
-    fn grid<const N: usize>(
-        self,
-        first: usize,
-        from: f64,
-        step: f64,
-        parts: &Parts,
-    ) -> [Self::Values; N];
-
     /// `1/a` to at least 13 bits for `10^−30 ≤ |a| ≤ 10^30`, 0 where `|a|` is smaller.
     #[inline(always)]
     fn rough_reciprocal(self, a: Self::Values) -> Self::Values {
         let away = self.at_least(self.abs(a), self.splat(1e-30));
         self.select(away, self.divide(self.splat(1.0), a), self.splat(0.0))
-    }
-
-    /// `first, first + 1, …` in doubles, one a lane, exact below `2⁵²`.
-    #[inline(always)]
-    fn indices<const N: usize>(self, first: usize) -> [Self::Values; N] {
-        const COUNT: [f64; 64] = {
-            let mut count = [0.0; 64];
-            let mut lane = 0;
-            while lane < 64 {
-                count[lane] = lane as f64;
-                lane += 1;
-            }
-            count
-        };
-        let first = self.splat(first as f64);
-        let mut indices = [first; N];
-        for j in 0..N {
-            indices[j] = self.add(first, self.load(&COUNT[j * Self::LANES..]));
-        }
-        indices
     }
 
     /// Clamped to `0 … limit − 1`; NaN becomes 0.

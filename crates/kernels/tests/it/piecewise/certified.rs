@@ -132,7 +132,8 @@ fn near_midpoints_the_error_decides() {
             let table = Table::new(std::slice::from_ref(&piece), 1.0).unwrap();
             let mut out = [0.0; 100];
             let evaluator = table.evaluator().with_level(level);
-            let undecided = evaluator.rounded_grid(0.0, 0.01, &mut out);
+            let times = std::array::from_fn::<f64, 100, _>(|i| i as f64 * 0.01);
+            let undecided = evaluator.rounded_sorted(&times, &mut out);
             assert_eq!(
                 undecided.len(),
                 if decided { 0 } else { 100 },
@@ -146,7 +147,7 @@ fn near_midpoints_the_error_decides() {
 }
 
 #[test]
-fn grids_agree_and_outside_is_decided() {
+fn sorted_times_agree_and_outside_is_decided() {
     let mut random = Random(14);
     // In every third piece the error is so large that every value is in doubt.
     let (mut pieces, end) = pieces(Shape { low: 6, ..TYPICAL }, &mut random);
@@ -165,8 +166,6 @@ fn grids_agree_and_outside_is_decided() {
             inside && piece_at(&pieces, times[i]).error > 0.0
         };
         assert_eq!(undecided, (0..count).filter(in_doubt).collect::<Vec<_>>());
-        assert_eq!(evaluator.rounded_grid(from, step, &mut out), undecided);
-        assert_eq!(bits(&out), bits(&expected));
         assert_eq!(evaluator.rounded_sorted(&times, &mut out), undecided);
         assert_eq!(bits(&out), bits(&expected));
     }

@@ -1,7 +1,7 @@
 //! Values of tables: within their bounds, and the same double whatever the way.
 
 use crate::piecewise::support::*;
-use wavestep_kernels::{Level, Piece, Table};
+use wavestep_kernels::{Level, Piece};
 
 #[test]
 fn values_are_within_the_bound_at_every_level() {
@@ -89,73 +89,18 @@ fn all_ways_give_the_same_doubles() {
 }
 
 #[test]
-fn grids_are_values_at_sums_rounded_once() {
-    let mut random = Random(4);
-    for shape in SHAPES {
-        let (mut pieces, end) = pieces(shape, &mut random);
-        let table = table(&mut pieces, end);
-        let length = end - table.start();
-        // Inside, across both ends, a point again and again, one piece only, downwards, no numbers.
-        let grids = [
-            (table.start(), length / 3001.0, 3000),
-            (table.start() - length / 7.0, length / 400.0, 777),
-            (table.start() + length / 3.0, 0.0, 100),
-            (table.start(), length * 1e-9, 300),
-            (end, -length / 500.0, 600),
-            (f64::NAN, 1.0, 70),
-            (table.start(), f64::NAN, 70),
-            (table.start(), f64::INFINITY, 70),
-            (table.start(), 1e300, 70),
-        ];
-        for level in Level::available() {
-            let evaluator = table.evaluator().with_level(level);
-            for (from, step, count) in grids {
-                let time = |i: usize| (i as f64).mul_add(step, from);
-                let expected: Vec<f64> = (0..count).map(|i| value(evaluator, time(i))).collect();
-                let mut out = vec![0.0; count];
-                evaluator.grid(from, step, &mut out);
-                assert_eq!(bits(&out), bits(&expected), "{shape:?} {level:?} {from:e} {step:e}");
-            }
-        }
-    }
-}
-
-/// Every other point lies on the midpoint of two doubles, or just beside it.
-#[test]
-fn points_of_grids_beside_midpoints_are_rounded_once() {
-    let scale = 2.0_f64.powi(40);
-    let coefficients = vec![0.0, 1.0];
-    let piece = Piece { start: 1.0, centre: 1.0, scale, coefficients, low: vec![], error: 0.0 };
-    let table = Table::new(&[piece], 1.0 + 1.0 / scale).expect("a table");
-    let half = 2.0_f64.powi(-53);
-    // From a start with bits of its own, what a step is more than half a unit is lost in their sum.
-    for from in [1.0, 1.0 + 2.0 * half, 1.0 + 4.0 * half, 1.0 + 12.0 * half] {
-        for step in [half, half.next_up(), half.next_down()] {
-            let expected: Vec<f64> =
-                (0..700).map(|i| (f64::from(i).mul_add(step, from) - 1.0) * scale).collect();
-            for level in Level::available() {
-                let mut out = [0.0; 700];
-                table.evaluator().with_level(level).grid(from, step, &mut out);
-                assert_eq!(bits(&out), bits(&expected), "{level:?} {from:e} {step:e}");
-            }
-        }
-    }
-}
-
-#[test]
 fn sizes_and_alignments_do_not_matter() {
     let mut random = Random(5);
     let (mut pieces, end) = pieces(TYPICAL, &mut random);
     let table = table(&mut pieces, end);
-    let step = end / 150.0;
-    let times: Vec<f64> = (0..80).map(|i| f64::from(i).mul_add(step, 0.0)).collect();
+    let times: Vec<f64> = (0..80).map(|i| f64::from(i) * end / 150.0).collect();
     for level in Level::available() {
         let evaluator = table.evaluator().with_level(level);
         let expected: Vec<f64> = times.iter().map(|&t| value(evaluator, t)).collect();
         for size in 0..=70 {
             for shift in 0..9 {
                 let mut out = [7.0; 80];
-                evaluator.grid(0.0, step, &mut out[shift..shift + size]);
+                evaluator.sorted(&times[..size], &mut out[shift..shift + size]);
                 assert_eq!(bits(&out[shift..shift + size]), bits(&expected[..size]));
                 assert!(out[..shift].iter().chain(&out[shift + size..]).all(|&x| x == 7.0));
                 evaluator.sorted(&times[shift..shift + size], &mut out[..size]);
@@ -172,21 +117,17 @@ fn streamed_outputs_are_the_same() {
     let (mut pieces, end) = pieces(TYPICAL, &mut random);
     let table = table(&mut pieces, end);
     let count = 300_001;
-    let step = end / count as f64;
-    let times: Vec<f64> = (0..count).map(|i| (i as f64).mul_add(step, 0.0)).collect();
+    let times: Vec<f64> = (0..count).map(|i| i as f64 * end / count as f64).collect();
     let mut out = vec![0.0; count + 8];
     for level in Level::available() {
         let evaluator = table.evaluator().with_level(level);
         let expected: Vec<u64> = times.iter().map(|&t| value(evaluator, t).to_bits()).collect();
         for shift in 0..8 {
             out.fill(7.0);
-            evaluator.grid(0.0, step, &mut out[shift..shift + count]);
+            evaluator.sorted(&times, &mut out[shift..shift + count]);
             assert!(bits(&out[shift..shift + count]) == expected, "{level:?} {shift}");
             assert!(out[..shift].iter().chain(&out[shift + count..]).all(|&x| x == 7.0));
         }
-        out.fill(7.0);
-        evaluator.sorted(&times, &mut out[3..3 + count]);
-        assert!(bits(&out[3..3 + count]) == expected, "{level:?}");
     }
 }
 
