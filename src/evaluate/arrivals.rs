@@ -25,12 +25,6 @@ pub struct Arrival {
 /// The echoes of some waves that are not zero, of at most `through` periods of the lattice together:
 /// where the periods are numbers those are left out that others may come before, and the rest is in
 /// order of arrival; else they are in order of their counts.
-///
-/// # Errors
-/// [`EvaluateError`].
-///
-/// # Cost
-/// That of all echoes of so many periods: for `r` periods in the lattice about `through^r/r!` of them.
 pub fn arrivals(
     network: &Network,
     waves: &[WaveIndex],

@@ -2,19 +2,22 @@
 //!
 //! A stretch between breaks is halved until a polynomial of the degree asked for follows the signal on each
 //! part. Where a march knows the pieces of a stretch, and polynomials are meant for doubles, cells are instead
-//! as wide as such polynomials can be, one after the other: see `fitted_cells`. Cells begin and end at doubles.
+//! as wide as such polynomials allow, one after the other: how wide changes slowly but along fronts, so a width
+//! is tried that is somewhat larger than that of the cell before, and smaller ones until a polynomial fits.
+//! That it does is proven, from its doubles, against the pieces of the march. Cells begin and end at doubles.
 //! Their middles are doubles and their scales powers of two, so that `u = (t − middle)/scale` is exact for
 //! doubles beside the middle.
 
-use crate::ball::{Attempt, Ball, Magnitude, Precisions, at_or_after, at_or_before, rational};
-use crate::evaluate::cell::{Cell, Fit};
+use crate::ball::{
+    Attempt, Ball, Binary, Magnitude, Precisions, at_or_after, at_or_before, rational,
+};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::fitted_cells;
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{At, Enclosure, Limit, Signal};
 use crate::evaluate::taylor::Taylor;
 use crate::limits::{MAX_PIECES, MAX_POLYNOMIALS};
 use std::cmp::Ordering;
+use wavestep_kernels::fixed::{Interpolant, Spans};
 use wavestep_polynomial::Rational;
 
 /// How often a stretch is halved at most: beyond that nothing converges.
@@ -32,6 +35,47 @@ const LOOK_BITS: u64 = 64;
 /// The bits of balls around fixed-point numbers.
 const MARCHED_BITS: u64 = 128;
 
+/// How much wider than its predecessor a cell is tried.
+const WIDER: f64 = 1.5;
+
+/// How much narrower, while no polynomial fits.
+const NARROWER: f64 = 0.75;
+
+/// How often at most: a cell then is `10^−9` of the first one tried, where nothing converges.
+const MOST_TRIES: u32 = 80;
+
+/// The part of a stretch that the first cell is tried on.
+const FIRST_PART: f64 = 1.0 / 8.0;
+
+/// How long polynomials may be, and how exact they shall be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fit {
+    /// The degree.
+    pub degree: usize,
+    /// A bound on the error, absolute.
+    pub error: Magnitude,
+    /// What rounding may cost when the polynomial is evaluated in doubles by Horner's scheme; no matter
+    /// what where nothing is said.
+    pub rounding: Option<Magnitude>,
+}
+
+/// A part of a window on which a signal is one polynomial in `u = (t − middle)/scale`.
+pub(crate) struct Cell {
+    /// The smallest double that belongs to it.
+    pub first: f64,
+    /// The largest one.
+    pub last: f64,
+    /// A double near its middle.
+    pub middle: f64,
+    /// A power of two, such that `|u| ≤ 1` on the cell.
+    pub scale: f64,
+    /// The stretch that it lies in.
+    pub stretch: usize,
+    /// The polynomial, of the degree asked for, with what its terms of higher degree can be on the
+    /// cell.
+    pub taylor: Taylor,
+}
+
 /// A signal with its cells, made as they are asked for.
 pub(crate) struct Window<'a> {
     pub signal: &'a dyn Signal,
@@ -45,9 +89,6 @@ pub(crate) struct Window<'a> {
 
 impl<'a> Window<'a> {
     /// All of a signal's window.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyEchoes`] where it is too long; as [`first_doubles`].
     pub(crate) fn new(signal: &'a dyn Signal) -> Result<Window<'a>, EvaluateError> {
         if let Ok(form) = signal.closed_form() {
             let order = form.order(signal.window()[1])?;
@@ -170,9 +211,6 @@ impl<'a> Window<'a> {
     }
 
     /// All cells, in order, polynomials fitting as they shall.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyCells`], and what stands in the way of enclosures.
     pub(crate) fn cells(&self, fit: Fit) -> Result<Vec<Cell>, EvaluateError> {
         let mut cells = Vec::new();
         // Stretches are much alike: each is first cut as often as its predecessor at least was.
@@ -180,9 +218,7 @@ impl<'a> Window<'a> {
         let mut width = None;
         for stretch in 0..self.count() {
             let Some(doubles) = self.doubles(stretch) else { continue };
-            if let Some(fitted) =
-                fitted_cells::fitted(self.marched.as_ref(), doubles, fit, &mut width)
-            {
+            if let Some(fitted) = fitted(self.marched.as_ref(), doubles, fit, &mut width) {
                 cells.extend(fitted.into_iter().map(|cell| Cell { stretch, ..cell }));
                 if cells.len() > MAX_POLYNOMIALS {
                     return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
@@ -288,9 +324,6 @@ pub fn reaching_a_double([from, to]: [Rational; 2]) -> [Rational; 2] {
 
 /// About the largest absolute value of a signal on its window, from the beginnings, middles and ends of
 /// some stretches; the largest one is not smaller by more than one part in 2^18.
-///
-/// # Errors
-/// [`EvaluateError`], where the window has too many stretches.
 pub fn scale(signal: &dyn Signal) -> Result<f64, EvaluateError> {
     Ok(Window::new(signal)?.scale()?.to_double())
 }
@@ -328,10 +361,6 @@ fn power_of_two_above(value: f64) -> f64 {
 
 /// The smallest doubles that are not before the beginnings of the stretches, that of the window
 /// included.
-///
-/// # Errors
-/// [`EvaluateError`], where the stretches are not known, or one begins so near a double that their order
-/// is not decided.
 pub fn first_doubles(signal: &dyn Signal) -> Result<Vec<f64>, EvaluateError> {
     let mut firsts = vec![at_or_after(signal.window()[0])];
     for stretch in 1..signal.count()? {
@@ -357,4 +386,76 @@ fn first_double(signal: &dyn Signal, stretch: usize) -> Result<f64, EvaluateErro
         double = double.next_down();
     }
     Ok(double)
+}
+
+/// The cells of a range of doubles, of the stretch 0; `width` is that of the last cell of the range
+/// before, and becomes that of this one. None where there is no march or none that serves, where
+/// nothing is said about rounding, and where no polynomials are found.
+fn fitted(
+    marched: Option<&MarchedPieces>,
+    (first, last): (f64, f64),
+    fit: Fit,
+    width: &mut Option<f64>,
+) -> Option<Vec<Cell>> {
+    let rounding = fit.rounding?.to_double();
+    let marched = marched.filter(|marched| marched.serves(fit.error))?;
+    let spans = marched.of_period((first, last), fit.degree)?;
+    let limits = [fit.error.to_double(), rounding];
+    let mut cells = Vec::new();
+    let mut start = first;
+    let mut tried = width.map_or((last - first) * FIRST_PART, |width| width * WIDER);
+    loop {
+        let found = (0..MOST_TRIES).find_map(|_| {
+            let rest = last - start;
+            let end = if tried >= rest {
+                last
+            } else {
+                // What is left shall not be a sliver.
+                (start + tried.min(rest / 2.0)).next_down().max(start)
+            };
+            let cell = interpolating(&spans, (start, end), limits);
+            tried = (end - start) * NARROWER;
+            cell
+        })?;
+        let end = found.last;
+        *width = Some(end - start);
+        cells.push(found);
+        if end >= last {
+            return Some(cells);
+        }
+        tried = (end - start) * WIDER;
+        start = end.next_up();
+    }
+}
+
+/// The cell on a range of doubles, where a polynomial is near enough and loses little when evaluated.
+///
+/// Its coefficients are doubles, so the distance holds what rounding them costs, some `ε Σ|c_k| r^k`. The
+/// rounding of Horner's scheme is `ε (T_0 + 2 Σ_{1≤k<n} T_k + T_n)`, `T_k = Σ_{j≥k} |c_j| r^j`.
+fn interpolating(
+    spans: &Spans,
+    (first, last): (f64, f64),
+    [error, rounding]: [f64; 2],
+) -> Option<Cell> {
+    let interpolant = spans.interpolated(first, last)?;
+    let Interpolant { middle, scale, ref coefficients, .. } = interpolant;
+    let reach = (last - middle).max(middle - first) / scale;
+    let unit = f64::EPSILON / 2.0;
+    let (mut tail, mut tails) = (0.0, 0.0);
+    for (k, coefficient) in coefficients.iter().enumerate().rev() {
+        tail += coefficient.abs() * reach.powi(k as i32);
+        tails += 2.0 * tail;
+    }
+    if unit * (tails - tail) > rounding {
+        return None;
+    }
+    let distance = spans.distance(&interpolant)?;
+    if distance > error + unit * tail {
+        return None;
+    }
+    let exact =
+        |coefficient: &f64| Some(Ball::new(Binary::from_double(*coefficient)?, Magnitude::ZERO));
+    let coefficients = coefficients.iter().map(exact).collect::<Option<_>>()?;
+    let taylor = Taylor { coefficients, remainder: Magnitude::from_double(distance) };
+    Some(Cell { first, last, middle, scale, stretch: 0, taylor })
 }

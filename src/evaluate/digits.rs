@@ -18,12 +18,6 @@ const LOOK_BITS: u64 = 128;
 /// The value of a signal at a time of its window, zero before time 0: exactly where it is known to be
 /// rational, else correctly rounded to `digits` significant digits, with at most `limit_bits` bits of
 /// working precision; enclosed where these do not prove the digits.
-///
-/// # Errors
-/// [`EvaluateError`], where there is no value.
-///
-/// # Panics
-/// Where `digits` is zero.
 pub fn value(
     signal: &dyn Signal,
     at: &Rational,
@@ -35,10 +29,6 @@ pub fn value(
 }
 
 /// The same, where the digits are needed.
-///
-/// # Errors
-/// As [`value`]; [`EvaluateError::AccuracyNotReached`] with the best enclosure where the precision allowed
-/// does not prove the digits.
 pub fn digits(
     signal: &dyn Signal,
     at: &Rational,
@@ -56,9 +46,6 @@ pub fn digits(
 
 /// The value where it is zero, or a rational number of which one look tells; nothing where exact
 /// arithmetic cannot go so far.
-///
-/// # Errors
-/// [`EvaluateError`], where the value cannot be enclosed.
 pub(crate) fn rational_value(
     signal: &dyn Signal,
     at: &Rational,
@@ -87,9 +74,6 @@ impl Point<'_> {
     }
 
     /// The value where it is a rational number of which one look tells, or zero.
-    ///
-    /// # Errors
-    /// [`EvaluateError`], where it cannot be enclosed.
     pub(crate) fn rational(&self) -> Result<Option<Rational>, EvaluateError> {
         Ok(match &self.known {
             Known::Rational(value) => Some(value.clone()),

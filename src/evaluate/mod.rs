@@ -6,13 +6,11 @@
 //! digits asked for are certain (`digits`).
 
 mod arrivals;
-mod cell;
 mod cells;
 mod closed;
 mod digits;
 mod error;
 mod find;
-mod fitted_cells;
 mod marched_pieces;
 mod method;
 mod signal;

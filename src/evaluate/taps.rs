@@ -85,9 +85,6 @@ pub enum NoTaps {
 
 impl Taps {
     /// The taps of a signal.
-    ///
-    /// # Errors
-    /// [`NoTaps`], where the waves have other forms.
     pub fn of(signal: &ClosedForm) -> Result<Taps, NoTaps> {
         if !signal.is_on_grid() {
             return Err(NoTaps::NoGrid);

@@ -16,7 +16,7 @@
 
 use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::find::search::Search;
+use crate::evaluate::find::search::{Search, Target};
 use crate::evaluate::taylor::Taylor;
 use crate::limits::MAX_POLYNOMIALS;
 use std::cmp::Ordering;
@@ -60,15 +60,6 @@ pub(crate) struct Cell {
     pub from: Rational,
     pub to: Rational,
     pub finding: Finding,
-}
-
-/// What is looked at: the derivative of this order, less a level.
-#[derive(Clone, Copy)]
-pub(crate) struct Target<'a> {
-    pub order: usize,
-    pub level: &'a Rational,
-    /// The most bits of balls.
-    pub limit_bits: u64,
 }
 
 /// The largest value that is known to be taken, of the observable or of its negative.
@@ -115,9 +106,6 @@ struct Cover<'a, 's, 'b> {
 
 impl Search<'_> {
     /// The cells of a stretch, in order, neighbours with the same finding joined.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyCells`], and what stands in the way of enclosures.
     pub(crate) fn cover(
         &self,
         stretch: usize,

@@ -12,9 +12,9 @@
 
 use crate::ball::{Attempt, Ball, Precisions, Value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::find::cover::{Finding, Record, Target, middle_and_half, range_of};
+use crate::evaluate::find::cover::{Finding, Record, middle_and_half, range_of};
 use crate::evaluate::find::refine::Isolated;
-use crate::evaluate::find::search::{Search, rationals};
+use crate::evaluate::find::search::{Search, Target, rationals};
 use crate::evaluate::signal::{At, Limit};
 use crate::limits::MAX_ROOTS;
 use std::cell::RefCell;
@@ -28,9 +28,6 @@ fn comparisons() -> Precisions {
 
 /// Bits of balls beyond those of a value.
 const SPARE_BITS: u64 = 64;
-
-/// The most bits that the sign of a derivative is tried with.
-const SLOPE_BITS: u64 = 1 << 10;
 
 /// Which extremum.
 ///
@@ -135,16 +132,6 @@ struct Contenders<'a, 's> {
 
 impl<'s> Search<'s> {
     /// The supremum or infimum on the window, with so many digits, and where it is taken.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyCells`], [`EvaluateError::TooManyRoots`], and what stands in the way
-    /// of enclosures.
-    ///
-    /// # Panics
-    /// Where `digits` is zero.
-    ///
-    /// # Cost
-    /// A few polynomials with 20 terms for each stretch, tens for each place that comes close.
     pub fn extremum(
         &self,
         goal: Goal,
@@ -170,12 +157,6 @@ impl<'s> Search<'s> {
 
     /// The sign of this extremum less that of another search; `None` where it is not decided, since they
     /// are equal or too near.
-    ///
-    /// # Errors
-    /// As [`Search::extremum`].
-    ///
-    /// # Cost
-    /// As [`Search::extremum`].
     pub fn compare_extremum(
         &self,
         other: &Search<'_>,
@@ -191,12 +172,6 @@ impl<'s> Search<'s> {
     }
 
     /// An enclosure of the extremum with a relative precision of about so many bits.
-    ///
-    /// # Errors
-    /// As [`Search::extremum`].
-    ///
-    /// # Cost
-    /// As [`Search::extremum`].
     pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Result<Ball, EvaluateError> {
         let contenders = self.contenders(goal, 8 * bits)?;
         for early in comparisons().iter().filter(|early| *early < bits) {
@@ -214,12 +189,12 @@ impl<'s> Search<'s> {
         let contenders = Contenders { search: self, goal, limit_bits, left: RefCell::default() };
         let mut constant = Vec::new();
         for stretch in 0..self.count {
-            constant.push(!self.is_instant(stretch) && self.is_constant(stretch)?);
+            constant.push(!self.function.is_instant(stretch) && self.is_constant(stretch)?);
             if constant[stretch] {
                 left.push(Candidate::Plateau { stretch });
             } else {
                 left.push(Candidate::Limit { stretch, side: Limit::Right });
-                if !self.is_instant(stretch) {
+                if !self.function.is_instant(stretch) {
                     left.push(Candidate::Limit { stretch, side: Limit::Left });
                 }
             }
@@ -229,7 +204,7 @@ impl<'s> Search<'s> {
         }
         let target = Target { order: 1, level: &zero, limit_bits };
         for (stretch, constant) in constant.into_iter().enumerate() {
-            if self.is_instant(stretch) || constant {
+            if self.function.is_instant(stretch) || constant {
                 continue;
             }
             self.critical_points(stretch, target, &mut record, &mut left)?;
@@ -250,73 +225,27 @@ impl<'s> Search<'s> {
     ) -> Result<(), EvaluateError> {
         let concave = if record.negative { Ordering::Greater } else { Ordering::Less };
         let cells = self.cover(stretch, target, Some(record))?;
-        let count = cells.len();
-        for (i, cell) in cells.into_iter().enumerate() {
+        for (i, cell) in cells.iter().enumerate() {
             let open = match cell.finding {
                 Finding::Clear(_) | Finding::Low => false,
                 Finding::Open => true,
                 Finding::Monotone(sign) if sign != concave => false,
-                Finding::Monotone(_) => {
-                    // At the ends of the stretch itself, which the cell may reach beyond.
-                    let first = match i {
-                        0 => self.slope_sign(stretch, Err(Limit::Right), target)?,
-                        _ => self.slope_sign(stretch, Ok(&cell.from), target)?,
-                    };
-                    let last = match i + 1 == count {
-                        true => self.slope_sign(stretch, Err(Limit::Left), target)?,
-                        false => self.slope_sign(stretch, Ok(&cell.to), target)?,
-                    };
-                    match (first, last) {
-                        // Exactly flat at an end: the limit there is the extremum of the run.
-                        (Some(first), Some(last)) => {
-                            if first as i8 * last as i8 == -1 {
-                                let rises = last == Ordering::Greater;
-                                let (from, to) = (cell.from.clone(), cell.to.clone());
-                                left.push(Candidate::Critical(Isolated {
-                                    stretch,
-                                    from,
-                                    to,
-                                    rises,
-                                }));
-                            }
-                            false
-                        }
-                        _ => true,
+                Finding::Monotone(_) => match self.signs(stretch, target, &cells, i, None)? {
+                    // Exactly flat at an end: the limit there is the extremum of the run.
+                    [Some(first), Some(last)] => {
+                        let root = Isolated::between(cell, stretch, [first, last]);
+                        left.extend(root.map(Candidate::Critical));
+                        false
                     }
-                }
+                    _ => true,
+                },
             };
             if open {
-                left.push(Candidate::Open { stretch, from: cell.from, to: cell.to });
+                let (from, to) = (cell.from.clone(), cell.to.clone());
+                left.push(Candidate::Open { stretch, from, to });
             }
         }
         Ok(())
-    }
-
-    /// The sign of the derivative at a time within a stretch, or in the limit at one of its ends, by
-    /// balls, and exactly where the first balls do not tell it.
-    fn slope_sign(
-        &self,
-        stretch: usize,
-        place: Result<&Rational, Limit>,
-        target: Target<'_>,
-    ) -> Result<Option<Ordering>, EvaluateError> {
-        let limit_bits = target.limit_bits.min(SLOPE_BITS);
-        let precisions = Precisions::doubling(self.bits.get(), limit_bits);
-        let attempt = |bits| {
-            let slope = match place {
-                Ok(time) => self.at(stretch, 1, time, bits)?,
-                Err(side) => self.limit(stretch, 1, side, bits)?,
-            };
-            let sign = slope.sign();
-            if let (None, Err(side)) = (sign, place)
-                && bits == precisions.first()
-                && self.slope_vanishes(stretch, side)?
-            {
-                return Ok(Attempt::Done(Some(Ordering::Equal)));
-            }
-            Ok(Attempt::of(sign, sign.is_some()))
-        };
-        precisions.raise(attempt).map(Attempt::best)
     }
 }
 
@@ -329,8 +258,12 @@ impl Contenders<'_, '_> {
         let zero = Rational::default();
         let target = Target { order: 0, level: &zero, limit_bits: self.limit_bits };
         let value = match candidate {
-            Candidate::Limit { stretch, side } => search.limit(*stretch, 0, *side, working)?,
-            Candidate::Plateau { stretch } => search.limit(*stretch, 0, Limit::Right, working)?,
+            Candidate::Limit { stretch, side } => {
+                search.enclose(*stretch, target, At::End(*side), working)?
+            }
+            Candidate::Plateau { stretch } => {
+                search.enclose(*stretch, target, At::End(Limit::Right), working)?
+            }
             Candidate::Critical(root) => {
                 let slope = Target { order: 1, ..target };
                 // The value is as flat as the square of what is unknown of the time.
@@ -399,7 +332,9 @@ impl Contenders<'_, '_> {
                 Candidate::Plateau { stretch } => (*stretch, Limit::Right),
                 _ => return Ok(None),
             };
-            let Some(value) = self.search.exact(stretch, At::End(side))? else { return Ok(None) };
+            let Some(value) = self.search.function.exact(stretch, At::End(side))? else {
+                return Ok(None);
+            };
             if common.get_or_insert_with(|| value.clone()) != &value {
                 return Ok(None);
             }
@@ -430,7 +365,7 @@ impl Contenders<'_, '_> {
                 }
                 Candidate::Limit { stretch, side: Limit::Left } => {
                     let time = end(*stretch)?;
-                    let at_end = *stretch == last && !search.arrives_at_end();
+                    let at_end = *stretch == last && !search.open;
                     let place = match at_end {
                         true => Place::End(time),
                         false => Place::Arrival { time, before: true, after: false },
@@ -442,7 +377,7 @@ impl Contenders<'_, '_> {
                 }
                 Candidate::Plateau { stretch } => {
                     let from = search.beginning(*stretch, digits, self.limit_bits)?;
-                    let closed = *stretch == last && !search.arrives_at_end();
+                    let closed = *stretch == last && !search.open;
                     (*stretch, 1, Place::Plateau { from, to: end(*stretch)?, closed })
                 }
                 Candidate::Open { stretch, from, to } => {

@@ -7,8 +7,8 @@
 
 use crate::ball::{Ball, Precisions, Value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::find::cover::{Target, middle_and_half};
-use crate::evaluate::find::search::{Search, less, rationals};
+use crate::evaluate::find::cover::{Cell, middle_and_half};
+use crate::evaluate::find::search::{Search, Target, rationals};
 use crate::evaluate::signal::At;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Integer, Rational};
@@ -35,6 +35,25 @@ pub(crate) struct Isolated {
     pub rises: bool,
 }
 
+impl Isolated {
+    /// The root on a monotone cell, or where one may be.
+    pub(crate) fn on(cell: &Cell, stretch: usize, rises: bool) -> Isolated {
+        Isolated { stretch, from: cell.from.clone(), to: cell.to.clone(), rises }
+    }
+
+    /// The one root on a monotone cell whose ends have these signs; there is none where they are the same,
+    /// or one of them is zero.
+    pub(crate) fn between(cell: &Cell, stretch: usize, signs: [Ordering; 2]) -> Option<Isolated> {
+        let rises = signs[1] == Ordering::Greater;
+        differ(signs).then(|| Isolated::on(cell, stretch, rises))
+    }
+}
+
+/// Whether one of two signs is positive, and one negative.
+pub(crate) fn differ([first, last]: [Ordering; 2]) -> bool {
+    first as i8 * last as i8 == -1
+}
+
 impl Search<'_> {
     /// Narrows the interval to a relative width of `2^{-bits}`, or as far as the bits allowed do.
     /// An interval whose ends come out in the wrong order holds no root.
@@ -57,11 +76,7 @@ impl Search<'_> {
             let (middle, _) = middle_and_half(&root.from, &root.to);
             let near = Rational::from(Ball::from_rational(&middle, working).midpoint());
             let middle = if root.from < near && near < root.to { near } else { middle };
-            let value = self.at(stretch, target.order, &middle, working)?;
-            let value = match target.order {
-                0 => less(value, target.level, working),
-                _ => value,
-            };
+            let value = self.enclose(stretch, target, At::Time(&middle), working)?;
             let slope = Target { order: target.order + 1, ..target };
             let slope = self.range(stretch, slope, (&root.from, &root.to), working)?;
             if let Ok(inverse) = slope.reciprocal(working) {
@@ -107,7 +122,7 @@ impl Search<'_> {
         let simple = simplest(&root.from, &root.to);
         if target.order == 0
             && simple.denom().bits() <= MAX_DENOMINATOR_BITS
-            && self.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level)
+            && self.function.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level)
         {
             return Ok(Value::Exact(simple));
         }

@@ -15,9 +15,9 @@
 
 use crate::ball::{Ball, Value};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::find::cover::{Cell, Finding, Target, middle_and_half};
-use crate::evaluate::find::refine::Isolated;
-use crate::evaluate::find::search::{Search, rationals};
+use crate::evaluate::find::cover::{Cell, Finding, middle_and_half};
+use crate::evaluate::find::refine::{Isolated, differ};
+use crate::evaluate::find::search::{Search, Target, rationals};
 use crate::evaluate::signal::{At, Limit};
 use crate::limits::MAX_ROOTS;
 use std::cmp::Ordering;
@@ -136,17 +136,6 @@ fn known(value: &Rational) -> Value {
 
 impl Search<'_> {
     /// All roots of `f − level` in the window, times with so many digits.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyRoots`], [`EvaluateError::TooManyCells`], and what stands in the way
-    /// of enclosures.
-    ///
-    /// # Panics
-    /// Where `digits` is zero.
-    ///
-    /// # Cost
-    /// A few tens of polynomials with 20 terms for each stretch and root, and a few values for each
-    /// doubling of the digits.
     pub fn roots(
         &self,
         level: &Rational,
@@ -160,13 +149,13 @@ impl Search<'_> {
         let mut all = Vec::new();
         let mut before: Option<Ends> = None;
         for stretch in 0..self.count {
-            let first = self.sign_of_limit(stretch, Limit::Right, level, limit_bits)?;
-            if self.is_instant(stretch) {
+            let first = self.sign(stretch, target, At::End(Limit::Right))?;
+            if self.function.is_instant(stretch) {
                 let now = Ends { first, last: None, vanishes: false };
                 self.join(stretch, &question, before.take(), &now, &mut all)?;
                 return Ok(Roots { all });
             }
-            let last = self.sign_of_limit(stretch, Limit::Left, level, limit_bits)?;
+            let last = self.sign(stretch, target, At::End(Limit::Left))?;
             let constant = self.is_constant(stretch)?;
             let equal = Some(Ordering::Equal);
             let vanishes = constant && (first == equal || last == equal);
@@ -280,19 +269,19 @@ impl Search<'_> {
         side: Limit,
         question: &Question<'_>,
     ) -> Result<Value, EvaluateError> {
-        if let Some(value) = self.exact(stretch, At::End(side))? {
+        if let Some(value) = self.function.exact(stretch, At::End(side))? {
             return Ok(known(&value));
         }
         let limit_bits = question.target.limit_bits;
-        let limit = |bits| self.limit(stretch, 0, side, bits);
+        let limit = |bits| self.function.enclose(stretch, 0, At::End(side), bits);
         Ok(Value::certify(question.digits, limit_bits, limit)?.exact_if_known())
     }
 
     /// Whether the observable is constant on a stretch: coefficient by coefficient, its derivative
     /// having none but exact zeros; or since waves cancel each other, as exact values prove.
     pub(crate) fn is_constant(&self, stretch: usize) -> Result<bool, EvaluateError> {
-        let [from, to] = self.bounds(stretch)?;
-        let (middle, half) = middle_and_half(&from, &to);
+        let bounds = self.bounds(stretch)?;
+        let (middle, half) = middle_and_half(&bounds[0], &bounds[1]);
         let bits = self.bits.get();
         let slope = self.function.taylor(stretch, 1, (&middle, &half), 4, bits)?;
         if slope.tail(0).is_zero() {
@@ -301,8 +290,8 @@ impl Search<'_> {
         if !slope.coefficients.iter().all(Ball::contains_zero) {
             return Ok(false);
         }
-        match self.exact(stretch, At::End(Limit::Right))? {
-            Some(value) => self.equals(stretch, &value),
+        match self.function.exact(stretch, At::End(Limit::Right))? {
+            Some(value) => self.function.equals(stretch, &value, &bounds, bits),
             None => Ok(false),
         }
     }
@@ -319,51 +308,38 @@ impl Search<'_> {
         let cells = self.cover(stretch, target, None)?;
         let count = cells.len();
         for (i, cell) in cells.iter().enumerate() {
-            let sign = |first: bool| match (first, i) {
-                (true, 0) => Ok(ends.first),
-                (false, i) if i + 1 == count => Ok(ends.last),
-                _ => {
-                    let at = if first { &cell.from } else { &cell.to };
-                    self.sign_at(stretch, at, target.level, target.limit_bits)
+            let place = || (cell.from.clone(), cell.to.clone());
+            if matches!(cell.finding, Finding::Clear(_) | Finding::Low) {
+                continue;
+            }
+            let signs = self.signs(stretch, target, &cells, i, Some([ends.first, ends.last]))?;
+            match (cell.finding, signs) {
+                (Finding::Monotone(_), [Some(first), Some(last)]) => {
+                    if let Some(root) = Isolated::between(cell, stretch, [first, last]) {
+                        let time = self.root(&root, target, question.digits)?;
+                        all.push(Root::Simple { time, rises: root.rises });
+                    }
                 }
-            };
-            match cell.finding {
-                Finding::Clear(_) | Finding::Low => {}
-                Finding::Monotone(sign_of_slope) => match (sign(true)?, sign(false)?) {
-                    (Some(first), Some(last)) => {
-                        if first as i8 * last as i8 == -1 {
-                            let rises = last == Ordering::Greater;
-                            let (from, to) = (cell.from.clone(), cell.to.clone());
-                            let root = Isolated { stretch, from, to, rises };
-                            let time = self.root(&root, target, question.digits)?;
-                            all.push(Root::Simple { time, rises });
-                        }
+                (Finding::Monotone(slope), _) => {
+                    // A value that cannot be told from v, and the root near it if there is one.
+                    let mut root = Isolated::on(cell, stretch, slope == Ordering::Greater);
+                    self.narrow(&mut root, target, UNDECIDED_BITS)?;
+                    if root.from <= root.to {
+                        self.leave(stretch, target, (root.from, root.to), false, all)?;
                     }
-                    _ => {
-                        // A value that cannot be told from v, and the root near it if there is one.
-                        let rises = sign_of_slope == Ordering::Greater;
-                        let (from, to) = (cell.from.clone(), cell.to.clone());
-                        let mut root = Isolated { stretch, from, to, rises };
-                        self.narrow(&mut root, target, UNDECIDED_BITS)?;
-                        if root.from <= root.to {
-                            self.leave(stretch, target, (root.from, root.to), false, all)?;
-                        }
-                    }
-                },
-                Finding::Open => {
-                    let (first, last) = (sign(true)?, sign(false)?);
+                }
+                (_, [first, last]) => {
                     let equal = Some(Ordering::Equal);
-                    let starts = i == 0 && first == equal;
-                    let stops = i + 1 == count && last == equal;
+                    let (starts, stops) =
+                        (i == 0 && first == equal, i + 1 == count && last == equal);
                     let lone = match (starts, stops) {
                         (true, false) => self.touches(stretch, Limit::Right, cell, target)?,
                         (false, true) => self.touches(stretch, Limit::Left, cell, target)?,
                         _ => false,
                     };
                     if !lone {
-                        let crosses = first.zip(last).is_some_and(|(a, b)| a as i8 * b as i8 == -1);
-                        let place = (cell.from.clone(), cell.to.clone());
-                        self.leave(stretch, target, place, crosses, all)?;
+                        let crosses = first.zip(last).is_some_and(|(a, b)| differ([a, b]));
+                        self.leave(stretch, target, place(), crosses, all)?;
                     }
                 }
             }
@@ -372,6 +348,29 @@ impl Search<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The signs of a target at both ends of the i-th of the cells of a stretch; at the ends of the stretch
+    /// itself, which the cell may reach beyond, those of the limits, which may be known.
+    pub(crate) fn signs(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        cells: &[Cell],
+        i: usize,
+        known: Option<[Option<Ordering>; 2]>,
+    ) -> Result<[Option<Ordering>; 2], EvaluateError> {
+        let sign = |is_end: bool, time, end, known: Option<Option<Ordering>>| match (is_end, known)
+        {
+            (true, Some(known)) => Ok(known),
+            (true, None) => self.sign(stretch, target, At::End(end)),
+            (false, _) => self.sign(stretch, target, At::Time(time)),
+        };
+        let (first, last) = (known.map(|known| known[0]), known.map(|known| known[1]));
+        Ok([
+            sign(i == 0, &cells[i].from, Limit::Right, first)?,
+            sign(i + 1 == cells.len(), &cells[i].to, Limit::Left, last)?,
+        ])
     }
 
     /// Whether `f − v`, exactly zero at this end of the stretch, has no other root in the cell

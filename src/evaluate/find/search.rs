@@ -5,8 +5,7 @@
 
 use crate::ball::{Attempt, Ball, Precisions};
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::signal::Limit;
-use crate::evaluate::signal::{At, Signal};
+use crate::evaluate::signal::{At, Limit, Signal};
 use std::cell::Cell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
@@ -26,6 +25,18 @@ const BOUND_SHARE: u128 = 1 << 80;
 /// The most bits that a sign is tried with, unless fewer are allowed.
 const SIGN_BITS: u64 = 1 << 12;
 
+/// The same of a derivative.
+const SLOPE_BITS: u64 = 1 << 10;
+
+/// What is looked at: the derivative of this order, less a level where that is 0.
+#[derive(Clone, Copy)]
+pub(crate) struct Target<'a> {
+    pub order: usize,
+    pub level: &'a Rational,
+    /// The most bits of balls.
+    pub limit_bits: u64,
+}
+
 /// An observable on a window of the user's time.
 ///
 /// # Invariants
@@ -42,15 +53,11 @@ pub struct Search<'a> {
     /// More bits than these tell no more.
     pub(crate) most_bits: u64,
     /// Whether the end of the window, at which an echo arrives, is left out.
-    open: bool,
+    pub(crate) open: bool,
 }
 
 impl<'a> Search<'a> {
     /// A signal on its window, both its ends included.
-    ///
-    /// # Errors
-    /// [`EvaluateError::EmptyWindow`]; [`EvaluateError::TooManyEchoes`] where too many arrivals lie in the
-    /// window.
     pub fn new(signal: &'a dyn Signal) -> Result<Search<'a>, EvaluateError> {
         let window = signal.window();
         if window[1] <= window[0] || *window[0] < Rational::default() {
@@ -69,103 +76,55 @@ impl<'a> Search<'a> {
     /// does.
     #[must_use]
     pub fn half_open(mut self) -> Search<'a> {
-        if self.count > 1 && self.is_instant(self.count - 1) {
+        if self.count > 1 && self.function.is_instant(self.count - 1) {
             self.count -= 1;
             self.open = true;
         }
         self
     }
 
-    /// Whether an echo arrives at the end of the window.
-    pub(crate) fn arrives_at_end(&self) -> bool {
-        self.open
-    }
-
-    /// Whether a stretch is the last instant of the window alone, where an echo arrives.
-    pub(crate) fn is_instant(&self, stretch: usize) -> bool {
-        self.function.is_instant(stretch)
-    }
-
-    /// An enclosure of a derivative at a time of the user's.
-    pub(crate) fn at(
+    /// An enclosure of the target.
+    pub(crate) fn enclose(
         &self,
         stretch: usize,
-        order: usize,
-        time: &Rational,
+        target: Target<'_>,
+        at: At<'_>,
         bits: u64,
     ) -> Result<Ball, EvaluateError> {
-        self.function.enclose(stretch, order, At::Time(time), bits)
-    }
-
-    /// An enclosure of a derivative at an end of a stretch.
-    pub(crate) fn limit(
-        &self,
-        stretch: usize,
-        order: usize,
-        side: Limit,
-        bits: u64,
-    ) -> Result<Ball, EvaluateError> {
-        self.function.enclose(stretch, order, At::End(side), bits)
-    }
-
-    /// The sign of `f − level` in the limit at an end of a stretch; `None` where it is not decided.
-    pub(crate) fn sign_of_limit(
-        &self,
-        stretch: usize,
-        side: Limit,
-        level: &Rational,
-        limit_bits: u64,
-    ) -> Result<Option<Ordering>, EvaluateError> {
-        if self.function.is_zero(stretch) {
-            return Ok(Some(Rational::default().cmp(level)));
+        let value = self.function.enclose(stretch, target.order, at, bits)?;
+        if target.order > 0 || *target.level == Rational::default() {
+            return Ok(value);
         }
-        self.sign(
-            limit_bits,
-            |bits| Ok(less(self.limit(stretch, 0, side, bits)?, level, bits)),
-            || Ok(self.exact(stretch, At::End(side))?.map(|value| value.cmp(level))),
-        )
+        Ok(value.subtract(&Ball::from_rational(target.level, bits), bits))
     }
 
-    /// The sign of `f − level` at a time within a stretch.
-    pub(crate) fn sign_at(
+    /// The sign of the target by balls, and exactly where the first balls do not tell it; `None` where it is
+    /// not decided.
+    pub(crate) fn sign(
         &self,
         stretch: usize,
-        time: &Rational,
-        level: &Rational,
-        limit_bits: u64,
+        target: Target<'_>,
+        at: At<'_>,
     ) -> Result<Option<Ordering>, EvaluateError> {
-        self.sign(
-            limit_bits,
-            |bits| Ok(less(self.at(stretch, 0, time, bits)?, level, bits)),
-            || Ok(self.exact(stretch, At::Time(time))?.map(|value| value.cmp(level))),
-        )
-    }
-
-    /// A sign by balls, and by an exact value where the first balls do not tell it.
-    fn sign(
-        &self,
-        limit_bits: u64,
-        enclosure: impl Fn(u64) -> Result<Ball, EvaluateError>,
-        exact: impl Fn() -> Result<Option<Ordering>, EvaluateError>,
-    ) -> Result<Option<Ordering>, EvaluateError> {
-        let precisions = Precisions::doubling(self.bits.get(), limit_bits.min(SIGN_BITS));
+        let function = self.function;
+        if target.order == 0 && function.is_zero(stretch) {
+            return Ok(Some(Rational::default().cmp(target.level)));
+        }
+        let most = if target.order == 0 { SIGN_BITS } else { SLOPE_BITS };
+        let precisions = Precisions::doubling(self.bits.get(), target.limit_bits.min(most));
         let attempt = |bits| {
-            let sign = match enclosure(bits)?.sign() {
-                None if bits == precisions.first() => exact()?,
-                sign => sign,
+            let sign = match (self.enclose(stretch, target, at, bits)?.sign(), target.order, at) {
+                (None, 0, _) if bits == precisions.first() => {
+                    function.exact(stretch, at)?.map(|value| value.cmp(target.level))
+                }
+                (None, 1, At::End(side)) if bits == precisions.first() => {
+                    self.slope_vanishes(stretch, side)?.then_some(Ordering::Equal)
+                }
+                (sign, ..) => sign,
             };
             Ok(Attempt::of(sign, sign.is_some()))
         };
         precisions.raise(attempt).map(Attempt::best)
-    }
-
-    /// The value, where it is known to be rational.
-    pub(crate) fn exact(
-        &self,
-        stretch: usize,
-        at: At<'_>,
-    ) -> Result<Option<Rational>, EvaluateError> {
-        self.function.exact(stretch, at)
     }
 
     /// Whether the derivative in the limit at an end of a stretch is known to be exactly zero.
@@ -174,13 +133,8 @@ impl<'a> Search<'a> {
         stretch: usize,
         side: Limit,
     ) -> Result<bool, EvaluateError> {
-        Ok(self.limit(stretch, 1, side, self.bits.get())?.contains_zero()
-            && self.function.slope_vanishes(stretch, side)?)
-    }
-
-    /// Whether `f = v` is known on all of a stretch.
-    pub(crate) fn equals(&self, stretch: usize, value: &Rational) -> Result<bool, EvaluateError> {
-        self.function.equals(stretch, value, &self.bounds(stretch)?, self.bits.get())
+        let slope = self.function.enclose(stretch, 1, At::End(side), self.bits.get())?;
+        Ok(slope.contains_zero() && self.function.slope_vanishes(stretch, side)?)
     }
 
     /// Rational bounds of a stretch: its ends themselves where they are rational, else so little
@@ -199,14 +153,6 @@ impl<'a> Search<'a> {
             Ok(Attempt::of([first, last], is_near))
         };
         Precisions::doubling(BOUND_BITS, MAX_BOUND_BITS).raise(attempt).map(Attempt::best)
-    }
-}
-
-/// `f − level`.
-pub(crate) fn less(value: Ball, level: &Rational, bits: u64) -> Ball {
-    match *level == Rational::default() {
-        true => value,
-        false => value.subtract(&Ball::from_rational(level, bits), bits),
     }
 }
 

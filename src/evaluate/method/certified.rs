@@ -9,8 +9,7 @@
 use super::doubles::{Kept, ascend, inside, piece};
 use super::{Evaluator, MethodError};
 use crate::ball::{Attempt, Ball, Precisions, rational};
-use crate::evaluate::cell::Fit;
-use crate::evaluate::cells::{Window, enclosure};
+use crate::evaluate::cells::{Fit, Window, enclosure};
 use crate::evaluate::digits::rational_value;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::marched_pieces::MarchedPieces;
@@ -45,9 +44,6 @@ pub struct Certified<'a> {
 
 impl<'a> Certified<'a> {
     /// Values of a signal on its window.
-    ///
-    /// # Errors
-    /// [`MethodError`], where the window has too many arrivals.
     pub fn new(signal: &'a dyn Signal) -> Result<Certified<'a>, MethodError> {
         let marched = MarchedPieces::of(signal);
         let (window, table) = (OnceCell::new(), OnceCell::new());
@@ -74,9 +70,6 @@ impl<'a> Certified<'a> {
     }
 
     /// The polynomials in pairs of doubles, made when they are first asked for.
-    ///
-    /// # Errors
-    /// [`MethodError`], where the window is too long.
     pub fn table(&self) -> Result<&Table, MethodError> {
         if let Some(table) = self.table.get() {
             return Ok(table);

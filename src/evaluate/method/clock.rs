@@ -3,7 +3,7 @@
 use super::MethodError;
 use crate::ball::{Ball, at_or_after, rational};
 use crate::enclosure::Numbers;
-use crate::evaluate::error::EvaluateError;
+use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::signal::Limit;
 use crate::expression::Fraction;
 use crate::limits::MAX_MARCHED_PERIODS;
@@ -60,9 +60,6 @@ impl DoublePlaces {
     /// multiple of the smaller of the last places of T and D, below D and not beyond T. The number n is the
     /// whole part of a rounded quotient, which is not below n and may be `n + 1`: then the remainder,
     /// rounded once, is negative.
-    ///
-    /// # Errors
-    /// Where the time is not finite or too late.
     fn of(&self, time: f64) -> Result<Option<(usize, f64)>, FixedError> {
         let (period, delay) = match self {
             DoublePlaces::Whole { period, delay } => (*period, *delay as usize),
@@ -92,6 +89,13 @@ impl DoublePlaces {
 }
 
 impl Clock {
+    /// That of a signal on a grid.
+    pub fn of(form: &ClosedForm) -> Clock {
+        let numbers = Numbers::new(form.recurrence().constants());
+        let period = form.recurrence().statement().period.clone();
+        Clock { numbers, slowness: form.slowness().clone(), period }
+    }
+
     /// The period and the place on it of a time that is seen with a delay; `None` before the start.
     fn place(
         &self,
@@ -119,10 +123,10 @@ impl Clock {
         // Irrational: never on a joint, unless as an expression.
         let compare = |n: u64| {
             let joint = period.scale(&Rational::from_integer(n.into()));
-            self.numbers.compare(&since, &joint).map_err(EvaluateError::from)
+            self.numbers.compare(&since, &joint)
         };
-        let ball = |value: &Fraction| self.numbers.enclose(value, 192).map_err(EvaluateError::from);
-        let inverse = ball(period)?.reciprocal(192).map_err(EvaluateError::Ball)?;
+        let ball = |value: &Fraction| self.numbers.enclose(value, 192);
+        let inverse = ball(period)?.reciprocal(192)?;
         let periods = ball(&since)?.multiply(&inverse, 192);
         let near = Rational::from(periods.midpoint()).floor().to_integer();
         if near < (-1).into() {
@@ -198,9 +202,6 @@ impl Clock {
     }
 
     /// The last period of which something is seen until a time.
-    ///
-    /// # Errors
-    /// [`MethodError::TooManyPeriods`] beyond the limit.
     pub fn last_period(&self, seen: &[Delayed], to: &Rational) -> Result<u64, MethodError> {
         let mut last = 0;
         for Delayed { delay, .. } in seen {

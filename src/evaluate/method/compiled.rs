@@ -8,8 +8,7 @@
 use super::doubles::{Kept, ascend, piece};
 use super::{Evaluator, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
-use crate::evaluate::cell::Fit;
-use crate::evaluate::cells::Window;
+use crate::evaluate::cells::{Fit, Window};
 use crate::evaluate::signal::{Limit, Signal};
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
@@ -35,15 +34,6 @@ impl<'a> Compiled<'a> {
     /// Cuts the window into pieces and expands the observable on each. The error of the pieces will be
     /// at most a quarter of `tolerance`, or an eighth of a unit in the last place of the largest value
     /// where none is given or that is larger.
-    ///
-    /// # Errors
-    /// [`MethodError`], where the window is too long or the observable an energy;
-    /// [`MethodError::Outside`] where it holds no double, see
-    /// [`reaching_a_double`](crate::evaluate::reaching_a_double).
-    ///
-    /// # Cost
-    /// For each piece as many operations in balls as a piece of a wave has coefficients, times 30; some
-    /// milliseconds each at n = 200.
     pub fn new(
         signal: &'a dyn Signal,
         tolerance: Option<f64>,

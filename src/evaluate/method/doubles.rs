@@ -4,7 +4,7 @@
 use super::MethodError;
 use crate::ball::{Ball, at_or_after, at_or_before, rational};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::cell::Cell;
+use crate::evaluate::cells::Cell;
 use crate::expression::Fraction;
 use std::cmp::Ordering;
 use wavestep_kernels::Piece;

@@ -97,7 +97,7 @@ impl Arrivals {
         let count = Rational::from_integer((number as u64).into());
         let arrival = delay + &self.exact_period.scale(&count);
         let order = self.numbers.compare(&self.slowness.scale(&at()), &arrival);
-        let after = match order.map_err(EvaluateError::from)? {
+        let after = match order? {
             Ordering::Greater => true,
             Ordering::Less => false,
             Ordering::Equal => side == Limit::Right,
@@ -140,9 +140,9 @@ impl EchoSums {
             let template = closed_form(&solution, wave)?;
             let echoes = in_doubles(template, &statement.period, &statement.local, &numbers)?;
             let weight = wave.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
-            let [high, low, _] = three(&numbers, &wave.delay).map_err(EvaluateError::from)?;
+            let [high, low, _] = three(&numbers, &wave.delay)?;
             seen.push(Seen {
-                weight: pair(three(&numbers, &weight).map_err(EvaluateError::from)?)?,
+                weight: pair(three(&numbers, &weight)?)?,
                 delay: [high, low],
                 exact_delay: wave.delay.clone(),
                 sum: EchoSum::new(echoes, order.max(1))?,
@@ -150,8 +150,8 @@ impl EchoSums {
         }
         let forcing = &signal.observation().forcing;
         let added = exponential_polynomials(forcing, &statement.time, &numbers)?;
-        let unit = numbers.enclose_root(signal.unit(), 128).map_err(EvaluateError::from)?;
-        let [high, low, _] = three(&numbers, signal.slowness()).map_err(EvaluateError::from)?;
+        let unit = numbers.enclose_root(signal.unit(), 128)?;
+        let [high, low, _] = three(&numbers, signal.slowness())?;
         let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
         let (unit, slowness) = (pair(three_of(unit))?, [high, low]);
         let arrivals = Arrivals::new(numbers, signal.slowness(), &statement.period)?;
@@ -250,7 +250,7 @@ fn pair([high, low, _]: [f64; 3]) -> Result<DoubleDouble, MethodError> {
 }
 
 fn expansion(numbers: &Numbers, value: &Fraction) -> Result<Expansion, MethodError> {
-    let parts = three(numbers, value).map_err(EvaluateError::from)?;
+    let parts = three(numbers, value)?;
     Ok(Expansion::new(parts)?)
 }
 

@@ -10,15 +10,14 @@
 use super::MethodError;
 use crate::ball::{Ball, ComplexBall};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::error::EvaluateError;
-use crate::expression::{Expression, Field as _, Fraction, Transform};
+use crate::expression::{Field as _, Fraction, Transform};
 use crate::recurrence::{Recurrence, WaveIndex};
 use crate::solution::{FieldForm, FieldStep};
 use std::collections::BTreeMap;
 use wavestep_kernels::march::{Complex, Scalar as _, State, Term, WaveStep, WaveSystem};
 
 /// Bits of the balls that are rounded.
-const BITS: u64 = 256;
+pub(super) const BITS: u64 = 256;
 
 /// Weights by wave and lag.
 type Weights = BTreeMap<(WaveIndex, usize), ComplexBall>;
@@ -38,16 +37,12 @@ pub(super) struct SystemBuilder<'a> {
 
 impl<'a> SystemBuilder<'a> {
     /// The steps of a recurrence without symbols.
-    ///
-    /// # Errors
-    /// [`MethodError::Evaluate`] where a constant cannot be enclosed.
     pub fn new(
         recurrence: &Recurrence,
         numbers: &'a Numbers,
     ) -> Result<SystemBuilder<'a>, MethodError> {
         let field = numbers.field(BITS);
-        let period = recurrence.statement().period.clone();
-        let period = field.embed(&period.into()).map_err(EvaluateError::from)?;
+        let period = field.embed(&recurrence.statement().period.clone().into())?;
         let mut builder = SystemBuilder {
             numbers,
             period,
@@ -56,8 +51,8 @@ impl<'a> SystemBuilder<'a> {
             source_steps: Vec::new(),
             steps: Vec::new(),
         };
-        for step in FieldStep::all(recurrence, &field).map_err(EvaluateError::from)? {
-            let step = builder.step(&step).map_err(EvaluateError::from)?;
+        for step in FieldStep::all(recurrence, &field)? {
+            let step = builder.step(&step)?;
             builder.steps.push(step);
         }
         Ok(builder)
@@ -187,23 +182,4 @@ fn rounded(weights: &Weights) -> Vec<Term<Complex>> {
 pub(super) fn nearest(value: &ComplexBall) -> Complex {
     let part = |part: &Ball| if part.contains_zero() { 0.0 } else { part.to_double().0 };
     Complex { re: part(value.real()), im: part(value.imaginary()) }
-}
-
-/// The exact value of an expression as a ball that is rounded once.
-pub(super) fn enclosed(numbers: &Numbers, value: &Expression) -> Result<ComplexBall, MethodError> {
-    Ok(numbers.field(BITS).embed(value).map_err(EvaluateError::from)?)
-}
-
-/// A function of the local time in balls.
-pub(super) fn transform(
-    numbers: &Numbers,
-    exact: &Transform,
-) -> Result<Transform<ComplexBall>, MethodError> {
-    let field = numbers.field(BITS);
-    Ok(Transform::<ComplexBall>::embedded(exact, &field).map_err(EvaluateError::from)?)
-}
-
-/// The product of two balls, rounded once.
-pub(super) fn product(left: &ComplexBall, right: &ComplexBall) -> ComplexBall {
-    left.multiply(right, BITS)
 }

@@ -8,10 +8,7 @@
 use super::MethodError;
 use super::clock::Place;
 use super::doubles::near;
-use super::held_waves::HeldWaves;
-use super::marched;
 use crate::enclosure::Numbers;
-use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taps::{Tap, Taps};
 use crate::expression::{Fraction, Root};
 use wavestep_kernels::march::chebyshev::{self, Samples};
@@ -22,42 +19,65 @@ pub(super) struct Response {
     reflection: Reflection,
     weights: Vec<f64>,
     /// The proven bound on the window, where one is asked for and proven.
-    bound: Option<f64>,
+    pub bound: Option<f64>,
     /// The waves that it was proven of, where there is room for them.
-    held: Option<HeldWaves>,
+    held: Option<Held>,
+}
+
+/// Chebyshev coefficients of the response on all periods of a window, as the proof leaves them: where there
+/// are few, values need no second march.
+#[derive(Default)]
+struct Held {
+    coefficients: Vec<f64>,
+    /// Where the coefficients of each period end.
+    ends: Vec<usize>,
+}
+
+impl Held {
+    /// The most coefficients that are held: eight megabytes.
+    const MOST: usize = 1 << 20;
+
+    /// With the next period; none where there is no room for it.
+    fn with_period(mut self, coefficients: &[f64]) -> Option<Held> {
+        self.coefficients.extend_from_slice(coefficients);
+        self.ends.push(self.coefficients.len());
+        (self.coefficients.len() <= Held::MOST).then_some(self)
+    }
+
+    /// The coefficients of a period that is held.
+    fn period(&self, number: usize) -> &[f64] {
+        let start = number.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.coefficients[start..self.ends[number]]
+    }
 }
 
 impl Response {
-    /// The response with its weights; up to a last period it is marched through at once and a bound is
-    /// proven.
-    ///
-    /// # Errors
-    /// [`MethodError::March`] where waves grow without bound.
-    ///
-    /// # Cost
-    /// For each period some hundred operations a coefficient, of which there are about `√(2nD)`; two
-    /// or three times as many with a bound.
-    pub fn new(
-        reflection: Reflection,
-        weights: Vec<f64>,
-        proven_to: Option<u64>,
-    ) -> Result<Response, MethodError> {
-        let mut response = Response { reflection, weights, bound: None, held: None };
-        if let Some(last) = proven_to {
-            (response.bound, response.held) = response.prove(last)?;
-        }
-        Ok(response)
+    /// The response that taps weigh, in the unit of an observable and with periods as the unit of time.
+    pub fn new(taps: &Taps, unit: &Root, numbers: &Numbers) -> Result<Response, MethodError> {
+        let parameter = |value: &Fraction| -> Result<Parameter, MethodError> {
+            let (value, radius) = near(numbers, value)?;
+            Ok(Parameter::within(value, radius)?)
+        };
+        let rate = parameter(&(&taps.rate * &taps.period))?;
+        let zero = parameter(&(&taps.zero * &taps.period))?;
+        let reflection = Reflection::new(rate, zero, parameter(&taps.ratio)?)?;
+        let unit = numbers.enclose_root(unit, 128)?;
+        let weight = |tap: &Tap| -> Result<f64, MethodError> {
+            Ok(numbers.enclose(&tap.weight, 128)?.multiply(&unit, 128).to_double().0)
+        };
+        let weights = taps.taps.iter().map(weight).collect::<Result<_, _>>()?;
+        Ok(Response { reflection, weights, bound: None, held: None })
     }
 
     /// Marches to the end with a certificate. The bound of the response is `b`, and a place is off by
     /// `2^−53` of a period at most, which the steepest slope `Σ 2k² |c_k|` of a period turns into an
     /// error of the value. The waves are held where there is room for all of them.
-    fn prove(&self, last: u64) -> Result<(Option<f64>, Option<HeldWaves>), MethodError> {
+    pub fn prove(&mut self, last: u64) -> Result<(), MethodError> {
         let mut march = self.march(Bounds::Proven)?;
         let mut slope = 0.0_f64;
         let mut sum = 0.0_f64;
         let mut bound = 0.0_f64;
-        let mut held = Some(HeldWaves::default());
+        let mut held = Some(Held::default());
         loop {
             let sizes = chebyshev::sizes(march.coefficients());
             slope = slope.max(sizes.slope);
@@ -66,7 +86,7 @@ impl Response {
             // Evaluation loses most where the polynomial is largest, which need not be at the end.
             match march.bound_by(&sizes) {
                 Some(here) => bound = bound.max(here),
-                None => return Ok((None, None)),
+                None => return Ok(()),
             }
             if march.period() as u64 >= last {
                 break;
@@ -77,7 +97,9 @@ impl Response {
         // The weighted sum itself, with an eighth to spare for the rounding of this line, and for the
         // enclosure of what is added.
         let roundings = (self.weights.len() + 4) as f64 * f64::EPSILON * sum;
-        Ok((Some((bound + slope * f64::EPSILON + roundings) * total * 1.125), held))
+        self.bound = Some((bound + slope * f64::EPSILON + roundings) * total * 1.125);
+        self.held = held;
+        Ok(())
     }
 
     /// The march on its first period.
@@ -85,21 +107,9 @@ impl Response {
         let options = MarchOptions { bounds, ..MarchOptions::default() };
         Ok(March::new(&self.reflection, options)?)
     }
-}
 
-impl marched::March for Response {
-    fn law(&self) -> String {
-        match self.bound {
-            Some(bound) => format!("at most {bound:.1e} everywhere on the window, proven"),
-            None => "no bound; about 1e-15 √n, measured".to_owned(),
-        }
-    }
-
-    fn bound(&self) -> Option<f64> {
-        self.bound
-    }
-
-    fn sums(&self, mut places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError> {
+    /// The weighted sums at all places, for so many values.
+    pub fn sums(&self, mut places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError> {
         places.sort_by_key(|place| place.period);
         let points: Vec<f64> = places.iter().map(|place| place.local).collect();
         let mut responses = vec![0.0; points.len()];
@@ -136,27 +146,23 @@ impl marched::March for Response {
     }
 }
 
-/// The reflection of taps, with periods as the unit of time.
-pub(super) fn reflection(taps: &Taps, numbers: &Numbers) -> Result<Reflection, MethodError> {
-    let parameter = |value: &Fraction| -> Result<Parameter, MethodError> {
-        let (value, radius) = near(numbers, value).map_err(EvaluateError::from)?;
-        Ok(Parameter::within(value, radius)?)
-    };
-    let rate = parameter(&(&taps.rate * &taps.period))?;
-    let zero = parameter(&(&taps.zero * &taps.period))?;
-    Ok(Reflection::new(rate, zero, parameter(&taps.ratio)?)?)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The weights of taps in the unit of an observable.
-pub(super) fn weights(
-    taps: &[Tap],
-    unit: &Root,
-    numbers: &Numbers,
-) -> Result<Vec<f64>, MethodError> {
-    let unit = numbers.enclose_root(unit, 128).map_err(EvaluateError::from)?;
-    let weight = |tap: &Tap| {
-        let weight = numbers.enclose(&tap.weight, 128).map_err(EvaluateError::from)?;
-        Ok(weight.multiply(&unit, 128).to_double().0)
-    };
-    taps.iter().map(weight).collect()
+    #[test]
+    fn what_is_held_is_what_the_march_had() {
+        let reflection = Reflection::exact(2.0, 2.0, -0.5).unwrap();
+        let mut march = March::new(&reflection, MarchOptions::default()).unwrap();
+        let (mut held, mut expected) = (Held::default(), Vec::new());
+        for _ in 0..20 {
+            held = held.with_period(march.coefficients()).unwrap();
+            expected.push(march.coefficients().to_vec());
+            march.advance().unwrap();
+        }
+        for (period, expected) in expected.iter().enumerate() {
+            assert_eq!(held.period(period), expected);
+        }
+        assert!(held.with_period(&vec![0.0; Held::MOST]).is_none());
+    }
 }

@@ -2,19 +2,15 @@
 
 use super::MethodError;
 use super::clock::{Delayed, Place};
-use super::march_system::{SystemBuilder, enclosed, nearest, product, transform};
-use super::marched::March;
+use super::march_system::{BITS, SystemBuilder, nearest};
 use crate::ball::ComplexBall;
 use crate::enclosure::Numbers;
 use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taps::NoTaps;
-use crate::expression::{Fraction, Transform};
+use crate::expression::{Field as _, Fraction, Transform};
 use crate::recurrence::WaveIndex;
 use wavestep_kernels::march::{Complex, Scalar, WaveMarch, WaveSystem};
-
-/// Bits of what weights are multiplied with.
-const BITS: u64 = 256;
 
 /// An imaginary part of this size, relative to the largest of the waves that are seen, is more than
 /// rounding.
@@ -41,30 +37,21 @@ struct Seen {
 
 impl Waves {
     /// The waves of a signal on a grid, and when they are seen.
-    ///
-    /// # Errors
-    /// [`MethodError::Evaluate`] where a constant cannot be enclosed; [`MethodError::System`] where one
-    /// is too large.
-    ///
-    /// # Cost
-    /// That of the numbers in balls; the march is made when values are asked for.
     pub fn new(
         signal: &ClosedForm,
         numbers: &Numbers,
     ) -> Result<(Waves, Vec<Delayed>), MethodError> {
-        let recurrence = signal.recurrence();
+        let (recurrence, field) = (signal.recurrence(), numbers.field(BITS));
         let statement = recurrence.statement();
-        let unit = numbers.enclose_root(signal.unit(), BITS).map_err(EvaluateError::from)?;
-        let unit = ComplexBall::from(unit);
-        let by_period = enclosed(numbers, &statement.period.clone().into())?;
-        let by_period = by_period.reciprocal(BITS).map_err(EvaluateError::Ball)?;
+        let unit = ComplexBall::from(numbers.enclose_root(signal.unit(), BITS)?);
+        let by_period = field.embed(&statement.period.clone().into())?.reciprocal(BITS)?;
         let mut builder = SystemBuilder::new(recurrence, numbers)?;
         let observation = signal.observation();
         let (mut seen, mut delays) = (Vec::new(), Vec::new());
         for wave in &observation.waves {
-            let mut weight = product(&enclosed(numbers, &wave.coefficient)?, &unit);
+            let mut weight = field.embed(&wave.coefficient)?.multiply(&unit, BITS);
             if wave.slope {
-                weight = product(&weight, &by_period);
+                weight = weight.multiply(&by_period, BITS);
             }
             seen.push(Seen { wave: wave.wave, slope: wave.slope, weight: nearest(&weight) });
             delays.push(Delayed::at_once(wave.delay.clone()));
@@ -73,9 +60,10 @@ impl Waves {
             let local = Fraction::symbol(&statement.local);
             let function = observation.forcing.substitute(&statement.time, &local);
             let function = function.map_err(|_| NoTaps::Forcing)?;
-            let function = transform(numbers, &Transform::of(&function, &statement.local))?;
-            for (wave, weight) in builder.source(&function).map_err(EvaluateError::from)? {
-                let weight = nearest(&product(&weight, &unit));
+            let function = Transform::of(&function, &statement.local);
+            let function = Transform::<ComplexBall>::embedded(&function, &field)?;
+            for (wave, weight) in builder.source(&function)? {
+                let weight = nearest(&weight.multiply(&unit, BITS));
                 seen.push(Seen { wave, slope: false, weight });
                 delays.push(Delayed::at_once(Fraction::zero()));
             }
@@ -118,18 +106,9 @@ impl Waves {
         }
         Ok(sums.into_iter().map(|(sum, _)| sum.re).collect())
     }
-}
 
-impl March for Waves {
-    fn law(&self) -> String {
-        "no bound; measured below 1e-13 of the largest value through 400 periods".to_owned()
-    }
-
-    fn bound(&self) -> Option<f64> {
-        None
-    }
-
-    fn sums(&self, places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError> {
+    /// The weighted sums at all places, for so many values.
+    pub fn sums(&self, places: Vec<Place>, count: usize) -> Result<Vec<f64>, MethodError> {
         match &self.system {
             System::Real(system) => self.sums_in(system, places, count),
             System::Complex(system) => self.sums_in(system, places, count),

@@ -17,7 +17,6 @@ mod compiled;
 mod doubles;
 mod echo_sums;
 mod error;
-mod held_waves;
 mod march_system;
 mod marched;
 mod marched_response;
@@ -44,26 +43,14 @@ pub trait Evaluator {
     fn bound(&self) -> Option<f64>;
 
     /// The value at a time.
-    ///
-    /// # Errors
-    /// [`MethodError`] outside the window, and where there is no value.
     fn value(&self, at: &Rational, side: Limit) -> Result<f64, MethodError>;
 
     /// The values at many exact times.
-    ///
-    /// # Errors
-    /// As [`Evaluator::value`].
     fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
         at.iter().map(|at| self.value(at, side)).collect()
     }
 
     /// The values at many times, right limits.
-    ///
-    /// # Errors
-    /// As [`Evaluator::value`].
-    ///
-    /// # Panics
-    /// Where there are not as many places for values as times.
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError>;
 }
 

@@ -65,9 +65,7 @@ impl PrintedEchoes {
                 let echo = &echoes[wave.wave][*k];
                 if !echo.is_zero() {
                     let echo = match wave.slope {
-                        true => {
-                            function(&echo.differentiated(&field).map_err(EvaluateError::from)?)?
-                        }
+                        true => function(&echo.differentiated(&field)?)?,
                         false => function(echo)?,
                     };
                     row.push((number(&delay.clone().into())?.0, echo));
@@ -79,11 +77,8 @@ impl PrintedEchoes {
         }
         let forcing =
             Transform::of(&signal.observation().forcing, &signal.recurrence().statement().time);
-        let added = function(
-            &Transform::<crate::ball::ComplexBall>::embedded(&forcing, &field)
-                .map_err(EvaluateError::from)?,
-        )?;
-        let unit = numbers.enclose_root(signal.unit(), BITS).map_err(EvaluateError::from)?;
+        let added = function(&Transform::<crate::ball::ComplexBall>::embedded(&forcing, &field)?)?;
+        let unit = numbers.enclose_root(signal.unit(), BITS)?;
         let slowness = number(&signal.slowness().clone().into())?.0;
         Ok(PrintedEchoes { seen, added, unit: unit.to_double().0, slowness })
     }

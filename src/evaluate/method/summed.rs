@@ -63,10 +63,6 @@ enum Echoes {
 impl Summed {
     /// The echoes that arrive until the end of the window: O(n) for n echoes in closed form, O(n³) for
     /// others; for each value O(n²).
-    ///
-    /// # Errors
-    /// [`MethodError::NoTaps`], where echoes have no closed form with one pole; with
-    /// [`Summation::Expanded`], where too many of these would have to be derived.
     pub fn new(signal: &dyn Signal, summation: Summation) -> Result<Summed, MethodError> {
         let echoes = match EchoSums::new(signal) {
             Err(MethodError::NoTaps(_)) if summation == Summation::Expanded => {
