@@ -10,6 +10,7 @@ use wavestep::evaluate::{
     Certified, Compiled, Evaluator, Marched, Signal, StablePrecision, Summation, Summed,
 };
 use wavestep_benches::{rigid_mass, with_signal};
+use wavestep_kernels::march::{Bounds, March, MarchOptions, Reflection};
 use wavestep_kernels::{Level, Piece, Table};
 use wavestep_studies::study::Sampling;
 
@@ -148,5 +149,25 @@ fn sums(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, polynomials, from_scratch, sums);
+/// Marches of the impulse response alone, through many periods.
+fn periods(criterion: &mut Criterion) {
+    let mass = Reflection::exact(2.0, 2.0, 1.0).unwrap();
+    let mut group = criterion.benchmark_group("march through periods");
+    group.sample_size(10);
+    for (bounds, name) in [(Bounds::None, "plain"), (Bounds::Proven, "proven")] {
+        for periods in [10_000, 100_000] {
+            let options = MarchOptions { bounds, ..Default::default() };
+            group.bench_function(BenchmarkId::new(name, periods), |b| {
+                b.iter(|| {
+                    let mut march = March::new(&mass, options).unwrap();
+                    (0..periods).for_each(|_| march.advance().unwrap());
+                    march.value(0.5)
+                })
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, polynomials, from_scratch, sums, periods);
 criterion_main!(benches);

@@ -8,9 +8,9 @@ use crate::ball::{Ball, Binary, ComplexBall, Magnitude, at_or_after, rational};
 use crate::enclosure::Numbers;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{Limit, Signal};
-use crate::evaluate::taps::{Extra, Taps};
+use crate::evaluate::taps::{Extra, Tap, Taps};
 use crate::evaluate::taylor::Taylor;
-use crate::expression::{Field as _, Transform};
+use crate::expression::{Field as _, Fraction, Transform};
 use num_traits::{Signed as _, ToPrimitive as _};
 use std::cell::OnceCell;
 use wavestep_kernels::fixed::{self, DelayEquation, ExactTime, March, MarchOptions, Spans};
@@ -25,28 +25,22 @@ const MAX_PERIODS: u32 = 4_000;
 /// The most taps.
 const MAX_TAPS: usize = 8;
 
-/// A signal on a window, from a march.
+/// A signal on a window, from a march. Times are the user's.
 pub(crate) struct MarchedPieces {
     /// Made when pieces are first asked for.
     march: OnceCell<Option<March>>,
     periods: u32,
-    response: DelayEquation,
-    /// The same in the user's time.
     equation: DelayEquation,
-    taps: Vec<RationalTap>,
+    period: Rational,
+    /// The taps in the unit of the signal.
+    taps: Vec<fixed::Tap>,
+    /// Since when each is seen, if not always since its delay.
+    since: Option<Vec<Rational>>,
     extras: Vec<Extra>,
     local: Symbol,
-    period: Rational,
-    /// What times are multiplied with to be in the scale of the waves.
+    /// What times are multiplied with to be in the scale of the waves, in which extras are.
     slowness: Rational,
     unit: Rational,
-}
-
-/// `weight · Y(T − delay)` in rational numbers.
-struct RationalTap {
-    weight: Rational,
-    delay: Rational,
-    since: Rational,
 }
 
 impl MarchedPieces {
@@ -59,46 +53,48 @@ impl MarchedPieces {
             return None;
         }
         let Taps { rate, zero, ratio, period, taps, extras } = Taps::of(signal).ok()?;
-        let period = period.as_constant()?;
-        let (rate, zero, ratio) = (rate.as_constant()?, zero.as_constant()?, ratio.as_constant()?);
-        let tap = |tap: &crate::evaluate::taps::Tap| {
-            let [weight, delay, since] =
-                [&tap.weight, &tap.delay, &tap.since].map(|value| value.as_constant());
-            Some(RationalTap { weight: weight?, delay: delay?, since: since? })
+        // In the user's time rates are larger by the slowness, and times shorter.
+        let time = |value: &Fraction| Some(value.as_constant()? / &slowness);
+        let period = time(&period)?;
+        let (rate, zero) = (rate.as_constant()? * &slowness, zero.as_constant()? * &slowness);
+        let equation = DelayEquation::new(&period, &rate, &zero, &ratio.as_constant()?).ok()?;
+        let since: Vec<Rational> =
+            taps.iter().map(|tap| time(&tap.since)).collect::<Option<_>>()?;
+        let tap = |tap: &Tap| {
+            let weight = tap.weight.as_constant()? * &unit;
+            Some(fixed::Tap { weight, delay: time(&tap.delay)? })
         };
-        let taps: Vec<RationalTap> = taps.iter().map(tap).collect::<Option<_>>()?;
+        let taps: Vec<fixed::Tap> = taps.iter().map(tap).collect::<Option<_>>()?;
         if taps.is_empty() || taps.len() > MAX_TAPS {
             return None;
         }
-        let last = taps.iter().map(|tap| (to * &slowness - &tap.delay) / &period).max()?;
+        let last = taps.iter().map(|tap| (to - &tap.delay) / &period).max()?;
         let periods = last.floor().to_integer().to_u32()?.checked_add(1)?;
         if periods > MAX_PERIODS {
             return None;
         }
         // What is added must be known by its numbers, too.
         let numbers = Numbers::new(&[]);
+        let local = signal.recurrence().statement().local.clone();
         let is_known = |extra: &Extra| {
-            let function = Transform::of(&extra.function, &signal.recurrence().statement().local);
+            let function = Transform::of(&extra.function, &local);
             let known = Transform::<ComplexBall>::embedded(&function, &numbers.field(64)).is_ok();
             known && extra.origin.as_constant().is_some()
         };
         if !extras.iter().all(is_known) {
             return None;
         }
-        let equation = DelayEquation::new(&period, &rate, &zero, &ratio).ok()?;
-        // In the user's time rates are larger by the slowness, and the period shorter.
-        let (period_there, rate, zero) = (&period / &slowness, rate * &slowness, zero * &slowness);
-        let there = DelayEquation::new(&period_there, &rate, &zero, &ratio).ok()?;
-        let local = signal.recurrence().statement().local.clone();
+        let at_once = taps.iter().zip(&since).all(|(tap, since)| tap.delay == *since);
+        let (march, since) = (OnceCell::new(), (!at_once).then_some(since));
         Some(MarchedPieces {
-            march: OnceCell::new(),
+            march,
             periods,
-            response: equation,
-            equation: there,
+            equation,
+            period,
             taps,
+            since,
             extras,
             local,
-            period,
             slowness,
             unit,
         })
@@ -111,21 +107,21 @@ impl MarchedPieces {
         times: &[impl ExactTime],
         side: Limit,
     ) -> Option<(Vec<f64>, Vec<usize>)> {
-        if !self.extras.is_empty() || self.taps.iter().any(|tap| tap.since != tap.delay) {
+        if !self.is_plain() {
             return None;
         }
-        let tap = |tap: &RationalTap| fixed::Tap {
-            weight: &tap.weight * &self.unit,
-            delay: &tap.delay / &self.slowness,
-        };
-        let taps: Vec<fixed::Tap> = self.taps.iter().map(tap).collect();
-        let found = fixed::certified(&self.equation, &taps, times, side).ok()?;
+        let found = fixed::certified(&self.equation, &self.taps, times, side).ok()?;
         Some((found.values, found.undecided))
+    }
+
+    /// Whether there are taps alone, each seen since its delay.
+    fn is_plain(&self) -> bool {
+        self.extras.is_empty() && self.since.is_none()
     }
 
     /// The march; `None` where it fails.
     fn march(&self) -> Option<&March> {
-        let make = || March::new(&self.response, self.periods, &MarchOptions::default()).ok();
+        let make = || March::new(&self.equation, self.periods, &MarchOptions::default()).ok();
         self.march.get_or_init(make).as_ref()
     }
 
@@ -137,8 +133,7 @@ impl MarchedPieces {
     fn bound(&self, march: &March) -> Magnitude {
         let weights = self.taps.iter().map(|tap| Magnitude::from_rational(&tap.weight));
         let sum = weights.fold(Magnitude::ZERO, |sum, weight| sum.add(&weight));
-        let unit = Magnitude::from_rational(&self.unit);
-        sum.multiply(&unit).multiply(&Magnitude::from_double(march.bound()))
+        sum.multiply(&Magnitude::from_double(march.bound()))
     }
 
     /// A range of doubles cut where pieces of the march meet.
@@ -146,7 +141,7 @@ impl MarchedPieces {
         let Some(march) = self.march() else { return vec![(first, last)] };
         let pieces = Rational::from_integer(march.pieces_per_period().into());
         let length = &self.period / pieces;
-        let (from, to) = (rational(first) * &self.slowness, rational(last) * &self.slowness);
+        let (from, to) = (rational(first), rational(last));
         let mut starts = vec![first];
         for tap in &self.taps {
             let mut number =
@@ -156,7 +151,7 @@ impl MarchedPieces {
                 if joint > to {
                     break;
                 }
-                starts.push(at_or_after(&(joint / &self.slowness)));
+                starts.push(at_or_after(&joint));
                 number += Rational::from_integer(1.into());
             }
         }
@@ -172,16 +167,16 @@ impl MarchedPieces {
     /// do not coincide, where the range lies in several periods, and where numbers are out of range.
     pub(crate) fn of_period(&self, (first, last): (f64, f64), degree: usize) -> Option<Spans> {
         let march = self.march()?;
-        let period = &self.period / &self.slowness;
-        let number = (rational(first) / &period).floor();
-        if !self.extras.is_empty() || (rational(last) / &period).floor() != number {
+        let period = &self.period;
+        let number = (rational(first) / period).floor();
+        if !self.is_plain() || (rational(last) / period).floor() != number {
             return None;
         }
         let mut rows = vec![Vec::new(); march.pieces_per_period() as usize];
         let mut radius = 0.0;
         for tap in &self.taps {
-            let periods = &tap.delay / &self.period;
-            if tap.since != tap.delay || !periods.is_integer() {
+            let periods = &tap.delay / period;
+            if !periods.is_integer() {
                 return None;
             }
             let seen = (&number - periods).to_integer();
@@ -189,15 +184,14 @@ impl MarchedPieces {
                 continue;
             }
             let seen = seen.to_u32()?;
-            let weight = &tap.weight * &self.unit;
-            let size = Magnitude::from_rational(&weight);
+            let size = Magnitude::from_rational(&tap.weight);
             let bound = Magnitude::from_double(march.bound_of(seen)?);
             radius += size.multiply(&bound).to_double();
             for (piece, row) in (0..).zip(&mut rows) {
                 let coefficients = march.piece(seen, piece)?;
                 row.resize(row.len().max(coefficients.len()), 0);
                 for (sum, coefficient) in row.iter_mut().zip(coefficients) {
-                    *sum = i128::checked_add(*sum, weighted(*coefficient, &weight)?)?;
+                    *sum = i128::checked_add(*sum, weighted(*coefficient, &tap.weight)?)?;
                 }
             }
         }
@@ -207,7 +201,7 @@ impl MarchedPieces {
         let radius =
             (radius * 2_f64.powi(FRACTION_BITS as i32) * 1.000_001) as u128 + roundings as u128 + 1;
         let pieces = Rational::from_integer(march.pieces_per_period().into());
-        Spans::new(&(number * &period), &(period / pieces), rows, radius, degree)
+        Spans::new(&(number * period), &(period / pieces), rows, radius, degree)
     }
 
     /// The polynomial in `(t − middle)/half`, on a cell that lies in one span.
@@ -216,14 +210,14 @@ impl MarchedPieces {
         (middle, half): (&Rational, &Rational),
         bits: u64,
     ) -> Result<Taylor, EvaluateError> {
-        let (middle, half) = (middle * &self.slowness, half * &self.slowness);
         let march = self.march().ok_or(EvaluateError::AfterLast)?;
         let pieces = march.pieces_per_period();
         let doubled = Rational::from_integer((2 * pieces).into());
         let mut sum = Taylor::polynomial(Vec::new());
-        for tap in &self.taps {
-            let since = &middle - &tap.delay;
-            if since.is_negative() || middle < tap.since {
+        for (i, tap) in self.taps.iter().enumerate() {
+            let since = middle - &tap.delay;
+            let unseen = self.since.as_ref().is_some_and(|since| *middle < since[i]);
+            if since.is_negative() || unseen {
                 continue;
             }
             let periods = &since / &self.period;
@@ -237,14 +231,14 @@ impl MarchedPieces {
             };
             // u of the piece is 2Sx − (2q + 1).
             let a = &x * &doubled - Rational::from_integer((2 * i64::from(piece) + 1).into());
-            let b = &half * &doubled / &self.period;
+            let b = half * &doubled / &self.period;
             let ball = |value: &i128| {
                 Ball::new(Binary::new((*value).into(), -FRACTION_BITS), Magnitude::ZERO)
             };
             let part = match march.part(period, piece, &a, &b) {
-                Some(part) => Taylor {
-                    coefficients: part.coefficients.iter().map(ball).collect(),
-                    remainder: Magnitude::from_integer(&part.radius.into(), -FRACTION_BITS),
+                Some((coefficients, radius)) => Taylor {
+                    coefficients: coefficients.iter().map(ball).collect(),
+                    remainder: Magnitude::from_integer(&radius.into(), -FRACTION_BITS),
                 },
                 // As large as the piece, or larger by a rounding.
                 None => {
@@ -254,11 +248,12 @@ impl MarchedPieces {
                     Taylor { coefficients, remainder }.part(&a, &b, bits)
                 }
             };
-            let weight = Ball::from_rational(&(&tap.weight * &self.unit), bits);
+            let weight = Ball::from_rational(&tap.weight, bits);
             sum.add(part.scaled(&weight, bits), bits);
         }
         let numbers = Numbers::new(&[]);
         let field = numbers.field(bits);
+        let (middle, half) = (middle * &self.slowness, half * &self.slowness);
         for Extra { function, origin } in &self.extras {
             let since = &middle - origin.as_constant().unwrap_or_default();
             if since.is_negative() {
@@ -266,8 +261,8 @@ impl MarchedPieces {
             }
             let function =
                 Transform::<ComplexBall>::embedded(&Transform::of(function, &self.local), &field)?;
-            let x = field.embed(&crate::expression::Fraction::constant(&since).into())?;
-            let h = field.embed(&crate::expression::Fraction::constant(&half).into())?;
+            let x = field.embed(&Fraction::constant(&since).into())?;
+            let h = field.embed(&Fraction::constant(&half).into())?;
             let terms = sum.coefficients.len().max(32);
             let part = Taylor::of(&function, &x, &h, terms, &numbers, bits)?.real()?;
             sum.add(part.scaled(&Ball::from_rational(&self.unit, bits), bits), bits);

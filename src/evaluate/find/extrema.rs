@@ -116,10 +116,21 @@ pub struct Extremum {
 /// A place that may have the largest value.
 #[derive(Clone, Debug)]
 enum Candidate {
-    Limit { stretch: usize, side: Limit },
+    Limit {
+        stretch: usize,
+        side: Limit,
+    },
     Critical(Isolated),
-    Plateau { stretch: usize },
-    Open { stretch: usize, from: Rational, to: Rational },
+    /// A stretch on which the observable is constant, and the limit that tells its value.
+    Plateau {
+        stretch: usize,
+        side: Limit,
+    },
+    Open {
+        stretch: usize,
+        from: Rational,
+        to: Rational,
+    },
 }
 
 /// The candidates of a window that are left.
@@ -185,28 +196,25 @@ impl<'s> Search<'s> {
         self.work.set(0);
         let (negative, zero) = (goal == Goal::Smallest, Rational::default());
         let mut record = Record { negative, best: None };
-        let mut left = Vec::new();
+        let (mut left, mut moving) = (Vec::new(), Vec::new());
         let contenders = Contenders { search: self, goal, limit_bits, left: RefCell::default() };
-        let mut constant = Vec::new();
         for stretch in 0..self.count {
-            constant.push(!self.function.is_instant(stretch) && self.is_constant(stretch)?);
-            if constant[stretch] {
-                left.push(Candidate::Plateau { stretch });
-            } else {
-                left.push(Candidate::Limit { stretch, side: Limit::Right });
-                if !self.function.is_instant(stretch) {
-                    left.push(Candidate::Limit { stretch, side: Limit::Left });
-                }
+            let instant = self.function.is_instant(stretch);
+            if !instant && self.is_constant(stretch)? {
+                left.push(Candidate::Plateau { stretch, side: Limit::Right });
+                continue;
+            }
+            left.push(Candidate::Limit { stretch, side: Limit::Right });
+            if !instant {
+                left.push(Candidate::Limit { stretch, side: Limit::Left });
+                moving.push(stretch);
             }
         }
         for candidate in &left {
             record.note(&contenders.value(&mut candidate.clone(), comparisons().first())?);
         }
         let target = Target { order: 1, level: &zero, limit_bits };
-        for (stretch, constant) in constant.into_iter().enumerate() {
-            if self.function.is_instant(stretch) || constant {
-                continue;
-            }
+        for stretch in moving {
             self.critical_points(stretch, target, &mut record, &mut left)?;
             if left.len() > MAX_ROOTS + 2 * self.count {
                 return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });
@@ -250,46 +258,48 @@ impl<'s> Search<'s> {
 }
 
 impl Contenders<'_, '_> {
-    /// The value at a candidate, of the observable or of its negative, so that the largest is
-    /// sought.
+    /// The observable, or its negative, so that the largest is sought.
+    fn signed(&self, value: Ball) -> Ball {
+        match self.goal {
+            Goal::Largest => value,
+            Goal::Smallest => value.negate(),
+        }
+    }
+
+    /// The value at a candidate, signed.
     fn value(&self, candidate: &mut Candidate, bits: u64) -> Result<Ball, EvaluateError> {
         let search = self.search;
         let working = (bits + SPARE_BITS).max(search.bits.get());
         let zero = Rational::default();
         let target = Target { order: 0, level: &zero, limit_bits: self.limit_bits };
         let value = match candidate {
-            Candidate::Limit { stretch, side } => {
+            Candidate::Limit { stretch, side } | Candidate::Plateau { stretch, side } => {
                 search.enclose(*stretch, target, At::End(*side), working)?
-            }
-            Candidate::Plateau { stretch } => {
-                search.enclose(*stretch, target, At::End(Limit::Right), working)?
             }
             Candidate::Critical(root) => {
                 let slope = Target { order: 1, ..target };
                 // The value is as flat as the square of what is unknown of the time.
                 search.narrow(root, slope, bits / 2 + 8)?;
                 let (middle, half) = middle_and_half(&root.from, &root.to);
-                let expanded = search.expand(root.stretch, target, (&middle, &half), 8, working)?;
-                range_of(&expanded)
+                range_of(&search.expand(root.stretch, target, (&middle, &half), 8, working)?)
             }
             Candidate::Open { stretch, from, to } => {
                 search.range(*stretch, target, (from, to), working)?
             }
         };
-        Ok(match self.goal {
-            Goal::Largest => value,
-            Goal::Smallest => value.negate(),
-        })
+        Ok(self.signed(value))
+    }
+
+    /// The values at all candidates that are left.
+    fn values(&self, left: &mut [Candidate], bits: u64) -> Result<Vec<Ball>, EvaluateError> {
+        left.iter_mut().map(|candidate| self.value(candidate, bits)).collect()
     }
 
     /// Drops those that are certainly smaller than another.
     fn compare(&self, bits: u64) -> Result<(), EvaluateError> {
         let mut left = self.left.borrow_mut();
         if left.len() > 1 {
-            let values: Vec<Ball> = left
-                .iter_mut()
-                .map(|candidate| self.value(candidate, bits))
-                .collect::<Result<_, _>>()?;
+            let values = self.values(&mut left, bits)?;
             let mut record = Record { negative: false, best: None };
             values.iter().for_each(|value| record.note(value));
             let mut values = values.iter();
@@ -300,41 +310,27 @@ impl Contenders<'_, '_> {
 
     /// An enclosure of the extremum.
     fn enclose(&self, bits: u64) -> Result<Ball, EvaluateError> {
-        let mut left = self.left.borrow_mut();
-        let mut bounds: Option<(Rational, Rational)> = None;
-        let mut only = None;
-        for candidate in left.iter_mut() {
-            let value = self.value(candidate, bits)?;
-            let (lower, upper) = rationals(&value);
-            only = Some(value);
-            bounds = Some(match bounds {
-                None => (lower, upper),
-                Some((a, b)) => (a.max(lower), b.max(upper)),
-            });
+        let values = self.values(&mut self.left.borrow_mut(), bits)?;
+        if let [only] = &values[..] {
+            return Ok(self.signed(only.clone()));
         }
+        let larger = |(a, b): (Rational, Rational), (c, d)| (a.max(c), b.max(d));
+        let bounds = values.iter().map(rationals).reduce(larger);
         let (lower, upper) = bounds.expect("a window has ends");
-        let value = match (left.len(), only) {
-            (1, Some(value)) => value,
-            _ => Ball::between(&lower, &upper, bits + SPARE_BITS),
-        };
-        Ok(match self.goal {
-            Goal::Largest => value,
-            Goal::Smallest => value.negate(),
-        })
+        Ok(self.signed(Ball::between(&lower, &upper, bits + SPARE_BITS)))
     }
 
     /// The extremum where it is the same rational number at all places that are left.
     fn exact(&self) -> Result<Option<Rational>, EvaluateError> {
         let mut common: Option<Rational> = None;
         for candidate in &*self.left.borrow() {
-            let (stretch, side) = match candidate {
-                Candidate::Limit { stretch, side } => (*stretch, *side),
-                Candidate::Plateau { stretch } => (*stretch, Limit::Right),
-                _ => return Ok(None),
-            };
-            let Some(value) = self.search.function.exact(stretch, At::End(side))? else {
+            let (Candidate::Limit { stretch, side } | Candidate::Plateau { stretch, side }) =
+                candidate
+            else {
                 return Ok(None);
             };
+            let exact = self.search.function.exact(*stretch, At::End(*side))?;
+            let Some(value) = exact else { return Ok(None) };
             if common.get_or_insert_with(|| value.clone()) != &value {
                 return Ok(None);
             }
@@ -375,7 +371,7 @@ impl Contenders<'_, '_> {
                 Candidate::Critical(root) => {
                     (root.stretch, 1, Place::Critical(search.root(root, target, digits)?))
                 }
-                Candidate::Plateau { stretch } => {
+                Candidate::Plateau { stretch, .. } => {
                     let from = search.beginning(*stretch, digits, self.limit_bits)?;
                     let closed = *stretch == last && !search.open;
                     (*stretch, 1, Place::Plateau { from, to: end(*stretch)?, closed })

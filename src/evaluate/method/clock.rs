@@ -65,7 +65,7 @@ impl DoublePlaces {
             DoublePlaces::Whole { period, delay } => (*period, *delay as usize),
             DoublePlaces::Any(reduction) => {
                 let place = reduction.of_double(time, Limit::Right)?;
-                return Ok(place.map(|place| (place.period() as usize, place.local())));
+                return Ok(place.map(|place| (place.period as usize, place.local())));
             }
         };
         if !time.is_finite() {

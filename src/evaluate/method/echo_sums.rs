@@ -1,10 +1,10 @@
 //! Observables as weighted sums of echoes in doubles, whose closed form has one pole.
 
 use super::MethodError;
+use super::clock::Clock;
 use super::doubles::{three, three_of};
 use crate::ball::rational;
 use crate::enclosure::Numbers;
-use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{Limit, Signal};
 use crate::evaluate::taps::{NoTaps, closed_form};
 use crate::expression::{Expression, Fraction, Transform};
@@ -29,24 +29,17 @@ struct Seen {
 /// an arrival a time lies that falls on it: a whole front would be lost. Times so near are ordered
 /// exactly, and moved to their side.
 struct Arrivals {
-    numbers: Numbers,
-    slowness: Fraction,
-    exact_period: Fraction,
+    clock: Clock,
     period: [f64; 3],
     /// Whether the period is a double: then doubles tell on which side of an arrival another one lies.
     is_double: bool,
 }
 
 impl Arrivals {
-    fn new(
-        numbers: Numbers,
-        slowness: &Fraction,
-        exact_period: &Fraction,
-    ) -> Result<Arrivals, EvaluateError> {
-        let period = three(&numbers, exact_period)?;
-        let is_double = exact_period.as_constant() == Some(rational(period[0]));
-        let (slowness, exact_period) = (slowness.clone(), exact_period.clone());
-        Ok(Arrivals { numbers, slowness, exact_period, period, is_double })
+    fn new(clock: Clock) -> Result<Arrivals, MethodError> {
+        let period = three(&clock.numbers, &clock.period)?;
+        let is_double = clock.period.as_constant() == Some(rational(period[0]));
+        Ok(Arrivals { clock, period, is_double })
     }
 
     /// How near to an arrival times are ordered exactly, and how far from it they are kept, as parts
@@ -95,9 +88,9 @@ impl Arrivals {
     ) -> Result<(f64, f64), MethodError> {
         let Some((number, distance)) = self.near(since, size) else { return Ok(since) };
         let count = Rational::from_integer((number as u64).into());
-        let arrival = delay + &self.exact_period.scale(&count);
-        let order = self.numbers.compare(&self.slowness.scale(&at()), &arrival);
-        let after = match order? {
+        let Clock { numbers, slowness, period } = &self.clock;
+        let arrival = delay + &period.scale(&count);
+        let after = match numbers.compare(&slowness.scale(&at()), &arrival)? {
             Ordering::Greater => true,
             Ordering::Less => false,
             Ordering::Equal => side == Limit::Right,
@@ -131,30 +124,31 @@ impl EchoSums {
         if order > MAX_SUMMED_ECHOES {
             return Err(MethodError::TooManyPeriods { periods: order, limit: MAX_SUMMED_ECHOES });
         }
-        let numbers = Numbers::new(signal.recurrence().constants());
+        let clock = Clock::of(signal);
+        let numbers = &clock.numbers;
         let solution = Solution::new(signal.recurrence().clone());
         let recurrence = solution.recurrence();
         let statement = recurrence.statement();
         let mut seen = Vec::new();
         for wave in &signal.observation().waves {
             let template = closed_form(&solution, wave)?;
-            let echoes = in_doubles(template, &statement.period, &statement.local, &numbers)?;
+            let echoes = in_doubles(template, &statement.period, &statement.local, numbers)?;
             let weight = wave.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
-            let [high, low, _] = three(&numbers, &wave.delay)?;
+            let [high, low, _] = three(numbers, &wave.delay)?;
             seen.push(Seen {
-                weight: pair(three(&numbers, &weight)?)?,
+                weight: pair(three(numbers, &weight)?)?,
                 delay: [high, low],
                 exact_delay: wave.delay.clone(),
                 sum: EchoSum::new(echoes, order.max(1))?,
             });
         }
         let forcing = &signal.observation().forcing;
-        let added = exponential_polynomials(forcing, &statement.time, &numbers)?;
+        let added = exponential_polynomials(forcing, &statement.time, numbers)?;
         let unit = numbers.enclose_root(signal.unit(), 128)?;
-        let [high, low, _] = three(&numbers, signal.slowness())?;
+        let [high, low, _] = three(numbers, signal.slowness())?;
         let end = |value: &Rational| crate::ball::Ball::from_rational(value, 128).to_double().0;
         let (unit, slowness) = (pair(three_of(unit))?, [high, low]);
-        let arrivals = Arrivals::new(numbers, signal.slowness(), &statement.period)?;
+        let arrivals = Arrivals::new(clock)?;
         let (from, to) = (end(from), end(to));
         Ok(EchoSums { seen, arrivals, added, unit, slowness, from, to })
     }

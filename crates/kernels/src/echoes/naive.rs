@@ -7,9 +7,8 @@
 
 use super::description::{Echoes, Family};
 
-/// Echo `k` by Horner's scheme on its expanded row.
-pub(super) fn expanded(echoes: &Echoes, k: usize, time: f64) -> f64 {
-    let since = time - k as f64 * echoes.period.high();
+/// Echo `k`, so long after it arrived, by Horner's scheme on its expanded row.
+pub(super) fn expanded(echoes: &Echoes, k: usize, since: f64) -> f64 {
     let row = expanded_row(echoes, k);
     let polynomial = row.iter().rev().fold(0.0, |sum, coefficient| sum * since + coefficient);
     (-since * echoes.rate.high()).exp() * polynomial
@@ -43,8 +42,7 @@ fn expanded_row(echoes: &Echoes, k: usize) -> Vec<f64> {
 }
 
 /// Echo `k` by the recurrence of three terms.
-pub(super) fn plain(echoes: &Echoes, k: usize, time: f64) -> f64 {
-    let since = time - k as f64 * echoes.period.high();
+pub(super) fn plain(echoes: &Echoes, k: usize, since: f64) -> f64 {
     let argument = since * echoes.scale.high();
     let (mut index, mut value, mut before) = (0usize, 1.0, 0.0);
     let mut sum = 0.0;

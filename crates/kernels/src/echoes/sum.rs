@@ -125,7 +125,7 @@ impl EchoSum {
             if !counts(since.high, limit) {
                 break;
             }
-            let echo = self.echo(method, k, since, time);
+            let echo = self.echo(method, k, since);
             sum = match method {
                 Method::DoubleDouble => sum + echo,
                 _ => DoubleDouble::from(sum.high + echo.high),
@@ -134,14 +134,8 @@ impl EchoSum {
         Ok(sum)
     }
 
-    /// Echo `k`, whose time since arrival and absolute time are given.
-    fn echo(
-        &self,
-        method: Method,
-        k: usize,
-        since: DoubleDouble,
-        time: DoubleDouble,
-    ) -> DoubleDouble {
+    /// Echo `k`, so long after it arrived.
+    fn echo(&self, method: Method, k: usize, since: DoubleDouble) -> DoubleDouble {
         let echoes = &self.echoes;
         if let Some(parts) = echoes.first.get(k) {
             return match method {
@@ -150,8 +144,8 @@ impl EchoSum {
             };
         }
         match method {
-            Method::Expanded => DoubleDouble::from(naive::expanded(echoes, k, time.high)),
-            Method::Plain => DoubleDouble::from(naive::plain(echoes, k, time.high)),
+            Method::Expanded => DoubleDouble::from(naive::expanded(echoes, k, since.high)),
+            Method::Plain => DoubleDouble::from(naive::plain(echoes, k, since.high)),
             Method::Scaled => DoubleDouble::from(self.scaled_echo(k, since)),
             Method::DoubleDouble => {
                 stable::echo(echoes, self.ratios[k], &self.reciprocal_pairs, k, since)

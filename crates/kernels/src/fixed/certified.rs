@@ -8,9 +8,10 @@ use super::error::FixedError;
 use super::multiplier::Multiplier;
 use super::position::{ExactTime, Position, Reduction};
 use super::scheme::Scheme;
-use super::value::{FRACTION_BITS, round_to_double, scaled};
+use super::value::{FRACTION_BITS, round_to_double};
 use super::walk::Walk;
 use crate::Limit;
+use crate::exponent::scale;
 
 /// The most taps of a sum.
 const MOST_TAPS: usize = 8;
@@ -34,13 +35,6 @@ pub struct CertifiedDoubles {
     pub undecided: Vec<usize>,
 }
 
-/// A tap ready for use.
-struct Prepared {
-    /// `w·2^−s`, with one s for all taps.
-    weight: Multiplier,
-    reduction: Reduction,
-}
-
 /// The sum `Σ wᵢ Y(T − dᵢ)` at given times, as correctly rounded doubles; times that are doubles are the
 /// exact numbers that they are. Before the start, Y is zero exactly.
 ///
@@ -59,33 +53,33 @@ pub fn certified<T: ExactTime>(
     if taps.len() > MOST_TAPS {
         return Err(FixedError::TooManyTaps(taps.len()));
     }
-    let (taps, scale) = prepare(equation, taps)?;
+    let (taps, shift) = prepare(equation, taps)?;
     let mut seen = Vec::with_capacity(times.len() * taps.len());
     for (place, time) in times.iter().enumerate() {
-        for tap in &taps {
-            if let Some(position) = time.position(&tap.reduction, side)? {
-                seen.push(Seen { place, weight: tap.weight, position });
+        for (weight, reduction) in &taps {
+            if let Some(position) = time.position(reduction, side)? {
+                seen.push(Seen { place, weight: *weight, position });
             }
         }
         if !time.is_finite() {
             return Err(FixedError::TimeNotFinite);
         }
     }
-    seen.sort_by_key(|seen| seen.position.period());
+    seen.sort_by_key(|seen| seen.position.period);
     let sums = match seen.last() {
         None => vec![Sum::default(); times.len()],
         Some(last) => {
-            let periods = last.position.period() + 1;
+            let periods = last.position.period + 1;
             let scheme = Scheme::for_doubles(equation, periods)?;
             weighted_sums(scheme, &seen, times.len())?
         }
     };
-    let fraction_bits = i64::from(FRACTION_BITS) - scale;
+    let fraction_bits = i64::from(FRACTION_BITS) - shift;
     let mut undecided = Vec::new();
     let double = |(place, Sum { midpoint, radius }): (usize, Sum)| {
         round_to_double(midpoint, radius, fraction_bits).unwrap_or_else(|| {
             undecided.push(place);
-            scaled(midpoint, fraction_bits)
+            scale(midpoint as f64, -fraction_bits)
         })
     };
     let values = sums.into_iter().enumerate().map(double).collect();
@@ -112,8 +106,8 @@ fn weighted_sums(scheme: Scheme, seen: &[Seen], count: usize) -> Result<Vec<Sum>
     let mut sums = vec![Sum::default(); count];
     let Some(last) = seen.last() else { return Ok(sums) };
     let mut rest = seen;
-    Walk::new(scheme).through(last.position.period(), |number, period| {
-        let here = rest.partition_point(|seen| seen.position.period() == number);
+    Walk::new(scheme).through(last.position.period, |number, period| {
+        let here = rest.partition_point(|seen| seen.position.period == number);
         let (now, later) = rest.split_at(here);
         rest = later;
         for seen in now {
@@ -127,8 +121,11 @@ fn weighted_sums(scheme: Scheme, seen: &[Seen], count: usize) -> Result<Vec<Sum>
     Ok(sums)
 }
 
-/// The taps whose weight is not zero, with weights scaled by `2^−s`, and s.
-fn prepare(equation: &DelayEquation, taps: &[Tap]) -> Result<(Vec<Prepared>, i64), FixedError> {
+/// The weights that are not zero, scaled by `2^−s` with one s for all, how times are reduced for them, and s.
+fn prepare(
+    equation: &DelayEquation,
+    taps: &[Tap],
+) -> Result<(Vec<(Multiplier, Reduction)>, i64), FixedError> {
     let largest = taps.iter().map(|tap| tap.weight.abs()).max().unwrap_or_default();
     if largest.is_zero() {
         return Ok((Vec::new(), 0));
@@ -141,7 +138,7 @@ fn prepare(equation: &DelayEquation, taps: &[Tap]) -> Result<(Vec<Prepared>, i64
     let weighty = taps.iter().filter(|tap| !tap.weight.is_zero());
     let prepared = weighty.map(|tap| {
         let weight = Multiplier::near(&scaled(&tap.weight)).expect("scaled weights are below 1");
-        Ok(Prepared { weight, reduction: Reduction::new(equation.period(), &tap.delay)? })
+        Ok((weight, Reduction::new(&equation.period, &tap.delay)?))
     });
     Ok((prepared.collect::<Result<_, _>>()?, scale))
 }

@@ -15,10 +15,10 @@ use super::error::FixedError;
 /// - `D > 0`, `b > 0`, `−1 ≤ ρ ≤ 1`; a is any rational.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct DelayEquation {
-    period: BigRational,
+    pub(super) period: BigRational,
     rate: BigRational,
     zero: BigRational,
-    reflection: BigRational,
+    pub(super) reflection: BigRational,
 }
 
 impl DelayEquation {
@@ -45,16 +45,6 @@ impl DelayEquation {
             zero: zero.clone(),
             reflection: reflection.clone(),
         })
-    }
-
-    /// The period D.
-    pub fn period(&self) -> &BigRational {
-        &self.period
-    }
-
-    /// The reflection ρ.
-    pub fn reflection(&self) -> &BigRational {
-        &self.reflection
     }
 
     /// The decay of a period, `B = bD`.

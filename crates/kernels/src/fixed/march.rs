@@ -34,17 +34,12 @@ impl March {
         options: &MarchOptions,
     ) -> Result<Self, FixedError> {
         let scheme = Scheme::new(equation, periods, options)?;
-        let size = scheme.size();
-        let start = vec![0; size];
-        let mut coefficients = vec![0; size * periods as usize];
+        let mut coefficients = Vec::with_capacity(scheme.size() * periods as usize);
         let mut proofs = Vec::with_capacity(periods as usize);
-        let mut walk = Walk::new(scheme);
-        for period in 0..periods {
-            let (done, rest) = coefficients.split_at_mut(size * period as usize);
-            let before = done.rchunks_exact(size).next().unwrap_or(&start);
-            let current = &mut rest[..size];
-            proofs.push(walk.advance(before, current)?);
-        }
+        Walk::new(scheme).through(periods - 1, |_, period| {
+            coefficients.extend_from_slice(period.coefficients);
+            proofs.push(period.proof);
+        })?;
         Ok(Self { scheme, coefficients, proofs })
     }
 
@@ -92,7 +87,7 @@ impl March {
     ///
     /// A product of 128 bits a term, some forty.
     pub fn value(&self, position: &Position) -> Result<FixedValue, FixedError> {
-        let period = position.period();
+        let period = position.period;
         let beyond = FixedError::BeyondMarch { period, periods: self.periods() };
         let proof = *self.proofs.get(period as usize).ok_or(beyond)?;
         let size = self.scheme.size();

@@ -87,7 +87,6 @@ pub use certified::{CertifiedDoubles, Tap, certified};
 pub use equation::DelayEquation;
 pub use error::FixedError;
 pub use march::March;
-pub use part::Part;
 pub use position::{ExactTime, Position, Reduction};
 pub use scheme::MarchOptions;
 pub use spans::{Interpolant, Spans};

@@ -5,30 +5,26 @@ use num_rational::BigRational;
 use super::march::March;
 use super::multiplier::Multiplier;
 
-/// A polynomial on a part of a piece, in units of `2^−112`.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Part {
-    /// The coefficients of powers of u.
-    pub coefficients: Vec<i128>,
-    /// How far the polynomial can be from the solution, in units: the bound of the march, and the
-    /// rounding here.
-    pub radius: u128,
-}
-
 impl March {
-    /// The piece q of the period n at `a + bu`, for numbers below 1 in size; none if there is no such
-    /// piece, or a number leaves the range.
+    /// The piece q of the period n at `a + bu`, for numbers below 1 in size, in units of `2^−112`, and how
+    /// far it can be from the solution: the bound of the march, and the rounding here. None if there is no
+    /// such piece, or a number leaves the range.
     ///
     /// The error holds where `|a + bu| ≤ 1`; it is that of the shift, less than a unit for each pair of
     /// terms.
     ///
     /// A product of 128 bits for each pair of terms.
-    pub fn part(&self, period: u32, piece: u32, a: &BigRational, b: &BigRational) -> Option<Part> {
+    pub fn part(
+        &self,
+        period: u32,
+        piece: u32,
+        a: &BigRational,
+        b: &BigRational,
+    ) -> Option<(Vec<i128>, u128)> {
         let coefficients = self.piece(period, piece)?.to_vec();
         let terms = coefficients.len();
         let coefficients = shifted(coefficients, Multiplier::near(a)?, Multiplier::near(b)?)?;
-        let radius = self.bound_in_units(period)? + (terms * terms) as u128;
-        Some(Part { coefficients, radius })
+        Some((coefficients, self.bound_in_units(period)? + (terms * terms) as u128))
     }
 }
 
@@ -87,11 +83,11 @@ mod tests {
             for (a, b) in [((-3, 4), (1, 4)), ((1, 3), (2, 3)), ((0, 1), (9, 10)), ((7, 8), (1, 9))]
             {
                 let (a, b) = (ratio(a.0, a.1), ratio(b.0, b.1));
-                let part = march.part(period, piece, &a, &b).unwrap();
-                let rounding = part.radius - march.bound_in_units(period).unwrap();
+                let (part, radius) = march.part(period, piece, &a, &b).unwrap();
+                let rounding = radius - march.bound_in_units(period).unwrap();
                 for u in -4..=4 {
                     let u = ratio(u, 4);
-                    let difference = value(&part.coefficients, &u) - value(whole, &(&a + &b * &u));
+                    let difference = value(&part, &u) - value(whole, &(&a + &b * &u));
                     let allowed = BigRational::from(BigInt::from(rounding));
                     assert!(difference.abs() <= allowed, "{period} {piece} {a} {b} {u}");
                     compared += 1;

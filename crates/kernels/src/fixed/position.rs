@@ -21,9 +21,12 @@ const END: u128 = 1 << POSITION_BITS;
 /// - One that is not has `fraction·2^−120 < x < (fraction + 1)·2^−120`, with `fraction < 2^120`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Position {
-    period: u32,
-    fraction: u128,
-    exact: bool,
+    /// The period n.
+    pub period: u32,
+    /// The place x in units of `2^−120`, rounded downwards.
+    pub fraction: u128,
+    /// Whether the place is not rounded.
+    pub exact: bool,
 }
 
 impl Position {
@@ -35,24 +38,9 @@ impl Position {
         Ok(Self { period, fraction, exact: true })
     }
 
-    /// The period n.
-    pub fn period(&self) -> u32 {
-        self.period
-    }
-
-    /// The place x in units of `2^−120`, rounded downwards.
-    pub fn fraction(&self) -> u128 {
-        self.fraction
-    }
-
     /// The place on the period as a double from 0 to 1, off by `2^−53` of itself and `2^−120` at most.
     pub fn local(&self) -> f64 {
         self.fraction as f64 / END as f64
-    }
-
-    /// Whether the place is not rounded.
-    pub fn is_exact(&self) -> bool {
-        self.exact
     }
 
     /// The position at or before a joint, as the side says; none before the start.

@@ -148,7 +148,7 @@ impl Scheme {
         };
         let multiple = &forcing / &decay;
         let small = |value: i64| value.abs() <= MOST_MULTIPLE;
-        let reflection = equation.reflection();
+        let reflection = &equation.reflection;
         Ok(Self {
             pieces,
             terms,

@@ -1,5 +1,7 @@
 //! Values in fixed point with a radius, and the doubles that they certify.
 
+use crate::exponent::scale;
+
 /// Fraction bits of coefficients and values: their unit is `2^−112`.
 pub const FRACTION_BITS: u32 = 112;
 
@@ -17,20 +19,6 @@ pub struct FixedValue {
     pub midpoint: i128,
     /// Half the length of the interval.
     pub radius: u128,
-}
-
-/// `value·2^−fraction_bits` as a double: the nearest one, or one of the two nearest where doubles
-/// are subnormal.
-pub(super) fn scaled(value: i128, fraction_bits: i64) -> f64 {
-    let mut exponent = -fraction_bits;
-    let mut double = value as f64;
-    // Three steps lead from the ends of the range of i128 past those of doubles.
-    for _ in 0..3 {
-        let step = exponent.clamp(-1000, 1000);
-        double *= (step as f64).exp2();
-        exponent -= step;
-    }
-    double
 }
 
 /// The double to which every real number of the interval
@@ -89,18 +77,5 @@ fn nearest(size: u128, ties: Ties, fraction_bits: i64) -> Option<f64> {
     if place.saturating_add(digits) > LARGEST_PLACE {
         return None;
     }
-    Some(exact(steps as u64, place))
-}
-
-/// `significand·2^place`, which is a double.
-#[inline]
-fn exact(significand: u64, place: i64) -> f64 {
-    let power = |exponent: i64| f64::from_bits(((exponent + 1023) as u64) << 52);
-    let double = significand as f64;
-    match place {
-        // Every product is a double: the last one has the digits of the result.
-        -1022..=1023 => double * power(place),
-        ..-1022 => double * power(-1022) * power((place + 1022).max(-1022)),
-        _ => double * power(1023) * power((place - 1023).min(1023)),
-    }
+    Some(scale(steps as f64, place))
 }

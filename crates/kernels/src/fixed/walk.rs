@@ -25,31 +25,16 @@ pub(super) struct Walk {
     scheme: Scheme,
     stepper: Stepper,
     certificate: Certificate,
-    /// The periods done.
-    periods: u32,
 }
 
 impl Walk {
     /// The march before its first period.
     pub(super) fn new(scheme: Scheme) -> Self {
-        let (stepper, certificate) = (Stepper::new(scheme), Certificate::new(scheme));
-        Self { scheme, stepper, certificate, periods: 0 }
+        Self { scheme, stepper: Stepper::new(scheme), certificate: Certificate::new(scheme) }
     }
 
-    /// Writes the coefficients of the next period, which are zeros before, by those of the period
-    /// before, which are zeros for the first one, and proves the bound.
-    pub(super) fn advance(
-        &mut self,
-        before: &[i128],
-        current: &mut [i128],
-    ) -> Result<Proof, FixedError> {
-        let terms = self.stepper.advance(before, current, self.periods)?;
-        let bound = self.certificate.extend(before, current, terms)?;
-        self.periods += 1;
-        Ok(Proof { terms, bound })
-    }
-
-    /// Marches through periods up to a last one, each of which is shown to `visit` with its number.
+    /// Marches through periods up to a last one, each of which is shown to `visit` with its number and its
+    /// proof.
     pub(super) fn through(
         mut self,
         last: u32,
@@ -58,7 +43,9 @@ impl Walk {
         let scheme = self.scheme;
         let (mut before, mut current) = (vec![0; scheme.size()], vec![0; scheme.size()]);
         for number in 0..=last {
-            let proof = self.advance(&before, &mut current)?;
+            let terms = self.stepper.advance(&before, &mut current, number)?;
+            let bound = self.certificate.extend(&before, &current, terms)?;
+            let proof = Proof { terms, bound };
             visit(number, Period { scheme: &scheme, coefficients: &current, proof });
             std::mem::swap(&mut before, &mut current);
             current.fill(0);
@@ -87,7 +74,7 @@ impl Period<'_> {
     /// off by less than `2S·2^−120`, and `|dp/du| ≤ (M − 1) Σ|c_m| ≤ 63·64`.
     pub(super) fn value(&self, position: &Position) -> FixedValue {
         let Period { scheme, coefficients, proof } = *self;
-        let fraction = position.fraction();
+        let fraction = position.fraction;
         let shift = POSITION_BITS - scheme.pieces.trailing_zeros();
         let piece = (fraction >> shift).min(u128::from(scheme.pieces) - 1);
         // The distance from the centre of the piece, from −2^(shift−1) to 2^(shift−1).
@@ -105,7 +92,7 @@ impl Period<'_> {
         };
         let rounding = proof.terms as u128;
         // 63·64·2^112 · 2S·2^−120 units, rounded upwards.
-        let slope = if position.is_exact() { 0 } else { 32 * u128::from(scheme.pieces) };
+        let slope = if position.exact { 0 } else { 32 * u128::from(scheme.pieces) };
         FixedValue { midpoint, radius: proof.bound + rounding + slope }
     }
 }

@@ -145,16 +145,16 @@ impl Work for Record<'_> {
 impl Certificate {
     /// The certificate before the first period. O(1).
     pub fn new(reflection: &Reflection) -> Certificate {
-        let (rate, zero, ratio) = (reflection.rate(), reflection.zero(), reflection.ratio());
+        let Reflection { rate, zero, ratio } = *reflection;
         // C = ρ (A + B): two roundings, and what radii change.
-        let sum = zero.value() + rate.value();
-        let coupling = ratio.value() * sum;
-        let spread = zero.radius() + rate.radius();
-        let moved = ratio.magnitude() * spread + ratio.radius() * sum.abs();
+        let sum = zero.value + rate.value;
+        let coupling = ratio.value * sum;
+        let spread = zero.radius + rate.radius;
+        let moved = ratio.magnitude() * spread + ratio.radius * sum.abs();
         let radius = (moved + 2.01 * UNIT * coupling.abs()) * SLACK + UNDERFLOW;
         Certificate {
             ratio,
-            beta: quarter(rate.value(), rate.radius()),
+            beta: quarter(rate.value, rate.radius),
             gamma: quarter(coupling, radius),
             energy_weights: energy_weights(reflection),
             before: Vec::new(),
@@ -199,7 +199,7 @@ impl Certificate {
         std::mem::swap(&mut self.before, &mut self.wave);
         self.length = wave.len();
         self.periods += 1;
-        self.power = self.power.times(self.ratio.value());
+        self.power = self.power.times(self.ratio.value);
         self.slope = self.slope * self.ratio.magnitude() + self.magnitude;
         self.magnitude *= self.ratio.magnitude();
     }
@@ -231,9 +231,9 @@ impl Certificate {
         }
         g.resize(length, 0.0);
         e.resize(length, 0.0);
-        let ratio = self.ratio.value();
+        let ratio = self.ratio.value;
         let product = if self.ratio.is_exact_unit() { 0.0 } else { UNIT * ratio.abs() };
-        let product = product + self.ratio.radius();
+        let product = product + self.ratio.radius;
         let (ratio, product, unit) = (L::splat(ratio), L::splat(product), L::splat(UNIT));
         for group in 0..=groups {
             let k = WIDTH * group;
@@ -295,9 +295,7 @@ impl Certificate {
     /// `|ρⁿ − ρ'ⁿ| ≤ n |ρ|^{n−1} |ρ − ρ'|` with the larger ratio.
     fn power_error(&self) -> f64 {
         let rounding = if self.ratio.is_exact_unit() { 0.0 } else { 2.0 * UNIT * UNIT };
-        self.periods as f64 * rounding * self.magnitude
-            + self.slope * self.ratio.radius()
-            + UNDERFLOW
+        self.periods as f64 * rounding * self.magnitude + self.slope * self.ratio.radius + UNDERFLOW
     }
 
     /// A bound of `|p_n(x) − y_n(x)|` for all `x` in `[0, 1]` on the period recorded last, for
@@ -341,13 +339,13 @@ fn energy_weights(reflection: &Reflection) -> Option<(f64, f64)> {
     if !reflection.is_passive() {
         return None;
     }
-    let (rate, zero, ratio) = (reflection.rate(), reflection.zero(), reflection.ratio());
+    let Reflection { rate, zero, ratio } = *reflection;
     // The least ρ²A: A at its lowest, ρ² at its largest where that is negative and least otherwise.
     let least = zero.lower();
     let ratio = if least < 0.0 {
         ratio.magnitude()
     } else {
-        (ratio.value().abs() - ratio.radius()).next_down().max(0.0)
+        (ratio.value.abs() - ratio.radius).next_down().max(0.0)
     };
     let product = ratio * ratio * least;
     // Three roundings of the product, one of the sum.
@@ -395,10 +393,10 @@ impl<L: Lanes> Sums<L> {
         let (row, own, mismatch) = (self.rows, L::load(&u[1..]), L::load(&e[1..]));
         let du = L::load(u) - L::load(&u[2..]);
         let dg = L::load(g) - L::load(&g[2..]);
-        let beta = L::splat(self.beta.value());
-        let (a, b, c) = (row * own, beta * du, L::splat(self.gamma.value()) * dg);
+        let beta = L::splat(self.beta.value);
+        let (a, b, c) = (row * own, beta * du, L::splat(self.gamma.value) * dg);
         let sizes = a.abs() + b.abs() + c.abs();
-        let (beta, gamma) = (L::splat(self.beta.radius()), L::splat(self.gamma.radius()));
+        let (beta, gamma) = (L::splat(self.beta.radius), L::splat(self.gamma.radius));
         let radii = beta * du.abs() + gamma * dg.abs();
         let around = L::splat(self.largest_beta) * (L::load(e) + L::load(&e[2..]));
         let lost = L::splat(4.01 * UNIT) * sizes;

@@ -68,42 +68,30 @@ impl From<f64> for Complex {
     }
 }
 
-impl Add for Complex {
-    type Output = Complex;
-    #[inline]
-    fn add(self, other: Complex) -> Complex {
-        Complex { re: self.re + other.re, im: self.im + other.im }
-    }
-}
+macro_rules! operator {
+    ($operator:ident, $name:ident, |$a:ident, $b:ident| $value:expr) => {
+        impl $operator for Complex {
+            type Output = Complex;
 
-impl Sub for Complex {
-    type Output = Complex;
-    #[inline]
-    fn sub(self, other: Complex) -> Complex {
-        Complex { re: self.re - other.re, im: self.im - other.im }
-    }
-}
-
-impl Mul for Complex {
-    type Output = Complex;
-    #[inline]
-    fn mul(self, other: Complex) -> Complex {
-        Complex {
-            re: self.re * other.re - self.im * other.im,
-            im: self.re * other.im + self.im * other.re,
+            #[inline]
+            fn $name(self, other: Complex) -> Complex {
+                let ($a, $b) = (self, other);
+                $value
+            }
         }
-    }
+    };
 }
-
-impl Div for Complex {
-    type Output = Complex;
-    #[inline]
-    fn div(self, other: Complex) -> Complex {
-        let square = other.re * other.re + other.im * other.im;
-        let product = self * Complex { re: other.re, im: -other.im };
-        Complex { re: product.re / square, im: product.im / square }
-    }
-}
+operator!(Add, add, |a, b| Complex { re: a.re + b.re, im: a.im + b.im });
+operator!(Sub, sub, |a, b| Complex { re: a.re - b.re, im: a.im - b.im });
+operator!(Mul, mul, |a, b| Complex {
+    re: a.re * b.re - a.im * b.im,
+    im: a.re * b.im + a.im * b.re
+});
+operator!(Div, div, |a, b| {
+    let square = b.re * b.re + b.im * b.im;
+    let product = a * Complex { re: b.re, im: -b.im };
+    Complex { re: product.re / square, im: product.im / square }
+});
 
 impl Neg for Complex {
     type Output = Complex;

@@ -7,17 +7,17 @@
 /// `value` and `radius` are finite and `radius ≥ 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    value: f64,
-    radius: f64,
+    pub(crate) value: f64,
+    pub(crate) radius: f64,
 }
 
 impl Parameter {
-    /// The number `value` itself. O(1).
+    /// The number `value` itself.
     pub fn exact(value: f64) -> Result<Parameter, ReflectionError> {
         Parameter::within(value, 0.0)
     }
 
-    /// Some number `x` with `|x − value| ≤ radius`. O(1).
+    /// Some number `x` with `|x − value| ≤ radius`.
     pub fn within(value: f64, radius: f64) -> Result<Parameter, ReflectionError> {
         if !value.is_finite() || !radius.is_finite() {
             return Err(ReflectionError::NotFinite);
@@ -28,17 +28,7 @@ impl Parameter {
         Ok(Parameter { value, radius })
     }
 
-    /// The middle of the interval. O(1).
-    pub fn value(self) -> f64 {
-        self.value
-    }
-
-    /// How far the number may be from the middle. O(1).
-    pub fn radius(self) -> f64 {
-        self.radius
-    }
-
-    /// An upper bound of the number's absolute value, `|value| + radius` rounded up. O(1).
+    /// An upper bound of the number's absolute value, `|value| + radius` rounded up.
     pub fn magnitude(self) -> f64 {
         if self.radius == 0.0 {
             self.value.abs()
@@ -47,7 +37,7 @@ impl Parameter {
         }
     }
 
-    /// A lower bound of the number, `value − radius` rounded down. O(1).
+    /// A lower bound of the number, `value − radius` rounded down.
     pub fn lower(self) -> f64 {
         if self.radius == 0.0 { self.value } else { (self.value - self.radius).next_down() }
     }
@@ -73,13 +63,16 @@ impl Parameter {
 /// Every number within the radius of the rate is positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reflection {
-    rate: Parameter,
-    zero: Parameter,
-    ratio: Parameter,
+    /// `B = bD`, the decay during a period.
+    pub(crate) rate: Parameter,
+    /// `A = aD`, the zero of the reflection.
+    pub(crate) zero: Parameter,
+    /// `ρ`, the ratio of a returning jump to the jump that left.
+    pub(crate) ratio: Parameter,
 }
 
 impl Reflection {
-    /// The reflection with `B = rate`, `A = zero`, `ρ = ratio`. O(1).
+    /// The reflection with `B = rate`, `A = zero`, `ρ = ratio`.
     pub fn new(
         rate: Parameter,
         zero: Parameter,
@@ -91,30 +84,15 @@ impl Reflection {
         Ok(Reflection { rate, zero, ratio })
     }
 
-    /// The reflection with the given numbers, all of them exact. O(1).
+    /// The reflection with the given numbers, all of them exact.
     pub fn exact(rate: f64, zero: f64, ratio: f64) -> Result<Reflection, ReflectionError> {
         let exact = Parameter::exact;
         Reflection::new(exact(rate)?, exact(zero)?, exact(ratio)?)
     }
 
-    /// `B = bD`, the decay during a period. O(1).
-    pub fn rate(&self) -> Parameter {
-        self.rate
-    }
-
-    /// `A = aD`, the zero of the reflection. O(1).
-    pub fn zero(&self) -> Parameter {
-        self.zero
-    }
-
-    /// `ρ`, the ratio of a returning jump to the jump that left. O(1).
-    pub fn ratio(&self) -> Parameter {
-        self.ratio
-    }
-
     /// Whether no reflection within the radii gives energy to the wave: `|ρ| ≤ 1` and `|ρA| ≤ B`,
     /// the bounds of `|ρ (iω − A)/(iω + B)|` as `ω → ∞` and at `ω = 0`. It errs towards `false`.
-    /// O(1).
+    ///
     pub fn is_passive(&self) -> bool {
         let ratio = self.ratio.magnitude();
         let product = ratio * self.zero.magnitude();

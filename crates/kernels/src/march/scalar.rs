@@ -84,12 +84,12 @@ impl March {
         if !(threshold.is_finite() && threshold > 0.0 && (1..1 << 20).contains(&options.limit)) {
             return Err(MarchError::Options);
         }
-        let (rate, ratio) = (reflection.rate().value(), reflection.ratio().value());
+        let (rate, ratio) = (reflection.rate.value, reflection.ratio.value);
         // e^{−Bx} takes more than √B coefficients: refused before the factors are made.
         if rate.sqrt() > options.limit as f64 {
             return Err(MarchError::TooManyCoefficients { period: 0, limit: options.limit });
         }
-        let coupling = ratio * (reflection.zero().value() + rate);
+        let coupling = ratio * (reflection.zero.value + rate);
         let step = Relaxation::new(rate, coupling);
         let mut increment = step.decay().to_vec();
         trim(&mut increment, threshold);

@@ -60,7 +60,7 @@ pub struct WaveStep<T> {
 /// - all numbers are finite, and there is one wave at least.
 #[derive(Clone, PartialEq, Debug)]
 pub struct WaveSystem<T> {
-    steps: Vec<WaveStep<T>>,
+    pub(super) steps: Vec<WaveStep<T>>,
 }
 
 /// Why steps make no system.
@@ -109,11 +109,6 @@ impl<T: Scalar> WaveSystem<T> {
             known[wave] = true;
         }
         Ok(WaveSystem { steps })
-    }
-
-    /// The steps, in order.
-    pub fn steps(&self) -> &[WaveStep<T>] {
-        &self.steps
     }
 
     /// How many waves there are.

@@ -54,20 +54,14 @@ pub struct WaveMarch<T> {
     depth: usize,
     /// The largest coefficient of each wave so far.
     largest: Vec<f64>,
-    scratch: Scratch<T>,
-}
-
-/// Room for one span.
-struct Scratch<T> {
-    right: Vec<T>,
-    state: Vec<T>,
-    slope: Vec<T>,
+    /// Room for one span: what drives a state, the state, and a slope.
+    scratch: [Vec<T>; 3],
 }
 
 impl<T: Scalar> WaveMarch<T> {
     /// The march on its first period, 0. The cost is that of [`WaveMarch::advance`].
     pub fn new(system: WaveSystem<T>) -> Result<WaveMarch<T>, WaveMarchError> {
-        let fastest = system.steps().iter().filter_map(|step| step.state.as_ref());
+        let fastest = system.steps.iter().filter_map(|step| step.state.as_ref());
         let fastest = fastest.map(|state| turning(state.rate)).fold(0.0, f64::max);
         if fastest > MAX_SPANS as f64 {
             return Err(WaveMarchError::TooManySpans { limit: MAX_SPANS });
@@ -80,14 +74,14 @@ impl<T: Scalar> WaveMarch<T> {
             Some((FirstOrder::new(state.rate * part), state.initial))
         };
         let mut march = WaveMarch {
-            states: system.steps().iter().map(state).collect(),
+            states: system.steps.iter().map(state).collect(),
             spans,
             period: 0,
             kept: VecDeque::new(),
             // A jump needs the end of the period before.
             depth: system.largest_lag() + 2,
             largest: vec![0.0; system.waves()],
-            scratch: Scratch::empty(),
+            scratch: Default::default(),
             system,
         };
         march.solve()?;
@@ -183,9 +177,9 @@ impl<T: Scalar> WaveMarch<T> {
         let pieces = (0..self.system.waves()).map(|_| empty()).collect();
         self.kept.push_front(pieces);
         for place in 0..self.system.waves() {
-            let mut scratch = std::mem::replace(&mut self.scratch, Scratch::empty());
+            let mut scratch = std::mem::take(&mut self.scratch);
             let mut state = self.states[place].take();
-            let step = &self.system.steps()[place];
+            let step = &self.system.steps[place];
             let wave = step.wave;
             let solved = self.wave(step, state.as_mut(), self.largest[wave], &mut scratch);
             (self.scratch, self.states[place]) = (scratch, state);
@@ -202,7 +196,7 @@ impl<T: Scalar> WaveMarch<T> {
         step: &WaveStep<T>,
         state: Option<&mut (FirstOrder<T>, T)>,
         mut largest: f64,
-        Scratch { right, state: z, slope }: &mut Scratch<T>,
+        [right, z, slope]: &mut [Vec<T>; 3],
     ) -> Result<(Piece<T>, f64), WaveMarchError> {
         let mut state = step.state.as_ref().zip(state);
         if let Some((State { jumps, .. }, (_, end))) = &mut state {
@@ -287,12 +281,6 @@ impl<T: Scalar> WaveMarch<T> {
                 add_scaled(sum, &piece.spans[span], term.weight);
             }
         }
-    }
-}
-
-impl<T> Scratch<T> {
-    fn empty() -> Scratch<T> {
-        Scratch { right: Vec::new(), state: Vec::new(), slope: Vec::new() }
     }
 }
 

@@ -42,7 +42,7 @@ fn compare(equation: &Echoes, periods: u32, places: u32, samples: &mut Random, s
         for (period, exact) in (0..periods).zip(equation.solution(&part, periods)) {
             let time = (&part + integer(period.into())) * &equation.period;
             let position = reduction.of_rational(&time, side).unwrap().unwrap();
-            assert_eq!(position.period(), period);
+            assert_eq!(position.period, period);
             let value = march.value(&position).unwrap();
             let error = equation.error(&value, &exact, equation.bits(periods));
             let share = error / value.radius as f64;
@@ -201,12 +201,12 @@ fn radii_cover_the_rounding_of_positions() {
         let part = ratio((samples.bits() % 1000) as i64 * 3 + 1, 3000);
         let time = (part + integer(period)) * &equation.period;
         let rounded = reduction.of_rational(&time, Limit::Right).unwrap().unwrap();
-        assert!(!rounded.is_exact());
+        assert!(!rounded.exact);
         let value = march.value(&rounded).unwrap();
         let unit = (-f64::from(FRACTION_BITS)).exp2();
         assert!(value.radius as f64 * unit > march.bound_of(period as u32).unwrap());
         let exact = |offset| {
-            let position = Position::exact(period as u32, rounded.fraction() + offset).unwrap();
+            let position = Position::exact(period as u32, rounded.fraction + offset).unwrap();
             march.value(&position).unwrap()
         };
         let (here, next) = (exact(0), exact(1));
@@ -419,17 +419,14 @@ fn reductions_are_exact() {
                         || exact.is_negative()
                 ),
                 Ok(Some(position)) => {
-                    let fraction =
-                        BigRational::new(position.fraction().into(), BigInt::one() << 120);
-                    let excess = exact - integer(position.period().into()) - fraction;
+                    let fraction = BigRational::new(position.fraction.into(), BigInt::one() << 120);
+                    let excess = exact - integer(position.period.into()) - fraction;
                     let unit = BigRational::new(BigInt::one(), BigInt::one() << 120);
-                    assert_eq!(excess.is_zero(), position.is_exact());
+                    assert_eq!(excess.is_zero(), position.exact);
                     assert!(!excess.is_negative() && excess < unit);
-                    let end = position.fraction() == 1 << 120;
+                    let end = position.fraction == 1 << 120;
                     assert!(!end || side == Limit::Left);
-                    assert!(
-                        side == Limit::Right || position.fraction() > 0 || !position.is_exact()
-                    );
+                    assert!(side == Limit::Right || position.fraction > 0 || !position.exact);
                     joints += usize::from(end);
                 }
             }
