@@ -16,6 +16,7 @@ use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{At, Enclosure, Limit, Signal};
 use crate::evaluate::taylor::Taylor;
 use crate::limits::{MAX_PIECES, MAX_POLYNOMIALS};
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 use wavestep_kernels::fixed::{Interpolant, Spans};
 use wavestep_polynomial::Rational;
@@ -79,26 +80,35 @@ pub(crate) struct Cell {
 /// A signal with its cells, made as they are asked for.
 pub(crate) struct Window<'a> {
     pub signal: &'a dyn Signal,
-    /// The smallest doubles of the stretches.
-    firsts: Vec<f64>,
+    /// The smallest doubles of the stretches, once they are asked for.
+    firsts: OnceCell<Vec<f64>>,
     /// A march that knows all pieces of the signal, where there is one.
-    marched: Option<MarchedPieces>,
+    pub marched: Option<MarchedPieces>,
     /// The precision that has done so far.
     bits: std::cell::Cell<u64>,
 }
 
 impl<'a> Window<'a> {
     /// All of a signal's window.
-    pub(crate) fn new(signal: &'a dyn Signal) -> Result<Window<'a>, EvaluateError> {
-        if let Ok(form) = signal.closed_form() {
-            let order = form.order(signal.window()[1])?;
+    pub(crate) fn new(signal: &'a dyn Signal) -> Window<'a> {
+        let (firsts, bits) = (OnceCell::new(), std::cell::Cell::new(0));
+        Window { signal, firsts, marched: None, bits }
+    }
+
+    /// The smallest doubles of the stretches; refused where there are too many.
+    fn firsts(&self) -> Result<&[f64], EvaluateError> {
+        if let Some(firsts) = self.firsts.get() {
+            return Ok(firsts);
+        }
+        if let Ok(form) = self.signal.closed_form() {
+            let order = form.order(self.signal.window()[1])?;
             if form.is_on_grid() && order > MAX_PIECES {
                 let (echoes, limit) = (order as u128, MAX_PIECES);
                 return Err(EvaluateError::TooManyEchoes { echoes, limit });
             }
         }
-        let firsts = first_doubles(signal)?;
-        Ok(Window { signal, firsts, marched: None, bits: std::cell::Cell::new(0) })
+        let firsts = first_doubles(self.signal)?;
+        Ok(self.firsts.get_or_init(|| firsts))
     }
 
     /// Takes pieces from a march in fixed-point numbers, where the signal has one pole and one lag and
@@ -109,8 +119,8 @@ impl<'a> Window<'a> {
     }
 
     /// How many stretches there are.
-    pub(crate) fn count(&self) -> usize {
-        self.firsts.len()
+    pub(crate) fn count(&self) -> Result<usize, EvaluateError> {
+        Ok(self.firsts()?.len())
     }
 
     /// The double nearest to the value at a time, or next to it where that is not decided: balls with
@@ -129,14 +139,13 @@ impl<'a> Window<'a> {
         Precisions::doubling(128, 1024).raise(attempt).map(Attempt::best)
     }
 
-    /// The doubles of a stretch, the first and the last; `None` where there are none.
-    fn doubles(&self, stretch: usize) -> Option<(f64, f64)> {
-        let first = self.firsts[stretch];
-        let last = match self.firsts.get(stretch + 1) {
-            Some(next) => next.next_down(),
-            None => at_or_before(self.signal.window()[1]),
-        };
-        (first <= last).then_some((first, last))
+    /// The doubles of each stretch, the first and the last, where there are some.
+    fn doubles(&self) -> Result<impl Iterator<Item = (usize, (f64, f64))>, EvaluateError> {
+        let firsts = self.firsts()?;
+        let end = at_or_before(self.signal.window()[1]);
+        let lasts = firsts.iter().skip(1).map(|next| next.next_down()).chain([end]);
+        let doubles = firsts.iter().copied().zip(lasts).enumerate();
+        Ok(doubles.filter(|(_, (first, last))| first <= last))
     }
 
     /// About the largest absolute value at the beginning, in the middle and at the end of some of the
@@ -144,11 +153,15 @@ impl<'a> Window<'a> {
     pub(crate) fn scale(&self) -> Result<Magnitude, EvaluateError> {
         /// How many stretches are looked at.
         const SAMPLES: usize = 40;
-        if let Some(found) = self.marched.as_ref().and_then(|marched| self.marched_scale(marched)) {
+        let doubles = self.doubles()?.map(|(_, doubles)| doubles);
+        if let Some(found) =
+            self.marched.as_ref().and_then(|marched| marched_scale(marched, doubles))
+        {
             return Ok(found);
         }
+        let count = self.count()?;
         let mut scale = Magnitude::ZERO;
-        for stretch in (0..self.count()).step_by(self.count().div_ceil(SAMPLES)) {
+        for stretch in (0..count).step_by(count.div_ceil(SAMPLES)) {
             let middle = self.middle(stretch)?;
             for at in [At::End(Limit::Right), At::Time(&middle), At::End(Limit::Left)] {
                 let attempt = |bits| {
@@ -167,16 +180,6 @@ impl<'a> Window<'a> {
         Ok(scale)
     }
 
-    /// The same from a march: at the first, middle and last doubles of all stretches.
-    fn marched_scale(&self, marched: &MarchedPieces) -> Option<Magnitude> {
-        let stretches = (0..self.count()).filter_map(|stretch| self.doubles(stretch));
-        let times: Vec<f64> = stretches
-            .flat_map(|(first, last)| [first, first + (last - first) / 2.0, last])
-            .collect();
-        let (values, _) = marched.certified(&times, Limit::Right)?;
-        Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
-    }
-
     /// What errors are compared with: the largest value, or where no value but zero was found, what the
     /// signal comes to a little later.
     pub(crate) fn scale_of_errors(&self) -> Result<Magnitude, EvaluateError> {
@@ -187,7 +190,7 @@ impl<'a> Window<'a> {
         if !scale.is_zero() {
             return Ok(scale);
         }
-        let (last, to) = (self.count() - 1, self.signal.window()[1]);
+        let (last, to) = (self.count()? - 1, self.signal.window()[1]);
         let mut size = Magnitude::ZERO;
         for later in LATER {
             let later = Rational::from(&Magnitude::power_of_two(later));
@@ -216,9 +219,9 @@ impl<'a> Window<'a> {
         // Stretches are much alike: each is first cut as often as its predecessor at least was.
         let mut depth = 0;
         let mut width = None;
-        for stretch in 0..self.count() {
-            let Some(doubles) = self.doubles(stretch) else { continue };
-            if let Some(fitted) = fitted(self.marched.as_ref(), doubles, fit, &mut width) {
+        let marched = self.marched.as_ref().filter(|marched| marched.serves(fit.error));
+        for (stretch, doubles) in self.doubles()? {
+            if let Some(fitted) = fitted(marched, doubles, fit, &mut width) {
                 cells.extend(fitted.into_iter().map(|cell| Cell { stretch, ..cell }));
                 if cells.len() > MAX_POLYNOMIALS {
                     return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
@@ -226,10 +229,7 @@ impl<'a> Window<'a> {
                 continue;
             }
             let mut least = MAX_DEPTH;
-            let spans = match &self.marched {
-                Some(marched) if marched.serves(fit.error) => marched.spans(doubles),
-                _ => vec![doubles],
-            };
+            let spans = marched.map_or_else(|| vec![doubles], |marched| marched.spans(doubles));
             let mut open: Vec<_> = spans.into_iter().rev().map(|span| (span, 0)).collect();
             while let Some(((first, last), halvings)) = open.pop() {
                 let cell = match halvings < depth && first < last {
@@ -325,7 +325,17 @@ pub fn reaching_a_double([from, to]: [Rational; 2]) -> [Rational; 2] {
 /// About the largest absolute value of a signal on its window, from the beginnings, middles and ends of
 /// some stretches; the largest one is not smaller by more than one part in 2^18.
 pub fn scale(signal: &dyn Signal) -> Result<f64, EvaluateError> {
-    Ok(Window::new(signal)?.scale()?.to_double())
+    Ok(Window::new(signal).scale()?.to_double())
+}
+
+/// The largest value of a march at the first, middle and last doubles of all stretches.
+fn marched_scale(
+    marched: &MarchedPieces,
+    stretches: impl Iterator<Item = (f64, f64)>,
+) -> Option<Magnitude> {
+    let times = stretches.flat_map(|(first, last)| [first, first + (last - first) / 2.0, last]);
+    let (values, _) = marched.certified(&times.collect::<Vec<f64>>(), Limit::Right)?;
+    Some(values.into_iter().map(Magnitude::from_double).max().unwrap_or(Magnitude::ZERO))
 }
 
 /// Enclosures of one limit at a time, from its stretch where that is known.
@@ -389,7 +399,7 @@ fn first_double(signal: &dyn Signal, stretch: usize) -> Result<f64, EvaluateErro
 }
 
 /// The cells of a range of doubles, of the stretch 0; `width` is that of the last cell of the range
-/// before, and becomes that of this one. None where there is no march or none that serves, where
+/// before, and becomes that of this one. None where there is no march, where
 /// nothing is said about rounding, and where no polynomials are found.
 fn fitted(
     marched: Option<&MarchedPieces>,
@@ -398,8 +408,7 @@ fn fitted(
     width: &mut Option<f64>,
 ) -> Option<Vec<Cell>> {
     let rounding = fit.rounding?.to_double();
-    let marched = marched.filter(|marched| marched.serves(fit.error))?;
-    let spans = marched.of_period((first, last), fit.degree)?;
+    let spans = marched?.of_period((first, last), fit.degree)?;
     let limits = [fit.error.to_double(), rounding];
     let mut cells = Vec::new();
     let mut start = first;

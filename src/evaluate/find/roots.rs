@@ -114,11 +114,12 @@ impl Roots {
 /// The relative width in bits of an interval that stays undecided.
 const UNDECIDED_BITS: u64 = 80;
 
-/// What one search is about.
-#[derive(Clone, Copy)]
-struct Question<'a> {
-    target: Target<'a>,
+/// A search on its way.
+struct Finder<'s, 'a> {
+    search: &'s Search<'a>,
+    target: Target<'s>,
     digits: usize,
+    all: Vec<Root>,
 }
 
 /// What is known of a stretch at its ends.
@@ -144,43 +145,10 @@ impl Search<'_> {
     ) -> Result<Roots, EvaluateError> {
         let limit_bits = limit_bits.min(self.most_bits).max(self.bits.get());
         let target = Target { order: 0, level, limit_bits };
-        let question = Question { target, digits };
         self.work.set(0);
-        let mut all = Vec::new();
-        let mut before: Option<Ends> = None;
-        for stretch in 0..self.count {
-            let first = self.sign(stretch, target, At::End(Limit::Right))?;
-            if self.function.is_instant(stretch) {
-                let now = Ends { first, last: None, vanishes: false };
-                self.join(stretch, &question, before.take(), &now, &mut all)?;
-                return Ok(Roots { all });
-            }
-            let last = self.sign(stretch, target, At::End(Limit::Left))?;
-            let constant = self.is_constant(stretch)?;
-            let equal = Some(Ordering::Equal);
-            let vanishes = constant && (first == equal || last == equal);
-            let now = Ends { first, last, vanishes };
-            self.join(stretch, &question, before.take(), &now, &mut all)?;
-            if constant && first.is_none() {
-                let [from, to] = self.bounds(stretch)?;
-                self.leave(stretch, target, (from, to), false, &mut all)?;
-            } else if !constant {
-                self.roots_within(stretch, &question, &now, &mut all)?;
-            }
-            if all.len() > MAX_ROOTS {
-                return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });
-            }
-            before = Some(now);
-        }
-        let end = before.expect("a window has a stretch that is no instant");
-        match (end.vanishes, end.last) {
-            (true, _) => end_interval(&mut all, known(&self.window[1]), Some(Ordering::Equal)),
-            (false, Some(Ordering::Equal)) => {
-                all.push(Root::End { time: known(&self.window[1]) });
-            }
-            _ => {}
-        }
-        Ok(Roots { all })
+        let mut finder = Finder { search: self, target, digits, all: Vec::new() };
+        finder.all_stretches()?;
+        Ok(Roots { all: finder.all })
     }
 
     /// When a stretch begins.
@@ -202,81 +170,6 @@ impl Search<'_> {
         }
     }
 
-    /// What happens where a stretch begins.
-    fn join(
-        &self,
-        stretch: usize,
-        question: &Question<'_>,
-        before: Option<Ends>,
-        now: &Ends,
-        all: &mut Vec<Root>,
-    ) -> Result<(), EvaluateError> {
-        let (equal, limit_bits) = (Some(Ordering::Equal), question.target.limit_bits);
-        let time = || self.beginning(stretch, question.digits, limit_bits);
-        let Some(before) = before else {
-            match now.vanishes {
-                true => all.push(Root::Interval { from: time()?, to: time()?, closed: true }),
-                false if now.first == equal => all.push(Root::End { time: time()? }),
-                false => {}
-            }
-            return Ok(());
-        };
-        match (before.vanishes, now.vanishes) {
-            (true, true) => return Ok(()),
-            (true, false) => {
-                end_interval(all, time()?, now.first);
-                if now.first.is_some() {
-                    return Ok(());
-                }
-            }
-            (false, true) => {
-                all.push(Root::Interval { from: time()?, to: time()?, closed: true });
-                return Ok(());
-            }
-            (false, false) => {}
-        }
-        match (before.last, now.first) {
-            (Some(before), Some(after))
-                if before == Ordering::Equal || after == Ordering::Equal =>
-            {
-                let zero = Ordering::Equal;
-                let (before, after) = (before == zero, after == zero);
-                all.push(Root::Arrival { time: time()?, before, after });
-            }
-            (Some(before), Some(after)) if before != after => {
-                let limits = [
-                    self.limit_value(stretch - 1, Limit::Left, question)?,
-                    self.limit_value(stretch, Limit::Right, question)?,
-                ];
-                all.push(Root::Jump { time: time()?, limits });
-            }
-            (Some(_), Some(_)) => {}
-            _ => {
-                // A limit that cannot be told from v.
-                let from = self.bounds(stretch)?[0].clone();
-                let to = self.bounds(stretch - 1)?[1].clone();
-                let (from, to) = (from.clone().min(to.clone()), from.max(to));
-                self.leave(stretch, question.target, (from, to), false, all)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// A limit with digits.
-    fn limit_value(
-        &self,
-        stretch: usize,
-        side: Limit,
-        question: &Question<'_>,
-    ) -> Result<Value, EvaluateError> {
-        if let Some(value) = self.function.exact(stretch, At::End(side))? {
-            return Ok(known(&value));
-        }
-        let limit_bits = question.target.limit_bits;
-        let limit = |bits| self.function.enclose(stretch, 0, At::End(side), bits);
-        Ok(Value::certify(question.digits, limit_bits, limit)?.exact_if_known())
-    }
-
     /// Whether the observable is constant on a stretch: coefficient by coefficient, its derivative
     /// having none but exact zeros; or since waves cancel each other, as exact values prove.
     pub(crate) fn is_constant(&self, stretch: usize) -> Result<bool, EvaluateError> {
@@ -294,60 +187,6 @@ impl Search<'_> {
             Some(value) => self.function.equals(stretch, &value, &bounds, bits),
             None => Ok(false),
         }
-    }
-
-    /// The roots within a stretch, its ends excluded.
-    fn roots_within(
-        &self,
-        stretch: usize,
-        question: &Question<'_>,
-        ends: &Ends,
-        all: &mut Vec<Root>,
-    ) -> Result<(), EvaluateError> {
-        let target = question.target;
-        let cells = self.cover(stretch, target, None)?;
-        let count = cells.len();
-        for (i, cell) in cells.iter().enumerate() {
-            let place = || (cell.from.clone(), cell.to.clone());
-            if matches!(cell.finding, Finding::Clear(_) | Finding::Low) {
-                continue;
-            }
-            let signs = self.signs(stretch, target, &cells, i, Some([ends.first, ends.last]))?;
-            match (cell.finding, signs) {
-                (Finding::Monotone(_), [Some(first), Some(last)]) => {
-                    if let Some(root) = Isolated::between(cell, stretch, [first, last]) {
-                        let time = self.root(&root, target, question.digits)?;
-                        all.push(Root::Simple { time, rises: root.rises });
-                    }
-                }
-                (Finding::Monotone(slope), _) => {
-                    // A value that cannot be told from v, and the root near it if there is one.
-                    let mut root = Isolated::on(cell, stretch, slope == Ordering::Greater);
-                    self.narrow(&mut root, target, UNDECIDED_BITS)?;
-                    if root.from <= root.to {
-                        self.leave(stretch, target, (root.from, root.to), false, all)?;
-                    }
-                }
-                (_, [first, last]) => {
-                    let equal = Some(Ordering::Equal);
-                    let (starts, stops) =
-                        (i == 0 && first == equal, i + 1 == count && last == equal);
-                    let lone = match (starts, stops) {
-                        (true, false) => self.touches(stretch, Limit::Right, cell, target)?,
-                        (false, true) => self.touches(stretch, Limit::Left, cell, target)?,
-                        _ => false,
-                    };
-                    if !lone {
-                        let crosses = first.zip(last).is_some_and(|(a, b)| differ([a, b]));
-                        self.leave(stretch, target, place(), crosses, all)?;
-                    }
-                }
-            }
-            if all.len() > MAX_ROOTS {
-                return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });
-            }
-        }
-        Ok(())
     }
 
     /// The signs of a target at both ends of the i-th of the cells of a stretch; at the ends of the stretch
@@ -372,50 +211,200 @@ impl Search<'_> {
             sign(i + 1 == cells.len(), &cells[i].to, Limit::Left, last)?,
         ])
     }
+}
+
+impl Finder<'_, '_> {
+    /// The roots of all stretches, and where they meet.
+    fn all_stretches(&mut self) -> Result<(), EvaluateError> {
+        let (search, target) = (self.search, self.target);
+        let equal = Some(Ordering::Equal);
+        let mut before: Option<Ends> = None;
+        for stretch in 0..search.count {
+            let first = search.sign(stretch, target, At::End(Limit::Right))?;
+            if search.function.is_instant(stretch) {
+                let now = Ends { first, last: None, vanishes: false };
+                return self.join(stretch, before, &now);
+            }
+            let last = search.sign(stretch, target, At::End(Limit::Left))?;
+            let constant = search.is_constant(stretch)?;
+            let vanishes = constant && (first == equal || last == equal);
+            let now = Ends { first, last, vanishes };
+            self.join(stretch, before, &now)?;
+            if constant && first.is_none() {
+                let [from, to] = search.bounds(stretch)?;
+                self.leave(stretch, (from, to), false)?;
+            } else if !constant {
+                self.roots_within(stretch, &now)?;
+            }
+            self.check()?;
+            before = Some(now);
+        }
+        let end = before.expect("a window has a stretch that is no instant");
+        if end.vanishes {
+            self.end_interval(known(&search.window[1]), equal);
+        } else if end.last == equal {
+            self.all.push(Root::End { time: known(&search.window[1]) });
+        }
+        Ok(())
+    }
+
+    /// Refuses to list too many.
+    fn check(&self) -> Result<(), EvaluateError> {
+        match self.all.len() > MAX_ROOTS {
+            true => Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS }),
+            false => Ok(()),
+        }
+    }
+
+    /// What happens where a stretch begins.
+    fn join(
+        &mut self,
+        stretch: usize,
+        before: Option<Ends>,
+        now: &Ends,
+    ) -> Result<(), EvaluateError> {
+        let (search, digits, bits) = (self.search, self.digits, self.target.limit_bits);
+        let time = || search.beginning(stretch, digits, bits);
+        let equal = Ordering::Equal;
+        let starts = now.vanishes && before.as_ref().is_none_or(|before| !before.vanishes);
+        if starts {
+            let interval = Root::Interval { from: time()?, to: time()?, closed: true };
+            self.all.push(interval);
+            return Ok(());
+        }
+        let Some(before) = before else {
+            if now.first == Some(equal) {
+                let root = Root::End { time: time()? };
+                self.all.push(root);
+            }
+            return Ok(());
+        };
+        if before.vanishes {
+            if now.vanishes {
+                return Ok(());
+            }
+            let time = time()?;
+            self.end_interval(time, now.first);
+            if now.first.is_some() {
+                return Ok(());
+            }
+        }
+        match (before.last, now.first) {
+            (Some(before), Some(after)) if before == equal || after == equal => {
+                let (before, after) = (before == equal, after == equal);
+                let root = Root::Arrival { time: time()?, before, after };
+                self.all.push(root);
+            }
+            (Some(before), Some(after)) if before != after => {
+                let limits = [
+                    self.limit_value(stretch - 1, Limit::Left)?,
+                    self.limit_value(stretch, Limit::Right)?,
+                ];
+                let root = Root::Jump { time: time()?, limits };
+                self.all.push(root);
+            }
+            (Some(_), Some(_)) => {}
+            _ => {
+                // A limit that cannot be told from v.
+                let [from, _] = search.bounds(stretch)?;
+                let [_, to] = search.bounds(stretch - 1)?;
+                let (from, to) = if to < from { (to, from) } else { (from, to) };
+                self.leave(stretch, (from, to), false)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A limit with digits.
+    fn limit_value(&self, stretch: usize, side: Limit) -> Result<Value, EvaluateError> {
+        let function = self.search.function;
+        if let Some(value) = function.exact(stretch, At::End(side))? {
+            return Ok(known(&value));
+        }
+        let limit = |bits| function.enclose(stretch, 0, At::End(side), bits);
+        Ok(Value::certify(self.digits, self.target.limit_bits, limit)?.exact_if_known())
+    }
+
+    /// The roots within a stretch, its ends excluded.
+    fn roots_within(&mut self, stretch: usize, ends: &Ends) -> Result<(), EvaluateError> {
+        let (search, target) = (self.search, self.target);
+        let cells = search.cover(stretch, target, None)?;
+        let count = cells.len();
+        for (i, cell) in cells.iter().enumerate() {
+            if matches!(cell.finding, Finding::Clear(_) | Finding::Low) {
+                continue;
+            }
+            let signs = search.signs(stretch, target, &cells, i, Some([ends.first, ends.last]))?;
+            match (cell.finding, signs) {
+                (Finding::Monotone(_), [Some(first), Some(last)]) => {
+                    if let Some(root) = Isolated::between(cell, stretch, [first, last]) {
+                        let time = search.root(&root, target, self.digits)?;
+                        self.all.push(Root::Simple { time, rises: root.rises });
+                    }
+                }
+                (Finding::Monotone(slope), _) => {
+                    // A value that cannot be told from v, and the root near it if there is one.
+                    let mut root = Isolated::on(cell, stretch, slope == Ordering::Greater);
+                    search.narrow(&mut root, target, UNDECIDED_BITS)?;
+                    if root.from <= root.to {
+                        self.leave(stretch, (root.from, root.to), false)?;
+                    }
+                }
+                (_, [first, last]) => {
+                    let equal = Some(Ordering::Equal);
+                    let (starts, stops) =
+                        (i == 0 && first == equal, i + 1 == count && last == equal);
+                    let lone = match (starts, stops) {
+                        (true, false) => self.touches(stretch, Limit::Right, cell)?,
+                        (false, true) => self.touches(stretch, Limit::Left, cell)?,
+                        _ => false,
+                    };
+                    if !lone {
+                        let crosses = first.zip(last).is_some_and(|(a, b)| differ([a, b]));
+                        self.leave(stretch, (cell.from.clone(), cell.to.clone()), crosses)?;
+                    }
+                }
+            }
+            self.check()?;
+        }
+        Ok(())
+    }
 
     /// Whether `f − v`, exactly zero at this end of the stretch, has no other root in the cell
     /// beside it: `f' = 0` there exactly, and `f''` has a sign on all of the cell.
-    fn touches(
-        &self,
-        stretch: usize,
-        side: Limit,
-        cell: &Cell,
-        target: Target<'_>,
-    ) -> Result<bool, EvaluateError> {
-        let curvature = Target { order: 2, ..target };
-        let range = self.range(stretch, curvature, (&cell.from, &cell.to), self.bits.get())?;
+    fn touches(&self, stretch: usize, side: Limit, cell: &Cell) -> Result<bool, EvaluateError> {
+        let (search, curvature) = (self.search, Target { order: 2, ..self.target });
+        let range = search.range(stretch, curvature, (&cell.from, &cell.to), search.bits.get())?;
         let sign = range.sign();
         Ok(sign.is_some_and(|sign| sign != Ordering::Equal)
-            && self.slope_vanishes(stretch, side)?)
+            && search.slope_vanishes(stretch, side)?)
     }
 
     /// Notes an interval on which nothing is proven, as one with that before it where they meet.
     fn leave(
-        &self,
+        &mut self,
         stretch: usize,
-        target: Target<'_>,
         (mut from, mut to): (Rational, Rational),
         mut crosses: bool,
-        all: &mut Vec<Root>,
     ) -> Result<(), EvaluateError> {
-        let bits = self.bits.get();
-        let mut range = self.range(stretch, target, (&from, &to), bits)?;
-        if let Some(Root::Undecided { from: first, to: last, range: known, .. }) = all.last()
+        let bits = self.search.bits.get();
+        let mut range = self.search.range(stretch, self.target, (&from, &to), bits)?;
+        if let Some(Root::Undecided { from: first, to: last, range: known, .. }) = self.all.last()
             && *last >= from
         {
             let ((a, b), (c, d)) = (rationals(known), rationals(&range));
             range = Ball::between(&a.min(c), &b.max(d), bits);
             (from, to, crosses) = (from.min(first.clone()), to.max(last.clone()), false);
-            all.pop();
+            self.all.pop();
         }
-        all.push(Root::Undecided { from, to, range, crosses });
+        self.all.push(Root::Undecided { from, to, range, crosses });
         Ok(())
     }
-}
 
-/// Ends the interval of roots that is last; its end belongs to it where the signal has the value there.
-fn end_interval(all: &mut [Root], end: Value, there: Option<Ordering>) {
-    if let Some(Root::Interval { to, closed, .. }) = all.last_mut() {
-        (*to, *closed) = (end, there == Some(Ordering::Equal));
+    /// Ends the interval of roots that is last; its end belongs to it where the signal has the value there.
+    fn end_interval(&mut self, end: Value, there: Option<Ordering>) {
+        if let Some(Root::Interval { to, closed, .. }) = self.all.last_mut() {
+            (*to, *closed) = (end, there == Some(Ordering::Equal));
+        }
     }
 }

@@ -12,10 +12,10 @@ use crate::ball::{Attempt, Ball, Precisions, rational};
 use crate::evaluate::cells::{Fit, Window, enclosure};
 use crate::evaluate::digits::rational_value;
 use crate::evaluate::error::EvaluateError;
-use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{Limit, Signal};
 use num_traits::ToPrimitive as _;
 use std::cell::OnceCell;
+use wavestep_kernels::fixed::ExactTime;
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
 
@@ -34,39 +34,24 @@ const MANY: usize = 2_000;
 
 /// Correctly rounded values of an observable on a window.
 pub struct Certified<'a> {
-    signal: &'a dyn Signal,
-    /// Pieces from a march, where there is one.
-    marched: Option<MarchedPieces>,
-    /// Made when values are asked for that no march decides.
-    window: OnceCell<Window<'a>>,
+    window: Window<'a>,
     table: OnceCell<Table>,
 }
 
 impl<'a> Certified<'a> {
     /// Values of a signal on its window.
     pub fn new(signal: &'a dyn Signal) -> Result<Certified<'a>, MethodError> {
-        let marched = MarchedPieces::of(signal);
-        let (window, table) = (OnceCell::new(), OnceCell::new());
-        let certified = Certified { signal, marched, window, table };
-        if certified.marched.is_none() {
-            certified.window()?;
+        let window = Window::new(signal).marching();
+        if window.marched.is_none() {
+            // Too many arrivals are refused at once.
+            window.count()?;
         }
-        Ok(certified)
-    }
-
-    fn window(&self) -> Result<&Window<'a>, MethodError> {
-        if let Some(window) = self.window.get() {
-            return Ok(window);
-        }
-        let window = Window::new(self.signal)?;
-        let window = if self.marched.is_some() { window.marching() } else { window };
-        Ok(self.window.get_or_init(|| window))
+        Ok(Certified { window, table: OnceCell::new() })
     }
 
     /// Values that a march gives, and the places of those that it does not decide.
-    fn by_march(&self, times: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
-        inside(times, self.signal.window()).ok()?;
-        self.marched.as_ref()?.certified(times, Limit::Right)
+    fn by_march(&self, at: &[impl ExactTime], side: Limit) -> Option<(Vec<f64>, Vec<usize>)> {
+        self.window.marched.as_ref()?.certified(at, side)
     }
 
     /// The polynomials in pairs of doubles, made when they are first asked for.
@@ -79,7 +64,7 @@ impl<'a> Certified<'a> {
     }
 
     fn make_table(&self) -> Result<Table, MethodError> {
-        let window = self.window()?;
+        let window = &self.window;
         let error = window.scale_of_errors()?.scale(-ERROR_BITS);
         let cells = window.cells(Fit { degree: DEGREE, error, rounding: None })?;
         let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, Kept::Two)).collect();
@@ -89,10 +74,10 @@ impl<'a> Certified<'a> {
 
     /// A value that no table decides.
     fn alone(&self, at: &Rational, side: Limit) -> Result<f64, MethodError> {
-        match self.rounded(at, side, &*enclosure(self.signal, at, side)?) {
+        match self.rounded(at, side, &*enclosure(self.window.signal, at, side)?) {
             // Digits at one time can be had where a search for stretches stops.
             Err(EvaluateError::AccuracyNotReached { .. } | EvaluateError::NotFollowed { .. }) => {
-                let point = self.signal.point(at, side)?;
+                let point = self.window.signal.point(at, side)?;
                 Ok(self.rounded(at, side, &*point.enclose)?)
             }
             value => Ok(value?),
@@ -113,7 +98,7 @@ impl<'a> Certified<'a> {
             }
             // Rational numbers alone can be zero or half-way between two doubles.
             if bits == FIRST_BITS
-                && let Some(value) = rational_value(self.signal, at, side)?
+                && let Some(value) = rational_value(self.window.signal, at, side)?
             {
                 return Ok(Attempt::Done(value.to_f64().unwrap_or(f64::NAN)));
             }
@@ -147,11 +132,10 @@ impl Evaluator for Certified<'_> {
 
     /// By the march in integers, where there is one, and by a ball where that does not decide.
     fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, MethodError> {
-        let [from, to] = self.signal.window();
-        let inside = || at.iter().all(|at| at >= from && at <= to);
-        let marched = self.marched.as_ref().filter(|_| inside());
-        let Some((mut values, undecided)) = marched.and_then(|march| march.certified(at, side))
-        else {
+        let [from, to] = self.window.signal.window();
+        let is_inside = at.iter().all(|at| at >= from && at <= to);
+        let marched = is_inside.then(|| self.by_march(at, side)).flatten();
+        let Some((mut values, undecided)) = marched else {
             return at.iter().map(|at| self.alone(at, side)).collect();
         };
         for i in undecided {
@@ -163,13 +147,16 @@ impl Evaluator for Certified<'_> {
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
         let undecided: Vec<usize> = match at.len() {
-            0..MANY => match self.by_march(at) {
-                Some((found, undecided)) => {
-                    values.copy_from_slice(&found);
-                    undecided
+            0..MANY => {
+                let is_inside = inside(at, self.window.signal.window()).is_ok();
+                match is_inside.then(|| self.by_march(at, Limit::Right)).flatten() {
+                    Some((found, undecided)) => {
+                        values.copy_from_slice(&found);
+                        undecided
+                    }
+                    None => (0..at.len()).collect(),
                 }
-                None => (0..at.len()).collect(),
-            },
+            }
             _ if ascend(at) => self.table()?.evaluator().rounded_sorted(at, values),
             _ => self.table()?.evaluator().rounded_unsorted(at, values),
         };

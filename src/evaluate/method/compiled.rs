@@ -38,7 +38,7 @@ impl<'a> Compiled<'a> {
         signal: &'a dyn Signal,
         tolerance: Option<f64>,
     ) -> Result<Compiled<'a>, MethodError> {
-        let window = Window::new(signal)?.marching();
+        let window = Window::new(signal).marching();
         let scale = window.scale_of_errors()?;
         let fine = scale.scale(-ERROR_BITS);
         let coarse = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 4.0));
@@ -53,7 +53,7 @@ impl<'a> Compiled<'a> {
         let end = cells.last().ok_or(MethodError::Outside)?.last;
         let table = Table::new(&pieces, end)?;
         let first_of = |stretch| cells.partition_point(|cell| cell.stretch < stretch);
-        let first_pieces = (0..=window.count()).map(first_of).collect();
+        let first_pieces = (0..=window.count()?).map(first_of).collect();
         Ok(Compiled { window, table, first_pieces, pieces })
     }
 
