@@ -81,7 +81,7 @@ fn main() {
             ("STEP", "a step of a recurrence in doubles", StablePrecision::Double),
             ("PAIR_STEP", "the same in pairs", StablePrecision::DoubleDouble),
         ] {
-            let stable = Summed::new(signal, Summation::Stable(precision)).unwrap();
+            let stable = Summed::new(signal, precision.into()).unwrap();
             print(name, what, value(&stable) / ECHOES);
         }
         let plain = seconds(|| Marched::new(signal).unwrap());

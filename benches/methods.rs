@@ -140,7 +140,7 @@ fn sums(criterion: &mut Criterion) {
             let times = Sampling { points: 4096, seed: 1 }.times(start, start + 2.0);
             let mut values = vec![0.0; times.len()];
             group.throughput(Throughput::Elements(times.len() as u64));
-            let stable = Summed::new(signal, Summation::Stable(StablePrecision::Double)).unwrap();
+            let stable = Summed::new(signal, Summation::Scaled).unwrap();
             group.bench_function(BenchmarkId::new("stable", order), |b| {
                 b.iter(|| stable.values(&times, black_box(&mut values)).unwrap());
             });

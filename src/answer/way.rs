@@ -83,9 +83,7 @@ impl<'a> Way<'a> {
             Method::Compiled => Box::new(Compiled::new(signal, tolerance)?),
             Method::Marched { proven: true } => Box::new(Marched::proven(signal)?),
             Method::Marched { proven: false } => Box::new(Marched::new(signal)?),
-            Method::Stable(precision) => {
-                Box::new(Summed::new(signal, Summation::Stable(precision))?)
-            }
+            Method::Stable(precision) => Box::new(Summed::new(signal, precision.into())?),
             Method::Plain => Box::new(Summed::new(signal, Summation::Plain)?),
             Method::Expanded => Box::new(Summed::new(signal, Summation::Expanded)?),
             Method::Rigid

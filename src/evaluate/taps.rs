@@ -58,27 +58,21 @@ pub struct Taps {
 }
 
 /// Why an observable is no sum of taps.
+#[expect(missing_docs, reason = "the messages say it")]
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum NoTaps {
-    /// Echoes arrive on no grid.
     #[error("echoes arrive on no common grid")]
     NoGrid,
-    /// No closed form of the echoes of this wave is known.
     #[error("the echoes of {0} have no closed form with one pole and one lag")]
     NoForm(String),
-    /// This wave is constant on each period.
     #[error("{0} is constant on each period")]
     Sequence(String),
-    /// The echoes of this wave are powers, not Laguerre polynomials.
     #[error("the echoes of {0} are powers of time, not Laguerre polynomials")]
     Powers(String),
-    /// The waves that are seen have different poles.
     #[error("the waves that are seen have different poles")]
     TwoPoles,
-    /// The slope of this wave is seen.
     #[error("the slope of {0} is seen")]
     Slope(String),
-    /// Something is added that is no number of exponential polynomials.
     #[error("what is added to the waves is not known by its values")]
     Forcing,
 }

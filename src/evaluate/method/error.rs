@@ -6,7 +6,7 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taps::NoTaps;
 use wavestep_kernels::TableError;
 use wavestep_kernels::echoes::EchoError;
-use wavestep_kernels::march::{MarchError, ReflectionError, SystemError, WaveMarchError};
+use wavestep_kernels::march::MarchError;
 
 /// Why a method has no value.
 #[expect(missing_docs, reason = "the messages say it")]
@@ -22,13 +22,7 @@ pub enum MethodError {
     #[error(transparent)]
     Echoes(#[from] EchoError),
     #[error(transparent)]
-    Reflection(#[from] ReflectionError),
-    #[error(transparent)]
     March(#[from] MarchError),
-    #[error(transparent)]
-    System(#[from] SystemError),
-    #[error(transparent)]
-    Waves(#[from] WaveMarchError),
     #[error("a time outside the window")]
     Outside,
     /// So many are asked for; `usize::MAX` where they were not counted.

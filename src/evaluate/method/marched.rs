@@ -65,7 +65,7 @@ impl Marched {
         let Ok(taps) = Taps::of(form) else { return Marched::of_waves(form, window) };
         match Marched::of_response(taps, form, window, proven) {
             // Growing reflections have no certificate; their waves have values as others have.
-            Err(error @ (MethodError::Reflection(_) | MethodError::March(_))) => {
+            Err(error @ MethodError::March(_)) => {
                 Marched::of_waves(form, window).map_err(|_| error)
             }
             marched => marched,

@@ -17,7 +17,7 @@ use super::printed::PrintedEchoes;
 use super::{Evaluator, MethodError};
 use crate::ball::{Ball, rational};
 use crate::evaluate::signal::{Limit, Signal};
-use wavestep_kernels::echoes;
+pub use wavestep_kernels::echoes::Method as Summation;
 use wavestep_polynomial::Rational;
 
 /// In which numbers echoes are summed.
@@ -37,15 +37,13 @@ pub enum StablePrecision {
     DoubleDouble,
 }
 
-/// How echoes are summed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Summation {
-    /// By differences, without loss in delays and exponents.
-    Stable(StablePrecision),
-    /// By the recurrence of three terms.
-    Plain,
-    /// By the formula as printed.
-    Expanded,
+impl From<StablePrecision> for Summation {
+    fn from(precision: StablePrecision) -> Summation {
+        match precision {
+            StablePrecision::Double => Summation::Scaled,
+            StablePrecision::DoubleDouble => Summation::DoubleDouble,
+        }
+    }
 }
 
 /// An observable on a window by the sum of its echoes.
@@ -84,24 +82,22 @@ impl Summed {
             Echoes::Closed(sums) => sums,
             Echoes::Derived(echoes) => return Ok(echoes.value(high, side)),
         };
-        let (method, low) = match self.summation {
-            Summation::Stable(StablePrecision::Double) => (echoes::Method::Scaled, low),
-            Summation::Stable(StablePrecision::DoubleDouble) => (echoes::Method::DoubleDouble, low),
-            Summation::Plain => (echoes::Method::Plain, 0.0),
-            Summation::Expanded => (echoes::Method::Expanded, 0.0),
+        let low = match self.summation {
+            Summation::Scaled | Summation::DoubleDouble => low,
+            Summation::Plain | Summation::Expanded => 0.0,
         };
-        sums.value(method, (high, low), exact, side)
+        sums.value(self.summation, (high, low), exact, side)
     }
 }
 
 impl Evaluator for Summed {
     fn law(&self) -> String {
         match self.summation {
-            Summation::Stable(StablePrecision::Double) => {
+            Summation::Scaled => {
                 "at most 64 units in the last place of the largest value of each wave that is seen, \
                 measured on rigid masses for n ≤ 200 and mu from 1/100 to 10"
             }
-            Summation::Stable(StablePrecision::DoubleDouble) => {
+            Summation::DoubleDouble => {
                 "at most 2 units in the last place of the largest value, \
                 measured on rigid masses for n ≤ 200 and mu from 1/100 to 10"
             }
@@ -127,8 +123,7 @@ impl Evaluator for Summed {
 
     fn values(&self, at: &[f64], values: &mut [f64]) -> Result<(), MethodError> {
         assert_eq!(at.len(), values.len(), "a place for each value");
-        if let (Echoes::Closed(sums), Summation::Stable(StablePrecision::Double)) =
-            (&self.echoes, self.summation)
+        if let (Echoes::Closed(sums), Summation::Scaled) = (&self.echoes, self.summation)
             && let Some(done) = sums.fill(at, values)
         {
             return done;

@@ -121,7 +121,7 @@ fn all_methods(subject: &Subject<'_>, random: &mut TestRng, tallies: &mut Tallie
         (StablePrecision::Double, 64.0, &mut tallies.stable),
         (StablePrecision::DoubleDouble, 2.0, &mut tallies.pairs),
     ] {
-        if let Ok(stable) = Summed::new(subject.signal(), Summation::Stable(precision)) {
+        if let Ok(stable) = Summed::new(subject.signal(), precision.into()) {
             assert_eq!(stable.bound(), None);
             compare(&stable, units * unit, subject, &at, tally);
         }
@@ -216,8 +216,7 @@ fn windows_end_where_they_end() {
         let certified = Certified::new(subject.signal()).unwrap();
         let compiled = subject.compiled(None).unwrap();
         let marched = subject.marched(true).unwrap();
-        let stable =
-            Summed::new(subject.signal(), Summation::Stable(StablePrecision::Double)).unwrap();
+        let stable = Summed::new(subject.signal(), Summation::Scaled).unwrap();
         let methods: [(&str, &dyn Evaluator); 4] = [
             ("certified", &certified),
             ("compiled", &compiled),

@@ -46,8 +46,7 @@ fn the_laws_of_stable_sums_hold() {
         let last = (&value * exact(2.0 * f64::from(periods))).to_string();
         with("rigid-mass", &[("mu", mu)], "f", ("0", &last), |subject| {
             let at = times(crate::methods::near(&value), 0..200, &mut random);
-            let stable =
-                |precision| Summed::new(subject.signal(), Summation::Stable(precision)).unwrap();
+            let stable = |precision| Summed::new(subject.signal(), precision.into()).unwrap();
             let place = |time: f64| move || format!("{time:?} for mu = {mu}");
             let in_doubles = stable(StablePrecision::Double);
             let mut values = vec![f64::NAN; at.len()];
@@ -77,9 +76,7 @@ fn the_laws_of_stable_sums_hold() {
 fn waves_that_cancel_keep_the_law_of_pairs() {
     let mut pairs = Tally::new("double-double of a velocity, of 2 units in the last place");
     with("rigid-mass", &[("mu", "1/100")], "velocity", ("3", "15/4"), |subject| {
-        let stable =
-            Summed::new(subject.signal(), Summation::Stable(StablePrecision::DoubleDouble))
-                .unwrap();
+        let stable = Summed::new(subject.signal(), Summation::DoubleDouble).unwrap();
         let unit = unit_in_the_last_place(0.998);
         for i in 0..=150 {
             let (from, to) = (&subject.from, &subject.to);
@@ -107,7 +104,7 @@ fn exponentials_that_underflow_do_no_harm() {
     with("rigid-mass", &[("mu", "1")], "f", ("3990", "4004"), |subject| {
         let unit = unit_in_the_last_place(1.0);
         let [stable, exactly] = [StablePrecision::Double, StablePrecision::DoubleDouble]
-            .map(|precision| Summed::new(subject.signal(), Summation::Stable(precision)).unwrap());
+            .map(|precision| Summed::new(subject.signal(), precision.into()).unwrap());
         let mut largest = 0.0_f64;
         for (i, offset) in [0.001, 0.1, 0.4, 0.9, 1.3, 1.9, 2.2, 3.7].into_iter().enumerate() {
             let time = 4000.0 + offset;
@@ -141,8 +138,7 @@ fn exponentials_that_underflow_do_no_harm() {
 fn echoes_begin_at_one() {
     for mu in ["1/3", "7/10"] {
         with("rigid-mass", &[("mu", mu)], "f", ("0", "150"), |subject| {
-            let stable =
-                Summed::new(subject.signal(), Summation::Stable(StablePrecision::Double)).unwrap();
+            let stable = Summed::new(subject.signal(), Summation::Scaled).unwrap();
             let period = parse_number(mu).unwrap() * exact(2.0);
             for n in [1, 10, 50, 100] {
                 let at = &period * BigRational::from_integer(n.into());
@@ -159,7 +155,7 @@ fn echoes_begin_at_one() {
 fn what_has_no_echoes_is_refused() {
     let refused = |scene: &str, values: crate::methods::Values<'_>, quantity: &str| {
         with(scene, values, quantity, ("0", "1/2500"), |subject| {
-            match Summed::new(subject.signal(), Summation::Stable(StablePrecision::Double)) {
+            match Summed::new(subject.signal(), Summation::Scaled) {
                 Err(MethodError::NoTaps(reason)) => reason,
                 Err(other) => panic!("{other}"),
                 Ok(_) => panic!("{scene} has values"),
@@ -182,7 +178,7 @@ fn the_printed_formula_fails_first() {
         let signal = subject.signal();
         let plain = Summed::new(signal, Summation::Plain).unwrap();
         let expanded = Summed::new(signal, Summation::Expanded).unwrap();
-        let stable = Summed::new(signal, Summation::Stable(StablePrecision::DoubleDouble)).unwrap();
+        let stable = Summed::new(signal, Summation::DoubleDouble).unwrap();
         let off = |method: &dyn Evaluator, at: f64| {
             let value = |method: &dyn Evaluator| method.value(&exact(at), Limit::Right).unwrap();
             (value(method) - value(&stable)).abs()

@@ -1,6 +1,8 @@
 //! The numbers of a reflected wave: the rate of decay and the zero of the reflection, in units of
 //! the period, and the ratio by which it multiplies. A number that was rounded carries its radius.
 
+use super::error::MarchError;
+
 /// A real number known to lie within `radius` of `value`. Pure numbers, without unit.
 ///
 /// # Invariants
@@ -13,17 +15,17 @@ pub struct Parameter {
 
 impl Parameter {
     /// The number `value` itself.
-    pub fn exact(value: f64) -> Result<Parameter, ReflectionError> {
+    pub fn exact(value: f64) -> Result<Parameter, MarchError> {
         Parameter::within(value, 0.0)
     }
 
     /// Some number `x` with `|x − value| ≤ radius`.
-    pub fn within(value: f64, radius: f64) -> Result<Parameter, ReflectionError> {
+    pub fn within(value: f64, radius: f64) -> Result<Parameter, MarchError> {
         if !value.is_finite() || !radius.is_finite() {
-            return Err(ReflectionError::NotFinite);
+            return Err(MarchError::ParameterNotFinite);
         }
         if radius < 0.0 {
-            return Err(ReflectionError::NegativeRadius { radius });
+            return Err(MarchError::NegativeRadius { radius });
         }
         Ok(Parameter { value, radius })
     }
@@ -77,15 +79,15 @@ impl Reflection {
         rate: Parameter,
         zero: Parameter,
         ratio: Parameter,
-    ) -> Result<Reflection, ReflectionError> {
+    ) -> Result<Reflection, MarchError> {
         if rate.lower() <= 0.0 {
-            return Err(ReflectionError::RateNotPositive { rate: rate.lower() });
+            return Err(MarchError::RateNotPositive { rate: rate.lower() });
         }
         Ok(Reflection { rate, zero, ratio })
     }
 
     /// The reflection with the given numbers, all of them exact.
-    pub fn exact(rate: f64, zero: f64, ratio: f64) -> Result<Reflection, ReflectionError> {
+    pub fn exact(rate: f64, zero: f64, ratio: f64) -> Result<Reflection, MarchError> {
         let exact = Parameter::exact;
         Reflection::new(exact(rate)?, exact(zero)?, exact(ratio)?)
     }
@@ -100,17 +102,4 @@ impl Reflection {
         let product = if ratio == 1.0 { product } else { product.next_up() };
         ratio <= 1.0 && product <= self.rate.lower()
     }
-}
-
-/// Why numbers do not describe a reflection.
-#[expect(missing_docs, reason = "the messages say it")]
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ReflectionError {
-    #[error("a value or its radius is not finite: give a finite number")]
-    NotFinite,
-    #[error("the radius {radius} is below zero: give its absolute value")]
-    NegativeRadius { radius: f64 },
-    #[error("the rate of decay may be as small as {rate}: it has to be positive")]
-    RateNotPositive { rate: f64 },
 }

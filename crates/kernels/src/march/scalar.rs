@@ -12,6 +12,7 @@
 
 use super::bound::Certificate;
 use super::chebyshev;
+use super::error::MarchError;
 use super::reflection::Reflection;
 use super::relaxation::Relaxation;
 use crate::lanes::{Lanes, WIDTH, padded};
@@ -291,21 +292,4 @@ fn advance_wave<L: Lanes>(ratio: f64, wave: &mut [f64], increment: &[f64]) -> f6
     }
     wave[whole..increment.len()].copy_from_slice(&last[..increment.len() - whole]);
     largest.to_array().into_iter().fold(0.0, f64::max) + zeros.sum()
-}
-
-/// Why a march cannot go on.
-#[expect(missing_docs, reason = "the messages say it")]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MarchError {
-    #[error(
-        "the options are out of range: give a positive threshold and a limit from 1 to 1048575"
-    )]
-    Options,
-    #[error(
-        "period {period} needs more than {limit} coefficients: raise the limit or stop earlier"
-    )]
-    TooManyCoefficients { period: usize, limit: usize },
-    #[error("the wave outgrows the doubles on period {period}: stop earlier")]
-    NotFinite { period: usize },
 }

@@ -13,6 +13,7 @@
 //! of time that act from outside are states that nothing drives, and pairs of complex poles are states
 //! with complex numbers.
 
+use super::error::MarchError;
 use super::number::{Complex, Scalar};
 
 /// `weight · v[n−lag]`, or the same of `v'`.
@@ -63,48 +64,31 @@ pub struct WaveSystem<T> {
     pub(super) steps: Vec<WaveStep<T>>,
 }
 
-/// Why steps make no system.
-#[expect(missing_docs, reason = "the messages say it")]
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum SystemError {
-    #[error("there are no waves; give one step at least")]
-    Empty,
-    #[error("give exactly one step for wave {0}")]
-    Steps(usize),
-    #[error(
-        "wave {wave} follows from wave {other} of the same period; put the step of that one \
-         before it"
-    )]
-    NotYetKnown { wave: usize, other: usize },
-    #[error("wave {0} is given by numbers that are too large; change the units")]
-    NotFinite(usize),
-}
-
 impl<T: Scalar> WaveSystem<T> {
     /// A system of steps in the order in which they are taken. O(terms).
-    pub fn new(steps: Vec<WaveStep<T>>) -> Result<WaveSystem<T>, SystemError> {
+    pub fn new(steps: Vec<WaveStep<T>>) -> Result<WaveSystem<T>, MarchError> {
         if steps.is_empty() {
-            return Err(SystemError::Empty);
+            return Err(MarchError::NoWaves);
         }
         let mut known = vec![false; steps.len()];
         for step in &steps {
             let wave = step.wave;
             if wave >= steps.len() || known[wave] {
-                return Err(SystemError::Steps(wave));
+                return Err(MarchError::Steps(wave));
             }
             let finite = |value: T| value.size().is_finite();
             for term in step.terms() {
                 match known.get(term.wave) {
-                    None => return Err(SystemError::Steps(term.wave)),
+                    None => return Err(MarchError::Steps(term.wave)),
                     Some(false) if term.lag == 0 => {
-                        return Err(SystemError::NotYetKnown { wave, other: term.wave });
+                        return Err(MarchError::NotYetKnown { wave, other: term.wave });
                     }
-                    Some(_) if !finite(term.weight) => return Err(SystemError::NotFinite(wave)),
+                    Some(_) if !finite(term.weight) => return Err(MarchError::WaveNotFinite(wave)),
                     Some(_) => {}
                 }
             }
             if step.state.as_ref().is_some_and(|s| !finite(s.rate) || !finite(s.initial)) {
-                return Err(SystemError::NotFinite(wave));
+                return Err(MarchError::WaveNotFinite(wave));
             }
             known[wave] = true;
         }

@@ -6,6 +6,7 @@
 //! needs. Nothing is proven of the results: they are compared with exact ones, in the tests.
 
 use super::chebyshev;
+use super::error::MarchError;
 use super::first_order::{FirstOrder, differentiate, value_at_one, value_at_zero};
 use super::number::{Complex, Scalar};
 use super::system::{State, Term, WaveStep, WaveSystem};
@@ -20,18 +21,6 @@ const MAX_SPANS: usize = 1 << 12;
 
 /// The most coefficients of a polynomial.
 const MAX_COEFFICIENTS: usize = 1 << 13;
-
-/// Why a march cannot go on.
-#[expect(missing_docs, reason = "the messages say it")]
-#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum WaveMarchError {
-    #[error("a wave turns or grows so often in a period that more than {limit} spans were needed")]
-    TooManySpans { limit: usize },
-    #[error("period {period} needs more than {limit} coefficients; ask for an earlier time")]
-    TooManyCoefficients { period: usize, limit: usize },
-    #[error("waves of period {period} are too large for doubles")]
-    Overflow { period: usize },
-}
 
 /// A wave on a period.
 struct Piece<T> {
@@ -60,11 +49,11 @@ pub struct WaveMarch<T> {
 
 impl<T: Scalar> WaveMarch<T> {
     /// The march on its first period, 0. The cost is that of [`WaveMarch::advance`].
-    pub fn new(system: WaveSystem<T>) -> Result<WaveMarch<T>, WaveMarchError> {
+    pub fn new(system: WaveSystem<T>) -> Result<WaveMarch<T>, MarchError> {
         let fastest = system.steps.iter().filter_map(|step| step.state.as_ref());
         let fastest = fastest.map(|state| turning(state.rate)).fold(0.0, f64::max);
         if fastest > MAX_SPANS as f64 {
-            return Err(WaveMarchError::TooManySpans { limit: MAX_SPANS });
+            return Err(MarchError::TooManySpans { limit: MAX_SPANS });
         }
         // A power of two: places on spans follow from those on periods without rounding.
         let spans = (fastest.ceil() as usize).next_power_of_two();
@@ -107,7 +96,7 @@ impl<T: Scalar> WaveMarch<T> {
     /// Goes on to the next period. O(SMN) for `S` spans, `M` terms and polynomials of degree `N`.
     ///
     /// After an error the march is of no further use.
-    pub fn advance(&mut self) -> Result<(), WaveMarchError> {
+    pub fn advance(&mut self) -> Result<(), MarchError> {
         self.period += 1;
         self.solve()
     }
@@ -171,7 +160,7 @@ impl<T: Scalar> WaveMarch<T> {
     }
 
     /// All waves on the current period, in the order of the steps.
-    fn solve(&mut self) -> Result<(), WaveMarchError> {
+    fn solve(&mut self) -> Result<(), MarchError> {
         self.kept.truncate(self.depth - 1);
         let empty = || Piece { spans: Vec::new(), start: T::ZERO, end: T::ZERO };
         let pieces = (0..self.system.waves()).map(|_| empty()).collect();
@@ -197,7 +186,7 @@ impl<T: Scalar> WaveMarch<T> {
         state: Option<&mut (FirstOrder<T>, T)>,
         mut largest: f64,
         [right, z, slope]: &mut [Vec<T>; 3],
-    ) -> Result<(Piece<T>, f64), WaveMarchError> {
+    ) -> Result<(Piece<T>, f64), MarchError> {
         let mut state = step.state.as_ref().zip(state);
         if let Some((State { jumps, .. }, (_, end))) = &mut state {
             *end = *end + self.jump(jumps);
@@ -241,7 +230,7 @@ impl<T: Scalar> WaveMarch<T> {
             let sizes = coefficients.iter().chain(z.iter().filter(|_| state.is_some()));
             for size in sizes.map(|c| c.size()) {
                 if !size.is_finite() {
-                    return Err(WaveMarchError::Overflow { period: self.period });
+                    return Err(MarchError::Overflow { period: self.period });
                 }
                 largest = largest.max(size);
             }
@@ -252,7 +241,7 @@ impl<T: Scalar> WaveMarch<T> {
             }
             if coefficients.len() > MAX_COEFFICIENTS {
                 let (period, limit) = (self.period, MAX_COEFFICIENTS);
-                return Err(WaveMarchError::TooManyCoefficients { period, limit });
+                return Err(MarchError::TooManyTerms { period, limit });
             }
             piece.spans.push(coefficients);
         }

@@ -9,8 +9,7 @@ mod waves;
 use proptest::prelude::*;
 use reference::Reference;
 use wavestep_kernels::march::{
-    Bounds, Certificate, March, MarchError, MarchOptions, Parameter, Reflection, ReflectionError,
-    chebyshev,
+    Bounds, Certificate, March, MarchError, MarchOptions, Parameter, Reflection, chebyshev,
 };
 
 const PLAIN: MarchOptions =
@@ -389,11 +388,11 @@ fn bounds_are_those_that_are_asked_for() {
 
 #[test]
 fn numbers_that_are_no_reflection_are_refused() {
-    assert_eq!(Parameter::exact(f64::NAN), Err(ReflectionError::NotFinite));
-    let negative = Err(ReflectionError::NegativeRadius { radius: -1.0 });
+    assert_eq!(Parameter::exact(f64::NAN), Err(MarchError::ParameterNotFinite));
+    let negative = Err(MarchError::NegativeRadius { radius: -1.0 });
     assert_eq!(Parameter::within(1.0, -1.0), negative);
     let refused = Reflection::exact(0.0, 1.0, 1.0).unwrap_err();
-    assert_eq!(refused, ReflectionError::RateNotPositive { rate: 0.0 });
+    assert_eq!(refused, MarchError::RateNotPositive { rate: 0.0 });
     let third = Parameter::within(1.0 / 3.0, 1e-17).expect("a number");
     assert!(third.magnitude() > 1.0 / 3.0 && third.lower() < 1.0 / 3.0);
     assert!(!reflection(2.0, 2.0, 1.5).is_passive());

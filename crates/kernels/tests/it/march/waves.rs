@@ -1,8 +1,8 @@
 //! Several waves: against the march with a proven bound, and against solutions that are known.
 
 use wavestep_kernels::march::{
-    Bounds, Complex, March, MarchOptions, Reflection, Scalar, State, SystemError, Term, WaveMarch,
-    WaveMarchError, WaveStep, WaveSystem,
+    Bounds, Complex, March, MarchError, MarchOptions, Reflection, Scalar, State, Term, WaveMarch,
+    WaveStep, WaveSystem,
 };
 
 /// A wave that is a state with a rate, 1 at the start.
@@ -11,7 +11,7 @@ fn state(wave: usize, rate: f64, drive: Vec<Term<f64>>) -> WaveStep<f64> {
     WaveStep { wave, values: vec![], slopes: vec![], state: Some(state) }
 }
 
-fn march(steps: Vec<WaveStep<f64>>) -> Result<WaveMarch<f64>, WaveMarchError> {
+fn march(steps: Vec<WaveStep<f64>>) -> Result<WaveMarch<f64>, MarchError> {
     WaveMarch::new(WaveSystem::new(steps).unwrap())
 }
 
@@ -80,23 +80,23 @@ fn a_delay_equation_has_polynomials() {
 #[test]
 fn what_cannot_be_marched_is_refused() {
     let refused = march(vec![state(0, 1e5, vec![])]).err();
-    assert_eq!(refused, Some(WaveMarchError::TooManySpans { limit: 4096 }));
+    assert_eq!(refused, Some(MarchError::TooManySpans { limit: 4096 }));
     // It grows by e^{500} a period.
     let mut growing = march(vec![state(0, 500.0, vec![])]).unwrap();
-    assert_eq!(growing.advance(), Err(WaveMarchError::Overflow { period: 1 }));
+    assert_eq!(growing.advance(), Err(MarchError::Overflow { period: 1 }));
 }
 
 #[test]
 fn steps_that_make_no_system_are_refused() {
     let refused = |steps| WaveSystem::new(steps).unwrap_err();
-    assert_eq!(refused(vec![]), SystemError::Empty);
-    assert_eq!(refused(vec![state(1, 0.0, vec![])]), SystemError::Steps(1));
-    assert_eq!(refused(vec![state(0, 0.0, vec![term(1, 1, 1.0)])]), SystemError::Steps(1));
-    assert_eq!(refused(vec![state(0, f64::NAN, vec![])]), SystemError::NotFinite(0));
+    assert_eq!(refused(vec![]), MarchError::NoWaves);
+    assert_eq!(refused(vec![state(1, 0.0, vec![])]), MarchError::Steps(1));
+    assert_eq!(refused(vec![state(0, 0.0, vec![term(1, 1, 1.0)])]), MarchError::Steps(1));
+    assert_eq!(refused(vec![state(0, f64::NAN, vec![])]), MarchError::WaveNotFinite(0));
     // w' = −2 w + v and v[n] = w[n]: each needs the other first, unless it is that of a period ago.
     let echo = WaveStep { wave: 1, values: vec![term(0, 0, 1.0)], slopes: vec![], state: None };
     let both = |lag| vec![state(0, -2.0, vec![term(1, lag, 1.0)]), echo.clone()];
-    assert_eq!(refused(both(0)), SystemError::NotYetKnown { wave: 0, other: 1 });
+    assert_eq!(refused(both(0)), MarchError::NotYetKnown { wave: 0, other: 1 });
     let system = WaveSystem::new(both(1)).unwrap();
     assert_eq!((system.waves(), system.largest_lag()), (2, 1));
 }
