@@ -6,9 +6,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use wavestep::evaluate::{
-    Certified, Compiled, Evaluator, Limit, Marched, StablePrecision, Summation, Summed, Taps,
-};
+use wavestep::evaluate::{Certified, Compiled, Evaluator, Limit, Marched, Summation, Summed, Taps};
 use wavestep::language::parse_number;
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_polynomial::Rational;
@@ -78,10 +76,10 @@ fn main() {
         let lookup = value(&compiled);
         print("LOOKUP", "the piece of an exact time, and its value", lookup);
         for (name, what, precision) in [
-            ("STEP", "a step of a recurrence in doubles", StablePrecision::Double),
-            ("PAIR_STEP", "the same in pairs", StablePrecision::DoubleDouble),
+            ("STEP", "a step of a recurrence in doubles", Summation::Scaled),
+            ("PAIR_STEP", "the same in pairs", Summation::DoubleDouble),
         ] {
-            let stable = Summed::new(signal, precision.into()).unwrap();
+            let stable = Summed::new(signal, precision).unwrap();
             print(name, what, value(&stable) / ECHOES);
         }
         let plain = seconds(|| Marched::new(signal).unwrap());

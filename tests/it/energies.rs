@@ -3,8 +3,8 @@
 
 use wavestep::ball::Ball;
 use wavestep::evaluate::{
-    At, EvaluateError, Goal, Limit, Marched, MethodError, Root, Search, Signal, StablePrecision,
-    Summation, Summed, Value, value,
+    At, EvaluateError, Goal, Limit, Marched, MethodError, Root, Search, Signal, Summation, Summed,
+    Value, value,
 };
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;

@@ -28,7 +28,8 @@ pub use certified::Certified;
 pub use compiled::Compiled;
 pub use error::MethodError;
 pub use marched::Marched;
-pub use summed::{StablePrecision, Summation, Summed};
+pub use summed::{StablePrecision, Summed};
+pub use wavestep_kernels::echoes::Method as Summation;
 
 use crate::evaluate::signal::Limit;
 use wavestep_polynomial::Rational;

@@ -14,10 +14,9 @@
 
 use super::echo_sums::EchoSums;
 use super::printed::PrintedEchoes;
-use super::{Evaluator, MethodError};
+use super::{Evaluator, MethodError, Summation};
 use crate::ball::{Ball, rational};
 use crate::evaluate::signal::{Limit, Signal};
-pub use wavestep_kernels::echoes::Method as Summation;
 use wavestep_polynomial::Rational;
 
 /// In which numbers echoes are summed.

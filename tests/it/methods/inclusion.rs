@@ -8,7 +8,7 @@ use crate::methods::{
 };
 use num_rational::BigRational;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Certified, Evaluator, Limit, StablePrecision, Summation, Summed};
+use wavestep::evaluate::{Certified, Evaluator, Limit, Summation, Summed};
 
 /// Comparisons by method.
 struct Tallies {
@@ -118,10 +118,10 @@ fn all_methods(subject: &Subject<'_>, random: &mut TestRng, tallies: &mut Tallie
     }
     let unit = unit_in_the_last_place(subject.scale());
     for (precision, units, tally) in [
-        (StablePrecision::Double, 64.0, &mut tallies.stable),
-        (StablePrecision::DoubleDouble, 2.0, &mut tallies.pairs),
+        (Summation::Scaled, 64.0, &mut tallies.stable),
+        (Summation::DoubleDouble, 2.0, &mut tallies.pairs),
     ] {
-        if let Ok(stable) = Summed::new(subject.signal(), precision.into()) {
+        if let Ok(stable) = Summed::new(subject.signal(), precision) {
             assert_eq!(stable.bound(), None);
             compare(&stable, units * unit, subject, &at, tally);
         }

@@ -7,9 +7,7 @@ use crate::methods::tally::{Tally, ends};
 use crate::methods::{exact, mass_ratio, random, unit_in_the_last_place};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
-use wavestep::evaluate::{
-    Evaluator, Limit, MethodError, NoTaps, StablePrecision, Summation, Summed,
-};
+use wavestep::evaluate::{Evaluator, Limit, MethodError, NoTaps, Summation, Summed};
 use wavestep::language::parse_number;
 
 /// Doubles on every period up to a last one: just after its start, just before its end, and four
@@ -46,9 +44,9 @@ fn the_laws_of_stable_sums_hold() {
         let last = (&value * exact(2.0 * f64::from(periods))).to_string();
         with("rigid-mass", &[("mu", mu)], "f", ("0", &last), |subject| {
             let at = times(crate::methods::near(&value), 0..200, &mut random);
-            let stable = |precision| Summed::new(subject.signal(), precision.into()).unwrap();
+            let stable = |precision| Summed::new(subject.signal(), precision).unwrap();
             let place = |time: f64| move || format!("{time:?} for mu = {mu}");
-            let in_doubles = stable(StablePrecision::Double);
+            let in_doubles = stable(Summation::Scaled);
             let mut values = vec![f64::NAN; at.len()];
             in_doubles.values(&at, &mut values).unwrap();
             let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -57,7 +55,7 @@ fn the_laws_of_stable_sums_hold() {
                 doubles.within(*value, response.at(*time), &exact(64.0 * unit), place(*time));
             }
             // Pairs cost more: a tenth of the times, and single values in doubles at the same.
-            let in_pairs = stable(StablePrecision::DoubleDouble);
+            let in_pairs = stable(Summation::DoubleDouble);
             for time in at.iter().skip(i).step_by(11) {
                 let enclosed = response.at(*time);
                 let value = in_pairs.value(&exact(*time), Limit::Right).unwrap();
@@ -103,8 +101,8 @@ fn exponentials_that_underflow_do_no_harm() {
     let response = Response::new(&exact(1.0), 2003);
     with("rigid-mass", &[("mu", "1")], "f", ("3990", "4004"), |subject| {
         let unit = unit_in_the_last_place(1.0);
-        let [stable, exactly] = [StablePrecision::Double, StablePrecision::DoubleDouble]
-            .map(|precision| Summed::new(subject.signal(), precision.into()).unwrap());
+        let [stable, exactly] = [Summation::Scaled, Summation::DoubleDouble]
+            .map(|precision| Summed::new(subject.signal(), precision).unwrap());
         let mut largest = 0.0_f64;
         for (i, offset) in [0.001, 0.1, 0.4, 0.9, 1.3, 1.9, 2.2, 3.7].into_iter().enumerate() {
             let time = 4000.0 + offset;
