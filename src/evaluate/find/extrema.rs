@@ -192,7 +192,7 @@ impl<'s> Search<'s> {
     }
 
     fn contenders(&self, goal: Goal, limit_bits: u64) -> Result<Contenders<'_, 's>, EvaluateError> {
-        let limit_bits = limit_bits.min(self.most_bits).max(self.bits.get());
+        let limit_bits = self.most_bits(limit_bits);
         self.work.set(0);
         let (negative, zero) = (goal == Goal::Smallest, Rational::default());
         let mut record = Record { negative, best: None };
@@ -345,7 +345,7 @@ impl Contenders<'_, '_> {
         let exact = |time: &Rational| Value::Exact(time.clone());
         let last = search.count - 1;
         let end = |stretch: usize| match stretch == last {
-            true => Ok(exact(&search.window[1])),
+            true => Ok(exact(search.function.window()[1])),
             false => search.beginning(stretch + 1, digits, self.limit_bits),
         };
         let mut found: Vec<(usize, u8, Place)> = Vec::new();

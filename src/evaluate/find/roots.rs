@@ -143,8 +143,7 @@ impl Search<'_> {
         digits: usize,
         limit_bits: u64,
     ) -> Result<Roots, EvaluateError> {
-        let limit_bits = limit_bits.min(self.most_bits).max(self.bits.get());
-        let target = Target { order: 0, level, limit_bits };
+        let target = Target { order: 0, level, limit_bits: self.most_bits(limit_bits) };
         self.work.set(0);
         let mut finder = Finder { search: self, target, digits, all: Vec::new() };
         finder.all_stretches()?;
@@ -159,7 +158,7 @@ impl Search<'_> {
         limit_bits: u64,
     ) -> Result<Value, EvaluateError> {
         if stretch == 0 {
-            return Ok(known(&self.window[0]));
+            return Ok(known(self.function.window()[0]));
         }
         match self.function.exact_time(stretch, Limit::Right) {
             Some(time) => Ok(known(&time)),
@@ -241,9 +240,9 @@ impl Finder<'_, '_> {
         }
         let end = before.expect("a window has a stretch that is no instant");
         if end.vanishes {
-            self.end_interval(known(&search.window[1]), equal);
+            self.end_interval(known(search.function.window()[1]), equal);
         } else if end.last == equal {
-            self.all.push(Root::End { time: known(&search.window[1]) });
+            self.all.push(Root::End { time: known(search.function.window()[1]) });
         }
         Ok(())
     }

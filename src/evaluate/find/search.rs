@@ -45,13 +45,10 @@ pub struct Search<'a> {
     pub(crate) function: &'a dyn Signal,
     /// How many stretches are looked at.
     pub(crate) count: usize,
-    pub(crate) window: [Rational; 2],
     /// The precision that has done so far.
     pub(crate) bits: Cell<u64>,
     /// The cells looked at so far.
     pub(crate) work: Cell<usize>,
-    /// More bits than these tell no more.
-    pub(crate) most_bits: u64,
     /// Whether the end of the window, at which an echo arrives, is left out.
     pub(crate) open: bool,
 }
@@ -66,10 +63,13 @@ impl<'a> Search<'a> {
         if let Ok(form) = signal.closed_form() {
             form.foresee(window[1])?;
         }
-        let (bits, work) = (Cell::new(FIRST_BITS), Cell::new(0));
-        let (count, window) = (signal.count()?, window.map(Clone::clone));
-        let most_bits = signal.most_bits();
-        Ok(Search { function: signal, count, window, bits, work, most_bits, open: false })
+        let (count, bits, work) = (signal.count()?, Cell::new(FIRST_BITS), Cell::new(0));
+        Ok(Search { function: signal, count, bits, work, open: false })
+    }
+
+    /// As many bits as are allowed and tell more.
+    pub(crate) fn most_bits(&self, limit_bits: u64) -> u64 {
+        limit_bits.min(self.function.most_bits()).max(self.bits.get())
     }
 
     /// The same window without its end: an echo that arrives there does not count, the limit before

@@ -6,7 +6,7 @@
 //! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
 //! enclosed one by one.
 
-use super::doubles::{Kept, ascend, inside, piece};
+use super::doubles::{Kept, ascend, inside, tabulated};
 use super::{Evaluator, MethodError};
 use crate::ball::{Attempt, Ball, Precisions, rational};
 use crate::evaluate::cells::{Fit, Window, enclosure};
@@ -15,8 +15,8 @@ use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{Limit, Signal};
 use num_traits::ToPrimitive as _;
 use std::cell::OnceCell;
+use wavestep_kernels::Table;
 use wavestep_kernels::fixed::ExactTime;
-use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
 
 /// The degree of polynomials in pairs of doubles.
@@ -59,17 +59,10 @@ impl<'a> Certified<'a> {
         if let Some(table) = self.table.get() {
             return Ok(table);
         }
-        let table = self.make_table()?;
+        let error = self.window.scale_of_errors()?.scale(-ERROR_BITS);
+        let cells = self.window.cells(Fit { degree: DEGREE, error, rounding: None })?;
+        let (_, table) = tabulated(&cells, Kept::Two)?;
         Ok(self.table.get_or_init(|| table))
-    }
-
-    fn make_table(&self) -> Result<Table, MethodError> {
-        let window = &self.window;
-        let error = window.scale_of_errors()?.scale(-ERROR_BITS);
-        let cells = window.cells(Fit { degree: DEGREE, error, rounding: None })?;
-        let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, Kept::Two)).collect();
-        let end = cells.last().ok_or(MethodError::Outside)?.last;
-        Ok(Table::new(&pieces, end)?)
     }
 
     /// A value that no table decides.

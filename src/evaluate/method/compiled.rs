@@ -5,7 +5,7 @@
 //! the rounding of their coefficients to doubles, and that of evaluating them, which
 //! [`Table`] proves. Whatever the order of the waves, a value costs some ten multiply-adds.
 
-use super::doubles::{Kept, ascend, piece};
+use super::doubles::{Kept, ascend, tabulated};
 use super::{Evaluator, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
 use crate::evaluate::cells::{Fit, Window};
@@ -49,9 +49,7 @@ impl<'a> Compiled<'a> {
         let allowed = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 2.0));
         let rounding = Some(allowed.map_or(kept, |allowed| allowed.max(kept)));
         let cells = window.cells(Fit { degree: DEGREE, error, rounding })?;
-        let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, Kept::One)).collect();
-        let end = cells.last().ok_or(MethodError::Outside)?.last;
-        let table = Table::new(&pieces, end)?;
+        let (pieces, table) = tabulated(&cells, Kept::One)?;
         let first_of = |stretch| cells.partition_point(|cell| cell.stretch < stretch);
         let first_pieces = (0..=window.count()?).map(first_of).collect();
         Ok(Compiled { window, table, first_pieces, pieces })

@@ -7,7 +7,7 @@ use crate::enclosure::{EnclosureError, Numbers};
 use crate::evaluate::cells::Cell;
 use crate::expression::Fraction;
 use std::cmp::Ordering;
-use wavestep_kernels::Piece;
+use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
 
 /// Bits of the balls that are rounded.
@@ -54,8 +54,16 @@ pub(super) enum Kept {
     Two,
 }
 
+/// The polynomials of all cells in doubles, and as a table; refused where there are none.
+pub(super) fn tabulated(cells: &[Cell], kept: Kept) -> Result<(Vec<Piece>, Table), MethodError> {
+    let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, kept)).collect();
+    let end = cells.last().ok_or(MethodError::Outside)?.last;
+    let table = Table::new(&pieces, end)?;
+    Ok((pieces, table))
+}
+
 /// The polynomial of a cell in doubles; the rounding of its coefficients counts as part of its error.
-pub(super) fn piece(cell: &Cell, kept: Kept) -> Piece {
+fn piece(cell: &Cell, kept: Kept) -> Piece {
     let mut error = cell.taylor.remainder;
     let (mut coefficients, mut low) = (Vec::new(), Vec::new());
     for coefficient in &cell.taylor.coefficients {
