@@ -91,20 +91,20 @@ impl Taps {
         for seen in &observation.waves {
             let name = || recurrence.wave_name(seen.wave);
             let template = closed_form(&solution, seen)?;
-            let Family::Laguerre(scale) = template.family() else {
+            let Family::Laguerre(scale) = &template.family else {
                 return Err(NoTaps::Powers(name()));
             };
-            let zero = scale - template.rate();
+            let zero = scale - &template.rate;
             let empty = || Taps {
-                rate: template.rate().clone(),
+                rate: template.rate.clone(),
                 zero: zero.clone(),
-                ratio: template.ratio().clone(),
+                ratio: template.ratio.clone(),
                 period: statement.period.clone(),
                 taps: Vec::new(),
                 extras: Vec::new(),
             };
             let taps = sum.get_or_insert_with(empty);
-            if (&taps.rate, &taps.zero, &taps.ratio) != (template.rate(), &zero, template.ratio()) {
+            if (&taps.rate, &taps.zero, &taps.ratio) != (&template.rate, &zero, &template.ratio) {
                 return Err(NoTaps::TwoPoles);
             }
             let weight = seen.coefficient.as_fraction().ok_or(NoTaps::Forcing)?;
@@ -139,14 +139,14 @@ impl Taps {
         delay: &Fraction,
         local: &wavestep_polynomial::Symbol,
     ) -> Option<()> {
-        if template.first().len() > MAX_FIRST {
+        if template.first.len() > MAX_FIRST {
             return None;
         }
         let periods = |count: isize| self.period.scale(&Rational::from_integer(count.into()));
         let mut taps = Vec::new();
         let mut extras = Vec::new();
         let decay = |since: &Fraction| Expression::one().times_exponential(&-&(&self.rate * since));
-        for (lag, coefficient) in template.terms() {
+        for (lag, coefficient) in &template.terms {
             let coefficient = coefficient * weight;
             match usize::try_from(*lag) {
                 Ok(power) => {
@@ -166,11 +166,11 @@ impl Taps {
             }
         }
         // What the first echoes are more than the sum would have them.
-        for (k, first) in template.first().iter().enumerate() {
+        for (k, first) in template.first.iter().enumerate() {
             let mut formula = Fraction::zero();
-            for (lag, coefficient) in template.terms() {
+            for (lag, coefficient) in &template.terms {
                 if let Some(order) = k.checked_add_signed(-lag) {
-                    formula = &formula + &(coefficient * &template.family().function(order, local));
+                    formula = &formula + &(coefficient * &template.family.function(order, local));
                 }
             }
             let formula = &formula * &self.ratio.pow(u32::try_from(k).ok()?);

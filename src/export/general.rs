@@ -35,9 +35,9 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
     };
     if let Some(last) = formulas.last_mut() {
         let (index, first) = match form {
-            GeneralForm::Geometric(form) => ("n".to_owned(), form.first().len()),
+            GeneralForm::Geometric(form) => ("n".to_owned(), form.first.len()),
             GeneralForm::Echoes(template) => {
-                (echo_index(recurrence).to_string(), template.first().len())
+                (echo_index(recurrence).to_string(), template.first.len())
             }
         };
         let proof = match form.proof() {
@@ -45,7 +45,7 @@ pub fn general_form(recurrence: &Recurrence, wave: WaveIndex, form: &GeneralForm
             Proof::CoefficientIdentity => format!("the step from {index} to {index} + 1"),
         };
         let laguerre = match form {
-            GeneralForm::Echoes(template) if *template.family() != Family::Power => {
+            GeneralForm::Echoes(template) if template.family != Family::Power => {
                 "; L are the Laguerre polynomials"
             }
             _ => "",
@@ -63,17 +63,17 @@ fn geometric(recurrence: &Recurrence, wave: WaveIndex, form: &Geometric) -> Vec<
     let formula = |index: &str, terms: Vec<Term>| {
         Formula::of(Head::both(|n| n.indexed(wave, index)), Right::Terms(terms))
     };
-    let first = form.first().iter().enumerate();
+    let first = form.first.iter().enumerate();
     let mut formulas: Vec<Formula> =
         first.map(|(i, value)| formula(&i.to_string(), arrange(value, None))).collect();
     let mut terms = Vec::new();
-    let polynomial = form.terms().iter().filter(|term| term.ratio.is_one());
+    let polynomial = form.terms.iter().filter(|term| term.ratio.is_one());
     let polynomial = polynomial.fold(Expression::zero(), |sum, term| {
         let power = Polynomial::symbol(&n).pow(term.power);
         &sum + &(&term.coefficient * &power.into())
     });
     terms.extend(arrange(&polynomial, Some(&n)));
-    for term in form.terms().iter().filter(|term| !term.ratio.is_one()) {
+    for term in form.terms.iter().filter(|term| !term.ratio.is_one()) {
         terms.push(geometric_term(term, &n));
     }
     formulas.push(formula("n", terms));
@@ -132,7 +132,7 @@ fn echoes(recurrence: &Recurrence, wave: WaveIndex, template: &EchoTemplate) -> 
     let wave = &statement.waves[wave];
     let (x, k) = (&statement.local, echo_index(recurrence));
     let mut formulas = vec![sum_of_echoes(recurrence, wave)];
-    for (i, echo) in template.first().iter().enumerate() {
+    for (i, echo) in template.first.iter().enumerate() {
         formulas.push(Formula::echo(wave, &[i], echo, x));
     }
     let head = Head::both(|n| n.echo(wave, k.name(), &n.symbol(x)));
@@ -160,10 +160,10 @@ fn sum_of_echoes(recurrence: &Recurrence, wave: &str) -> Formula {
 /// `ρ^k e^{−bx} Σ_i c_i T_{k−i}(x)`.
 fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> {
     let mut sum = Vec::new();
-    for (lag, coefficient) in template.terms() {
+    for (lag, coefficient) in &template.terms {
         let index = &Polynomial::symbol(k) - &Polynomial::integer(*lag);
         let index = Tree::sum(arrange(&index.into(), Some(k))).1;
-        let function = match template.family() {
+        let function = match &template.family {
             Family::Laguerre(c) => laguerre(index, &Expression::from(c * &Fraction::symbol(x)), x),
             Family::Power => {
                 let power = Tree::Power(Box::new(Tree::Symbol(x.clone())), Box::new(index.clone()));
@@ -176,12 +176,12 @@ fn template_terms(template: &EchoTemplate, x: &Symbol, k: &Symbol) -> Vec<Term> 
         sum.push((sign, Tree::product(factors)));
     }
     let mut front = Vec::new();
-    if !template.ratio().is_one() {
-        let base = ratio_tree(&template.ratio().clone().into());
+    if !template.ratio.is_one() {
+        let base = ratio_tree(&template.ratio.clone().into());
         front.push(Tree::Power(Box::new(base), Box::new(Tree::Symbol(k.clone()))));
     }
-    if !template.rate().is_zero() {
-        let exponent = -&(template.rate() * &Fraction::symbol(x));
+    if !template.rate.is_zero() {
+        let exponent = -&(&template.rate * &Fraction::symbol(x));
         let (sign, exponent) = Tree::sum(arrange(&exponent.into(), Some(x)));
         front.push(Tree::Exponential(sign, Box::new(exponent)));
     }

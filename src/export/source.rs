@@ -78,7 +78,7 @@ impl<'a> SourceForm<'a> {
         let GeneralForm::Geometric(sequence) = form else { return None };
         let unit = self.recurrence.statement().notation.units.get(&wave);
         let sequence = unit.map_or_else(|| sequence.clone(), |u| sequence.scaled(u.coefficient()));
-        let last = sequence.first().len();
+        let last = sequence.first.len();
         let formulas = general_form(self.recurrence, wave, &GeneralForm::Geometric(sequence));
         let written = |(i, formula): (usize, Formula)| {
             let Right::Terms(terms) = formula.right else { return None };

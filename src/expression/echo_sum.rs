@@ -14,21 +14,12 @@ use wavestep_polynomial::{Rational, Symbol};
 /// One short polynomial an echo, and no symbol of the period in it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EchoSum {
-    period: Fraction,
-    local: Symbol,
-    echoes: Vec<Expression>,
+    pub(crate) period: Fraction,
+    pub(crate) local: Symbol,
+    pub echoes: Vec<Expression>,
 }
 
 impl EchoSum {
-    /// The sum of `echoes`, functions of `local`, one period apart.
-    pub(crate) fn new(period: Fraction, local: Symbol, echoes: Vec<Expression>) -> EchoSum {
-        EchoSum { period, local, echoes }
-    }
-
-    pub fn echoes(&self) -> &[Expression] {
-        &self.echoes
-    }
-
     /// The piece on the n-th period, in the local variable: `Σ_{k ≤ n} φ_k(s + (n−k)D)`; the
     /// echoes up to the n-th are known.
     pub fn piece(&self, n: usize) -> Result<Expression, NotAUnit> {

@@ -321,41 +321,29 @@ fn combine(
     Fraction::normal(add(&over_common(left), &over_common(right)), common)
 }
 
-impl Add for &Fraction {
-    type Output = Fraction;
-    fn add(self, other: &Fraction) -> Fraction {
-        combine(self, other, |l, r| l + r)
-    }
-}
-
-impl Sub for &Fraction {
-    type Output = Fraction;
-    fn sub(self, other: &Fraction) -> Fraction {
-        combine(self, other, |l, r| l - r)
-    }
-}
-
-impl AddAssign<&Fraction> for Fraction {
-    /// Where neither has a denominator, into the terms of `self`.
-    fn add_assign(&mut self, other: &Fraction) {
-        if self.factors.is_empty() && other.factors.is_empty() {
-            self.numerator += &other.numerator;
-        } else {
-            *self = &*self + other;
+macro_rules! operators {
+    ($operator:ident $name:ident, $in_place:ident $name_in_place:ident) => {
+        impl $operator for &Fraction {
+            type Output = Fraction;
+            fn $name(self, other: &Fraction) -> Fraction {
+                combine(self, other, |left, right| left.$name(right))
+            }
         }
-    }
-}
 
-impl SubAssign<&Fraction> for Fraction {
-    /// Where neither has a denominator, into the terms of `self`.
-    fn sub_assign(&mut self, other: &Fraction) {
-        if self.factors.is_empty() && other.factors.is_empty() {
-            self.numerator -= &other.numerator;
-        } else {
-            *self = &*self - other;
+        impl $in_place<&Fraction> for Fraction {
+            /// Where neither has a denominator, into the terms of `self`.
+            fn $name_in_place(&mut self, other: &Fraction) {
+                if self.factors.is_empty() && other.factors.is_empty() {
+                    self.numerator.$name_in_place(&other.numerator);
+                } else {
+                    *self = (&*self).$name(other);
+                }
+            }
         }
-    }
+    };
 }
+operators!(Add add, AddAssign add_assign);
+operators!(Sub sub, SubAssign sub_assign);
 
 impl Mul for &Fraction {
     type Output = Fraction;

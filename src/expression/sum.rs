@@ -283,35 +283,26 @@ impl Expression {
     }
 }
 
-impl AddAssign<&Expression> for Expression {
-    fn add_assign(&mut self, other: &Expression) {
-        self.merge(other, Fraction::clone, |own, p| *own += p);
-    }
-}
+macro_rules! operators {
+    ($operator:ident $name:ident, $in_place:ident $name_in_place:ident, $alone:expr) => {
+        impl $in_place<&Expression> for Expression {
+            fn $name_in_place(&mut self, other: &Expression) {
+                self.merge(other, $alone, |own, p| own.$name_in_place(p));
+            }
+        }
 
-impl SubAssign<&Expression> for Expression {
-    fn sub_assign(&mut self, other: &Expression) {
-        self.merge(other, |p| -p, |own, p| *own -= p);
-    }
+        impl $operator for &Expression {
+            type Output = Expression;
+            fn $name(self, other: &Expression) -> Expression {
+                let mut result = self.clone();
+                result.$name_in_place(other);
+                result
+            }
+        }
+    };
 }
-
-impl Add for &Expression {
-    type Output = Expression;
-    fn add(self, other: &Expression) -> Expression {
-        let mut sum = self.clone();
-        sum += other;
-        sum
-    }
-}
-
-impl Sub for &Expression {
-    type Output = Expression;
-    fn sub(self, other: &Expression) -> Expression {
-        let mut difference = self.clone();
-        difference -= other;
-        difference
-    }
-}
+operators!(Add add, AddAssign add_assign, Fraction::clone);
+operators!(Sub sub, SubAssign sub_assign, |p| -p);
 
 impl Mul for &Expression {
     type Output = Expression;

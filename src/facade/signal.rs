@@ -39,7 +39,7 @@ impl Signal<'_> {
     /// The name.
     #[must_use]
     pub fn name(&self) -> &str {
-        self.wanted.name()
+        &self.wanted.name
     }
 
     /// The unit of its values, empty for plain numbers.
@@ -198,7 +198,7 @@ impl Signal<'_> {
         digits: usize,
     ) -> Result<Roots, Error> {
         let digits = proven(digits)?;
-        let level = self.problem.quantity("level", level, self.wanted.dimension())?;
+        let level = self.problem.quantity("level", level, self.wanted.dimension)?;
         self.on(window, |signal| Ok(Search::new(signal)?.roots(&level, digits, SEARCH_BITS)?))
     }
 

@@ -85,7 +85,7 @@ impl FieldEvaluator<'_> {
         if from >= to || *from < Rational::default() {
             return Err(EvaluateError::EmptyWindow.into());
         }
-        if to > self.last() {
+        if *to > self.last {
             return Err(EvaluateError::AfterLast.into());
         }
         let mut found = Vec::with_capacity(self.bars.len());

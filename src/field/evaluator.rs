@@ -33,7 +33,7 @@ pub struct FieldEvaluator<'a> {
     network: &'a Network,
     pub(super) bars: &'a [FieldBar],
     pub(super) waves: Waves<'a>,
-    last: Rational,
+    pub(super) last: Rational,
     /// The length of endless bars in pictures.
     pub(super) reach: Option<Rational>,
 }
@@ -96,10 +96,6 @@ impl<'a> FieldEvaluator<'a> {
         self.network
     }
 
-    pub(super) fn last(&self) -> &Rational {
-        &self.last
-    }
-
     pub(super) fn name(&self, bar: &FieldBar) -> &str {
         &self.network.scene().elements[bar.element].name
     }
@@ -112,21 +108,21 @@ impl<'a> FieldEvaluator<'a> {
         if *time > self.last {
             return Err(EvaluateError::AfterLast.into());
         }
-        for name in mesh.bars() {
+        for name in &mesh.bars {
             if !self.bars().any(|bar| bar == name) {
                 let bars = self.bars().map(str::to_owned).collect();
                 return Err(FieldError::UnknownBar { name: name.clone(), bars });
             }
         }
         let wanted = |(_, bar): &(usize, &FieldBar)| {
-            mesh.bars().is_empty() || mesh.bars().iter().any(|name| name == self.name(bar))
+            mesh.bars.is_empty() || mesh.bars.iter().any(|name| name == self.name(bar))
         };
         let fields = |(place, _)| self.fields_of(place, time, mesh);
         Ok(Fields {
             time: time.clone(),
             dimensional: self.network.scene().dimensional,
-            sampling: mesh.sampling(),
-            side: mesh.limit(),
+            sampling: mesh.sampling,
+            side: mesh.limit,
             bars: self
                 .bars
                 .iter()
@@ -145,24 +141,24 @@ impl<'a> FieldEvaluator<'a> {
     ) -> Result<BarFields, FieldError> {
         let bar = &self.bars[bar_place];
         let at = self.network.scaled_time(time);
-        let (span, length) = self.span(bar, &at, mesh.reach())?;
+        let (span, length) = self.span(bar, &at, mesh.reach.as_ref())?;
         let name = self.name(bar).to_owned();
         if span.is_zero() {
             // No wave has entered an endless bar.
             return Ok(BarFields { name, x: Vec::new(), values: Default::default() });
         }
-        let share = |j: usize| Rational::new(j.into(), mesh.cells().into());
-        let points: Vec<MeshPoint> = (0..=mesh.cells())
+        let share = |j: usize| Rational::new(j.into(), mesh.cells.into());
+        let points: Vec<MeshPoint> = (0..=mesh.cells)
             .map(|j| {
                 let delays = delays(bar, &span, span.scale(&share(j)));
-                let inside = mesh.limit() == Limit::Right && j < mesh.cells();
+                let inside = mesh.limit == Limit::Right && j < mesh.cells;
                 MeshPoint { delays, from_larger: inside || j == 0, is_drawn: false }
             })
             .collect();
         let length = self.waves.numbers.enclose_root(&length, FIRST_BITS)?;
         let place = |j| length.multiply_rational(&share(j), FIRST_BITS).to_double().0;
-        let x = (0..=mesh.cells()).map(place).collect();
-        let (found, bits) = self.fine(|bits| match mesh.sampling() {
+        let x = (0..=mesh.cells).map(place).collect();
+        let (found, bits) = self.fine(|bits| match mesh.sampling {
             Sampling::Nodes => self.at_points(bar_place, &at, &points, bits),
             Sampling::Averages => self.averages(bar_place, &at, &points, bits),
         })?;

@@ -21,11 +21,11 @@ pub enum Sampling {
 /// - a reach is above zero.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mesh {
-    cells: usize,
-    sampling: Sampling,
-    limit: Limit,
-    bars: Vec<String>,
-    reach: Option<Rational>,
+    pub(super) cells: usize,
+    pub(super) sampling: Sampling,
+    pub(super) limit: Limit,
+    pub(super) bars: Vec<String>,
+    pub(super) reach: Option<Rational>,
 }
 
 impl Mesh {
@@ -71,28 +71,5 @@ impl Mesh {
             true => Ok(Mesh { reach: Some(reach.clone()), ..self }),
             false => Err(FieldError::NegativeReach(reach.clone())),
         }
-    }
-
-    /// The number of cells of a bar.
-    pub fn cells(&self) -> usize {
-        self.cells
-    }
-
-    /// Whether values or averages are given.
-    pub fn sampling(&self) -> Sampling {
-        self.sampling
-    }
-
-    /// The limit that is taken at jumps.
-    pub fn limit(&self) -> Limit {
-        self.limit
-    }
-
-    pub(super) fn bars(&self) -> &[String] {
-        &self.bars
-    }
-
-    pub(super) fn reach(&self) -> Option<&Rational> {
-        self.reach.as_ref()
     }
 }

@@ -31,7 +31,7 @@ impl FieldEvaluator<'_> {
         if *time < Rational::default() {
             return Err(FieldError::Negative(time.clone()));
         }
-        if time > self.last() {
+        if *time > self.last {
             return Err(EvaluateError::AfterLast.into());
         }
         (0..self.bars.len()).map(|bar| self.profile(bar, time, points)).collect()
@@ -45,7 +45,7 @@ impl FieldEvaluator<'_> {
     ) -> Result<Profile, FieldError> {
         let bar = &self.bars[bar_place];
         let at = self.network().scaled_time(time);
-        let (span, length) = self.drawn_span(bar, self.last())?;
+        let (span, length) = self.drawn_span(bar, &self.last)?;
         let mut profile =
             Profile { name: self.name(bar).to_owned(), length, stretches: Vec::new() };
         if span.is_zero() {

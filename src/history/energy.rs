@@ -27,9 +27,7 @@ pub(crate) struct Energy {
 impl Series {
     /// `∫_0^x f²`. A polynomial with rational coefficients gives all of its square, other series the `N`
     /// coefficients that they have themselves.
-    ///
-    /// # Cost
-    /// `n²/4` products for `n` coefficients, `n²` for rational ones.
+    /// These are `n²/4` products for `n` coefficients, `n²` for rational ones.
     pub(crate) fn energy(&self, cut: &Truncation) -> Energy {
         let bits = cut.bits;
         let mut own = self.coefficients.clone();
@@ -58,9 +56,6 @@ impl Series {
 
 impl Energy {
     /// `∫_0^x f²`, an enclosure, for `0 ≤ x`, `γ x ≤ 8`.
-    ///
-    /// # Cost
-    /// `O(n)`.
     pub fn value(&self, x: &Number) -> Number {
         let bits = self.bits;
         let mut sum = Number::zero();
@@ -109,10 +104,17 @@ impl Energy {
     }
 }
 
+/// An antiderivative of a wave or of its square.
+#[derive(Debug)]
+enum Antiderivative {
+    Wave(Series),
+    Square(Energy),
+}
+
 /// What is kept of an antiderivative: itself, and its value at the end of the cell.
 #[derive(Debug)]
-struct Kept<T> {
-    antiderivative: T,
+struct Kept {
+    antiderivative: Antiderivative,
     whole: Number,
 }
 
@@ -125,9 +127,8 @@ struct Kept<T> {
 pub(crate) struct Wave {
     series: Series,
     length: Number,
-    integral: OnceCell<Kept<Series>>,
-    energy: OnceCell<Kept<Energy>>,
-    rough_energy: OnceCell<Kept<Energy>>,
+    /// By [`Integrand`].
+    kept: [OnceCell<Kept>; 3],
 }
 
 /// Which integral of a wave is meant.
@@ -144,11 +145,19 @@ pub(crate) enum Integrand {
 /// The precision of what is worked out roughly.
 const ROUGH_BITS: u64 = 64;
 
+impl Antiderivative {
+    fn value(&self, x: &Number, cut: &Truncation) -> Number {
+        match self {
+            Antiderivative::Wave(series) => series.value(x, cut),
+            Antiderivative::Square(energy) => energy.value(x),
+        }
+    }
+}
+
 impl Wave {
     /// A wave on a cell of this length.
     pub fn new(series: Series, length: Number) -> Wave {
-        let (integral, energy, rough_energy) = Default::default();
-        Wave { series, length, integral, energy, rough_energy }
+        Wave { series, length, kept: Default::default() }
     }
 
     /// The series.
@@ -156,52 +165,36 @@ impl Wave {
         &self.series
     }
 
-    fn integral(&self, cut: &Truncation) -> &Kept<Series> {
-        self.integral.get_or_init(|| {
-            let antiderivative = self.series.integral(Number::zero(), cut);
+    /// The antiderivative; of a rough square that of the polynomial with so few terms as tell it roughly, of
+    /// an exact one all of it.
+    fn kept(&self, integrand: Integrand, cut: &Truncation) -> &Kept {
+        let integrand = match integrand {
+            Integrand::RoughSquare if self.series.is_exact() => Integrand::Square,
+            own => own,
+        };
+        self.kept[integrand as usize].get_or_init(|| {
+            let antiderivative = match integrand {
+                Integrand::Wave => Antiderivative::Wave(self.series.integral(Number::zero(), cut)),
+                Integrand::Square => Antiderivative::Square(self.series.energy(cut)),
+                Integrand::RoughSquare => {
+                    let rough = Truncation { bits: ROUGH_BITS, ..*cut };
+                    let norm = CellNorm::new(self.length.magnitude(), &rough);
+                    Antiderivative::Square(self.series.bare(&norm, &rough).energy(&rough))
+                }
+            };
             let whole = antiderivative.value(&self.length, cut);
-            Kept { antiderivative, whole }
-        })
-    }
-
-    fn energy(&self, cut: &Truncation) -> &Kept<Energy> {
-        self.energy.get_or_init(|| {
-            let antiderivative = self.series.energy(cut);
-            let whole = antiderivative.value(&self.length);
-            Kept { antiderivative, whole }
-        })
-    }
-
-    /// The energy of the polynomial with so few terms as tell it roughly; all of an exact one.
-    fn rough_energy(&self, cut: &Truncation) -> &Kept<Energy> {
-        if self.series.is_exact() {
-            return self.energy(cut);
-        }
-        self.rough_energy.get_or_init(|| {
-            let rough = Truncation { bits: ROUGH_BITS, ..*cut };
-            let norm = CellNorm::new(self.length.magnitude(), &rough);
-            let antiderivative = self.series.bare(&norm, &rough).energy(&rough);
-            let whole = antiderivative.value(&self.length);
             Kept { antiderivative, whole }
         })
     }
 
     /// An integral from the start of the cell to a time after it.
     pub fn until(&self, integrand: Integrand, time: &Number, cut: &Truncation) -> Number {
-        match integrand {
-            Integrand::Wave => self.integral(cut).antiderivative.value(time, cut),
-            Integrand::Square => self.energy(cut).antiderivative.value(time),
-            Integrand::RoughSquare => self.rough_energy(cut).antiderivative.value(time),
-        }
+        self.kept(integrand, cut).antiderivative.value(time, cut)
     }
 
     /// An integral over the whole cell.
     pub fn whole(&self, integrand: Integrand, cut: &Truncation) -> &Number {
-        match integrand {
-            Integrand::Wave => &self.integral(cut).whole,
-            Integrand::Square => &self.energy(cut).whole,
-            Integrand::RoughSquare => &self.rough_energy(cut).whole,
-        }
+        &self.kept(integrand, cut).whole
     }
 }
 

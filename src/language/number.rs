@@ -5,6 +5,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Pow, ToPrimitive, Zero};
+use wavestep_polynomial::fraction;
 
 /// Why a literal is not accepted although its form is right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,23 +24,23 @@ pub(super) enum LiteralError {
 /// Takes time linear in the length for literals within the limits, which are checked first.
 pub(super) fn literal(text: &str) -> Result<BigRational, LiteralError> {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    if whole.len() + fraction.len() > MAX_NUMBER_DIGITS {
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    if whole.len() + decimals.len() > MAX_NUMBER_DIGITS {
         return Err(LiteralError::TooManyDigits);
     }
-    let fraction = fraction.trim_end_matches('0');
+    let decimals = decimals.trim_end_matches('0');
     // The zero in front is the whole number of `.0`, whose digits are all trimmed away.
-    let integer = digits(&format!("0{whole}{fraction}"));
+    let integer = digits(&format!("0{whole}{decimals}"));
     let exponent = signed_exponent(exponent).ok_or(LiteralError::ExponentTooLarge)?;
-    let scale = exponent - fraction.len().to_i64().expect("at most MAX_NUMBER_DIGITS");
+    let scale = exponent - decimals.len().to_i64().expect("at most MAX_NUMBER_DIGITS");
     if scale.abs() > MAX_DECIMAL_EXPONENT {
         return Err(LiteralError::ExponentTooLarge);
     }
     let power = u32::try_from(scale.unsigned_abs()).expect("at most MAX_DECIMAL_EXPONENT");
-    Ok(if scale >= 0 {
-        BigRational::from_integer(integer * BigInt::from(10).pow(power))
-    } else {
-        over_power_of_ten(integer, power)
+    let ten = BigInt::from(10).pow(power);
+    Ok(match scale >= 0 {
+        true => BigRational::from_integer(integer * ten),
+        false => fraction(integer, ten),
     })
 }
 
@@ -61,28 +62,6 @@ fn signed_exponent(text: &str) -> Option<i64> {
         _ => return None,
     };
     (magnitude <= MAX_DECIMAL_EXPONENT).then_some(if negative { -magnitude } else { magnitude })
-}
-
-/// `numerator / 10^power` in lowest terms. Only twos and fives can cancel; taking these out is far
-/// cheaper than the greatest common divisor that `BigRational::new` would compute.
-fn over_power_of_ten(mut numerator: BigInt, power: u32) -> BigRational {
-    if numerator.is_zero() {
-        return BigRational::zero();
-    }
-    let twos = numerator.trailing_zeros().unwrap_or(0).min(u64::from(power));
-    numerator >>= twos;
-    let five = BigInt::from(5);
-    let mut fives_left = power;
-    while fives_left > 0 {
-        let (quotient, remainder) = numerator.div_rem(&five);
-        if !remainder.is_zero() {
-            break;
-        }
-        numerator = quotient;
-        fives_left -= 1;
-    }
-    let denominator = five.pow(fives_left) << (u64::from(power) - twos);
-    BigRational::new_raw(numerator, denominator)
 }
 
 /// The shortest literal of a value that one literal can say, such that reading it gives the value.

@@ -176,7 +176,7 @@ impl Line {
         }
         let (scene, model) = (scaled.scene(), scaled.model());
         let double = |value: &Fraction| double(&numbers, value);
-        let layout = scaled.layout();
+        let layout = &scaled.layout;
         let mut bars = Vec::new();
         for (element, nodes) in layout.bars.iter().zip(&layout.ends) {
             let data = &model.bars[element];
@@ -197,7 +197,7 @@ impl Line {
             let until = load.until.as_ref().map(double).transpose()?.unwrap_or(f64::INFINITY);
             loads.insert(*element, Load { course, from: double(&load.from)?, until });
         }
-        let observables = scaled.measures().iter().map(|own| Observable::of(own, &numbers));
+        let observables = scaled.measures.iter().map(|own| Observable::of(own, &numbers));
         Ok(Line {
             bars,
             nodes: nodes.collect::<Result<_, _>>()?,

@@ -194,7 +194,7 @@ fn systems(
     line: &Line,
 ) -> Result<Vec<System<f64>>, ModelError> {
     let mut systems = Vec::new();
-    for node in &scaled.layout().nodes {
+    for node in &scaled.layout.nodes {
         let node = node.map(|value| numbers.number(value, BITS))?;
         let system = System::of(&node, |_| true, BITS).map_err(|Unresisted| {
             let near = node.elements.first().map(|own| line.name(own.element));

@@ -142,25 +142,18 @@ impl<'a> Table<'a> {
         let section = self.section(name, &seen.place)?;
         let elements = self.elements();
         let face = |element| elements.lump(element).map(Face::Left);
+        let one = |reading| vec![Term::one(reading)];
         let terms = match (seen.measure, &seen.place, section) {
-            (Measure::Velocity, _, Some(section)) => self.in_bar(1, Field::Velocity, section),
-            (Measure::Displacement, _, Some(section)) => {
-                self.in_bar(1, Field::Displacement, section)
-            }
-            (Measure::Force, _, Some(section)) => self.in_bar(1, Field::Force, section),
-            // Positive where it pulls.
-            (Measure::Strain | Measure::Stress, _, Some(section)) => {
-                self.in_bar(-1, Field::Force, section)
-            }
+            (_, _, Some(section)) => self.in_bar(seen.measure, section),
             (Measure::Velocity, Place::Element(element), _) => {
-                face(*element).map(|face| vec![Term::one(Reading::Velocity(face))])
+                face(*element).map(|face| one(Reading::Velocity(face)))
             }
             (Measure::Displacement, Place::Element(element), _) => {
-                face(*element).map(|face| vec![Term::one(Reading::Displacement(face))])
+                face(*element).map(|face| one(Reading::Displacement(face)))
             }
             (Measure::Compression, Place::Element(element), _) => elements.compression(*element),
             (Measure::Force, Place::Element(element), _) => {
-                elements.lump(*element).map(|lump| vec![Term::one(Reading::Force(lump))])
+                elements.lump(*element).map(|lump| one(Reading::Force(lump)))
             }
             (Measure::Momentum, Place::Element(element), _) => elements.momentum(*element),
             (Measure::Momentum, Place::Line, _) => {
@@ -173,7 +166,15 @@ impl<'a> Table<'a> {
         Ok((terms.map_err(refused)?, unit))
     }
 
-    fn in_bar(&self, sign: i64, field: Field, section: Section) -> Result<Vec<Term>, Mistake> {
+    fn in_bar(&self, measure: Measure, section: Section) -> Result<Vec<Term>, Mistake> {
+        let (sign, field) = match measure {
+            Measure::Velocity => (1, Field::Velocity),
+            Measure::Displacement => (1, Field::Displacement),
+            Measure::Force => (1, Field::Force),
+            // Positive where it pulls.
+            Measure::Strain | Measure::Stress => (-1, Field::Force),
+            _ => return Err(Mistake::NotMeasurable),
+        };
         if self.vanishes(field, &section) {
             return Ok(Vec::new());
         }
@@ -271,8 +272,8 @@ mod tests {
     type Row = (&'static str, Fraction, Vec<(Fraction, Reading)>);
 
     fn assert_table(scene: &ScaledScene, rows: Vec<Row>) {
-        assert_eq!(scene.measures().len(), rows.len());
-        for (measured, (name, unit, terms)) in scene.measures().iter().zip(rows) {
+        assert_eq!(scene.measures.len(), rows.len());
+        for (measured, (name, unit, terms)) in scene.measures.iter().zip(rows) {
             assert_eq!((measured.name.as_str(), &measured.unit), (name, &unit.into()));
             let MeasuredValue::Linear(found) = &measured.value else { panic!("{name}: linear") };
             let found: Vec<(Fraction, Reading)> =
@@ -363,7 +364,7 @@ mod tests {
             &scene,
             rows.into_iter().map(|(name, terms)| (name, one.clone(), terms)).collect(),
         );
-        let elements = Elements { model: scene.model(), layout: scene.layout() };
+        let elements = Elements { model: scene.model(), layout: &scene.layout };
         let force = |place| {
             let terms = elements.force(lump(place)).expect("a linear law");
             terms.into_iter().map(|term| (term.coefficient, term.of)).collect::<Vec<_>>()

@@ -19,7 +19,7 @@ use wavestep_polynomial::Rational;
 impl Network {
     /// Forms all observables of the scene.
     pub(crate) fn set_observables(&mut self) -> Result<(), NetworkError> {
-        for measured in self.scaled.measures().to_vec() {
+        for measured in self.scaled.measures.clone() {
             let (value, readings) = match measured.value {
                 MeasuredValue::Linear(terms) => {
                     let mut sum = Observation::default();

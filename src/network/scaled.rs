@@ -19,8 +19,10 @@ use crate::scene::{ElementIndex, Kind, Scene};
 pub struct ScaledScene {
     pub(in crate::network) scene: Scene,
     pub(in crate::network) model: Model,
-    pub(in crate::network) layout: Layout,
-    measures: Vec<Measured>,
+    /// Its bars and nodes, with all contacts closed.
+    pub(crate) layout: Layout,
+    /// The observables of the scene, as sums of readings.
+    pub(crate) measures: Vec<Measured>,
 }
 
 impl ScaledScene {
@@ -39,16 +41,6 @@ impl ScaledScene {
     /// The scene in its own scales.
     pub fn model(&self) -> &Model {
         &self.model
-    }
-
-    /// Its bars and nodes, with all contacts closed.
-    pub(crate) fn layout(&self) -> &Layout {
-        &self.layout
-    }
-
-    /// The observables of the scene, as sums of readings.
-    pub(crate) fn measures(&self) -> &[Measured] {
-        &self.measures
     }
 
     /// The velocities at the start of all that moves together.

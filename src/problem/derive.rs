@@ -303,7 +303,7 @@ fn functions(
 ) -> Result<Functions, ProblemError> {
     let (first, last) = orders.ends();
     let expressions = match form {
-        Form::Echo => solution.echoes(wave, last)?.echoes()[first..].to_vec(),
+        Form::Echo => solution.echoes(wave, last)?.echoes[first..].to_vec(),
         Form::Period | Form::Piecewise => solution.pieces(wave, first, last)?,
     };
     let name = solution.recurrence().statement().waves[wave].clone();

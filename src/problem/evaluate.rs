@@ -62,7 +62,7 @@ impl Problem {
                     Err(EvaluateError::AccuracyNotReached { best, .. })
                         if signal.most_bits() < u64::MAX =>
                     {
-                        let (name, time) = (wanted.name().to_owned(), time.clone());
+                        let (name, time) = (wanted.name.clone(), time.clone());
                         let best = best.to_decimal(count).to_string();
                         return Err(ProblemError::Undecided { name, time, best });
                     }
@@ -110,7 +110,7 @@ impl Problem {
         let wanted = self.wanted(name)?;
         let window = reaching_a_double(window);
         let signal = self.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
-        Ok(Question { signal, scene: self.network().ok().zip(wanted.place()) })
+        Ok(Question { signal, scene: self.network().ok().zip(wanted.place) })
     }
 
     /// A wave or an observable as a function of time on a window.
@@ -120,7 +120,7 @@ impl Problem {
         window: [&Rational; 2],
         purpose: Purpose,
     ) -> Result<Box<dyn Signal + '_>, ProblemError> {
-        match (&self.kind, wanted.observed()) {
+        match (&self.kind, &wanted.observed) {
             (Kind::Line { network, .. }, Some(observed)) => {
                 Ok(signal::of_scene(network, observed, window, purpose)?)
             }
@@ -151,7 +151,7 @@ impl Problem {
         if !self.has_periods() {
             return Err(ProblemError::NoPeriodsWhereContactsOpen);
         }
-        let refuse = || ProblemError::NoPeriods(wanted.name().to_owned());
+        let refuse = || ProblemError::NoPeriods(wanted.name.clone());
         let observation = wanted.observation().filter(|_| !self.has_units() && !self.on_lattice());
         let observation = observation.ok_or_else(refuse)?;
         let solution = self.solution()?;
@@ -181,7 +181,7 @@ impl Problem {
             return Err(self.not_certified(accuracy));
         };
         let scaled = self.scaled()?;
-        let place = wanted.place().expect("an observable of the scene");
+        let place = wanted.place.expect("an observable of the scene");
         let way = Way::of_model(method, scaled, place).map_err(|error| match error {
             WayError::Model(error @ ModelError::Refused { .. }) => {
                 ProblemError::ModelOfLocalContact(error)

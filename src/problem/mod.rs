@@ -19,7 +19,7 @@ mod wanted;
 
 use crate::language::{self, Source, Stated};
 use crate::network::{Network, NetworkError, ScaledScene};
-use crate::recurrence::Recurrence;
+use crate::recurrence::{Recurrence, Statement};
 use crate::scene::{PI, Scene};
 use crate::signal;
 use crate::solution::Solution;
@@ -71,26 +71,33 @@ enum Kind {
 impl Problem {
     /// The title.
     pub fn title(&self) -> &str {
+        self.stated().map_or_else(|statement| &statement.title, |scene| &scene.title)
+    }
+
+    /// The scene, or the equations.
+    fn stated(&self) -> Result<&Scene, &Statement> {
         match &self.kind {
-            Kind::Equations(solution) => &solution.recurrence().statement().title,
-            Kind::Line { network, .. } => &network.scene().title,
-            Kind::LocalContact(scaled) => &scaled.scene().title,
+            Kind::Equations(solution) => Err(solution.recurrence().statement()),
+            Kind::Line { network, .. } => Ok(network.scene()),
+            Kind::LocalContact(scaled) => Ok(scaled.scene()),
         }
     }
 
     /// The symbols that have no value yet, in the order of their names.
     pub fn symbols(&self) -> Vec<&str> {
-        let names: Vec<&Symbol> = match &self.kind {
-            Kind::Equations(solution) => solution.recurrence().symbols().collect(),
-            Kind::Line { network, .. } => symbols_of(network.scene()),
-            Kind::LocalContact(scaled) => symbols_of(scaled.scene()),
-        };
-        names.into_iter().map(Symbol::name).collect()
+        match &self.kind {
+            Kind::Equations(solution) => {
+                solution.recurrence().symbols().map(Symbol::name).collect()
+            }
+            Kind::Line { network, .. } => names_of_symbols(network.scene()),
+            Kind::LocalContact(scaled) => names_of_symbols(scaled.scene()),
+        }
     }
 }
 
-fn symbols_of(scene: &Scene) -> Vec<&Symbol> {
-    scene.assumptions.symbols().map(|(symbol, _)| symbol).filter(|s| s.name() != PI).collect()
+fn names_of_symbols(scene: &Scene) -> Vec<&str> {
+    let names = scene.assumptions.symbols().map(|(symbol, _)| symbol.name());
+    names.filter(|name| *name != PI).collect()
 }
 
 #[doc(hidden)]

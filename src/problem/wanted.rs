@@ -10,36 +10,19 @@ use crate::scene::{Dimension, Measure, Scene};
 /// A wave or an observable of a problem.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Wanted {
-    name: String,
-    dimension: Dimension,
+    pub name: String,
+    /// The dimension of its values; none for waves, and in scenes without units.
+    pub dimension: Dimension,
     /// What it is in waves; `None` where there are none.
-    observed: Option<Observed>,
+    pub(super) observed: Option<Observed>,
     /// Its place among the observables of a scene.
-    place: Option<usize>,
+    pub(super) place: Option<usize>,
 }
 
 impl Wanted {
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// The dimension of its values; none for waves, and in scenes without units.
-    pub fn dimension(&self) -> Dimension {
-        self.dimension
-    }
-
     /// The unit of its values, empty where there is none.
     pub fn unit(&self) -> String {
         self.dimension.unit()
-    }
-
-    /// What it is in waves.
-    pub(super) fn observed(&self) -> Option<&Observed> {
-        self.observed.as_ref()
-    }
-
-    pub(super) fn place(&self) -> Option<usize> {
-        self.place
     }
 
     /// What it is where it is linear in the waves.
@@ -66,18 +49,9 @@ impl Wanted {
 impl Problem {
     /// What is observed, in the order of the text.
     pub fn observables(&self) -> Vec<&str> {
-        match &self.kind {
-            Kind::Equations(solution) => {
-                let observables = &solution.recurrence().statement().observables;
-                observables.iter().map(|observable| observable.name.as_str()).collect()
-            }
-            Kind::Line { network, .. } => {
-                network.observables().iter().map(|observed| observed.name.as_str()).collect()
-            }
-            Kind::LocalContact(scaled) => {
-                let observables = &scaled.scene().observables;
-                observables.iter().map(|observable| observable.name.as_str()).collect()
-            }
+        match self.stated() {
+            Err(equations) => equations.observables.iter().map(|own| own.name.as_str()).collect(),
+            Ok(scene) => scene.observables.iter().map(|own| own.name.as_str()).collect(),
         }
     }
 
@@ -121,7 +95,7 @@ impl Problem {
     /// What an observable measures; none where its terms differ, or where it is a wave.
     pub fn measure(&self, wanted: &Wanted) -> Option<Measure> {
         let mut observables = self.scaled().ok()?.scene().observables.iter();
-        let own = observables.find(|own| own.name == wanted.name())?;
+        let own = observables.find(|own| own.name == wanted.name)?;
         let mut measures = own.terms.iter().map(|term| term.measure);
         let first = measures.next()?;
         measures.all(|other| other == first).then_some(first)
@@ -154,8 +128,7 @@ fn of_network(network: &Network, name: &str) -> Option<Wanted> {
         return Some(Wanted::of_observed(observables[place].clone(), Some(place)));
     }
     let wave = network.waves().iter().position(|wave| wave.name == name)?;
-    let (coefficient, delay) = (Expression::one(), Fraction::zero());
-    let seen = ObservedWave { coefficient, wave, slope: false, delay };
+    let seen = ObservedWave::new(wave, Fraction::zero(), &Fraction::one());
     let observation = Observation { waves: vec![seen], forcing: Expression::zero() };
     Some(Wanted::linear(name, observation))
 }

@@ -48,8 +48,8 @@ pub(crate) fn uncouple(
     hidden: WaveIndex,
     naming: &mut Naming,
 ) -> Result<Uncoupled, Stuck> {
-    let tail = take_values(&mut forms, &mut waves, naming.assumptions())?;
-    solve_for_slopes(&mut forms, &waves, naming.assumptions())?;
+    let tail = take_values(&mut forms, &mut waves, &naming.assumptions)?;
+    solve_for_slopes(&mut forms, &waves, &naming.assumptions)?;
     let matrix = rates(&forms, &waves).ok_or(Stuck::Degenerate)?;
     let size = waves.len();
     if size > MAX_SIZE {
@@ -59,7 +59,7 @@ pub(crate) fn uncouple(
     let rates = roots::of(&polynomial, naming).ok_or(Stuck::Roots(polynomial))?;
     let first = (0..size).find_map(|j| {
         let rows = rows(&matrix, j, &rates);
-        let determinant = naming.assumptions().invert(&determinant(&rows).into()).ok()?;
+        let determinant = naming.assumptions.invert(&determinant(&rows).into()).ok()?;
         Some((j, rows, determinant.as_fraction()?))
     });
     let (j, rows, inverse) = first.ok_or(Stuck::Degenerate)?;
@@ -104,11 +104,7 @@ fn take_values(
     while let Some(place) = waves.iter().position(|wave| slopeless(forms, wave)) {
         let wave = waves.remove(place);
         let value = |form: &LinearForm| form.operator(wave).value_now();
-        let pivot = forms
-            .iter()
-            .enumerate()
-            .find_map(|(row, form)| Some((row, assumptions.invert(&value(form)).ok()?)));
-        let (row, inverse) = pivot.ok_or(Stuck::Degenerate)?;
+        let (row, inverse) = pivot(forms.iter().map(value), assumptions)?;
         let own = forms.remove(row).scaled(&inverse);
         for form in forms.iter_mut() {
             let factor = -&value(form);
@@ -121,6 +117,16 @@ fn take_values(
     }
     taken.reverse();
     Ok(taken)
+}
+
+/// The first of some values that can be divided by, and its inverse.
+fn pivot(
+    values: impl Iterator<Item = Expression>,
+    assumptions: &Assumptions,
+) -> Result<(usize, Expression), Stuck> {
+    let inverse = |(row, value): (usize, Expression)| Some((row, assumptions.invert(&value).ok()?));
+    let mut values = values.enumerate();
+    values.find_map(inverse).ok_or(Stuck::Degenerate)
 }
 
 /// The rows `r_0 = e_j`, `r_k = r_{k−1} (a_k − A)`.
@@ -172,10 +178,8 @@ fn solve_for_slopes(
 ) -> Result<(), Stuck> {
     for (i, wave) in waves.iter().enumerate() {
         let slope = |form: &LinearForm| form.operator(*wave).slope_now();
-        let pivot = (i..forms.len())
-            .find_map(|row| Some((row, assumptions.invert(&slope(&forms[row])).ok()?)));
-        let (row, inverse) = pivot.ok_or(Stuck::Degenerate)?;
-        forms.swap(i, row);
+        let (row, inverse) = pivot(forms[i..].iter().map(slope), assumptions)?;
+        forms.swap(i, i + row);
         let own = forms[i].scaled(&inverse);
         for (j, form) in forms.iter_mut().enumerate() {
             match i == j {

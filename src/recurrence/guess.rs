@@ -1,8 +1,7 @@
-//! Guesses in doubles for roots that are then proven: all roots of a polynomial, and rational numbers near
-//! a double.
+//! Guesses in doubles for the roots of a polynomial, which are then proven.
 
-use num_traits::{FromPrimitive, One, ToPrimitive, Zero};
-use wavestep_polynomial::{Integer, Rational};
+use num_traits::ToPrimitive;
+use wavestep_polynomial::Rational;
 
 /// Roots to about ten digits, by the simultaneous iteration of Weierstrass.
 pub(crate) fn approximate_roots(polynomial: &[Rational]) -> Option<Vec<(f64, f64)>> {
@@ -38,28 +37,4 @@ pub(crate) fn approximate_roots(polynomial: &[Rational]) -> Option<Vec<(f64, f64
         }
     }
     Some(roots)
-}
-
-/// The first convergents of the continued fraction of a number.
-pub(crate) fn convergents(value: f64) -> Vec<Rational> {
-    let mut found = Vec::new();
-    let (mut x, mut before, mut last) =
-        (value, (Integer::zero(), Integer::one()), (Integer::one(), Integer::zero()));
-    for _ in 0..12 {
-        let Some(whole) = Integer::from_f64(x.floor()) else { break };
-        let next = (&whole * &last.0 + &before.0, &whole * &last.1 + &before.1);
-        found.push(Rational::new(next.0.clone(), next.1.clone()));
-        (before, last) = (last, next);
-        let rest = x - x.floor();
-        if rest < 1e-7 {
-            break;
-        }
-        x = 1.0 / rest;
-    }
-    found.dedup();
-    // An integer from below, as in 2.999…
-    if let Some(nearest) = Integer::from_f64(value.round()) {
-        found.push(Rational::from_integer(nearest));
-    }
-    found
 }

@@ -17,8 +17,8 @@ const STRETCHES: i64 = 64;
 /// The constants of a statement and those named since, with the assumptions on them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Naming {
-    constants: Vec<Constant>,
-    assumptions: Assumptions,
+    pub constants: Vec<Constant>,
+    pub assumptions: Assumptions,
     /// Names that are taken besides those of symbols.
     taken: Vec<String>,
 }
@@ -29,14 +29,6 @@ impl Naming {
         let taken = statement.waves.iter().cloned().chain(times).collect();
         let (constants, assumptions) = (statement.constants.clone(), statement.assumptions.clone());
         Naming { constants, assumptions, taken }
-    }
-
-    pub fn into_parts(self) -> (Vec<Constant>, Assumptions) {
-        (self.constants, self.assumptions)
-    }
-
-    pub fn assumptions(&self) -> &Assumptions {
-        &self.assumptions
     }
 
     /// `√square` as a named constant, times `i` where the square is negative; `None` where its sign

@@ -39,7 +39,7 @@ impl Recurrence {
             return Err(InvalidRecurrence { clause: Clause::Equation(0), fault });
         }
         let Ordered { steps, hidden, naming, coupled } = ordering::order(&statement)?;
-        (statement.constants, statement.assumptions) = naming.into_parts();
+        (statement.constants, statement.assumptions) = (naming.constants, naming.assumptions);
         Ok(Recurrence { statement, steps, hidden, coupled })
     }
 
@@ -115,8 +115,7 @@ impl Recurrence {
     /// The wave or the observable called `name`, as an observation.
     pub fn observation(&self, name: &str) -> Option<Observation> {
         if let Some(wave) = self.wave(name) {
-            let (coefficient, delay) = (Expression::one(), Fraction::zero());
-            let seen = ObservedWave { coefficient, wave, slope: false, delay };
+            let seen = ObservedWave::new(wave, Fraction::zero(), &Fraction::one());
             return Some(Observation { waves: vec![seen], forcing: Expression::zero() });
         }
         self.observable(name).map(|observable| observable.observation.clone())

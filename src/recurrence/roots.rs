@@ -1,14 +1,11 @@
 //! Roots of polynomials: rational ones, those of quadratics, and real ones that are named.
 //!
-//! Floating-point numbers only suggest what to try; a root is taken when the division leaves no rest.
-//! Where no exact root is found and all coefficients are numbers, a real root, or the square root in
-//! a quadratic, becomes a constant with a name and a definition.
+//! Where a factor with rational coefficients is neither linear nor quadratic and all coefficients are numbers,
+//! a real root, or the square root in a quadratic, becomes a constant with a name and a definition.
 
 use crate::expression::Fraction;
-use crate::recurrence::guess::{approximate_roots, convergents};
 use crate::recurrence::naming::Naming;
-use num_traits::{One, Zero};
-use wavestep_polynomial::{Rational, Symbol};
+use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
 /// All roots of a monic polynomial, given by its coefficients, highest power first; `None` where
 /// they are not found.
@@ -27,7 +24,7 @@ pub(crate) fn of(polynomial: &[Fraction], naming: &mut Naming) -> Option<Vec<Fra
                 return Some(roots);
             }
             _ => match rational_factor(&rest) {
-                Some((factor, quotient)) => {
+                Some([factor, quotient]) => {
                     roots.extend(of(&factor, naming)?);
                     rest = quotient;
                 }
@@ -69,54 +66,30 @@ fn deflated(polynomial: &[Fraction], root: &Fraction) -> Vec<Fraction> {
     quotient
 }
 
-/// A linear or quadratic factor with rational coefficients, and the quotient by it.
-fn rational_factor(polynomial: &[Fraction]) -> Option<(Vec<Fraction>, Vec<Fraction>)> {
-    if polynomial.last()?.is_zero() {
-        let factor = vec![Fraction::one(), Fraction::zero()];
-        return Some((factor, polynomial[..polynomial.len() - 1].to_vec()));
-    }
-    let exact: Vec<Rational> =
-        polynomial.iter().map(Fraction::as_constant).collect::<Option<_>>()?;
-    let guesses = approximate_roots(&exact)?;
-    let attempt = |factor: Vec<Rational>| {
-        let quotient = divide(&exact, &factor)?;
-        let lift = |row: Vec<Rational>| row.iter().map(Fraction::constant).collect::<Vec<_>>();
-        Some((lift(factor), lift(quotient)))
+/// An irreducible factor of least degree with rational coefficients, and the quotient by it; none of what
+/// is irreducible itself.
+fn rational_factor(polynomial: &[Fraction]) -> Option<[Vec<Fraction>; 2]> {
+    let x = Symbol::new("x").expect("a name");
+    let powers = (0..polynomial.len() as u32).rev();
+    let term = |(c, power): (&Fraction, u32)| {
+        Some(Polynomial::monomial(&c.as_constant()?, &[(&x, power)]))
     };
-    let linear = guesses.iter().filter(|root| root.1.abs() < 1e-6 * (1.0 + root.0.abs()));
-    for root in linear {
-        for value in convergents(root.0) {
-            if let Some(found) = attempt(vec![Rational::one(), -value]) {
-                return Some(found);
-            }
-        }
-    }
-    for (i, x) in guesses.iter().enumerate() {
-        for y in &guesses[i + 1..] {
-            let (sum, product) = (x.0 + y.0, x.0 * y.0 - x.1 * y.1);
-            for b in convergents(-sum) {
-                for c in convergents(product) {
-                    if let Some(found) = attempt(vec![Rational::one(), b.clone(), c]) {
-                        return Some(found);
-                    }
-                }
-            }
-        }
-    }
-    None
+    let terms = polynomial.iter().zip(powers).map(term);
+    let whole: Polynomial = terms.collect::<Option<Vec<_>>>()?.into_iter().sum();
+    let factors = whole.factors()?.into_iter().map(|(factor, _)| factor);
+    let smaller = factors.filter(|factor| factor.degree(&x) < whole.degree(&x));
+    let factor = smaller.min_by_key(|factor| factor.degree(&x))?;
+    let quotient = whole.divide(&factor)?;
+    Some([factor, quotient].map(|p| monic(&p, &x)))
 }
 
-/// The quotient, where the division leaves no rest.
-fn divide(polynomial: &[Rational], factor: &[Rational]) -> Option<Vec<Rational>> {
-    let mut rest = polynomial.to_vec();
-    let count = rest.len() + 1 - factor.len();
-    for i in 0..count {
-        let leading = rest[i].clone();
-        for (j, coefficient) in factor.iter().enumerate() {
-            rest[i + j] -= &leading * coefficient;
-        }
-        rest[i] = leading;
+/// The coefficients of a polynomial over the leading one, highest power first.
+fn monic(p: &Polynomial, x: &Symbol) -> Vec<Fraction> {
+    let (degree, leading) = (p.degree(x) as usize, p.leading_coefficient());
+    let mut row = vec![Fraction::zero(); degree + 1];
+    for (exponents, c) in p.terms() {
+        let power = exponents.first().copied().unwrap_or(0) as usize;
+        row[degree - power] = Fraction::constant(&(c / &leading));
     }
-    let remainder = rest.split_off(count);
-    remainder.iter().all(Zero::is_zero).then_some(rest)
+    row
 }

@@ -22,8 +22,9 @@ pub struct EchoByEcho<'a, F: Field = Exact<'a>> {
     /// The echoes that are wanted; `None` for all.
     demand: Option<Demand>,
     /// `echoes[wave][k]`: the transform of the k-th echo, zero where it is not wanted.
-    echoes: Vec<Vec<Transform<F::Value>>>,
-    expanded: usize,
+    pub(crate) echoes: Vec<Vec<Transform<F::Value>>>,
+    /// How many echoes other than zero have been worked out.
+    pub(crate) expanded: usize,
 }
 
 /// An echo that could not be worked out, and why.
@@ -45,8 +46,8 @@ impl<'a> EchoByEcho<'a> {
     /// The wave as a sum of the echoes solved so far.
     pub fn sum(&self, wave: WaveIndex) -> EchoSum {
         let statement = self.recurrence.statement();
-        let echoes = self.echoes[wave].iter().map(|echo| echo.function(&statement.local));
-        EchoSum::new(statement.period.clone(), statement.local.clone(), echoes.collect())
+        let echoes = self.echoes[wave].iter().map(|echo| echo.function(&statement.local)).collect();
+        EchoSum { period: statement.period.clone(), local: statement.local.clone(), echoes }
     }
 
     /// Solves for the next echo. Cost: a few passes over the coefficients of the echoes that the
@@ -79,16 +80,6 @@ impl<'a, F: Field> EchoByEcho<'a, F> {
     /// The transforms of the echoes of a wave, as far as they are solved.
     pub fn transforms(&self, wave: WaveIndex) -> &[Transform<F::Value>] {
         &self.echoes[wave]
-    }
-
-    /// The transforms of the echoes of all waves.
-    pub(crate) fn into_transforms(self) -> Vec<Vec<Transform<F::Value>>> {
-        self.echoes
-    }
-
-    /// How many echoes other than zero have been worked out.
-    pub(crate) fn expanded(&self) -> usize {
-        self.expanded
     }
 
     /// How many coefficients the last echoes of all waves have.

@@ -129,9 +129,9 @@ fn echoes(
     for _ in 0..count + 2 {
         solver.advance().ok()?;
     }
-    let mut first = solver.sum(wave).echoes().to_vec();
+    let mut first = solver.sum(wave).echoes;
     let later = first.split_off(count);
-    let template = template.beginning_with(first);
+    let template = EchoTemplate { first, ..template };
     // Beyond the largest lag each echo follows from the one before by (p−a)/(p+b), so that one
     // agreement carries over to all; a second one costs little.
     let local = &recurrence.statement().local;

@@ -25,8 +25,10 @@ pub struct GeometricTerm {
 /// ```
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Geometric {
-    first: Vec<Expression>,
-    terms: Vec<GeometricTerm>,
+    /// The values that the sum does not give.
+    pub first: Vec<Expression>,
+    /// The terms of the sum, none zero.
+    pub terms: Vec<GeometricTerm>,
 }
 
 /// A generating function `Σ_n w[n] q^n = numerator(q) / denominator(q)`, coefficients ascending,
@@ -112,16 +114,6 @@ impl Geometric {
             ..term.clone()
         };
         Geometric { first, terms: self.terms.iter().map(scaled).collect() }
-    }
-
-    /// The values `w[0], w[1], …` that the sum does not give.
-    pub fn first(&self) -> &[Expression] {
-        &self.first
-    }
-
-    /// The terms of the sum, none zero.
-    pub fn terms(&self) -> &[GeometricTerm] {
-        &self.terms
     }
 
     pub fn value(&self, n: usize) -> Expression {

@@ -26,7 +26,7 @@ pub struct PeriodByPeriod<'a> {
     /// `ends[wave][n]`, the limits at the end of each period, where they were needed.
     ends: Vec<Vec<Option<Expression>>>,
     /// Symbols in place of the limits at the ends.
-    kept: Option<KeptEnds>,
+    pub(crate) kept: Option<KeptEnds>,
 }
 
 /// Symbols that stand for values of waves at the ends of periods, so that a piece is given by
@@ -70,11 +70,6 @@ impl<'a> PeriodByPeriod<'a> {
     ) -> PeriodByPeriod<'a> {
         let kept = KeptEnds { waves: waves.clone(), symbols: Vec::new() };
         PeriodByPeriod { kept: Some(kept), ..PeriodByPeriod::new(recurrence) }
-    }
-
-    /// The symbols that stand for ends of periods.
-    pub(crate) fn kept_ends(&self) -> Option<&KeptEnds> {
-        self.kept.as_ref()
     }
 
     /// The pieces of the waves on the periods solved so far, `pieces[wave][n]`.

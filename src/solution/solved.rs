@@ -18,6 +18,7 @@ use wavestep_polynomial::{Integer, Rational, Univariate};
 ///
 /// Pieces and echoes are derived echo by echo; where the echoes have a closed form in k, that is
 /// used, and nothing depends on which scene it is.
+#[derive(Clone)]
 pub struct Solution {
     recurrence: Recurrence,
     general: Vec<OnceCell<Result<GeneralForm, Unknown>>>,
@@ -53,7 +54,8 @@ impl Solution {
         let statement = self.recurrence.statement();
         if let Some(template) = self.template(wave) {
             let echoes = template.echoes(through, &statement.local);
-            return Ok(EchoSum::new(statement.period.clone(), statement.local.clone(), echoes));
+            let (period, local) = (statement.period.clone(), statement.local.clone());
+            return Ok(EchoSum { period, local, echoes });
         }
         Ok(self.expanded(wave, through)?.sum(wave))
     }
@@ -99,7 +101,7 @@ impl Solution {
         for _ in 0..=last {
             solver.advance()?;
         }
-        Ok((solver.pieces().to_vec(), solver.kept_ends().cloned().unwrap_or_default()))
+        Ok((solver.pieces().to_vec(), solver.kept.unwrap_or_default()))
     }
 
     /// The echoes `φ_0 … φ_through` of a wave as a table of integers; `None` where a constant is no
@@ -108,19 +110,19 @@ impl Solution {
         let Some(template) = self.template(wave) else {
             let solver = self.expanded(wave, through)?;
             let rows: Option<_> = solver.transforms(wave).iter().map(row_of).collect();
-            return Ok(rows.map(EchoTable::new));
+            return Ok(rows.map(|rows| EchoTable { rows }));
         };
         let local = &self.recurrence.statement().local;
-        let first = template.first().iter().take(through + 1);
+        let first = template.first.iter().take(through + 1);
         let mut rows: Option<Vec<EchoRow>> =
             first.map(|echo| row_of(&Transform::of(echo, local))).collect();
-        if template.first().len() <= through {
+        if template.first.len() <= through {
             rows = rows.zip(template.numeric_rows(through)).map(|(mut rows, (rate, later))| {
                 rows.extend(later.into_iter().map(|row| EchoRow::new(vec![(-&rate, row)])));
                 rows
             });
         }
-        Ok(rows.map(EchoTable::new))
+        Ok(rows.map(|rows| EchoTable { rows }))
     }
 }
 

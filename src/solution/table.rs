@@ -11,9 +11,12 @@ use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate}
 /// ```
 ///
 /// with each `P_i` a row of integers in divided powers.
+///
+/// # Invariants
+/// - the exponents `λ_i` are pairwise different, no `P_i` is zero.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct EchoRow {
-    parts: Vec<(Rational, Univariate)>,
+    pub parts: Vec<(Rational, Univariate)>,
 }
 
 impl EchoRow {
@@ -21,15 +24,6 @@ impl EchoRow {
     pub(crate) fn new(mut parts: Vec<(Rational, Univariate)>) -> EchoRow {
         parts.retain(|(_, polynomial)| !polynomial.is_zero());
         EchoRow { parts }
-    }
-
-    /// Exponents `λ_i`, pairwise different, and polynomials `P_i`, none zero.
-    pub fn parts(&self) -> &[(Rational, Univariate)] {
-        &self.parts
-    }
-
-    pub(crate) fn into_parts(self) -> Vec<(Rational, Univariate)> {
-        self.parts
     }
 }
 
@@ -57,22 +51,10 @@ pub struct ExpandedTerm<'a> {
 /// by a product each.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EchoTable {
-    rows: Vec<EchoRow>,
+    pub rows: Vec<EchoRow>,
 }
 
 impl EchoTable {
-    pub(crate) fn new(rows: Vec<EchoRow>) -> EchoTable {
-        EchoTable { rows }
-    }
-
-    pub(crate) fn into_rows(self) -> Vec<EchoRow> {
-        self.rows
-    }
-
-    pub fn rows(&self) -> &[EchoRow] {
-        &self.rows
-    }
-
     /// Calls `visit` for every term of the n-th piece `Σ_k φ_k(s + (n−k)D)`.
     ///
     /// By Taylor's theorem a coefficient `c_{k,j}` of `x^j/j!` gives, with `m = n−k` and `j = i+l`,

@@ -39,46 +39,19 @@ pub enum Family {
 /// with `i` at most `first.len()` for every term.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EchoTemplate {
-    family: Family,
-    rate: Fraction,
-    ratio: Fraction,
-    terms: Vec<(isize, Fraction)>,
-    first: Vec<Expression>,
+    /// The functions `T_k`.
+    pub family: Family,
+    /// `b`.
+    pub rate: Fraction,
+    /// `ρ`.
+    pub ratio: Fraction,
+    /// Lag `i` (−1 where `T_{k+1}` occurs) and coefficient `c_i`, not zero, by ascending lag.
+    pub terms: Vec<(isize, Fraction)>,
+    /// The echoes before the sum holds, in the local variable.
+    pub first: Vec<Expression>,
 }
 
 impl EchoTemplate {
-    /// The functions `T_k`.
-    pub fn family(&self) -> &Family {
-        &self.family
-    }
-
-    /// The rate `b`.
-    pub fn rate(&self) -> &Fraction {
-        &self.rate
-    }
-
-    /// The ratio `ρ`.
-    pub fn ratio(&self) -> &Fraction {
-        &self.ratio
-    }
-
-    /// The terms: lag `i` (−1 where `T_{k+1}` occurs) and coefficient `c_i`, by ascending lag;
-    /// none is zero.
-    pub fn terms(&self) -> &[(isize, Fraction)] {
-        &self.terms
-    }
-
-    /// The echoes before the sum holds, in the local variable.
-    pub fn first(&self) -> &[Expression] {
-        &self.first
-    }
-
-    /// The template with these echoes before the sum.
-    pub(crate) fn beginning_with(mut self, first: Vec<Expression>) -> EchoTemplate {
-        self.first = first;
-        self
-    }
-
     /// The k-th echo as a function of `x`. O(k) operations on coefficients.
     pub fn echo(&self, k: usize, x: &Symbol) -> Expression {
         if let Some(echo) = self.first.get(k) {

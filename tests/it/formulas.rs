@@ -50,7 +50,7 @@ fn echo_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> 
     let formula = |(k, echo): (usize, &Expression)| {
         Formula::echo(&name_of(solution, wave), &[k], echo, local)
     };
-    echoes.echoes().iter().enumerate().map(formula).collect()
+    echoes.echoes.iter().enumerate().map(formula).collect()
 }
 
 fn piecewise_form(solution: &Solution, wave: WaveIndex, last: usize) -> Vec<Formula> {
@@ -212,7 +212,7 @@ fn written_functions_are_read_back() {
             let echoes = solution.echoes(wave, last).expect("they were written");
             let read = listed(&text);
             assert_eq!(read.len(), last + 1);
-            for ((wave, k, echo), expected) in read.iter().zip(echoes.echoes()) {
+            for ((wave, k, echo), expected) in read.iter().zip(&echoes.echoes) {
                 assert_eq!(*wave, format!("phi_{name}"), "{k}");
                 assert_eq!(echo, expected, "{text}");
             }

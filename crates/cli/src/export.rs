@@ -35,7 +35,7 @@ pub fn run(options: &Export) -> Result<String, Failure> {
     let wanted = problem.wanted(&options.quantity)?;
     let heading = CHeading {
         title: problem.title().to_owned(),
-        quantity: wanted.name().to_owned(),
+        quantity: wanted.name.clone(),
         unit: wanted.unit(),
         time_unit: problem.time_unit().to_owned(),
         command: format!(

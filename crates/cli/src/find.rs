@@ -23,7 +23,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     let window =
         problem.window(("--from", from.unwrap_or_default()), ("--to", to.unwrap_or_default()))?;
     // What is given wrongly is told before any work is done.
-    let level = problem.quantity("--level", written, wanted.dimension())?;
+    let level = problem.quantity("--level", written, wanted.dimension)?;
     let told =
         Told { options, name, level: written, problem: &problem, wanted: &wanted, window: &window };
     let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;

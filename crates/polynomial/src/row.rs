@@ -7,6 +7,7 @@
 use crate::integer::from_limbs;
 use num_bigint::{BigInt, Sign};
 use num_traits::ToPrimitive;
+use std::borrow::Borrow;
 use std::fmt;
 
 /// A row of integers `c_0, c_1, …` in one allocation.
@@ -198,18 +199,10 @@ impl IntegerRef<'_> {
     }
 }
 
-impl<'a> FromIterator<&'a BigInt> for IntegerRow {
-    fn from_iter<I: IntoIterator<Item = &'a BigInt>>(values: I) -> IntegerRow {
+impl<I: Borrow<BigInt>> FromIterator<I> for IntegerRow {
+    fn from_iter<T: IntoIterator<Item = I>>(values: T) -> IntegerRow {
         let mut row = IntegerRow::default();
-        values.into_iter().for_each(|value| row.push_integer(value));
-        row
-    }
-}
-
-impl FromIterator<BigInt> for IntegerRow {
-    fn from_iter<I: IntoIterator<Item = BigInt>>(values: I) -> IntegerRow {
-        let mut row = IntegerRow::default();
-        values.into_iter().for_each(|value| row.push_integer(&value));
+        values.into_iter().for_each(|value| row.push_integer(value.borrow()));
         row
     }
 }

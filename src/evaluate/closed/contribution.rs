@@ -11,57 +11,27 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, Symbol, Univariate};
 
-/// `factor · amount · e^{exponent}`.
+/// `factor · polynomial(x) · e^{exponent}`.
 pub(crate) struct Contribution {
     pub factor: Rational,
-    pub amount: Amount,
+    pub polynomial: Rc<Univariate>,
+    pub x: Rational,
     pub exponent: Rational,
 }
 
-/// A rational number, given or as the value of a polynomial.
-pub(crate) enum Amount {
-    Number(Rational),
-    Polynomial(Rc<Univariate>, Rational),
-}
-
-impl Amount {
-    fn exact(&self) -> Rational {
-        match self {
-            Amount::Number(value) => value.clone(),
-            Amount::Polynomial(polynomial, x) => polynomial.evaluate(x),
-        }
-    }
-
-    fn residue(&self) -> Option<Residue> {
-        match self {
-            Amount::Number(value) => Residue::of_rational(value),
-            Amount::Polynomial(polynomial, x) => {
-                let x = Residue::of_rational(x)?;
-                let value = modular::evaluate_divided(polynomial.coefficients(), x);
-                Some(value.times(Residue::of_integer(polynomial.denominator()).inverse()?))
-            }
-        }
-    }
-
-    fn enclose(&self, bits: u64) -> Ball {
-        match self {
-            Amount::Number(value) => Ball::from_rational(value, bits),
-            Amount::Polynomial(polynomial, x) => {
-                let value = evaluate_divided(polynomial.coefficients(), x, bits);
-                let share = Rational::new(1.into(), polynomial.denominator().clone());
-                value.multiply_rational(&share, bits)
-            }
-        }
-    }
-}
-
 impl Contribution {
-    fn exact(&self) -> Rational {
-        &self.factor * self.amount.exact()
+    /// `factor · polynomial(x)`.
+    fn amount(&self) -> Rational {
+        &self.factor * self.polynomial.evaluate(&self.x)
     }
 
+    /// The residue of the amount.
     fn residue(&self) -> Option<Residue> {
-        Some(Residue::of_rational(&self.factor)?.times(self.amount.residue()?))
+        let polynomial = &self.polynomial;
+        let rows = polynomial.coefficients().iter().map(Residue::of_entry);
+        let value = modular::evaluate(rows, Residue::of_rational(&self.x)?);
+        let value = value.times(Residue::of_integer(polynomial.denominator()).inverse()?);
+        Some(Residue::of_rational(&self.factor)?.times(value))
     }
 }
 
@@ -82,8 +52,8 @@ impl Parts {
         let value = |x: &Symbol| at.filter(|(own, _)| *own == x).map(|(_, value)| value.clone());
         match expression.evaluate(&value) {
             Ok(sum) => self.rational.extend(sum.into_iter().map(|(exponent, value)| {
-                let factor = Rational::from_integer(1.into());
-                Contribution { factor, amount: Amount::Number(value), exponent }
+                let polynomial = Rc::new(Univariate::constant(&Rational::from_integer(1.into())));
+                Contribution { factor: value, polynomial, x: Rational::zero(), exponent }
             })),
             Err(symbol) if symbol.square().is_none() => {
                 return Err(EvaluateError::MissingValue(symbol));
@@ -121,7 +91,7 @@ impl Parts {
     pub fn into_expression(self) -> Expression {
         let mut sum = self.algebraic;
         for contribution in &self.rational {
-            let amount = Fraction::constant(&contribution.exact());
+            let amount = Fraction::constant(&contribution.amount());
             sum.add_term(Fraction::constant(&contribution.exponent), amount);
         }
         sum
@@ -148,7 +118,7 @@ pub(crate) fn rational_value(contributions: &[Contribution]) -> Option<Rational>
         return None;
     }
     let exact = |group: &Vec<&Contribution>| -> Rational {
-        group.iter().map(|contribution| contribution.exact()).sum()
+        group.iter().map(|contribution| contribution.amount()).sum()
     };
     groups.values().all(|group| exact(group).is_zero()).then(|| exact(&constant))
 }
@@ -158,8 +128,11 @@ pub(crate) fn enclose(contributions: &[Contribution], bits: u64) -> Result<Ball,
     let mut sum = Ball::zero();
     for contribution in contributions {
         let exponential = exp_of_rational(&contribution.exponent, bits)?;
-        let product = contribution.amount.enclose(bits).multiply(&exponential, bits);
-        sum = sum.add(&product.multiply_rational(&contribution.factor, bits), bits);
+        let Contribution { factor, polynomial, x, .. } = contribution;
+        let value = evaluate_divided(polynomial.coefficients(), x, bits);
+        let share = factor / polynomial.denominator();
+        let product = value.multiply(&exponential, bits);
+        sum = sum.add(&product.multiply_rational(&share, bits), bits);
     }
     Ok(sum)
 }

@@ -66,10 +66,7 @@ impl Arriving {
     }
 }
 
-/// How many whole periods fit into a time, or one more.
-///
-/// # Errors
-/// [`EvaluateError::TooManyEchoes`] beyond the limit.
+/// How many whole periods fit into a time, or one more; no more than a limit.
 pub(crate) fn whole_periods(
     numbers: &Numbers,
     time: &Fraction,
@@ -123,6 +120,5 @@ pub(crate) fn solve_in<F: Field>(
         solver.expand().map_err(|failed| Unsolved::InField(failed.reason))?;
         memory.add(solver.last_coefficients(), count).map_err(Unsolved::TooLong)?;
     }
-    let expanded = solver.expanded();
-    Ok((solver.into_transforms(), expanded))
+    Ok((solver.echoes, solver.expanded))
 }

@@ -1,7 +1,7 @@
 //! Exact forms of waves and observables of a recurrence at rational times.
 
 use crate::enclosure::enclose_expression;
-use crate::evaluate::closed::contribution::{Amount, Contribution, Parts, enclose, rational_value};
+use crate::evaluate::closed::contribution::{Contribution, Parts, enclose, rational_value};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::signal::{Limit, Point};
 use crate::expression::{EchoSum, Expression};
@@ -9,9 +9,9 @@ use crate::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
 use crate::recurrence::{Observation, Recurrence, WaveIndex};
 use crate::solution::{EchoRow, GeneralForm, Solution};
 use num_traits::{Signed, ToPrimitive, Zero};
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::ops::Deref;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, Symbol, Univariate};
 
@@ -24,56 +24,23 @@ enum Echoes {
 /// The parts of an echo: rates with polynomials.
 type Row = Vec<(Rational, Rc<Univariate>)>;
 
-/// A solution, lent or kept.
-enum Held<'a> {
-    Lent(&'a Solution),
-    Own(Box<Solution>),
-}
-
-impl Deref for Held<'_> {
-    type Target = Solution;
-
-    fn deref(&self) -> &Solution {
-        match self {
-            Held::Lent(solution) => solution,
-            Held::Own(solution) => solution,
-        }
-    }
-}
-
 /// The echoes of a solution in which every symbol has a value, exactly.
 pub(super) struct ExactEchoes<'a> {
-    solution: Held<'a>,
+    solution: Cow<'a, Solution>,
     period: Rational,
     /// The echoes of waves asked for, with the order they are known to.
     echoes: RefCell<BTreeMap<WaveIndex, (usize, Rc<Echoes>)>>,
 }
 
 impl<'a> ExactEchoes<'a> {
-    /// Of a solution that is lent.
-    ///
-    /// # Errors
-    /// [`EvaluateError::MissingValue`] where a symbol is left.
-    pub fn lent(solution: &'a Solution) -> Result<ExactEchoes<'a>, EvaluateError> {
-        ExactEchoes::new(Held::Lent(solution))
-    }
-
-    /// Of a solution that nobody else needs.
-    ///
-    /// # Errors
-    /// As [`ExactEchoes::lent`].
-    pub fn own(solution: Solution) -> Result<ExactEchoes<'static>, EvaluateError> {
-        ExactEchoes::new(Held::Own(Box::new(solution)))
-    }
-
-    fn new(solution: Held<'a>) -> Result<ExactEchoes<'a>, EvaluateError> {
+    pub fn new(solution: Cow<'a, Solution>) -> Result<ExactEchoes<'a>, EvaluateError> {
         let recurrence = solution.recurrence();
         if let Some(symbol) = recurrence.symbols().next() {
             return Err(EvaluateError::MissingValue(symbol.clone()));
         }
         let period = recurrence.statement().period.as_constant();
         let period = period.expect("a period without symbols is a number");
-        Ok(ExactEchoes { solution, period, echoes: RefCell::new(BTreeMap::new()) })
+        Ok(ExactEchoes { solution, period, echoes: RefCell::default() })
     }
 
     /// The recurrence that is solved.
@@ -82,13 +49,7 @@ impl<'a> ExactEchoes<'a> {
     }
 
     /// The value of `observation` at scene time `at`, zero before time 0. Whether it is rational is
-    /// decided.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyPeriods`], and where an echo cannot be given exactly.
-    ///
-    /// # Cost
-    /// O(n²) operations of the working precision for a time after n periods.
+    /// decided. A time after n periods takes O(n²) operations of the working precision.
     pub fn point(
         &self,
         observation: &Observation,
@@ -166,7 +127,7 @@ impl<'a> ExactEchoes<'a> {
             match &*echoes {
                 Echoes::Rows(rows) => add_row(&rows[k], slope, x, &mut parts.rational),
                 Echoes::Expressions(sum) => {
-                    let echo = &sum.echoes()[k];
+                    let echo = &sum.echoes[k];
                     match slope {
                         true => parts.add(&echo.derivative(local), Some((local, &x)))?,
                         false => parts.add(echo, Some((local, &x)))?,
@@ -212,7 +173,7 @@ impl<'a> ExactEchoes<'a> {
         // With some in reserve: times are often asked for in ascending order.
         let through = (last + last / 2).max(16);
         let echoes = Rc::new(match self.solution.table(wave, through)? {
-            Some(table) => Echoes::Rows(table.into_rows().into_iter().map(shared).collect()),
+            Some(table) => Echoes::Rows(table.rows.into_iter().map(shared).collect()),
             None => Echoes::Expressions(self.solution.echoes(wave, through)?),
         });
         self.echoes.borrow_mut().insert(wave, (through, echoes.clone()));
@@ -221,7 +182,7 @@ impl<'a> ExactEchoes<'a> {
 }
 
 fn shared(row: EchoRow) -> Row {
-    row.into_parts().into_iter().map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect()
+    row.parts.into_iter().map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect()
 }
 
 /// Adds the echo, or its derivative `Σ e^{λx} (P' + λP)`, at `x`.
@@ -230,7 +191,8 @@ fn add_row(row: &Row, slope: bool, x: Rational, contributions: &mut Vec<Contribu
         let mut add = |polynomial, factor| {
             contributions.push(Contribution {
                 factor,
-                amount: Amount::Polynomial(polynomial, x.clone()),
+                polynomial,
+                x: x.clone(),
                 exponent: rate * &x,
             });
         };

@@ -65,9 +65,6 @@ pub(super) enum Solved {
 
 impl ClosedForm {
     /// A wave or observable of a recurrence without symbols.
-    ///
-    /// # Errors
-    /// [`EvaluateError::MissingValue`] where a symbol is left.
     pub fn of_recurrence(
         recurrence: &Recurrence,
         observation: &Observation,
@@ -76,9 +73,6 @@ impl ClosedForm {
     }
 
     /// An observable of a scene in a unit, for times up to `last`; on a grid this may be any.
-    ///
-    /// # Errors
-    /// [`EvaluateError`] where a symbol has no value or too many echoes arrive.
     pub fn of_scene(
         network: &Network,
         observation: &Observation,
@@ -177,9 +171,6 @@ impl ClosedForm {
 
     /// How many periods have begun at a time, or one more; on a lattice, how many echoes can have
     /// arrived.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyEchoes`] beyond a thousand million.
     pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
         let at = self.slowness.scale(at);
         match &self.lattice {
@@ -224,9 +215,6 @@ impl ClosedForm {
     }
 
     /// Refuses a time until which all pieces are more than can be held, before they are worked out.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyEchoes`], [`EvaluateError::TooMuchMemory`]
     pub fn foresee(&self, to: &Rational) -> Result<(), EvaluateError> {
         let order = self.order(to)?;
         if self.lattice.is_some() || order < FEW_PIECES {
@@ -240,9 +228,6 @@ impl ClosedForm {
     }
 
     /// The echoes that are there until a time, by wave and number, with their numbers and delays.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooManyEchoes`] beyond `limit`.
     pub(crate) fn echoes(
         &self,
         to: &Rational,

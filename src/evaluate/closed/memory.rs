@@ -30,10 +30,7 @@ impl Memory {
         Memory { bytes_each, steps: 0, coefficients: 0, before: 0 }
     }
 
-    /// Adds what one step of so many made.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooMuchMemory`], where all steps would take more than [`MAX_WAVE_BYTES`].
+    /// Adds what one step of so many made; refuses where all would take more than [`MAX_WAVE_BYTES`].
     pub fn add(&mut self, coefficients: usize, last: usize) -> Result<(), EvaluateError> {
         self.steps += 1;
         self.coefficients += coefficients as u64;

@@ -5,7 +5,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use wavestep_polynomial::IntegerRow;
+use wavestep_polynomial::IntegerRef;
 
 /// The modulus, a Mersenne prime.
 const PRIME: u64 = (1 << 61) - 1;
@@ -19,6 +19,11 @@ impl Residue {
     pub fn of_integer(value: &BigInt) -> Residue {
         let rest = value.mod_floor(&BigInt::from(PRIME));
         Residue(rest.to_u64().expect("a residue fits a word"))
+    }
+
+    /// The residue of an entry of a row.
+    pub fn of_entry(value: IntegerRef<'_>) -> Residue {
+        Residue(value.modulo(PRIME))
     }
 
     /// The residue of a rational number, `None` where the prime divides its denominator.
@@ -58,7 +63,10 @@ impl Residue {
 }
 
 /// The residue of `Σ_j c_j x^j/j!`.
-pub(crate) fn evaluate_divided(coefficients: &IntegerRow, x: Residue) -> Residue {
+pub(crate) fn evaluate(
+    coefficients: impl DoubleEndedIterator<Item = Residue> + ExactSizeIterator,
+    x: Residue,
+) -> Residue {
     // Inverses of 1, 2, …, by (p mod i)^{−1} = −(p div i) i^{−1}.
     let mut inverses = vec![Residue(1); coefficients.len() + 1];
     for i in 2..inverses.len() {
@@ -66,18 +74,10 @@ pub(crate) fn evaluate_divided(coefficients: &IntegerRow, x: Residue) -> Residue
         let rest = inverses[(PRIME % word) as usize];
         inverses[i] = Residue(PRIME - PRIME / word).times(rest);
     }
-    coefficients.iter().enumerate().rev().fold(Residue(0), |value, (j, c)| {
-        value.times(x).times(inverses[j + 1]).plus(Residue(c.modulo(PRIME)))
-    })
-}
-
-/// The value of `Σ_j c_j x^j/j!`, coefficient by coefficient.
-pub(crate) fn evaluate_row(coefficients: &[Residue], x: Residue) -> Residue {
-    let value = |sum: Residue, (j, c): (usize, &Residue)| {
-        let share = Residue(j as u64 + 1).inverse().expect("rows are shorter than the prime");
-        sum.times(x).times(share).plus(*c)
-    };
-    coefficients.iter().enumerate().rev().fold(Residue(0), value)
+    coefficients
+        .enumerate()
+        .rev()
+        .fold(Residue(0), |value, (j, c)| value.times(x).times(inverses[j + 1]).plus(c))
 }
 
 /// The field of residues, for coefficients that are rational numbers.
@@ -135,17 +135,10 @@ mod tests {
             let coefficients = (0..=degree).map(|j| BigInt::from(3 * j - 50));
             let p = Univariate::new(coefficients, 1.into());
             let exact = p.evaluate(&x);
-            let residue = evaluate_divided(p.coefficients(), Residue::of_rational(&x).unwrap());
+            let row = p.coefficients().iter().map(Residue::of_entry);
+            let residue = evaluate(row, Residue::of_rational(&x).unwrap());
             assert_eq!(Residue::of_rational(&exact), Some(residue));
         }
-    }
-
-    #[test]
-    fn rows_have_the_values_of_polynomials() {
-        let x = Residue::of_rational(&Rational::new(22.into(), 7.into())).unwrap();
-        let p = Univariate::new((0..30).map(|j| BigInt::from(7 - 5 * j)), 1.into());
-        let row: Vec<Residue> = (0..30).map(|j| Residue::of_integer(&(7 - 5 * j).into())).collect();
-        assert_eq!(evaluate_row(&row, x), evaluate_divided(p.coefficients(), x));
     }
 
     #[test]

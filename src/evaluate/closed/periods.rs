@@ -91,9 +91,6 @@ impl Periods {
     }
 
     /// Foresees from the first periods what all up to the n-th will take, with the bits that they lose.
-    ///
-    /// # Errors
-    /// [`EvaluateError::TooMuchMemory`]
     pub(crate) fn foresee(&mut self, n: usize) -> Result<(), EvaluateError> {
         let mut memory = Memory::of_balls(self.bits + LOST_BITS * n as u64);
         for _ in 0..FORESEEN.min(n) {

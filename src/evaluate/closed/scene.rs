@@ -352,7 +352,7 @@ impl<'a> SceneEchoes<'a> {
             let x = since.as_constant()?;
             let coefficient = Residue::of_rational(&coefficient.as_constant()?)?;
             for (pole, row) in echoes[*wave][*number].poles() {
-                let value = modular::evaluate_row(row, Residue::of_rational(&x)?);
+                let value = modular::evaluate(row.iter().copied(), Residue::of_rational(&x)?);
                 add(pole.as_constant()? * &x, value.times(coefficient));
             }
         }

@@ -77,7 +77,7 @@ impl<'a> ClosedSignal<'a> {
         observation: &Observation,
         window: [&Rational; 2],
     ) -> Result<Self, EvaluateError> {
-        let echoes = Box::new(ExactEchoes::lent(solution)?);
+        let echoes = Box::new(ExactEchoes::new(Cow::Borrowed(solution))?);
         let value = observation.clone();
         ClosedSignal::new(Source::Recurrence { echoes, value }, window)
     }
@@ -157,7 +157,7 @@ impl<'a> ClosedSignal<'a> {
         let form = self.form()?;
         let stretches = form.stretches(&Rational::default(), at)?;
         let at = form.slowness().scale(at);
-        let begins = |stretch: usize| form.numbers().compare(stretches[stretch].from(), &at);
+        let begins = |stretch: usize| form.numbers().compare(&stretches[stretch].from, &at);
         let stretch = stretches[last_begun(stretches.len(), side, begins)?].clone();
         let enclose = move |bits| form.enclose(&stretch, 0, &at, bits);
         let negligible = Magnitude::power_of_two(-(SCALE_BITS as i64));
@@ -181,8 +181,8 @@ impl<'a> ClosedSignal<'a> {
         match at {
             At::Time(time) => Cow::Owned(self.scaled_time(time)),
             At::Scaled(time) => Cow::Borrowed(time),
-            At::End(Limit::Right) => Cow::Borrowed(self.stretch(stretch).from()),
-            At::End(Limit::Left) => Cow::Borrowed(self.stretch(stretch).to()),
+            At::End(Limit::Right) => Cow::Borrowed(&self.stretch(stretch).from),
+            At::End(Limit::Left) => Cow::Borrowed(&self.stretch(stretch).to),
         }
     }
 
@@ -272,7 +272,7 @@ fn made_exact(
     }
     let solution = Solution::new(recurrence);
     match value.waves.iter().all(|seen| solution.general(seen.wave).is_ok()) {
-        true => Ok(Some(Box::new(ExactEchoes::own(solution)?))),
+        true => Ok(Some(Box::new(ExactEchoes::new(Cow::Owned(solution))?))),
         false => Ok(None),
     }
 }
@@ -327,7 +327,7 @@ impl Signal for ClosedSignal<'_> {
             Source::Scene { network, .. } => std::ptr::from_ref(*network).addr(),
             Source::Recurrence { echoes, .. } => std::ptr::from_ref(echoes.recurrence()).addr(),
         };
-        Some(Instant { scene, event: None, delay: self.stretch(stretch).from().clone() })
+        Some(Instant { scene, event: None, delay: self.stretch(stretch).from.clone() })
     }
 
     fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
@@ -339,7 +339,7 @@ impl Signal for ClosedSignal<'_> {
         }
         let unit = unit.exact()?;
         let echoes = self.scene_echoes(network, echoes).ok()?;
-        let value = echoes.exact_since(value, self.stretch(stretch).from(), at)?;
+        let value = echoes.exact_since(value, &self.stretch(stretch).from, at)?;
         Some(value.times(&unit))
     }
 
@@ -360,11 +360,11 @@ impl Signal for ClosedSignal<'_> {
     }
 
     fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError> {
-        Ok(self.known_form().numbers().compare(self.stretch(stretch).from(), at)?)
+        Ok(self.known_form().numbers().compare(&self.stretch(stretch).from, at)?)
     }
 
     fn is_instant(&self, stretch: usize) -> bool {
-        self.stretch(stretch).from() == self.stretch(stretch).to()
+        self.stretch(stretch).from == self.stretch(stretch).to
     }
 
     fn is_zero(&self, stretch: usize) -> bool {

@@ -94,9 +94,6 @@ impl ClosedForm {
     }
 
     /// The stretches of a window in the user's time, in order.
-    ///
-    /// # Errors
-    /// [`EvaluateError`] where the order of two arrivals cannot be told, or there are too many.
     pub(super) fn stretches(
         &self,
         from: &Rational,
@@ -148,16 +145,6 @@ impl ClosedForm {
 }
 
 impl Stretch {
-    /// Its first time, in the scale of the waves.
-    pub(super) fn from(&self) -> &Fraction {
-        &self.from
-    }
-
-    /// Its end, in the scale of the waves: the next arrival, or the end of the window.
-    pub(super) fn to(&self) -> &Fraction {
-        &self.to
-    }
-
     /// Whether nothing is seen on it.
     pub(super) fn is_silent(&self) -> bool {
         self.has_no_waves() && !self.begun

@@ -89,9 +89,6 @@ impl ClosedForm {
 
     /// An enclosure of the signal, or of a derivative with respect to the user's time, at a time of a
     /// stretch or at one of its ends.
-    ///
-    /// # Errors
-    /// [`EvaluateError`] where a constant cannot be enclosed.
     pub(super) fn enclose(
         &self,
         stretch: &Stretch,

@@ -256,17 +256,17 @@ fn in_doubles(
     numbers: &Numbers,
 ) -> Result<Echoes, MethodError> {
     let number = |value: &Fraction| expansion(numbers, value);
-    let (family, scale) = match template.family() {
+    let (family, scale) = match &template.family {
         Family::Laguerre(scale) => (echoes::Family::Laguerre, number(scale)?),
         Family::Power => (echoes::Family::Powers, Expansion::ONE),
     };
     let mut terms = Vec::new();
-    for (lag, coefficient) in template.terms() {
+    for (lag, coefficient) in &template.terms {
         terms.push(Term { lag: *lag, coefficient: number(coefficient)? });
     }
-    let (rate, ratio) = (number(template.rate())?, number(template.ratio())?);
+    let (rate, ratio) = (number(&template.rate)?, number(&template.ratio)?);
     let echoes = Echoes::new(family, rate, scale, ratio, &terms, number(period)?)?;
-    let first = template.first().iter();
+    let first = template.first.iter();
     let first = first.map(|echo| exponential_polynomials(echo, local, numbers));
     Ok(echoes.with_first(first.collect::<Result<_, _>>()?)?)
 }

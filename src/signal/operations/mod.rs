@@ -128,9 +128,6 @@ impl<'m> Mark<'m> {
     }
 
     /// Which of two times is earlier.
-    ///
-    /// # Errors
-    /// [`EvaluateError::AccuracyNotReached`] where their enclosures never part.
     fn compare(&self, other: &Mark<'_>) -> Outcome<Ordering> {
         if self.instant.is_some() && self.instant == other.instant {
             return Ok(Ordering::Equal);

@@ -160,12 +160,12 @@ impl Stage {
                 }
                 // The wave on period n + AHEAD − lag is the sum where that is at least as many as
                 // come first; the periods before have been compared one by one.
-                if sequence.first().len() + lag > AHEAD + LAST {
+                if sequence.first.len() + lag > AHEAD + LAST {
                     return Ok(None);
                 }
                 let by = AHEAD as i64 - lag as i64;
                 let shifted = &n + &Polynomial::integer(by);
-                for term in sequence.terms() {
+                for term in &sequence.terms {
                     let count = u32::try_from(by.unsigned_abs()).expect("a small number");
                     let step = if by < 0 { inverse(&term.ratio)? } else { term.ratio.clone() };
                     let power = Expression::from(shifted.pow(term.power));

@@ -62,9 +62,9 @@ pub fn courses(
             }
         };
         if values.points.iter().any(|(_, value)| value.is_infinite()) {
-            return Err(PictureError::TooLarge(wanted.name().to_owned()));
+            return Err(PictureError::TooLarge(wanted.name.clone()));
         }
-        let (name, dimension) = (wanted.name().to_owned(), wanted.dimension());
+        let (name, dimension) = (wanted.name.clone(), wanted.dimension);
         courses.push(Course { name, dimension, measure: problem.measure(&wanted), values });
     }
     Ok((courses, tested))
@@ -82,7 +82,7 @@ fn by_model(
     let exact: Vec<Rational> =
         times.iter().filter_map(|time| Rational::from_float(*time)).collect();
     let accuracy = Accuracy::Method(MODEL, None);
-    let found = problem.doubles(wanted.name(), &exact, Limit::Right, accuracy)?;
+    let found = problem.doubles(&wanted.name, &exact, Limit::Right, accuracy)?;
     let tested = found.remarks.into_iter().find_map(|remark| match remark {
         Remark::Tested(tested) => Some(tested),
         _ => None,
