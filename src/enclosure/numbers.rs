@@ -179,6 +179,22 @@ impl Numbers {
         Precisions::doubling(64, COMPARISON_BITS).raise(attempt).and_then(Attempt::done)
     }
 
+    /// Puts items into the ascending order of their values.
+    pub(crate) fn sort<T>(
+        &self,
+        items: &mut [T],
+        value: impl Fn(&T) -> &Fraction,
+    ) -> Result<(), EnclosureError> {
+        let mut failed = Ok(());
+        items.sort_by(|left, right| {
+            self.compare(value(left), value(right)).unwrap_or_else(|error| {
+                failed = Err(error);
+                Ordering::Equal
+            })
+        });
+        failed
+    }
+
     /// Where a value stands among ascending ones, or where it would.
     pub(crate) fn search(
         &self,

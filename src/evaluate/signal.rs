@@ -4,7 +4,7 @@ use crate::ball::{Ball, Magnitude};
 use crate::evaluate::closed::ClosedForm;
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::taylor::Taylor;
-use crate::expression::{Expression, Fraction};
+use crate::expression::{Expression, Fraction, Root};
 use std::cmp::Ordering;
 pub use wavestep_kernels::Limit;
 use wavestep_polynomial::Rational;
@@ -29,6 +29,22 @@ pub(crate) enum Known {
     Irrational,
     /// Exact arithmetic has not told.
     Unknown,
+}
+
+impl Known {
+    /// What an exact value, where there is one, tells of itself in a unit.
+    pub(crate) fn of(value: Option<Expression>, unit: &Root) -> Known {
+        let unit = unit.exact().and_then(|unit| unit.as_constant());
+        match (value, unit) {
+            (Some(value), _) if value.is_zero() => Known::Rational(Rational::default()),
+            (Some(value), Some(unit)) => match value.as_constant() {
+                Some(value) => Known::Rational(value * unit),
+                None => Known::Irrational,
+            },
+            (Some(_), None) => Known::Irrational,
+            (None, _) => Known::Unknown,
+        }
+    }
 }
 
 /// An exact instant by which breaks of two signals are known as one: those of one scene that are equal

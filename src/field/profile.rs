@@ -6,7 +6,6 @@ use super::{FieldError, FieldEvaluator};
 use crate::evaluate::EvaluateError;
 use crate::expression::Fraction;
 use crate::network::Extent;
-use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
 
 /// The fields along a bar at a time, in stretches between fronts.
@@ -61,17 +60,7 @@ impl FieldEvaluator<'_> {
                 places.push(if grows { delay } else { &span - &delay });
             }
         }
-        let numbers = &self.waves.numbers;
-        let mut failed = None;
-        places.sort_by(|a, b| {
-            numbers.compare(a, b).unwrap_or_else(|error| {
-                failed = Some(error);
-                Ordering::Equal
-            })
-        });
-        if let Some(error) = failed {
-            return Err(error.into());
-        }
+        self.waves.numbers.sort(&mut places, |place| place)?;
         places.dedup();
         let whole = self.double_of(&span)?;
         for pair in places.windows(2) {

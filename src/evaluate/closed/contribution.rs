@@ -130,9 +130,9 @@ pub(crate) fn enclose(contributions: &[Contribution], bits: u64) -> Result<Ball,
         let exponential = exp_of_rational(&contribution.exponent, bits)?;
         let Contribution { factor, polynomial, x, .. } = contribution;
         let value = evaluate_divided(polynomial.coefficients(), x, bits);
-        let share = factor / polynomial.denominator();
-        let product = value.multiply(&exponential, bits);
-        sum = sum.add(&product.multiply_rational(&share, bits), bits);
+        let share = Rational::new(1.into(), polynomial.denominator().clone());
+        let product = value.multiply_rational(&share, bits).multiply(&exponential, bits);
+        sum = sum.add(&product.multiply_rational(factor, bits), bits);
     }
     Ok(sum)
 }

@@ -134,18 +134,10 @@ impl<'a> SceneEchoes<'a> {
         let sum = Rc::new((arrived, forced));
         let known = Rc::clone(&sum);
         let enclose = move |bits| self.enclose(&sum.0, &sum.1, bits);
-        let exact = move || self.exact_later(&known.0, &known.1, &Fraction::zero());
         let size = self.numbers.enclose_root(&unit, SUSPICION_BITS)?.magnitude();
-        let factor = unit.exact().and_then(|unit| unit.as_constant());
-        let decide = move || match (exact(), &factor) {
-            (Some(sum), _) if sum.is_zero() => Known::Rational(Rational::zero()),
-            (Some(sum), Some(factor)) => match sum.as_constant() {
-                Some(value) => Known::Rational(value * factor),
-                None => Known::Irrational,
-            },
-            (Some(_), None) => Known::Irrational,
-            (None, _) => Known::Unknown,
-        };
+        let own = unit.clone();
+        let decide =
+            move || Known::of(self.exact_later(&known.0, &known.1, &Fraction::zero()), &own);
         let in_unit = move |bits| {
             let value = patient(enclose(bits), bits)?;
             Ok(value.multiply(&self.numbers.enclose_root(&unit, bits)?, bits))

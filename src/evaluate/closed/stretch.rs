@@ -1,7 +1,6 @@
 //! Stretches between arrivals, on each of which a signal is one exponential polynomial.
 
 use super::form::{ClosedForm, MAX_STRETCHES};
-use crate::enclosure::{EnclosureError, Numbers};
 use crate::evaluate::closed::echoes::whole_periods;
 use crate::evaluate::error::EvaluateError;
 use crate::expression::Fraction;
@@ -90,7 +89,8 @@ impl ClosedForm {
             let (echoes, limit) = (after.len() as u128, MAX_STRETCHES);
             return Err(EvaluateError::TooManyEchoes { echoes, limit });
         }
-        Ok((before, sorted(after, &self.numbers)?))
+        self.numbers.sort(&mut after, |found| &found.2)?;
+        Ok((before, after))
     }
 
     /// The stretches of a window in the user's time, in order.
@@ -164,19 +164,4 @@ impl Stretch {
 /// What is seen since an arrival; nothing of the start of time.
 fn part((seen, number, origin): &Break) -> Option<Part> {
     Some(Part { seen: (*seen)?, number: *number, origin: origin.clone() })
-}
-
-/// Arrivals in order.
-fn sorted(mut breaks: Vec<Break>, numbers: &Numbers) -> Result<Vec<Break>, EvaluateError> {
-    let mut failed: Option<EnclosureError> = None;
-    breaks.sort_by(|left, right| {
-        numbers.compare(&left.2, &right.2).unwrap_or_else(|error| {
-            failed = Some(error);
-            Ordering::Equal
-        })
-    });
-    match failed {
-        Some(error) => Err(error.into()),
-        None => Ok(breaks),
-    }
 }

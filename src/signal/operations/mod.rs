@@ -313,16 +313,7 @@ impl<'a, R: Rule> Operation<'a, R> {
 
     /// What is told of an exact value in the scale of the scene.
     fn told(&self, value: Option<Expression>) -> Known {
-        let unit = self.unit.exact().and_then(|unit| unit.as_constant());
-        match (value, unit) {
-            (Some(value), _) if value.is_zero() => Known::Rational(Rational::zero()),
-            (Some(value), Some(unit)) => match value.as_constant() {
-                Some(value) => Known::Rational(value * unit),
-                None => Known::Irrational,
-            },
-            (Some(_), None) => Known::Irrational,
-            (None, _) => Known::Unknown,
-        }
+        Known::of(value, &self.unit)
     }
 
     /// What exact arithmetic tells of a limit at a time.
