@@ -8,7 +8,8 @@
 //! for `|ξ| ≤ w`. If `Q < 0` everywhere and `δ = |c₀|/min |Q|`, then `f > 0` for `ξ < −δ` and `f < 0` for
 //! `ξ > δ`: the one root lies within `δ` of `m`.
 
-use crate::ball::{Ball, Magnitude, Number};
+use crate::ball::{Ball, Magnitude, Number, rational};
+use crate::history::positive::positive_until;
 use crate::history::series::{Series, Truncation};
 use num_traits::{Signed, Zero};
 use std::cmp::Ordering;
@@ -83,8 +84,7 @@ pub(crate) enum Course {
 /// Follows a function that begins positive, until a time `length` after the start of the cell.
 ///
 /// # Cost
-/// A bound by the sizes of coefficients decides most cells; else a shift of the series, `N²/2` products,
-/// for each part of the cell.
+/// Doubles decide most cells; else a shift of the series, `N²/2` products, for each part of what they leave.
 pub(crate) fn follow(f: &Series, errors: &Errors, length: &Number, cut: &Truncation) -> Course {
     if let (true, Some(length)) = (f.is_exact(), length.exact())
         && let Some(course) = follow_exactly(f, length)
@@ -92,13 +92,9 @@ pub(crate) fn follow(f: &Series, errors: &Errors, length: &Number, cut: &Truncat
         return course;
     }
     let size = length.magnitude();
-    let start = f.coefficient(0).ball(cut.bits).widened(&errors.near[0]);
-    let lowest = start.widened(&f.size_from(1, &size).multiply(&size));
-    if sign(&lowest) == Some(Ordering::Greater) {
-        return Course::Positive;
-    }
+    let Some(until) = positive_until(f, &errors.near, &size) else { return Course::Positive };
     let end = Rational::from(&size);
-    let mut parts = vec![(Rational::zero(), end.clone())];
+    let mut parts = vec![(&end * rational(until), end.clone())];
     let two = Rational::from_integer(2.into());
     let narrowest = &end * Rational::from(&Magnitude::power_of_two(-(cut.bits as i64) / 2));
     while let Some((lower, upper)) = parts.pop() {

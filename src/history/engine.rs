@@ -325,9 +325,14 @@ impl Engine {
         Err(HistoryError::Undecided { what, at, bits: self.cut.bits })
     }
 
-    /// When the inputs of a node change next, but no later than this share of the longest cell allows; and
+    /// When the inputs of a node change next, but no later than this share of the longest cell that a rate allows; and
     /// whether that is what ends the cell.
-    fn next_change(&self, node: usize, share: &Rational) -> Outcome<(Moment, bool)> {
+    fn next_change(
+        &self,
+        node: usize,
+        rate: Magnitude,
+        share: &Rational,
+    ) -> Outcome<(Moment, bool)> {
         let state = &self.states[node];
         let mut ends: Vec<Moment> =
             state.arriving.iter().filter_map(|arriving| arriving.end(&self.waves)).collect();
@@ -347,7 +352,7 @@ impl Engine {
             });
         }
         let rates = self.loads_of(node).map(|load| load.course.rate());
-        let longest = match (rates.fold(state.passivity.rate(), Magnitude::max).top(), &first) {
+        let longest = match (rates.fold(rate, Magnitude::max).top(), &first) {
             (Some(top), _) => Rational::from(&Magnitude::power_of_two(LONGEST_CELL - top)),
             // Where nothing has a rate and nothing arrives, a cell is one unit of time.
             (None, None) => Rational::from_integer(1.into()),
@@ -425,12 +430,26 @@ impl Engine {
     fn plan(&mut self, node: usize, share: &Rational) -> Outcome<Outcome<Planned>> {
         let mut changed = 0;
         loop {
-            let (end, is_step) = self.next_change(node, share)?;
+            let mut rate = self.states[node].passivity.rate();
+            let (end, is_step, length, norm, inputs) = loop {
+                let (end, is_step) = self.next_change(node, rate, share)?;
+                let state = &self.states[node];
+                let length = self.clock.since(&state.now, &end)?;
+                self.cut.longest = self.cut.longest.max(length.magnitude());
+                let norm = CellNorm::new(length.magnitude(), &self.cut);
+                let inputs = self.inputs(node, &norm)?;
+                if is_step && rate == state.passivity.rate() {
+                    let known = (&state.state[..], &state.errors[..]);
+                    let cell = (&norm, &self.cut);
+                    let free = state.system.free_rate(&state.passivity, known, &inputs, cell);
+                    if free.scale(1) < rate {
+                        rate = free;
+                        continue;
+                    }
+                }
+                break (end, is_step, length, norm, inputs);
+            };
             let state = &self.states[node];
-            let length = self.clock.since(&state.now, &end)?;
-            self.cut.longest = self.cut.longest.max(length.magnitude());
-            let norm = CellNorm::new(length.magnitude(), &self.cut);
-            let inputs = self.inputs(node, &norm)?;
             let (system, cut) = (&state.system, &self.cut);
             let known = (&state.state[..], &state.errors[..]);
             let motion = system.solve(&state.passivity, known, &inputs, (&norm, cut));
@@ -498,6 +517,10 @@ impl Engine {
         let compressions = compressions.collect();
         (state.state, state.errors) =
             state.system.ended(&state.passivity, &motion, &state.errors, length, &cut);
+        for block in &state.passivity.blocks {
+            let own = block.members.iter().map(|member| state.state[*member].magnitude());
+            self.cut.largest = self.cut.largest.max(block.size(own));
+        }
         for arriving in &mut state.arriving {
             let ends = arriving.end(&self.waves);
             if let (Arriving::Delayed { cell, .. }, Some(ends)) = (arriving, ends)

@@ -6,7 +6,8 @@
 //! cannot be decided is refused by name.
 //!
 //! Read `engine` for the way from cell to cell, `contacts` for which of them are closed, `reading` for what
-//! is taken from it, `crossing` for the proof that nothing is passed over, `observe` and `phased` for what is
+//! is taken from it, `crossing` and `positive` for the proof that nothing is
+//! passed over, `observe` and `phased` for what is
 //! seen of it, `validity` for how long closed contacts are true, `closed_form` for instants in closed form,
 //! `series` for the arithmetic, `passivity` for what becomes of errors, `energy` for what a wave holds, `body` for
 //! energies and momenta of bodies and for why they never meet again.
@@ -27,6 +28,7 @@ mod observe;
 mod part;
 mod passivity;
 mod phased;
+mod positive;
 mod reading;
 mod series;
 mod track;

@@ -4,13 +4,34 @@ use crate::ball::{Magnitude, Number};
 use crate::history::error::{HistoryError, NotFollowed};
 use crate::history::passivity::{Block, Passivity, StateError};
 use crate::history::series::{CellNorm, Series, Truncation};
-use crate::network::{Node, System, dot};
+use crate::network::{Node, System, dot, inverse};
 
 /// So many derivatives at the start of a cell are enclosed one by one.
 const STARTS: usize = 16;
 
 /// Polynomials of a higher degree do not act on a state that is kept exact.
 const MAX_EXACT_DEGREE: usize = 4;
+
+/// A state whose rounding is a few units in the last place is as exact as it can be, as a power of two.
+const ROUNDING: i64 = 4;
+
+/// How far a block is from its forced motion at the start of a cell, by what is known of it.
+fn free_motion(
+    block: &Block,
+    own: &[Number],
+    forced: &[Vec<Number>],
+    cut: &Truncation,
+) -> Magnitude {
+    let middle = |value: &Number| match value.exact() {
+        Some(_) => value.clone(),
+        None => value.split(cut.bits).0,
+    };
+    let free = own.iter().enumerate().map(|(place, value)| match forced.first() {
+        Some(forced) => middle(value).subtract(&forced[place], cut.bits).magnitude(),
+        None => middle(value).magnitude(),
+    });
+    block.size(free)
+}
 
 /// What a node does on a cell.
 pub(crate) struct Motion {
@@ -60,7 +81,13 @@ struct Given<'a> {
     cut: &'a Truncation,
 }
 
-impl Given<'_> {
+impl<'a> Given<'a> {
+    fn new(input: &'a [Series], norm: &'a CellNorm, cut: &'a Truncation) -> Given<'a> {
+        let settled: Vec<Series> = input.iter().map(|own| own.bare(norm, cut)).collect();
+        let errors = settled.iter().map(|own| own.rest).collect();
+        Given { input, settled, errors, norm, cut }
+    }
+
     /// The coefficients of x^k.
     fn coefficients(&self, k: usize) -> impl Iterator<Item = Number> {
         self.settled.iter().map(move |series| series.coefficient(k))
@@ -85,9 +112,7 @@ impl System<Number> {
         input: &[Series],
         (norm, cut): (&CellNorm, &Truncation),
     ) -> Motion {
-        let settled: Vec<Series> = input.iter().map(|own| own.bare(norm, cut)).collect();
-        let errors_of_input = settled.iter().map(|own| own.rest).collect();
-        let given = Given { input, settled, errors: errors_of_input, norm, cut };
+        let given = Given::new(input, norm, cut);
         let mut states = vec![Series::zero(); self.states()];
         let mut added = Vec::with_capacity(passivity.blocks.len());
         for (block, error) in passivity.blocks.iter().zip(errors) {
@@ -159,7 +184,97 @@ impl System<Number> {
         if is_exact && let Some(columns) = self.exact_columns(block, &own, degree + 4, given) {
             return Course::exact(columns);
         }
+        if block.is_stiff(&given.norm.length)
+            && let Some(columns) = self.forced_columns(block, given)
+        {
+            return self.forced_course(block, &own, error, columns, given);
+        }
         self.enclosed_course(block, own, error, given)
+    }
+
+    /// The largest rate of the blocks that move freely; those that no longer do are where their forced motion is, as
+    /// far as anybody can tell.
+    pub fn free_rate(
+        &self,
+        passivity: &Passivity,
+        (state, errors): (&[Number], &[StateError]),
+        input: &[Series],
+        (norm, cut): (&CellNorm, &Truncation),
+    ) -> Magnitude {
+        let given = Given::new(input, norm, cut);
+        passivity.rate_of(|place, block| {
+            let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
+            let forced = self.forced_columns(block, &given).filter(|_| block.forgets());
+            forced.is_none_or(|columns| {
+                let free = free_motion(block, &own, &columns, cut);
+                free > errors[place].size().max(cut.largest.scale(ROUNDING - cut.bits as i64))
+            })
+        })
+    }
+
+    /// The *forced motion* of a block: the polynomial that solves `s' = A s + B u` for the polynomials of its inputs,
+    /// from `A s_k = (k+1) s_(k+1) − B u_k`, the highest coefficient first. All other motions come to it as the free
+    /// motion `e^(Ax)` dies out.
+    fn forced_columns(&self, block: &Block, given: &Given<'_>) -> Option<Vec<Vec<Number>>> {
+        let bits = given.cut.bits;
+        let entry = |i: &usize, j: &usize| self.change[*i][*j].clone();
+        let matrix: Vec<Vec<Number>> = (block.members.iter())
+            .map(|i| block.members.iter().map(|j| entry(i, j)).collect())
+            .collect();
+        let inverse = inverse(matrix, bits)?;
+        let acting = given.settled.iter().enumerate().filter(|(j, _)| block.is_driven_by(*j));
+        let degree = acting.map(|(_, series)| series.coefficients.len()).max().unwrap_or(0);
+        let mut columns = vec![vec![Number::zero(); block.members.len()]];
+        for k in (0..degree).rev() {
+            let pushed = self.pushed(block, k, given);
+            let above = columns.last()?.iter().zip(pushed);
+            let above: Vec<Number> = above
+                .map(|(s, u)| s.multiply(&Number::integer(k as i64 + 1), bits).subtract(&u, bits))
+                .collect();
+            let own = inverse.iter().map(|row| dot(row, &above, bits).split(bits).0);
+            columns.push(own.collect());
+        }
+        columns.reverse();
+        columns.pop();
+        Some(columns)
+    }
+
+    /// `B u_k` for the members of a block.
+    fn pushed(&self, block: &Block, k: usize, given: &Given<'_>) -> Vec<Number> {
+        let both: Vec<Number> = given.coefficients(k).collect();
+        let rows = block.members.iter().map(|i| &self.change[*i][self.states()..]);
+        rows.map(|row| dot(row, &both, given.cut.bits)).collect()
+    }
+
+    /// A block on a cell many times longer than its free motion lasts: its forced motion `s`.
+    ///
+    /// The error `e = y − s` obeys `e' = A e + B e_u + ρ` with `ρ = A s + B u − s'`, what roundings leave, and begins
+    /// with the free motion.
+    fn forced_course(
+        &self,
+        block: &Block,
+        own: &[Number],
+        error: &StateError,
+        columns: Vec<Vec<Number>>,
+        given: &Given<'_>,
+    ) -> Course {
+        let (norm, cut) = (given.norm, given.cut);
+        let mut residuals = Vec::with_capacity(columns.len());
+        for (k, column) in columns.iter().enumerate() {
+            let next = self.next(block, column, k, given);
+            let above = columns.get(k + 1);
+            let left = next.iter().enumerate().map(|(place, next)| match above {
+                Some(above) => next.subtract(&above[place], cut.bits).magnitude(),
+                None => next.magnitude(),
+            });
+            residuals.push(block.size(left).multiply(&Magnitude::from_u64(k as u64 + 1)));
+        }
+        let per_time = block.push(&given.errors).add(&norm.of_sizes(&residuals));
+        let free = free_motion(block, own, &columns, cut);
+        let at_start = error.size().add(&free);
+        let most = at_start.add(&per_time.multiply(&block.memory(&norm.length)));
+        let rest = cut.driven(&most, &per_time);
+        Course { columns, rest, at_start, added: Added::Error { at_once: free, per_time } }
     }
 
     /// The next coefficients of a block.
@@ -238,7 +353,7 @@ impl System<Number> {
         let per_time = block.push(&given.errors);
         let at_start = error.size().add(&rounding);
         let at_once = rounding.add(&left_out);
-        let most = error.size().add(&at_once).add(&per_time.multiply(&norm.length));
+        let most = error.size().add(&at_once).add(&per_time.multiply(&block.memory(&norm.length)));
         let rest = cut.driven(&most, &per_time).add(&left_out);
         Course { columns, rest, at_start, added: Added::Error { at_once, per_time } }
     }
@@ -268,7 +383,7 @@ impl System<Number> {
             let split: Vec<(Number, Magnitude)> =
                 values.iter().map(|value| value.split(cut.bits)).collect();
             let radius = block.size(split.iter().map(|(_, radius)| *radius));
-            let arrived = per_time.multiply(&length.magnitude());
+            let arrived = per_time.multiply(&block.memory(&length.magnitude()));
             let added = at_once.add(&arrived).add(&radius);
             let error = error.clone().after(length, &added, block);
             let size = error.size();

@@ -7,7 +7,7 @@
 //! many cells the time is cut into.
 
 use crate::ball::{Ball, BallError, Magnitude, Number};
-use crate::history::series::Truncation;
+use crate::history::series::{LONGEST_CELL, Truncation};
 use crate::network::{Node, System};
 
 /// The precision of the matrices here: bounds need few digits.
@@ -104,7 +104,13 @@ impl Passivity {
 
     /// The largest norm of a block.
     pub fn rate(&self) -> Magnitude {
-        self.blocks.iter().map(|block| block.rate).max().unwrap_or(Magnitude::ZERO)
+        self.rate_of(|_, _| true)
+    }
+
+    /// The largest norm of these blocks.
+    pub fn rate_of(&self, is_meant: impl Fn(usize, &Block) -> bool) -> Magnitude {
+        let meant = self.blocks.iter().enumerate().filter(|(place, block)| is_meant(*place, block));
+        meant.map(|(_, block)| block.rate).max().unwrap_or(Magnitude::ZERO)
     }
 }
 
@@ -166,6 +172,27 @@ impl Block {
     /// Whether an input acts on it.
     pub fn is_driven_by(&self, input: usize) -> bool {
         !self.driven[input].is_zero()
+    }
+
+    /// Whether a state dies out by itself.
+    pub fn forgets(&self) -> bool {
+        self.decay.is_some()
+    }
+
+    /// How long what drives it during this time is felt at the end, `∫ |e^(Ax)| dx` at most: with a time `τ` after
+    /// which half is left, `2τ`.
+    pub fn memory(&self, length: &Magnitude) -> Magnitude {
+        match &self.decay {
+            Some((time, _)) => (*length).min(Magnitude::power_of_two(time + 1)),
+            None => *length,
+        }
+    }
+
+    /// Whether a cell of this length is too long for a Taylor polynomial of its free motion.
+    pub fn is_stiff(&self, length: &Magnitude) -> bool {
+        // A little above the longest cell, whose length is rounded.
+        let longest = Magnitude::from_u64((1 << LONGEST_CELL) + 1);
+        self.rate.multiply(length) > longest
     }
 
     /// `|B u|` for inputs of these sizes.

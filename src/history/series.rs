@@ -23,6 +23,8 @@ pub(crate) struct Truncation {
     pub rate: i64,
     /// As long as the longest cell.
     pub longest: Magnitude,
+    /// The size of the largest state of a node so far: what is below the last bit of it is not told from zero.
+    pub largest: Magnitude,
 }
 
 /// What the norm of a node times the length of a cell is at most, as a power of two.
@@ -42,7 +44,7 @@ impl Truncation {
             order += 1;
         }
         let rate = top + (bits / BITS_OF_RATE).clamp(3, MOST_RATE) as i64;
-        Truncation { bits, order, rate, longest: Magnitude::ZERO }
+        Truncation { bits, order, rate, longest: Magnitude::ZERO, largest: Magnitude::ZERO }
     }
 
     /// The bound of an error so much beyond the ends of its cell, `e^(γ by)` times that on the cell.

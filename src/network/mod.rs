@@ -46,5 +46,5 @@ pub(crate) use observed::{EnergyTerm, Extent, FieldBar, Squared};
 pub use observed::{Observed, ObservedValue, Window};
 pub(crate) use reading::{Elements, Energy, Face, Field, Lump, Reading, Section, Term};
 pub use scaled::ScaledScene;
-pub(crate) use system::{System, Unresisted, dot};
+pub(crate) use system::{System, Unresisted, dot, inverse};
 pub(crate) use unfold::Unfolded;

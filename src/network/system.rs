@@ -85,13 +85,16 @@ impl<V> System<V> {
     }
 }
 
-/// The inverse of a small matrix that is positive definite, by elimination.
-fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec<Number>>> {
+/// The inverse of a small matrix, by elimination; none where it is not known to have one.
+pub(crate) fn inverse(mut matrix: Vec<Vec<Number>>, bits: u64) -> Option<Vec<Vec<Number>>> {
     let size = matrix.len();
     let unit = |i, j| if i == j { Number::one() } else { Number::zero() };
     let mut result: Vec<Vec<Number>> =
         (0..size).map(|i| (0..size).map(|j| unit(i, j)).collect()).collect();
     for i in 0..size {
+        let largest = (i..size).max_by_key(|row| matrix[*row][i].magnitude())?;
+        matrix.swap(i, largest);
+        result.swap(i, largest);
         let pivot = matrix[i][i].reciprocal(bits).ok()?;
         for entry in matrix[i].iter_mut().chain(&mut result[i]) {
             *entry = entry.multiply(&pivot, bits);
