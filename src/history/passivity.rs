@@ -379,6 +379,55 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// On a cell that is much longer than the free motion lasts, the forced motion and its bound are true of the
+        /// motion as many short cells tell it.
+        #[test]
+        fn long_cells_enclose_short_ones(
+            start in prop::collection::vec(-4_i64..5, 4), inputs in prop::collection::vec(-9_i64..10, 10),
+            kept in 1_usize..6,
+        ) {
+            with_node(|node, system, cut| {
+                let passivity = Passivity::of(node, system).unwrap();
+                let bits = cut.bits;
+                let (long, steps) = (rational(16, 1), 64);
+                let (norm, short) = (cell(&long, cut), cell(&rational(16, steps), cut));
+                prop_assert!(passivity.blocks[0].is_stiff(&norm.length) && passivity.blocks[0].forgets());
+                let start: Vec<Number> = start.iter().map(|value| Number::Exact(rational(*value, 3))).collect();
+                let coefficient = |(k, c): (usize, &i64)| Number::Exact(rational(*c, 7 << (3 * k)));
+                let exact = [&inputs[..5], &inputs[5..]].map(|own| {
+                    Series::new(own.iter().enumerate().map(coefficient).collect(), Magnitude::ZERO)
+                });
+                // What is left out of an input is in its bound.
+                let known = exact.each_ref().map(|own| {
+                    let sizes = own.coefficients.iter().enumerate().map(|(k, c)| match k < kept {
+                        true => Magnitude::ZERO,
+                        false => c.magnitude(),
+                    });
+                    let left = norm.of_sizes(&sizes.collect::<Vec<_>>());
+                    Series::new(own.coefficients.iter().take(kept).cloned().collect(), left)
+                });
+                let errors = passivity.errors(&start);
+                let told = system.solve(&passivity, (&start, &errors), &known, (&norm, cut));
+                let (mut state, mut errors) = (start, errors);
+                let step = Number::Exact(rational(16, steps));
+                for count in 0..=steps {
+                    let x = Number::Exact(rational(16 * count, steps));
+                    for (told, state) in told.state.iter().zip(&state) {
+                        let off = told.value(&x, cut).subtract(state, bits).ball(bits);
+                        prop_assert!(off.contains_zero(), "at {count}: {off}");
+                    }
+                    let shifted = exact.each_ref().map(|own| own.shift(&x, cut));
+                    let motion = system.solve(&passivity, (&state, &errors), &shifted, (&short, cut));
+                    (state, errors) = system.ended(&passivity, &motion, &errors, &step, cut);
+                }
+                Ok(())
+            })?;
+        }
+    }
+
+    proptest! {
         /// What is known of a state with an error is true of every state within that error: it is moved by
         /// all of it at the start, by all of what inputs leave out, and by what few terms leave out themselves.
         #[test]

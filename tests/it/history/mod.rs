@@ -8,6 +8,7 @@ mod page;
 mod phases;
 mod refusals;
 mod springs;
+mod stiff;
 mod validity;
 
 use crate::support::mirror::mirrored;

@@ -1,0 +1,68 @@
+//! Light masses and stiff springs: their free motion dies out within a tiny part of a travel time, and from then on
+//! they follow what arrives.
+
+use crate::history::{ball, is_zero, network_of, rational, values};
+use wavestep::evaluate::Limit;
+use wavestep::history::{EventKind, History};
+use wavestep_polynomial::Rational;
+
+/// What is followed is the closed form of the same scene with closed contacts, as long as these would not open.
+fn follows_the_closed_form(text: &str, names: &[&str], times: &[Rational]) {
+    let closed = network_of(text, &[]);
+    let open = network_of(&format!("{text}\ncontacts open"), &[]);
+    for name in names {
+        let [told, exact] = [&open, &closed].map(|own| values(own, name, times, Limit::Right, 45));
+        for ((told, exact), time) in told.iter().zip(&exact).zip(times) {
+            let off = ball(told).subtract(&ball(exact), 300);
+            assert!(is_zero(&off), "{name} at {time}: {off}");
+        }
+    }
+}
+
+fn billionths(count: i64) -> Rational {
+    rational(count, 1_000_000_000)
+}
+
+#[test]
+fn a_light_mass_between_bars() {
+    let text = "scene \"A light mass\"\nbar a { impedance = 1, travel = 1, velocity = 1 }\n\
+        mass m { mass = 1e-9 }\nbar b { impedance = 2, travel = 3/2 }\nline free - a | m - b - free\n\
+        observe v = velocity(m)\nobserve s = velocity(b.right)";
+    let after =
+        |time: Rational| [&time + billionths(1), &time + billionths(30), &time + billionths(90)];
+    let times = [after(rational(0, 1)), after(rational(3, 2))].concat();
+    let times: Vec<Rational> = times.into_iter().chain([rational(19, 10)]).collect();
+    follows_the_closed_form(text, &["v", "s"], &times);
+    // It leaves as the bar would by itself: (Z1 − Z2)/(Z1 + Z2) < 0 at 2L/c.
+    let open = network_of(&format!("{text}\ncontacts open"), &[]);
+    let history = History::of(&open, None, 12).unwrap();
+    let opening = history.events.iter().find(|event| event.kind == EventKind::Opening).unwrap();
+    let off =
+        ball(&opening.time).subtract(&wavestep::ball::Ball::from_rational(&rational(2, 1), 99), 99);
+    assert!(off.rounded().unwrap().abs() < 1e-6, "{off}");
+}
+
+#[test]
+fn a_stiff_specimen_between_long_bars() {
+    let text = "scene \"A stiff specimen\"\nbar s { impedance = 1, travel = 1, velocity = 1 }\n\
+        bar a { impedance = 1, travel = 3 }\nspring k { stiffness = 1e6 }\n\
+        bar b { impedance = 1, travel = 3 }\nline free - s | a - k - b - free\n\
+        observe v = velocity(b.right)\nobserve F = force(k)";
+    let after = |time: i64| [100, 1000, 20_000].map(|by| rational(time, 1) + billionths(by));
+    let times = [after(3), after(5), after(6)].concat();
+    follows_the_closed_form(text, &["F"], &times[..6]);
+    let times: Vec<Rational> =
+        times[6..].iter().cloned().chain([rational(13, 2), rational(79, 10)]).collect();
+    follows_the_closed_form(text, &["v"], &times);
+}
+
+/// A mass of 1e-9 under a force of 1e9: the rates of the scene differ by as much.
+#[test]
+fn a_light_mass_is_pressed_on_a_bar() {
+    let text = "scene \"A mass under a constant force\"\nload weight { force = 1/1e-9 }\n\
+        mass hammer { mass = 1e-9, velocity = 1 }\nbar rod { impedance = 1, travel = 1 }\n\
+        line free - weight - hammer | rod - fixed\nobserve v = velocity(hammer)\n\
+        observe e = strain(rod.right)";
+    let times: Vec<Rational> = (0..3).map(|k| rational(20 * k + 7, 13)).collect();
+    follows_the_closed_form(text, &["v", "e"], &times);
+}
