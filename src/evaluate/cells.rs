@@ -8,9 +8,7 @@
 //! Their middles are doubles and their scales powers of two, so that `u = (t − middle)/scale` is exact for
 //! doubles beside the middle.
 
-use crate::ball::{
-    Attempt, Ball, Binary, Magnitude, Precisions, at_or_after, at_or_before, rational,
-};
+use crate::ball::{Attempt, Ball, Magnitude, Precisions, at_or_after, at_or_before, rational};
 use crate::evaluate::error::EvaluateError;
 use crate::evaluate::marched_pieces::MarchedPieces;
 use crate::evaluate::signal::{At, Enclosure, Limit, Signal};
@@ -18,6 +16,7 @@ use crate::evaluate::taylor::Taylor;
 use crate::limits::{MAX_PIECES, MAX_POLYNOMIALS};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
+use wavestep_kernels::Piece;
 use wavestep_kernels::fixed::{Interpolant, Spans};
 use wavestep_polynomial::Rational;
 
@@ -55,26 +54,19 @@ pub(crate) struct Fit {
     pub degree: usize,
     /// A bound on the error, absolute.
     pub error: Magnitude,
-    /// What rounding may cost when the polynomial is evaluated in doubles by Horner's scheme; no matter
-    /// what where nothing is said.
+    /// What rounding may cost when the polynomial is evaluated in doubles by Horner's scheme; where nothing
+    /// is said, coefficients are kept in pairs of doubles.
     pub rounding: Option<Magnitude>,
 }
 
-/// A part of a window on which a signal is one polynomial in `u = (t − middle)/scale`.
-pub(crate) struct Cell {
-    /// The smallest double that belongs to it.
-    pub first: f64,
-    /// The largest one.
-    pub last: f64,
-    /// A double near its middle.
-    pub middle: f64,
-    /// A power of two, such that `|u| ≤ 1` on the cell.
-    pub scale: f64,
-    /// The stretch that it lies in.
-    pub stretch: usize,
-    /// The polynomial, of the degree asked for, with what its terms of higher degree can be on the
-    /// cell.
-    pub taylor: Taylor,
+/// A window as polynomials in doubles, one for each cell.
+pub(crate) struct Pieces {
+    /// In order.
+    pub all: Vec<Piece>,
+    /// For each stretch the first of its pieces, and the number of all pieces.
+    pub firsts: Vec<usize>,
+    /// The largest double of the last one.
+    pub end: f64,
 }
 
 /// A signal with its cells, made as they are asked for.
@@ -213,32 +205,33 @@ impl<'a> Window<'a> {
         Ok(sum / Rational::from_integer(2.into()))
     }
 
-    /// All cells, in order, polynomials fitting as they shall.
-    pub(crate) fn cells(&self, fit: Fit) -> Result<Vec<Cell>, EvaluateError> {
-        let mut cells = Vec::new();
+    /// The polynomials of all cells, fitting as they shall.
+    pub(crate) fn pieces(&self, fit: Fit) -> Result<Pieces, EvaluateError> {
+        let mut pieces = Pieces { all: Vec::new(), firsts: Vec::new(), end: f64::NAN };
         // Stretches are much alike: each is first cut as often as its predecessor at least was.
         let mut depth = 0;
         let mut width = None;
         let marched = self.marched.as_ref().filter(|marched| marched.serves(fit.error));
         for (stretch, doubles) in self.doubles()? {
+            let all = &mut pieces.all;
+            pieces.firsts.resize(stretch + 1, all.len());
+            pieces.end = doubles.1;
             if let Some(fitted) = fitted(marched, doubles, fit, &mut width) {
-                cells.extend(fitted.into_iter().map(|cell| Cell { stretch, ..cell }));
-                if cells.len() > MAX_POLYNOMIALS {
-                    return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
-                }
+                all.extend(fitted);
+                admit(all.len())?;
                 continue;
             }
             let mut least = MAX_DEPTH;
             let spans = marched.map_or_else(|| vec![doubles], |marched| marched.spans(doubles));
             let mut open: Vec<_> = spans.into_iter().rev().map(|span| (span, 0)).collect();
             while let Some(((first, last), halvings)) = open.pop() {
-                let cell = match halvings < depth && first < last {
+                let piece = match halvings < depth && first < last {
                     true => None,
                     false => self.fitting(stretch, (first, last), fit)?,
                 };
-                if let Some(cell) = cell {
+                if let Some(piece) = piece {
                     least = least.min(halvings);
-                    cells.push(cell);
+                    all.push(piece);
                 } else if halvings >= MAX_DEPTH || first >= last {
                     return Err(EvaluateError::TooSteep);
                 } else {
@@ -247,22 +240,22 @@ impl<'a> Window<'a> {
                     open.push(((middle.next_up(), last), halvings + 1));
                     open.push(((first, middle), halvings + 1));
                 }
-                if cells.len() + open.len() > MAX_POLYNOMIALS {
-                    return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
-                }
+                admit(all.len() + open.len())?;
             }
             depth = least.saturating_sub(1);
         }
-        Ok(cells)
+        pieces.firsts.resize(self.count()? + 1, pieces.all.len());
+        Ok(pieces)
     }
 
-    /// The cell from `first` to `last`, where a polynomial fits.
+    /// The polynomial from `first` to `last`, where one fits; the rounding of its coefficients counts as part
+    /// of its error.
     fn fitting(
         &self,
         stretch: usize,
         (first, last): (f64, f64),
         fit: Fit,
-    ) -> Result<Option<Cell>, EvaluateError> {
+    ) -> Result<Option<Piece>, EvaluateError> {
         let middle = first + (last - first) / 2.0;
         // The difference of two doubles may be rounded: the next one is large enough. Times between
         // the cell's doubles and the next ones belong to it as well.
@@ -276,7 +269,21 @@ impl<'a> Window<'a> {
         }
         let scale = power_of_two_above(half);
         taylor.stretch(&(rational(scale) / rational(half)), self.bits.get().max(MARCHED_BITS));
-        Ok(Some(Cell { first, last, middle, scale, stretch, taylor }))
+        let (mut coefficients, mut low, mut error) = (Vec::new(), Vec::new(), taylor.remainder);
+        for coefficient in &taylor.coefficients {
+            let (double, distance) = if fit.rounding.is_some() {
+                coefficient.to_double()
+            } else {
+                let (high, rest) = coefficient.split();
+                let (rest, distance) = rest.to_double();
+                low.push(rest);
+                (high, distance)
+            };
+            coefficients.push(double);
+            error = error.add(&distance);
+        }
+        let (scale, error) = (scale.recip(), error.to_double());
+        Ok(Some(Piece { start: first, centre: middle, scale, coefficients, low, error }))
     }
 
     /// The polynomial in `(t − middle)/half`, its terms beyond the degree in the remainder; where it can
@@ -350,6 +357,14 @@ pub(crate) fn enclosure<'a>(
     })
 }
 
+/// Refuses more polynomials than are made.
+fn admit(count: usize) -> Result<(), EvaluateError> {
+    match count > MAX_POLYNOMIALS {
+        true => Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS }),
+        false => Ok(()),
+    }
+}
+
 /// The bits of balls with which an error is aimed at.
 fn first_bits(error: Magnitude) -> u64 {
     let wanted = error.top().map_or(0, |top| u64::try_from(-top).unwrap_or(0));
@@ -398,23 +413,23 @@ fn first_double(signal: &dyn Signal, stretch: usize) -> Result<f64, EvaluateErro
     Ok(double)
 }
 
-/// The cells of a range of doubles, of the stretch 0; `width` is that of the last cell of the range
-/// before, and becomes that of this one. None where there is no march, where
-/// nothing is said about rounding, and where no polynomials are found.
+/// The polynomials of a range of doubles; `width` is that of the last cell of the range before, and becomes
+/// that of this one. None where there is no march, where nothing is said about rounding, and where no
+/// polynomials are found.
 fn fitted(
     marched: Option<&MarchedPieces>,
     (first, last): (f64, f64),
     fit: Fit,
     width: &mut Option<f64>,
-) -> Option<Vec<Cell>> {
+) -> Option<Vec<Piece>> {
     let rounding = fit.rounding?.to_double();
     let spans = marched?.of_period((first, last), fit.degree)?;
     let limits = [fit.error.to_double(), rounding];
-    let mut cells = Vec::new();
+    let mut pieces = Vec::new();
     let mut start = first;
     let mut tried = width.map_or((last - first) * FIRST_PART, |width| width * WIDER);
     loop {
-        let found = (0..MOST_TRIES).find_map(|_| {
+        let (end, found) = (0..MOST_TRIES).find_map(|_| {
             let rest = last - start;
             let end = if tried >= rest {
                 last
@@ -422,22 +437,20 @@ fn fitted(
                 // What is left shall not be a sliver.
                 (start + tried.min(rest / 2.0)).next_down().max(start)
             };
-            let cell = interpolating(&spans, (start, end), limits);
             tried = (end - start) * NARROWER;
-            cell
+            Some((end, interpolating(&spans, (start, end), limits)?))
         })?;
-        let end = found.last;
         *width = Some(end - start);
-        cells.push(found);
+        pieces.push(found);
         if end >= last {
-            return Some(cells);
+            return Some(pieces);
         }
         tried = (end - start) * WIDER;
         start = end.next_up();
     }
 }
 
-/// The cell on a range of doubles, where a polynomial is near enough and loses little when evaluated.
+/// The polynomial on a range of doubles, where one is near enough and loses little when evaluated.
 ///
 /// Its coefficients are doubles, so the distance holds what rounding them costs, some `ε Σ|c_k| r^k`. The
 /// rounding of Horner's scheme is `ε (T_0 + 2 Σ_{1≤k<n} T_k + T_n)`, `T_k = Σ_{j≥k} |c_j| r^j`.
@@ -445,7 +458,7 @@ fn interpolating(
     spans: &Spans,
     (first, last): (f64, f64),
     [error, rounding]: [f64; 2],
-) -> Option<Cell> {
+) -> Option<Piece> {
     let interpolant = spans.interpolated(first, last)?;
     let Interpolant { middle, scale, ref coefficients, .. } = interpolant;
     let reach = (last - middle).max(middle - first) / scale;
@@ -462,9 +475,15 @@ fn interpolating(
     if distance > error + unit * tail {
         return None;
     }
-    let exact =
-        |coefficient: &f64| Some(Ball::new(Binary::from_double(*coefficient)?, Magnitude::ZERO));
-    let coefficients = coefficients.iter().map(exact).collect::<Option<_>>()?;
-    let taylor = Taylor { coefficients, remainder: Magnitude::from_double(distance) };
-    Some(Cell { first, last, middle, scale, stretch: 0, taylor })
+    let (scale, coefficients) = (scale.recip(), interpolant.coefficients);
+    let finite = coefficients.iter().all(|coefficient| coefficient.is_finite());
+    let piece = Piece {
+        start: first,
+        centre: middle,
+        scale,
+        coefficients,
+        low: Vec::new(),
+        error: distance,
+    };
+    finite.then_some(piece)
 }

@@ -6,7 +6,7 @@
 //! with a proven error of about `2^−95` of the largest value; those few that this does not decide are
 //! enclosed one by one.
 
-use super::doubles::{Kept, ascend, inside, tabulated};
+use super::doubles::{ascend, inside, table};
 use super::{Evaluator, MethodError};
 use crate::ball::{Attempt, Ball, Precisions, rational};
 use crate::evaluate::cells::{Fit, Window, enclosure};
@@ -60,8 +60,7 @@ impl<'a> Certified<'a> {
             return Ok(table);
         }
         let error = self.window.scale_of_errors()?.scale(-ERROR_BITS);
-        let cells = self.window.cells(Fit { degree: DEGREE, error, rounding: None })?;
-        let (_, table) = tabulated(&cells, Kept::Two)?;
+        let table = table(&self.window.pieces(Fit { degree: DEGREE, error, rounding: None })?)?;
         Ok(self.table.get_or_init(|| table))
     }
 

@@ -5,10 +5,10 @@
 //! the rounding of their coefficients to doubles, and that of evaluating them, which
 //! [`Table`] proves. Whatever the order of the waves, a value costs some ten multiply-adds.
 
-use super::doubles::{Kept, ascend, tabulated};
+use super::doubles::{ascend, table};
 use super::{Evaluator, MethodError};
 use crate::ball::{Ball, Magnitude, unit_in_the_last_place};
-use crate::evaluate::cells::{Fit, Window};
+use crate::evaluate::cells::{Fit, Pieces, Window};
 use crate::evaluate::signal::{Limit, Signal};
 use wavestep_kernels::{Piece, Table};
 use wavestep_polynomial::Rational;
@@ -25,9 +25,7 @@ const ERROR_BITS: i64 = 56;
 pub struct Compiled<'a> {
     window: Window<'a>,
     table: Table,
-    /// For each stretch the first of its pieces, and the number of all pieces.
-    first_pieces: Vec<usize>,
-    pieces: Vec<Piece>,
+    pieces: Pieces,
 }
 
 impl<'a> Compiled<'a> {
@@ -48,11 +46,8 @@ impl<'a> Compiled<'a> {
         let kept = ulp.multiply(&Magnitude::from_u64(5)).scale(-1);
         let allowed = tolerance.map(|tolerance| Magnitude::from_double(tolerance / 2.0));
         let rounding = Some(allowed.map_or(kept, |allowed| allowed.max(kept)));
-        let cells = window.cells(Fit { degree: DEGREE, error, rounding })?;
-        let (pieces, table) = tabulated(&cells, Kept::One)?;
-        let first_of = |stretch| cells.partition_point(|cell| cell.stretch < stretch);
-        let first_pieces = (0..=window.count()?).map(first_of).collect();
-        Ok(Compiled { window, table, first_pieces, pieces })
+        let pieces = window.pieces(Fit { degree: DEGREE, error, rounding })?;
+        Ok(Compiled { window, table: table(&pieces)?, pieces })
     }
 
     /// The polynomials, for values at memory speed.
@@ -62,7 +57,7 @@ impl<'a> Compiled<'a> {
 
     /// The pieces of the table.
     pub fn pieces(&self) -> &[Piece] {
-        &self.pieces
+        &self.pieces.all
     }
 }
 
@@ -88,10 +83,11 @@ impl Evaluator for Compiled<'_> {
         let Some(stretch) = self.window.signal.stretch_at(at, side)? else {
             return Ok(self.window.enclosed(at, side)?);
         };
-        let pieces = &self.pieces[self.first_pieces[stretch]..self.first_pieces[stretch + 1]];
+        let Pieces { all, firsts, .. } = &self.pieces;
+        let pieces = &all[firsts[stretch]..firsts[stretch + 1]];
         let (near, rest) = Ball::from_rational(at, 128).split();
         let place = pieces.partition_point(|piece| piece.start <= near);
-        let ends = [pieces.get(place), self.pieces.get(self.first_pieces[stretch + 1])];
+        let ends = [pieces.get(place), all.get(firsts[stretch + 1])];
         let ends_here = ends.into_iter().flatten().any(|next| near >= next.start.next_down());
         let rest = rest.midpoint().to_double();
         let Some(piece) = place.checked_sub(1).map(|place| &pieces[place]).filter(|piece| {

@@ -4,10 +4,10 @@
 use super::MethodError;
 use crate::ball::{Ball, at_or_after, at_or_before, rational};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::cells::Cell;
+use crate::evaluate::cells::Pieces;
 use crate::expression::Fraction;
 use std::cmp::Ordering;
-use wavestep_kernels::{Piece, Table};
+use wavestep_kernels::Table;
 use wavestep_polynomial::Rational;
 
 /// Bits of the balls that are rounded.
@@ -47,44 +47,10 @@ pub(super) fn ascend(at: &[f64]) -> bool {
     at.windows(2).all(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Greater))
 }
 
-/// In how many doubles a coefficient is kept.
-#[derive(Clone, Copy)]
-pub(super) enum Kept {
-    One,
-    Two,
-}
-
-/// The polynomials of all cells in doubles, and as a table; refused where there are none.
-pub(super) fn tabulated(cells: &[Cell], kept: Kept) -> Result<(Vec<Piece>, Table), MethodError> {
-    let pieces: Vec<Piece> = cells.iter().map(|cell| piece(cell, kept)).collect();
-    let end = cells.last().ok_or(MethodError::Outside)?.last;
-    let table = Table::new(&pieces, end)?;
-    Ok((pieces, table))
-}
-
-/// The polynomial of a cell in doubles; the rounding of its coefficients counts as part of its error.
-fn piece(cell: &Cell, kept: Kept) -> Piece {
-    let mut error = cell.taylor.remainder;
-    let (mut coefficients, mut low) = (Vec::new(), Vec::new());
-    for coefficient in &cell.taylor.coefficients {
-        let (double, distance) = match kept {
-            Kept::One => coefficient.to_double(),
-            Kept::Two => {
-                let (high, rest) = coefficient.split();
-                let (rest, distance) = rest.to_double();
-                low.push(rest);
-                (high, distance)
-            }
-        };
-        coefficients.push(double);
-        error = error.add(&distance);
-    }
-    Piece {
-        start: cell.first,
-        centre: cell.middle,
-        scale: cell.scale.recip(),
-        coefficients,
-        low,
-        error: error.to_double(),
+/// Polynomials as a table; refused where there are none.
+pub(super) fn table(pieces: &Pieces) -> Result<Table, MethodError> {
+    match pieces.all.is_empty() {
+        true => Err(MethodError::Outside),
+        false => Ok(Table::new(&pieces.all, pieces.end)?),
     }
 }
