@@ -162,7 +162,24 @@ mod x86 {
 
     /// The methods of levels with fused multiply-add.
     macro_rules! fused_methods {
-        ($multiply_add:ident, $multiply_subtract:ident, $truncate:ident) => {
+        ($multiply_add:ident, $multiply_subtract:ident, $truncate:ident,
+            |$from:ident, $lanes:ident| $gather:expr, $gather_integers:expr) => {
+            #[inline(always)]
+            fn gather(self, values: &[f64], offsets: Self::Offsets) -> Self::Values {
+                assert!(offsets.limit <= values.len());
+                let ($from, $lanes) = (values.as_ptr(), offsets.lanes);
+                // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
+                unsafe { $gather }
+            }
+
+            #[inline(always)]
+            fn gather_integers(self, values: &[u32], offsets: Self::Offsets) -> Self::Values {
+                assert!(offsets.limit <= values.len());
+                let ($from, $lanes) = (values.as_ptr().cast(), offsets.lanes);
+                // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
+                unsafe { $gather_integers }
+            }
+
             #[inline(always)]
             fn offsets(self, values: Self::Values, limit: usize) -> Self::Offsets {
                 let clamped = self.clamped(values, limit);
@@ -312,7 +329,13 @@ mod x86 {
             _mm256_set1_epi64x,
             _mm256_castsi256_pd
         );
-        fused_methods!(_mm256_fmadd_pd, _mm256_fmsub_pd, _mm256_cvttpd_epi32);
+        fused_methods!(
+            _mm256_fmadd_pd,
+            _mm256_fmsub_pd,
+            _mm256_cvttpd_epi32,
+            |from, lanes| _mm256_i32gather_pd::<8>(from, lanes),
+            _mm256_cvtepi32_pd(_mm_i32gather_epi32::<4>(from, lanes))
+        );
 
         #[inline(always)]
         fn abs(self, a: __m256d) -> __m256d {
@@ -327,23 +350,6 @@ mod x86 {
         #[inline(always)]
         fn bits(self, mask: __m256d) -> u32 {
             instruction!(_mm256_movemask_pd(mask)).cast_unsigned()
-        }
-
-        #[inline(always)]
-        fn gather(self, values: &[f64], offsets: Offsets<__m128i>) -> __m256d {
-            assert!(offsets.limit <= values.len());
-            // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
-            unsafe { _mm256_i32gather_pd::<8>(values.as_ptr(), offsets.lanes) }
-        }
-
-        #[inline(always)]
-        fn gather_integers(self, values: &[u32], offsets: Offsets<__m128i>) -> __m256d {
-            assert!(offsets.limit <= values.len());
-            // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
-            unsafe {
-                let integers = _mm_i32gather_epi32::<4>(values.as_ptr().cast(), offsets.lanes);
-                _mm256_cvtepi32_pd(integers)
-            }
         }
 
         /// Halves of the rows r and r + 2 are put together, and then interleaved.
@@ -389,7 +395,13 @@ mod x86 {
             _mm512_set1_epi64,
             _mm512_castsi512_pd
         );
-        fused_methods!(_mm512_fmadd_pd, _mm512_fmsub_pd, _mm512_cvttpd_epi32);
+        fused_methods!(
+            _mm512_fmadd_pd,
+            _mm512_fmsub_pd,
+            _mm512_cvttpd_epi32,
+            |from, lanes| _mm512_i32gather_pd::<8>(lanes, from),
+            _mm512_cvtepi32_pd(_mm256_i32gather_epi32::<4>(from, lanes))
+        );
 
         #[inline(always)]
         fn abs(self, a: __m512d) -> __m512d {
@@ -415,23 +427,6 @@ mod x86 {
         #[inline(always)]
         fn bits(self, mask: __mmask8) -> u32 {
             u32::from(mask)
-        }
-
-        #[inline(always)]
-        fn gather(self, values: &[f64], offsets: Offsets<__m256i>) -> __m512d {
-            assert!(offsets.limit <= values.len());
-            // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
-            unsafe { _mm512_i32gather_pd::<8>(offsets.lanes, values.as_ptr()) }
-        }
-
-        #[inline(always)]
-        fn gather_integers(self, values: &[u32], offsets: Offsets<__m256i>) -> __m512d {
-            assert!(offsets.limit <= values.len());
-            // SAFETY: all lanes are in 0 … limit − 1, and the slice is not shorter than the limit.
-            unsafe {
-                let integers = _mm256_i32gather_epi32::<4>(values.as_ptr().cast(), offsets.lanes);
-                _mm512_cvtepi32_pd(integers)
-            }
         }
 
         /// Halves of the rows r and r + 4 are put together, interleaved, and their quarters sorted.
