@@ -126,6 +126,9 @@ impl From<PictureError> for Failure {
                 Failure::new(COMPUTATION, error.to_string(), remedy)
             }
             PictureError::Plot(error) => error.into(),
+            PictureError::NoFigure(_) => {
+                Failure::usage(error.to_string(), "`wavestep figure` lists them with their titles")
+            }
             error => Failure::usage(error.to_string(), "see `wavestep plot --help`"),
         }
     }

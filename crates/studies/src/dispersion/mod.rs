@@ -2,7 +2,6 @@
 //! velocities of crests and groups derived from them, and the velocity of a pulse's peak, in closed form
 //! or by certified quadrature.
 
-mod beats;
 mod builtin;
 mod cut_off;
 mod error;
@@ -17,7 +16,6 @@ mod read;
 mod relation;
 mod series;
 
-pub use beats::{TwoWaves, two_waves};
 pub use builtin::Builtin;
 pub use error::{DispersionError, NoGrid};
 pub use formula::{Formula, FormulaError, Function};

@@ -1,10 +1,10 @@
 //! Dispersive waves: figures 6.23 to 6.29.
 
-use super::Listed;
-use super::error::FigureError;
+use super::{Drawn, Listed};
 use crate::dispersion::{Builtin, Quantity, Relation, Shape, peak_velocity_at};
+use crate::picture::PictureError;
 use std::f64::consts::TAU;
-use wavestep_draw::{Axis, Chart, Figure, Look, Panel, Series};
+use wavestep_draw::{Axis, Figure, Look, Panel, PlotError, Series};
 
 /// Points of a curve.
 const POINTS: u32 = 240;
@@ -21,7 +21,7 @@ fn curve(name: &str, last: f64, function: impl Fn(f64) -> f64) -> Series {
     Series::new(name, points.map(|x| (x, function(x))).collect())
 }
 
-fn of(relation: &Relation, quantity: Quantity, k: f64) -> Result<f64, FigureError> {
+fn of(relation: &Relation, quantity: Quantity, k: f64) -> Result<f64, PictureError> {
     Ok(relation.sample(quantity, k)?.value)
 }
 
@@ -30,20 +30,20 @@ fn one_panel(
     [x, y]: [&str; 2],
     series: Vec<Series>,
     remarks: &[&str],
-) -> Result<Figure, FigureError> {
+) -> Result<Figure, PlotError> {
     let panel = Panel::new(Axis::linear(y), series);
     listed.figure(Axis::linear(x), vec![panel], remarks)
 }
 
 /// 6.23.
-pub(super) fn against_time(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn against_time(listed: &Listed) -> Drawn {
     let wave = curve("", 2.0, |t| (TAU * t).cos());
     let remarks = ["At x = 0: a period is 2π/ω."];
     Ok(Box::new(one_panel(listed, ["time ωt/2π", "u/U"], vec![wave], &remarks)?))
 }
 
 /// 6.24.
-pub(super) fn against_place(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn against_place(listed: &Listed) -> Drawn {
     let now = curve("t = 0", 2.0, |x| (TAU * x).cos());
     let later = curve("an eighth of a period later", 2.0, |x| (TAU * (0.125 - x)).cos());
     let remarks = ["A wavelength is λ = 2π/k; crests run with c_p = ω/k."];
@@ -51,7 +51,7 @@ pub(super) fn against_place(listed: &Listed) -> Result<Box<dyn Chart>, FigureErr
 }
 
 /// The two waves and their envelope at a time, against place.
-fn pair(time: f64) -> Result<[Series; 3], FigureError> {
+fn pair(time: f64) -> Result<[Series; 3], PictureError> {
     let relation = Builtin::Lattice.relation();
     let omega = |k: f64| of(&relation, Quantity::Frequency, k);
     let [first, second] = TWO_WAVES;
@@ -71,14 +71,14 @@ fn pair(time: f64) -> Result<[Series; 3], FigureError> {
 }
 
 /// 6.25.
-pub(super) fn beats(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn beats(listed: &Listed) -> Drawn {
     let remarks = ["Two waves of equal amplitude U, k = 1 and 1.15, at t = 0 (6.91a)."];
     let series = pair(0.0)?.to_vec();
     Ok(Box::new(one_panel(listed, ["place x", "u/U"], series, &remarks)?))
 }
 
 /// 6.26.
-pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn diagram(listed: &Listed) -> Drawn {
     let relation = Builtin::Lattice.relation();
     let (k, last) = (2.0, std::f64::consts::PI);
     let omega = of(&relation, Quantity::Frequency, k)?;
@@ -100,7 +100,7 @@ pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
 }
 
 /// 6.27.
-pub(super) fn crests(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn crests(listed: &Listed) -> Drawn {
     let relation = Builtin::Beam.relation();
     let [k, step] = [1.0, 0.12];
     let omega = |k: f64| of(&relation, Quantity::Frequency, k);
@@ -142,7 +142,7 @@ fn velocities(
     relation: &Relation,
     last: f64,
     remarks: &[&str],
-) -> Result<Box<dyn Chart>, FigureError> {
+) -> Drawn {
     let wave_numbers =
         |count: u32| (1..=count).map(move |i| f64::from(i) / f64::from(count) * last);
     let (mut phase, mut group) = (Vec::new(), Vec::new());
@@ -165,13 +165,13 @@ fn velocities(
 }
 
 /// 6.28.
-pub(super) fn concave_downwards(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn concave_downwards(listed: &Listed) -> Drawn {
     let remarks = ["ω = k − k³/12; pulses given in space, of length b (6.100)."];
     velocities(listed, &Builtin::Cubic.relation(), 2.0, &remarks)
 }
 
 /// 6.29.
-pub(super) fn concave_upwards(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn concave_upwards(listed: &Listed) -> Drawn {
     let remarks = ["ω = k √(1 + k²/12); pulses given in space, of length b (6.100)."];
     velocities(listed, &Builtin::StiffString.relation(), 4.0, &remarks)
 }

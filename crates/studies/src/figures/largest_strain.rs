@@ -5,12 +5,11 @@
 //! strain is there largest in that period, `2 f_n(0) V/c`, as long as the contact pushes. The larger the
 //! striking mass, the later the period in which that is largest of all.
 
+use super::scene::problem;
 use num_traits::One as _;
 use wavestep::ball::Ball;
 use wavestep::enclosure::{enclose_expression, enclose_zero};
 use wavestep::expression::{Expression, Fraction};
-use wavestep::language::{self, Source};
-use wavestep::solution::Solution;
 use wavestep_polynomial::{Rational, Symbol};
 
 /// The most periods: each needs a longer expression.
@@ -32,19 +31,15 @@ impl LargestStrain {
         if last > MAX_PERIODS {
             return None;
         }
-        let text = wavestep::scenes::find("rigid-mass").expect("a built-in scene").text;
-        let source = Source::new("rigid-mass", text).expect("a short text");
-        let recurrence = language::read_recurrence(&source, &Default::default());
-        let recurrence = recurrence.expect("a built-in scene");
-        let local = recurrence.statement().local.clone();
-        let wave = 0;
-        let solution = Solution::new(recurrence);
-        let pieces = solution.pieces(wave, 0, last).expect("a wave with pieces");
+        let problem = problem("rigid-mass", &[]);
+        let solution = problem.solution().expect("a recurrence");
+        let local = &solution.recurrence().statement().local;
+        let pieces = solution.pieces(0, 0, last).expect("a wave with pieces");
         let two = Rational::from_integer(2.into());
-        let strains = pieces.iter().map(|f| f.at_zero(&local).scale(&two)).collect();
+        let strains = pieces.iter().map(|f| f.at_zero(local).scale(&two)).collect();
         let mu = Symbol::new("mu").expect("a name");
         let period = Fraction::symbol(&mu).scale(&two);
-        let at_end = |f: &Expression| f.substitute(&local, &period).expect("a polynomial in s");
+        let at_end = |f: &Expression| f.substitute(local, &period).expect("a polynomial in s");
         let ends: Vec<Expression> = pieces.iter().map(at_end).collect();
         let force = |n: usize| match n {
             0 => ends[0].clone(),

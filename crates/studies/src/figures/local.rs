@@ -1,11 +1,11 @@
 //! Local contact: figures 6.15 and 6.16.
 
-use super::Listed;
-use super::error::FigureError;
+use super::{Drawn, Listed};
 use crate::hertz::{PowerLaw, equal_bars_constant};
 use crate::ratio;
 use wavestep::ball::Ball;
-use wavestep_draw::{Axis, Chart, Panel, Series};
+use crate::picture::PictureError;
+use wavestep_draw::{Axis, Panel, Series};
 
 /// The precision of values that are drawn.
 const BITS: u64 = 64;
@@ -15,8 +15,8 @@ fn double(ball: &Ball) -> f64 {
 }
 
 /// 6.15.
-pub(super) fn rise(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
-    let curve = |law: PowerLaw| -> Result<Vec<(f64, f64)>, FigureError> {
+pub(super) fn rise(listed: &Listed) -> Drawn {
+    let curve = |law: PowerLaw| -> Result<Vec<(f64, f64)>, PictureError> {
         let point = |i: i64| {
             let time = ratio(i, 40);
             Ok((i as f64 / 40.0, double(&law.share(&time, BITS)?.force)))
@@ -35,7 +35,7 @@ pub(super) fn rise(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
 }
 
 /// 6.16.
-pub(super) fn rise_times(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn rise_times(listed: &Listed) -> Drawn {
     let constant = double(&equal_bars_constant(&ratio(3, 10), BITS)?);
     let law = PowerLaw::hertz();
     let mut series = Vec::new();

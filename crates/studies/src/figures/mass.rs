@@ -1,13 +1,13 @@
 //! A rigid mass on a bar with a fixed end: figures 6.20 to 6.22.
 
-use super::Listed;
-use super::error::FigureError;
+use super::{Drawn, Listed};
 use super::largest_strain::LargestStrain;
-use super::scene::{followed, network};
+use super::scene::{course, problem};
+use crate::picture::PictureError;
 use crate::{nearest, ratio};
 use wavestep::ball::Ball;
-use wavestep::field::{FieldEvaluator, Quantity};
-use wavestep_draw::{Axis, Chart, Look, Panel, Series};
+use wavestep::field::Quantity;
+use wavestep_draw::{Axis, Look, Panel, Series};
 
 /// The mass of the bar over the striking mass in 6.20 and 6.21.
 const MU: (i64, i64) = (1, 2);
@@ -26,14 +26,14 @@ fn release() -> f64 {
 }
 
 /// 6.20.
-pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
-    let network = network("saint-venant", &[("mu", ratio(MU.0, MU.1))]);
+pub(super) fn diagram(listed: &Listed) -> Drawn {
+    let problem = problem("saint-venant", &[("mu", ratio(MU.0, MU.1))]);
     let last = ratio(LAST, 1);
     let remarks = [
         "The mass of the bar is half the striking mass; x from the struck end. Compression is positive; \
                     hatched: tension. The mass leaves where the strain at x = 0 has come to zero.",
     ];
-    let evaluator = FieldEvaluator::new(&network, &last)?;
+    let evaluator = problem.field_evaluator(&last)?;
     // With V = 1 and Z = 1 the compressive force is −ε c/V.
     let names = ["place x/L", "time ct/L", "−ε c/V"];
     let diagram = listed.diagram(&evaluator, Quantity::Force, &last, names, &remarks)?;
@@ -41,16 +41,16 @@ pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
 }
 
 /// 6.21.
-pub(super) fn courses(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
-    let network = network("saint-venant", &[("mu", ratio(MU.0, MU.1))]);
+pub(super) fn courses(listed: &Listed) -> Drawn {
+    let problem = problem("saint-venant", &[("mu", ratio(MU.0, MU.1))]);
     let last = ratio(LAST, 1);
-    let series = |name: &str, label: &str, sign: f64| -> Result<Series, FigureError> {
-        let values = followed(&network, name, &last)?;
+    let series = |name: &str, label: &str, sign: f64| {
+        let values = course(&problem, name, &last)?;
         // Adding zero turns a negative zero into zero.
         let signed = |y: f64| sign * y + 0.0;
         let points = values.points.iter().map(|(t, y)| (*t, signed(*y))).collect();
         let jumps = values.jumps.iter().map(|(t, a, b)| (*t, signed(*a), signed(*b))).collect();
-        Ok(Series::new(label, points).jumping(jumps))
+        Ok::<Series, PictureError>(Series::new(label, points).jumping(jumps))
     };
     let velocity = series("velocity", "mass", 1.0)?;
     let struck = series("strain_impact", "struck end, ε0", -1.0)?;
@@ -73,7 +73,7 @@ pub(super) fn courses(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
 const SOLID_BLACK: usize = 24;
 
 /// 6.22.
-pub(super) fn largest_strains(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn largest_strains(listed: &Listed) -> Drawn {
     let strains = LargestStrain::new(PERIODS).expect("few periods");
     let double = |ball: &Ball| ball.midpoint().to_double();
     let ratios = || (1..=4 * LARGEST_RATIO).map(|i| ratio(i, 4));

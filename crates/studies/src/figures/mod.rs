@@ -5,38 +5,39 @@
 
 mod bars;
 mod dispersion;
-mod error;
 mod largest_strain;
 mod local;
 mod mass;
 mod pulse;
 mod scene;
 
-pub use error::FigureError;
 pub use largest_strain::LargestStrain;
 
-use crate::picture::lagrange;
+use crate::picture::{PictureError, lagrange};
 use wavestep::field::{FieldEvaluator, Quantity};
-use wavestep_draw::{Axis, Caption, Chart, Diagram, Figure, Panel};
+use wavestep_draw::{Axis, Caption, Chart, Diagram, Figure, Panel, PlotError};
 use wavestep_polynomial::Rational;
+
+/// A figure, computed.
+type Drawn = Result<Box<dyn Chart>, PictureError>;
 
 /// A figure that can be drawn.
 pub struct Listed {
     /// Its number in the source.
     pub number: &'static str,
     pub title: &'static str,
-    draw: fn(&Listed) -> Result<Box<dyn Chart>, FigureError>,
+    draw: fn(&Listed) -> Drawn,
 }
 
 impl Listed {
     /// The figure, computed anew.
-    pub fn draw(&self) -> Result<Box<dyn Chart>, FigureError> {
+    pub fn draw(&self) -> Drawn {
         (self.draw)(self)
     }
 
     /// Panels over an axis, with the title and the command that draws them again.
-    fn figure(&self, x: Axis, panels: Vec<Panel>, remarks: &[&str]) -> Result<Figure, FigureError> {
-        Ok(Figure::new(self.title, x, panels, self.caption(remarks))?)
+    fn figure(&self, x: Axis, panels: Vec<Panel>, remarks: &[&str]) -> Result<Figure, PlotError> {
+        Figure::new(self.title, x, panels, self.caption(remarks))
     }
 
     /// A diagram of place and time, with the names of place, time and quantity.
@@ -47,7 +48,7 @@ impl Listed {
         last: &Rational,
         names: [&str; 3],
         remarks: &[&str],
-    ) -> Result<Diagram, FigureError> {
+    ) -> Result<Diagram, PictureError> {
         let window = [&Rational::default(), last];
         let diagram = lagrange(evaluator, quantity, window, self.caption(remarks))?;
         Ok(diagram.titled(self.title).measured(names))
@@ -66,7 +67,7 @@ impl Listed {
 const fn listed(
     number: &'static str,
     title: &'static str,
-    draw: fn(&Listed) -> Result<Box<dyn Chart>, FigureError>,
+    draw: fn(&Listed) -> Drawn,
 ) -> Listed {
     Listed { number, title, draw }
 }
@@ -97,7 +98,7 @@ pub static FIGURES: [Listed; 18] = [
     listed("6.29", "Velocities for a curve that is concave upwards", dispersion::concave_upwards),
 ];
 
-pub fn find(number: &str) -> Result<&'static Listed, FigureError> {
+pub fn find(number: &str) -> Result<&'static Listed, PictureError> {
     let found = FIGURES.iter().find(|figure| figure.number == number);
-    found.ok_or_else(|| FigureError::Unknown(number.to_owned()))
+    found.ok_or_else(|| PictureError::NoFigure(number.to_owned()))
 }

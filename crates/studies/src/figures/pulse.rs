@@ -1,26 +1,25 @@
 //! Impact through a spring: figures 6.17 and 6.18.
 
-use super::Listed;
-use super::error::FigureError;
-use super::scene::{course, followed, network, recurrence};
+use super::{Drawn, Listed};
+use super::scene::{course, problem};
 use crate::ratio;
-use wavestep::field::{FieldEvaluator, Quantity};
-use wavestep_draw::{Axis, Chart, Panel, Series};
+use wavestep::field::Quantity;
+use wavestep_draw::{Axis, Panel, Series};
 
 /// 6.17.
-pub(super) fn diagram(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn diagram(listed: &Listed) -> Drawn {
     // With μ = 2 the unit of t k (1/Z1 + 1/Z2) is L/c.
-    let network = network("cushion-with-release", &[("mu", ratio(2, 1))]);
+    let problem = problem("cushion-with-release", &[("mu", ratio(2, 1))]);
     let last = ratio(6, 1);
     let remarks = [
         "Two bars of impedance Z; the striker has the length L, x is from its free end. μ = 4Lk/(EA) = 2, so \
          that t k (1/Z1 + 1/Z2) = ct/L. X_max = ZV/2.",
         "The spring lies at x = L; once it is unloaded the bars part. Hatched: tension.",
     ];
-    let evaluator = FieldEvaluator::new(&network, &last)?.looking(&ratio(3, 1))?;
+    let evaluator = problem.field_evaluator(&last)?.looking(&ratio(3, 1))?;
     let names = ["place x/L", "time ct/L", "X/(ZV)"];
     let diagram = listed.diagram(&evaluator, Quantity::Force, &last, names, &remarks)?;
-    let force = followed(&network, "force", &last)?;
+    let force = course(&problem, "force", &last)?;
     let opens = until_zero(&force.points).last().map_or(0.0, |point| point.0);
     Ok(Box::new(diagram.level(opens, "the bars part")?))
 }
@@ -36,7 +35,7 @@ fn until_zero(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 /// 6.18.
-pub(super) fn shapes(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
+pub(super) fn shapes(listed: &Listed) -> Drawn {
     let mut series = Vec::new();
     for (name, mu) in [
         ("μ = 8", ratio(8, 1)),
@@ -46,7 +45,7 @@ pub(super) fn shapes(listed: &Listed) -> Result<Box<dyn Chart>, FigureError> {
         ("μ = 1/2", ratio(1, 2)),
     ] {
         let last = &mu * ratio(2, 1) + ratio(8, 1);
-        let force = course(&recurrence("pulse-shape", &[("mu", mu)]), "force", &last)?;
+        let force = course(&problem("pulse-shape", &[("mu", mu)]), "force", &last)?;
         series.push(Series::new(name, until_zero(&force.points)));
     }
     let panel = Panel::new(Axis::linear("force X/X_max"), series);

@@ -1,5 +1,8 @@
 //! Why there is no picture.
 
+use crate::dispersion::DispersionError;
+use crate::figures::FIGURES;
+use crate::hertz::HertzError;
 use wavestep::evaluate::EvaluateError;
 use wavestep::field::{FieldError, Quantity};
 use wavestep::problem::ProblemError;
@@ -9,6 +12,12 @@ use wavestep_draw::PlotError;
 pub enum PictureError {
     #[error("there is no diagram of the {}: give velocity, strain or force", .0.name())]
     NoDiagram(Quantity),
+    #[error(
+        "there is no figure {} that can be computed; those that can be are {}",
+        .0,
+        FIGURES.each_ref().map(|figure| figure.number).join(", ")
+    )]
+    NoFigure(String),
     #[error("the scene has no bar along which to draw")]
     NoBars,
     #[error("nothing is observed in this scene")]
@@ -17,6 +26,10 @@ pub enum PictureError {
     TooLarge(String),
     #[error(transparent)]
     Problem(Box<ProblemError>),
+    #[error(transparent)]
+    Hertz(#[from] HertzError),
+    #[error(transparent)]
+    Dispersion(#[from] DispersionError),
     #[error(transparent)]
     Plot(#[from] PlotError),
 }

@@ -11,7 +11,7 @@ use wavestep_polynomial::{Rational, Symbol};
 use wavestep_studies::dispersion::{
     Builtin, Component, DispersionError, Formula, Pulse, Quantity, Relation, Shape, Travel,
     exact_peak_velocity, peak_velocity, peak_velocity_at, peak_velocity_by_quadrature,
-    peak_velocity_of_sum, propagate, two_waves,
+    peak_velocity_of_sum, propagate,
 };
 use wavestep_studies::dispersion::{formula_latex, formula_text, read_relation, read_spectrum};
 
@@ -415,16 +415,6 @@ fn pulses_in_time() {
     let cubic = Builtin::Cubic.relation();
     assert!((at(&cubic, &space) - at(&cubic, &time)).abs() < 0.005);
     assert_ne!(at(&cubic, &space), at(&cubic, &time));
-}
-
-#[test]
-fn the_two_sides_of_the_beat_are_one_function() {
-    let proof = two_waves();
-    assert!(proof.holds());
-    // The proof can fail: with another sign it does.
-    let minus =
-        wavestep_studies::dispersion::TwoWaves { sum: proof.sum.clone(), product: -&proof.product };
-    assert!(!minus.holds());
 }
 
 #[test]

@@ -71,6 +71,8 @@ mod tests {
     fn identities_hold_or_are_refused() {
         assert!(identity("(a + b)^2", "a^2 + 2*a*b + b^2").is_ok());
         assert!(identity("(a + b)^2", "a^2 + a*b + b^2").is_err());
+        assert!(identity("cos(a) + cos(b)", "2*cos((a + b)/2)*cos((a - b)/2)").is_ok());
+        assert!(identity("cos(a) + cos(b)", "-2*cos((a + b)/2)*cos((a - b)/2)").is_err());
     }
 
     #[test]
