@@ -1,6 +1,6 @@
 //! `book`: the equations of the source with their verdicts.
 
-use super::arguments::{Book, BookFormat};
+use super::arguments::{Book, Format};
 use super::failure::Failure;
 use super::json::SCHEMA_VERSION;
 use super::progress;
@@ -15,16 +15,16 @@ pub fn run(options: &Book) -> Result<String, Failure> {
         let _progress = progress::spinner("deriving");
         let all = book::examine_all();
         return Ok(match options.format {
-            BookFormat::Text => book::table(&all),
-            BookFormat::Latex => book::table_latex(&all),
-            BookFormat::Json => {
+            Format::Latex => book::table_latex(&all),
+            Format::Json => {
                 let equations = book::table_json(&all);
                 format!("{}\n", json!({"schema_version": SCHEMA_VERSION, "equations": equations}))
             }
-            BookFormat::Markdown => book::table_markdown(&all),
+            Format::Markdown => book::table_markdown(&all),
+            _ => book::table(&all),
         });
     };
-    if options.format == BookFormat::Markdown {
+    if options.format == Format::Markdown {
         let remedy = "ask for --format text, latex or json, or leave out the number";
         return Err(Failure::usage("only the whole table is written as Markdown", remedy));
     }
@@ -33,8 +33,8 @@ pub fn run(options: &Book) -> Result<String, Failure> {
     let _progress = progress::spinner("deriving");
     let found = book::examine(number).map_err(unknown)?;
     Ok(match options.format {
-        BookFormat::Latex => found.to_latex(),
-        BookFormat::Json => format!("{}\n", found.to_json()),
-        BookFormat::Text | BookFormat::Markdown => found.to_text(TEXT_WIDTH),
+        Format::Latex => found.to_latex(),
+        Format::Json => format!("{}\n", found.to_json()),
+        _ => found.to_text(TEXT_WIDTH),
     })
 }

@@ -1,6 +1,6 @@
 //! `derive`: exact wave functions as text, LaTeX or JSON, of a recurrence or of a scene.
 
-use super::arguments::{Derive, DeriveFormat};
+use super::arguments::{Derive, Format};
 use super::failure::Failure;
 use super::input;
 use super::json;
@@ -30,12 +30,12 @@ pub fn run(options: &Derive) -> Result<String, Failure> {
 fn explanation(problem: &Problem, options: &Derive) -> Result<String, Failure> {
     let derivation = problem.explanation()?;
     match options.format {
-        DeriveFormat::Latex => Ok(derivation.to_latex(options.width())),
-        DeriveFormat::Text => Ok(derivation.to_text(options.width())),
-        DeriveFormat::Json => {
+        Format::Latex => Ok(derivation.to_latex(options.width())),
+        Format::Json => {
             let remedy = "ask for --format text or latex, or leave out --explain";
             Err(Failure::usage("a derivation is for reading, not for programs", remedy))
         }
+        _ => Ok(derivation.to_text(options.width())),
     }
 }
 
@@ -47,9 +47,9 @@ fn with_constants(
     options: &Derive,
 ) -> Result<String, Failure> {
     let (mark, text) = match options.format {
-        DeriveFormat::Json => return Ok(derived),
-        DeriveFormat::Text => ("#", Some(derived.as_str())),
-        DeriveFormat::Latex => ("%", text),
+        Format::Json => return Ok(derived),
+        Format::Latex => ("%", text),
+        _ => ("#", Some(derived.as_str())),
     };
     let mut lines = problem.constants(text)?;
     lines.extend(options.observable.as_ref().and_then(|name| problem.unit_of_formulas(name)));
@@ -82,11 +82,11 @@ fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String
     if symbols == Symbols::Source {
         let formulas = problem.source_form(what, orders)?;
         return match options.format {
-            DeriveFormat::Json => Err(source_form_as_json()),
+            Format::Json => Err(source_form_as_json()),
             _ => Ok((formulas_as(&formulas, options), None)),
         };
     }
-    let form = options.form.into();
+    let form = options.form;
     let derived = problem.functions(what, orders, form)?;
     let names = match &derived {
         Derived::Arrivals(_) => Some(plain(problem, &derived, form, options)?),
@@ -114,8 +114,8 @@ fn source_form_as_json() -> Failure {
 /// Formulas as text or LaTeX.
 fn formulas_as(formulas: &[Formula], options: &Derive) -> String {
     match options.format {
-        DeriveFormat::Latex => export::latex(formulas, options.width()),
-        DeriveFormat::Text | DeriveFormat::Json => export::text(formulas, options.width()),
+        Format::Latex => export::latex(formulas, options.width()),
+        _ => export::text(formulas, options.width()),
     }
 }
 
@@ -125,11 +125,11 @@ fn written(
     form: Form,
     options: &Derive,
 ) -> Result<String, Failure> {
-    if options.format == DeriveFormat::Json {
+    if options.format == Format::Json {
         return json_document(problem, derived, form);
     }
     let all = problem.formulas(derived, form)?;
-    if (options.format, form) == (DeriveFormat::Latex, Form::Piecewise) {
+    if (options.format, form) == (Format::Latex, Form::Piecewise) {
         let time = &problem.recurrence()?.statement().time;
         let cases = |(name, formulas): &(String, Vec<Formula>)| {
             export::latex_cases(name, time, formulas, options.width())
@@ -215,8 +215,8 @@ fn written_general(
     options: &Derive,
 ) -> Result<String, Failure> {
     match options.format {
-        DeriveFormat::Json if options.source_form => Err(source_form_as_json()),
-        DeriveFormat::Json => {
+        Format::Json if options.source_form => Err(source_form_as_json()),
+        Format::Json => {
             // A formula is text that is not broken, with its remark apart.
             let formula = |formula: &Formula| {
                 let remark = formula.remark.as_ref().map(|(text, _)| text);

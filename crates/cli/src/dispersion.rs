@@ -1,6 +1,6 @@
 //! `dispersion`: how fast crests, groups and the peaks of pulses travel, for a relation `ω(k)`.
 
-use super::arguments::{Dispersion, DispersionFormat};
+use super::arguments::{Dispersion, Format};
 use super::failure::{ACCURACY, COMPUTATION, Failure, USAGE};
 use super::input;
 use super::json::SCHEMA_VERSION;
@@ -114,9 +114,9 @@ pub fn run(options: &Dispersion) -> Result<String, Failure> {
         }
     }
     Ok(match options.format {
-        DispersionFormat::Text => text(&answer),
-        DispersionFormat::Latex => latex(&answer),
-        DispersionFormat::Json => json(&answer, options.digits),
+        Format::Latex => latex(&answer),
+        Format::Json => json(&answer, options.digits),
+        _ => text(&answer),
     })
 }
 

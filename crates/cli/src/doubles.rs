@@ -1,6 +1,6 @@
 //! Values in doubles: how they are asked for, what is said of them, and how they are written.
 
-use super::arguments::{Eval, EvalFormat};
+use super::arguments::{Eval, Format};
 use super::failure::Failure;
 use super::json::SCHEMA_VERSION;
 use super::rows::lines;
@@ -131,17 +131,13 @@ pub fn written(
     let name = &options.quantity;
     let rows = times.iter().zip(&found.values);
     match options.format {
-        EvalFormat::Text => {
-            let rows = rows.map(|(time, value)| (time, double(*value)));
-            lines(problem, unit, rows, options)
-        }
-        EvalFormat::Csv => {
+        Format::Csv => {
             let line = |(time, value): (&BigRational, &f64)| {
                 format!("{time},{},{}\n", in_decimals(time), double(*value))
             };
             std::iter::once("time,time_decimal,value\n".to_owned()).chain(rows.map(line)).collect()
         }
-        EvalFormat::Json => {
+        Format::Json => {
             let row = |(time, value): (&BigRational, &f64)| json!({"time": time.to_string(), "value": value});
             let mut document = json!({
                 "schema_version": SCHEMA_VERSION,
@@ -160,6 +156,10 @@ pub fn written(
                 document["time_unit"] = json!(problem.time_unit());
             }
             format!("{document}\n")
+        }
+        _ => {
+            let rows = rows.map(|(time, value)| (time, double(*value)));
+            lines(problem, unit, rows, options)
         }
     }
 }

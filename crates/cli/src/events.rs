@@ -1,6 +1,6 @@
 //! `events`: when contacts open and close, as a time line.
 
-use super::arguments::{Events, EventsFormat};
+use super::arguments::{Events, Format};
 use super::failure::Failure;
 use super::found::number;
 use super::input;
@@ -27,9 +27,9 @@ pub fn run(options: &Events) -> Result<String, Failure> {
     };
     let told = Told { options, problem: &problem, history: &history };
     Ok(match options.format {
-        EventsFormat::Text => told.text(),
-        EventsFormat::Json => told.json(),
-        EventsFormat::Latex => told.latex(),
+        Format::Json => told.json(),
+        Format::Latex => told.latex(),
+        _ => told.text(),
     })
 }
 

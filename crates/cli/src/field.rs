@@ -1,6 +1,6 @@
 //! `field`: velocity, strain, displacement and force along the bars at a time.
 
-use super::arguments::{Field, FieldFormat};
+use super::arguments::{Field, Format};
 use super::failure::Failure;
 use super::input;
 use super::json::SCHEMA_VERSION;
@@ -29,8 +29,8 @@ pub fn run(options: &Field) -> Result<String, Failure> {
     }
     let fields = problem.field_evaluator(&time)?.at(&time, &mesh)?;
     let text = match options.format {
-        FieldFormat::Csv => csv(&fields),
-        FieldFormat::Json => json_document(&fields, &problem, options),
+        Format::Json => json_document(&fields, &problem, options),
+        _ => csv(&fields),
     };
     written(text, options.output.as_deref())
 }

@@ -1,6 +1,6 @@
 //! `find --equal`: the value of a symbol for which extrema in two windows are equal.
 
-use super::arguments::{EvalFormat, Find};
+use super::arguments::{Find, Format};
 use super::failure::{ACCURACY, Failure};
 use super::input;
 use super::json::SCHEMA_VERSION;
@@ -68,12 +68,7 @@ fn written(asked: &EqualExtrema<'_>, found: &Crossing, options: &Find) -> String
     let [first, second, third] = asked.times;
     let enclosure = Ball::between(low, high, bits).to_decimal(digits + 2);
     match options.format {
-        EvalFormat::Text => format!(
-            "{name} = {enclosure}\n\
-             The {which} {quantity} for {first} <= t < {second} and for {second} <= t < {third} \
-             change places there.\nThat there is no other such value in the range is not proven.\n"
-        ),
-        EvalFormat::Json => {
+        Format::Json => {
             let (low, high) = (low.to_string(), high.to_string());
             let document = json!({
                 "schema_version": SCHEMA_VERSION,
@@ -87,9 +82,14 @@ fn written(asked: &EqualExtrema<'_>, found: &Crossing, options: &Find) -> String
             });
             format!("{document}\n")
         }
-        EvalFormat::Csv => {
+        Format::Csv => {
             let [a, b] = [low, high].map(|end| Decimal::from_rational(end, digits + 2).0);
             format!("symbol,low,high,low_decimal,high_decimal\n{name},{low},{high},{a},{b}\n")
         }
+        _ => format!(
+            "{name} = {enclosure}\n\
+             The {which} {quantity} for {first} <= t < {second} and for {second} <= t < {third} \
+             change places there.\nThat there is no other such value in the range is not proven.\n"
+        ),
     }
 }

@@ -1,6 +1,6 @@
 //! Roots and extrema as text, as JSON, and as columns.
 
-use super::arguments::{EvalFormat, Find};
+use super::arguments::{Find, Format};
 use super::json::SCHEMA_VERSION;
 use super::output::plural;
 use super::rows::ALL_DIGITS;
@@ -55,17 +55,17 @@ impl Told<'_> {
 /// Roots in the format asked for.
 pub fn roots(roots: &Roots, told: &Told<'_>) -> String {
     match told.options.format {
-        EvalFormat::Text => {
-            roots.all.iter().map(|root| root_line(root, told)).collect::<String>()
-                + &summary(roots, told)
-        }
-        EvalFormat::Json => {
+        Format::Json => {
             let list: Vec<Json> = roots.all.iter().map(root_json).collect();
             document(told, json!({ "level": told.level, "roots": list }))
         }
-        EvalFormat::Csv => {
+        Format::Csv => {
             let line = |root: &Root| columns(&root_json(root));
             HEADING.to_owned() + &roots.all.iter().map(line).collect::<String>()
+        }
+        _ => {
+            roots.all.iter().map(|root| root_line(root, told)).collect::<String>()
+                + &summary(roots, told)
         }
     }
 }
@@ -73,17 +73,17 @@ pub fn roots(roots: &Roots, told: &Told<'_>) -> String {
 /// An extremum in the format asked for.
 pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
     match told.options.format {
-        EvalFormat::Text => extremum_text(extremum, goal, told),
-        EvalFormat::Json => {
+        Format::Json => {
             let places: Vec<Json> = extremum.places.iter().map(place_json).collect();
             let goal = if goal == Goal::Largest { "largest" } else { "smallest" };
             let body = json!({ "goal": goal, "value": number(&extremum.value), "places": places });
             document(told, body)
         }
-        EvalFormat::Csv => {
+        Format::Csv => {
             let line = |place: &Place| columns(&place_json(place));
             HEADING.to_owned() + &extremum.places.iter().map(line).collect::<String>()
         }
+        _ => extremum_text(extremum, goal, told),
     }
 }
 

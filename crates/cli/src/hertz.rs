@@ -1,6 +1,6 @@
 //! `hertz`: closed forms of a local contact between two long bars.
 
-use super::arguments::{Hertz, HertzFormat};
+use super::arguments::{Format, Hertz};
 use super::failure::Failure;
 use super::input;
 use super::json::SCHEMA_VERSION;
@@ -54,16 +54,7 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
     let text = |row: &Row| row.value.to_decimal(row.digits).midpoint().to_string();
     let name = &scaled.scene().elements[contact.element].name;
     Ok(match options.format {
-        HertzFormat::Text => {
-            let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);
-            let line = |row: &Row| {
-                let fill = " ".repeat(width - row.name.chars().count());
-                let line = format!("{}{fill}  {} {}", row.name, text(row), row.unit);
-                format!("{}\n", line.trim_end())
-            };
-            rows.iter().map(line).collect()
-        }
-        HertzFormat::Json => {
+        Format::Json => {
             let mut values = Map::new();
             for row in &rows {
                 let value = json!({ "value": text(row), "unit": row.unit });
@@ -72,6 +63,15 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
             let value: Value =
                 json!({ "schema_version": SCHEMA_VERSION, "contact": name, "values": values });
             format!("{value}\n")
+        }
+        _ => {
+            let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);
+            let line = |row: &Row| {
+                let fill = " ".repeat(width - row.name.chars().count());
+                let line = format!("{}{fill}  {} {}", row.name, text(row), row.unit);
+                format!("{}\n", line.trim_end())
+            };
+            rows.iter().map(line).collect()
         }
     })
 }

@@ -1,6 +1,6 @@
 //! `plot`: observables against time, diagrams of place and time, fields along the line.
 
-use super::arguments::{DiagramOption, Plot};
+use super::arguments::Plot;
 use super::doubles;
 use super::failure::Failure;
 use super::input;
@@ -28,12 +28,7 @@ fn chart(options: &Plot) -> Result<Box<dyn Chart>, Failure> {
     };
     let [from, to] = window(from, to)?;
     let caption = Caption::default();
-    if let Some(diagram) = options.diagram {
-        let quantity = match diagram {
-            DiagramOption::Velocity => Quantity::Velocity,
-            DiagramOption::Strain => Quantity::Strain,
-            DiagramOption::Force => Quantity::Force,
-        };
+    if let Some(quantity) = options.diagram {
         let evaluator = problem.field_evaluator(&to).map_err(no_fields)?;
         let diagram = lagrange(&evaluator, quantity, [&from, &to], caption)?;
         return Ok(Box::new(match &options.title {

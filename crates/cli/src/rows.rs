@@ -1,6 +1,6 @@
 //! Values at times: which times are asked for, and how the values are written.
 
-use super::arguments::{Eval, EvalFormat};
+use super::arguments::{Eval, Format};
 use super::failure::Failure;
 use super::json::SCHEMA_VERSION;
 use num_rational::BigRational;
@@ -53,12 +53,12 @@ pub fn written(
     options: &Eval,
 ) -> String {
     match options.format {
-        EvalFormat::Text => {
+        Format::Csv => csv(rows, options.digits),
+        Format::Json => json_document(problem, wanted, rows, options),
+        _ => {
             let values = rows.1.iter().map(|value| value.to_text(options.digits));
             lines(problem, &wanted.unit(), rows.0.iter().zip(values), options)
         }
-        EvalFormat::Csv => csv(rows, options.digits),
-        EvalFormat::Json => json_document(problem, wanted, rows, options),
     }
 }
 

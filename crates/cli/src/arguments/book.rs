@@ -1,8 +1,8 @@
 //! Arguments of `book`.
 
-use clap::{Args, ValueEnum};
+use super::{Format, named};
+use clap::Args;
 
-/// Options of `book`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep book\n  \
@@ -14,19 +14,11 @@ pub struct Book {
     /// Show the equation of this number: as read, as derived, and the proof
     pub number: Option<String>,
     /// Written how
-    #[arg(long, value_enum, default_value_t = BookFormat::Text)]
-    pub format: BookFormat,
-}
-
-/// How equations of the source are written.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum BookFormat {
-    /// Plain text
-    Text,
-    /// LaTeX with amsmath
-    Latex,
-    /// With verdict, derived form and steps
-    Json,
-    /// The page docs/equations.md
-    Markdown,
+    #[arg(long, default_value = "text", value_parser = named([
+        ("text", Format::Text, "Plain text"),
+        ("latex", Format::Latex, "LaTeX with amsmath"),
+        ("json", Format::Json, "With verdict, derived form and steps"),
+        ("markdown", Format::Markdown, "The page docs/equations.md"),
+    ]))]
+    pub format: Format,
 }

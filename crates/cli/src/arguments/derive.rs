@@ -1,11 +1,10 @@
 //! Arguments of `derive`.
 
-use super::Scene;
-use clap::{Args, ValueEnum, ValueHint};
+use super::{Format, Scene, named};
+use clap::{Args, ValueHint};
 use wavestep::export::{LATEX_WIDTH, TEXT_WIDTH};
-use wavestep::problem::{self, Orders};
+use wavestep::problem::{Form, Orders};
 
-/// Options of `derive`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep derive rigid-mass                              f[0] … f[3] and g[0] … g[3]\n  \
@@ -38,7 +37,11 @@ pub struct Derive {
     #[arg(long)]
     pub general: bool,
     /// In which form
-    #[arg(long, value_enum, default_value_t = Form::Period, conflicts_with = "general")]
+    #[arg(long, default_value = "period", conflicts_with = "general", value_parser = named([
+        ("period", Form::Period, "One function of local time for each period"),
+        ("echo", Form::Echo, "The echoes that arrive period by period, and add up"),
+        ("piecewise", Form::Piecewise, "The pieces with the half-open intervals on which they hold"),
+    ]))]
     pub form: Form,
     /// Use the symbols, units and shorthand of the scene's source, as its `written` statements say:
     /// for pieces of waves, and with --general for waves that are sequences; in text and LaTeX
@@ -50,8 +53,12 @@ pub struct Derive {
           "through", "from", "piece"])]
     pub explain: bool,
     /// Written how
-    #[arg(long, value_enum, default_value_t = DeriveFormat::Text)]
-    pub format: DeriveFormat,
+    #[arg(long, default_value = "text", value_parser = named([
+        ("text", Format::Text, "Plain text; pieces and echoes in the scene's own symbols can be read back"),
+        ("latex", Format::Latex, "An `align*` environment for amsmath"),
+        ("json", Format::Json, "Terms with reduced rationals"),
+    ]))]
+    pub format: Format,
     /// The most characters in a line, on the page in LaTeX [default: 100 for text, 84 for LaTeX]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(20..))]
     pub line_length: Option<u16>,
@@ -70,41 +77,9 @@ impl Derive {
     /// The most characters in a line.
     pub fn width(&self) -> usize {
         let own = match self.format {
-            DeriveFormat::Latex => LATEX_WIDTH,
+            Format::Latex => LATEX_WIDTH,
             _ => TEXT_WIDTH,
         };
         self.line_length.map_or(own, usize::from)
     }
-}
-
-/// The form in which wave functions are given.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Form {
-    /// One function of local time for each period
-    Period,
-    /// The echoes that arrive period by period, and add up
-    Echo,
-    /// The pieces with the half-open intervals on which they hold
-    Piecewise,
-}
-
-impl From<Form> for problem::Form {
-    fn from(form: Form) -> problem::Form {
-        match form {
-            Form::Period => problem::Form::Period,
-            Form::Echo => problem::Form::Echo,
-            Form::Piecewise => problem::Form::Piecewise,
-        }
-    }
-}
-
-/// How formulas are written.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DeriveFormat {
-    /// Plain text; pieces and echoes in the scene's own symbols can be read back
-    Text,
-    /// An `align*` environment for amsmath
-    Latex,
-    /// Terms with reduced rationals
-    Json,
 }

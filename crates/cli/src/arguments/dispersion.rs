@@ -1,8 +1,8 @@
 //! Arguments of `dispersion`.
 
-use clap::{Args, ValueEnum, ValueHint};
+use super::{Format, named};
+use clap::{Args, ValueHint};
 
-/// Options of `dispersion`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep dispersion lattice --at 1\n  \
@@ -45,17 +45,10 @@ pub struct Dispersion {
     #[arg(long, value_name = "BITS", default_value_t = 1 << 12)]
     pub max_bits: u64,
     /// Written how
-    #[arg(long, value_enum, default_value_t = DispersionFormat::Text)]
-    pub format: DispersionFormat,
-}
-
-/// How velocities are written.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DispersionFormat {
-    /// Formulas that read back, and digits
-    Text,
-    /// An `align*` environment for amsmath
-    Latex,
-    /// Formulas as text, decimal strings with proven radii
-    Json,
+    #[arg(long, default_value = "text", value_parser = named([
+        ("text", Format::Text, "Formulas that read back, and digits"),
+        ("latex", Format::Latex, "An `align*` environment for amsmath"),
+        ("json", Format::Json, "Formulas as text, decimal strings with proven radii"),
+    ]))]
+    pub format: Format,
 }

@@ -1,11 +1,10 @@
 //! Arguments of `eval`.
 
-use super::{Scene, limits};
-use clap::{Args, ValueEnum};
+use super::{Format, Scene, limits, value_formats};
+use clap::Args;
 use wavestep::evaluate::Limit;
 use wavestep::limits::VALUE_BITS;
 
-/// Options of `eval`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep eval rigid-mass --set mu=1/4 --quantity f --at 33/10 --digits 30\n  \
@@ -66,17 +65,6 @@ pub struct Eval {
     #[arg(long)]
     pub explain: bool,
     /// Written how
-    #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
-    pub format: EvalFormat,
-}
-
-/// How values are written.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum EvalFormat {
-    /// A line a time
-    Text,
-    /// Decimal strings with proven radii
-    Json,
-    /// Columns with a heading
-    Csv,
+    #[arg(long, value_parser = value_formats(), default_value = "text")]
+    pub format: Format,
 }

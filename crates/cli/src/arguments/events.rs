@@ -1,9 +1,8 @@
 //! Arguments of `events`.
 
-use super::Scene;
-use clap::{Args, ValueEnum};
+use super::{Format, Scene, named};
+use clap::Args;
 
-/// Options of `events`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep events saint-venant --set mu=1\n  \
@@ -22,17 +21,10 @@ pub struct Events {
     #[arg(long, value_name = "D", default_value_t = 12)]
     pub digits: usize,
     /// Written how
-    #[arg(long, value_enum, default_value_t = EventsFormat::Text)]
-    pub format: EventsFormat,
-}
-
-/// How events are written.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum EventsFormat {
-    /// A paragraph an event
-    Text,
-    /// Decimal strings with proven radii
-    Json,
-    /// A table
-    Latex,
+    #[arg(long, default_value = "text", value_parser = named([
+        ("text", Format::Text, "A paragraph an event"),
+        ("json", Format::Json, "Decimal strings with proven radii"),
+        ("latex", Format::Latex, "A table"),
+    ]))]
+    pub format: Format,
 }

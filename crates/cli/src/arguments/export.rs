@@ -3,7 +3,6 @@
 use super::Scene;
 use clap::{Args, ValueEnum, ValueHint};
 
-/// Options of `export`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep export rigid-mass --as c --set mu=1 --quantity f --to 40 -o f.c\n  \

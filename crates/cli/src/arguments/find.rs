@@ -1,11 +1,10 @@
 //! Arguments of `find`.
 
-use super::{EvalFormat, Scene};
+use super::{Format, Scene, value_formats};
 use clap::{ArgGroup, Args};
 use wavestep::evaluate::Goal;
 use wavestep::limits::SEARCH_BITS;
 
-/// Options of `find`.
 #[derive(Args)]
 #[command(group = ArgGroup::new("goal").required(true).args(["max", "min", "zero", "level"]),
     after_help = "Examples:\n  \
@@ -52,8 +51,8 @@ pub struct Find {
     #[arg(long, value_name = "BITS", default_value_t = SEARCH_BITS)]
     pub max_bits: u64,
     /// Written how
-    #[arg(long, value_enum, default_value_t = EvalFormat::Text)]
-    pub format: EvalFormat,
+    #[arg(long, value_parser = value_formats(), default_value = "text")]
+    pub format: Format,
 }
 
 impl Find {

@@ -1,9 +1,8 @@
 //! Arguments of `hertz`.
 
-use super::Scene;
-use clap::{Args, ValueEnum};
+use super::{Format, Scene, named};
+use clap::Args;
 
-/// Options of `hertz`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep hertz local-contact\n  \
@@ -28,15 +27,9 @@ pub struct Hertz {
     #[arg(long, value_name = "D", default_value_t = 12)]
     pub digits: usize,
     /// Written how
-    #[arg(long, value_enum, default_value_t = HertzFormat::Text)]
-    pub format: HertzFormat,
-}
-
-/// How closed forms of a contact are written.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum HertzFormat {
-    /// A line a value
-    Text,
-    /// Decimal strings
-    Json,
+    #[arg(long, default_value = "text", value_parser = named([
+        ("text", Format::Text, "A line a value"),
+        ("json", Format::Json, "Decimal strings"),
+    ]))]
+    pub format: Format,
 }

@@ -3,7 +3,6 @@
 use super::Scene;
 use clap::{Args, ValueHint};
 
-/// Options of `check`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep check my.wave\n  \
@@ -17,7 +16,6 @@ pub struct Check {
     pub locked: Option<String>,
 }
 
-/// Options of `lock`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep lock my.wave --through 4 -o my.lock\n  \

@@ -12,27 +12,52 @@ mod locks;
 mod pictures;
 mod tools;
 
-pub use book::{Book, BookFormat};
-pub use derive::{Derive, DeriveFormat};
-pub use dispersion::{Dispersion, DispersionFormat};
-pub use eval::{Eval, EvalFormat};
-pub use events::{Events, EventsFormat};
+pub use book::Book;
+pub use derive::Derive;
+pub use dispersion::Dispersion;
+pub use eval::Eval;
+pub use events::Events;
 pub use export::Export;
 pub use find::Find;
-pub use hertz::{Hertz, HertzFormat};
+pub use hertz::Hertz;
 pub use locks::{Check, Lock};
-pub use pictures::{Chart, DiagramOption, Field, FieldFormat, Figure, Plot};
+pub use pictures::{Chart, Field, Figure, Plot};
 pub use tools::{Generate, Generated, Scenes};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand as Subcommands, ValueHint};
 use wavestep::evaluate::Limit;
 
+/// How results are written. Each command takes some of these.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Text,
+    Latex,
+    Json,
+    Csv,
+    Markdown,
+}
+
+/// One of several values: their names, and what they mean.
+fn named<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [(&'static str, T, &'static str); N],
+) -> impl TypedValueParser<Value = T> {
+    let names = all.map(|(name, _, help)| PossibleValue::new(name).help(help));
+    let value = move |name: String| all.iter().find(|one| one.0 == name).expect("one of them").1;
+    PossibleValuesParser::new(names).map(value)
+}
+
 /// `left` and `right`, with what these limits mean.
 fn limits(left: &'static str, right: &'static str) -> impl TypedValueParser<Value = Limit> {
-    let name = |name, help| PossibleValue::new(name).help(help);
-    PossibleValuesParser::new([name("left", left), name("right", right)])
-        .map(|name| if name == "left" { Limit::Left } else { Limit::Right })
+    named([("left", Limit::Left, left), ("right", Limit::Right, right)])
+}
+
+fn value_formats() -> impl TypedValueParser<Value = Format> {
+    named([
+        ("text", Format::Text, "A line a time"),
+        ("json", Format::Json, "Decimal strings with proven radii"),
+        ("csv", Format::Csv, "Columns with a heading"),
+    ])
 }
 
 /// Exact solutions of wave propagation in bars with lumped ends.

@@ -1,10 +1,10 @@
 //! Arguments of the commands that draw and give fields.
 
-use super::{Scene, limits};
-use clap::{Args, ValueEnum, ValueHint};
+use super::{Format, Scene, limits, named};
+use clap::{Args, ValueHint};
 use wavestep::evaluate::Limit;
+use wavestep::field::Quantity;
 
-/// Options of `chart`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep chart rigid-mass --set mu=1 -o charts\n  \
@@ -38,7 +38,6 @@ pub struct Chart {
     pub output: String,
 }
 
-/// Options of `plot`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep plot rigid-mass --set mu=1 --to 8 -o strain.svg\n  \
@@ -59,8 +58,12 @@ pub struct Plot {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub to: Option<String>,
     /// Place across and time upwards, with this quantity by colour
-    #[arg(long, value_enum)]
-    pub diagram: Option<DiagramOption>,
+    #[arg(long, value_parser = named([
+        ("velocity", Quantity::Velocity, "Positive to the right"),
+        ("strain", Quantity::Strain, "Positive where it pulls"),
+        ("force", Quantity::Force, "Positive where it compresses"),
+    ]))]
+    pub diagram: Option<Quantity>,
     /// Fields along the line at these times, separated by commas
     #[arg(long, value_name = "T", value_delimiter = ',', allow_hyphen_values = true,
           conflicts_with_all = ["diagram", "from", "to"])]
@@ -76,18 +79,6 @@ pub struct Plot {
     pub output: String,
 }
 
-/// The quantity of a diagram of place and time.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DiagramOption {
-    /// Positive to the right
-    Velocity,
-    /// Positive where it pulls
-    Strain,
-    /// Positive where it compresses
-    Force,
-}
-
-/// Options of `field`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep field mass-on-fixed-bar --set mu=1 --time 5/2 --mesh 100\n  \
@@ -116,23 +107,16 @@ pub struct Field {
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
     pub to: Option<String>,
     /// Written how
-    #[arg(long, value_enum, default_value_t = FieldFormat::Csv)]
-    pub format: FieldFormat,
+    #[arg(long, default_value = "csv", value_parser = named([
+        ("csv", Format::Csv, "A row a node or cell, with a heading"),
+        ("json", Format::Json, "Lists of numbers for each bar"),
+    ]))]
+    pub format: Format,
     /// The file to write; standard output without it
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<String>,
 }
 
-/// How fields are written.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FieldFormat {
-    /// A row a node or cell, with a heading
-    Csv,
-    /// Lists of numbers for each bar
-    Json,
-}
-
-/// Options of `figure`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep figure\n  \

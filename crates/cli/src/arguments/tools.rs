@@ -2,7 +2,6 @@
 
 use clap::{Args, ValueEnum};
 
-/// Options of `scenes`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  wavestep scenes\n  wavestep scenes rigid-mass > mine.wave")]
 pub struct Scenes {
@@ -10,7 +9,6 @@ pub struct Scenes {
     pub name: Option<String>,
 }
 
-/// Options of `generate`.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     wavestep generate bash > ~/.local/share/bash-completion/completions/wavestep\n  \

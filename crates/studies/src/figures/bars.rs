@@ -1,7 +1,7 @@
 //! Two bars, and a bar that is pushed: figures 6.10 to 6.13.
 
-use super::{Drawn, Listed};
 use super::scene::problem;
+use super::{Drawn, Listed};
 use crate::picture::along_the_line;
 use crate::ratio;
 use wavestep::field::{FieldEvaluator, Quantity};

@@ -137,12 +137,7 @@ pub(super) fn crests(listed: &Listed) -> Drawn {
 }
 
 /// `c_p`, `c_g`, and `c_pp` of a square and a triangular pulse.
-fn velocities(
-    listed: &Listed,
-    relation: &Relation,
-    last: f64,
-    remarks: &[&str],
-) -> Drawn {
+fn velocities(listed: &Listed, relation: &Relation, last: f64, remarks: &[&str]) -> Drawn {
     let wave_numbers =
         |count: u32| (1..=count).map(move |i| f64::from(i) / f64::from(count) * last);
     let (mut phase, mut group) = (Vec::new(), Vec::new());

@@ -2,9 +2,9 @@
 
 use super::{Drawn, Listed};
 use crate::hertz::{PowerLaw, equal_bars_constant};
+use crate::picture::PictureError;
 use crate::ratio;
 use wavestep::ball::Ball;
-use crate::picture::PictureError;
 use wavestep_draw::{Axis, Panel, Series};
 
 /// The precision of values that are drawn.

@@ -1,8 +1,8 @@
 //! A rigid mass on a bar with a fixed end: figures 6.20 to 6.22.
 
-use super::{Drawn, Listed};
 use super::largest_strain::LargestStrain;
 use super::scene::{course, problem};
+use super::{Drawn, Listed};
 use crate::picture::PictureError;
 use crate::{nearest, ratio};
 use wavestep::ball::Ball;

@@ -64,11 +64,7 @@ impl Listed {
     }
 }
 
-const fn listed(
-    number: &'static str,
-    title: &'static str,
-    draw: fn(&Listed) -> Drawn,
-) -> Listed {
+const fn listed(number: &'static str, title: &'static str, draw: fn(&Listed) -> Drawn) -> Listed {
     Listed { number, title, draw }
 }
 

@@ -1,7 +1,7 @@
 //! Impact through a spring: figures 6.17 and 6.18.
 
-use super::{Drawn, Listed};
 use super::scene::{course, problem};
+use super::{Drawn, Listed};
 use crate::ratio;
 use wavestep::field::Quantity;
 use wavestep_draw::{Axis, Panel, Series};
