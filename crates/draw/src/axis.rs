@@ -46,10 +46,7 @@ impl Axis {
     }
 
     pub(super) fn json(&self) -> Value {
-        let scale = match self.scale {
-            Scale::Linear => "linear",
-            Scale::Logarithmic => "logarithmic",
-        };
+        let scale = format!("{:?}", self.scale).to_lowercase();
         json!({"name": self.name, "unit": self.unit, "scale": scale})
     }
 
@@ -70,12 +67,8 @@ impl Axis {
 
     /// Refuses a value that is not finite as well.
     pub(super) fn check_finite(&self, value: f64) -> Result<(), PlotError> {
-        match value.is_finite() {
-            true => self.check(value),
-            false => {
-                Err(PlotError::TooLarge { what: format!("a value of \"{}\"", self.name), value })
-            }
-        }
+        let what = format!("a value of \"{}\"", self.name);
+        if value.is_finite() { self.check(value) } else { Err(PlotError::TooLarge { what, value }) }
     }
 }
 
@@ -86,6 +79,12 @@ pub(super) struct Tick {
     /// Labelled, or a whole power of ten.
     pub major: bool,
     pub label: Option<String>,
+}
+
+impl Tick {
+    pub fn length(&self) -> f64 {
+        if self.major { 6.0 } else { 3.0 }
+    }
 }
 
 /// The places of values in pixels: linear in the value, or in its decimal logarithm.
@@ -216,15 +215,11 @@ impl Mapping {
             // Less than a factor of about two: the values themselves in equal steps.
             let (low, high) = (10f64.powf(self.low), 10f64.powf(self.high));
             let values = Mapping::spanning(Scale::Linear, low, high).onto(self.from, self.to);
-            return values
-                .linear_ticks(spacing)
-                .into_iter()
-                .map(|tick| {
-                    let share = (tick.position - self.from) / (self.to - self.from);
-                    let position = self.position(low + share * (high - low));
-                    Tick { position, ..tick }
-                })
-                .collect();
+            let moved = |tick: Tick| {
+                let share = (tick.position - self.from) / (self.to - self.from);
+                Tick { position: self.position(low + share * (high - low)), ..tick }
+            };
+            return values.linear_ticks(spacing).into_iter().map(moved).collect();
         }
         ticks
     }
@@ -244,12 +239,10 @@ pub(super) fn on(scale: Scale, value: f64) -> f64 {
 }
 
 /// The least and the greatest value in terms of the scale, of those that have a place on it.
-fn extremes(scale: Scale, values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+pub(super) fn extremes(scale: Scale, values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     let places = values.into_iter().map(|value| on(scale, value)).filter(|value| value.is_finite());
-    places.fold(None, |range, value| match range {
-        None => Some((value, value)),
-        Some((low, high)) => Some((low.min(value), high.max(value))),
-    })
+    let wider = |(a, b): (f64, f64), (c, d): (f64, f64)| (a.min(c), b.max(d));
+    places.map(|value| (value, value)).reduce(wider)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::axis::Mapping;
 use super::layout::{GUTTER, LEFT, Legend, RIGHT, Sheet, counted, fitted};
 use super::marks::{self, placement_in};
 use super::number::rounded;
-use super::text::{csv_field, csv_number, json_number, json_places, json_points};
+use super::text::{csv_field, csv_row, json_number, json_places, json_points};
 use super::{Axis, Caption, Chart, PlotError, Scale};
 use serde_json::{Value, json};
 
@@ -225,9 +225,9 @@ impl Chart for Curves {
             });
         }
         if let Some(ceiling) = self.ceiling.filter(|_| places.above.is_some()) {
-            let (parting, count) = (sheet.top + GUTTER, self.points().filter(|p| self.is_above(p)));
+            let parting = sheet.top + GUTTER;
             sheet.drawing.line("rule-across", (LEFT, parting), (RIGHT, parting));
-            let count = count.count();
+            let count = self.points().filter(|point| self.is_above(point)).count();
             let points = if count == 1 { "point" } else { "points" };
             let text = format!("off the scale: above {} ({count} {points})", rounded(ceiling));
             legend.entry(text, |sample| {
@@ -235,8 +235,7 @@ impl Chart for Curves {
                 sample.marker(3, (15.0, 6.0), "");
             });
         }
-        let top = sheet.top;
-        sheet.legend(&legend, top);
+        sheet.legend(&legend, sheet.top);
         sheet.close(&self.title, &self.description(), &self.caption, &self.remarks(unlabelled))
     }
 
@@ -264,8 +263,7 @@ impl Chart for Curves {
         let mut csv = format!("curve,{x},{y}\n");
         for curve in &self.curves {
             for &(across, up) in &curve.points {
-                let numbers = [Some(across), Some(up)].map(csv_number);
-                csv.push_str(&format!("{},{}\n", csv_field(&curve.name), numbers.join(",")));
+                csv += &csv_row(&[&curve.name], [Some(across), Some(up)]);
             }
         }
         csv

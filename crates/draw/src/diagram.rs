@@ -421,9 +421,7 @@ impl Chart for Diagram {
             sheet.drawing.fill_with(&hatch, &below);
         }
         for joint in &self.joints {
-            let x = x.position(*joint);
-            let (top, bottom) = (sheet.top, sheet.bottom());
-            sheet.drawing.line("joint", (x, top), (x, bottom));
+            sheet.upright("joint", x.position(*joint));
         }
         let area = (RIGHT - LEFT) * (sheet.bottom() - sheet.top);
         let [front, kink] = widths(&self.lines, on, area);
@@ -444,10 +442,9 @@ impl Chart for Diagram {
         sheet.axes((&self.axes[0], &x), (&self.axes[1], &y));
         self.colour_bar(&mut sheet, &hatch);
         self.sketch(&mut sheet, &x);
-        let mut remarks = Vec::new();
-        if unlabelled > 0 {
-            remarks.push(format!("{unlabelled} labels left out for want of room."));
-        }
+        let remark =
+            (unlabelled > 0).then(|| format!("{unlabelled} labels left out for want of room."));
+        let remarks: Vec<String> = remark.into_iter().collect();
         sheet.close(&self.title, &self.description(), &self.caption, &remarks)
     }
 

@@ -5,7 +5,7 @@ use super::drawing::{Drawing, coloured};
 use super::ends::{draw_ends, room_beside};
 use super::layout::{LEFT, Legend, SAMPLE, Sheet, counted, fitted};
 use super::marks::{draw_levels, draw_marks, placement_in, room_above};
-use super::text::{csv_field, csv_number, json_places, json_points};
+use super::text::{csv_field, csv_row, json_places, json_points};
 use super::{Axis, Caption, Chart, PlotError};
 use serde_json::{Value, json};
 
@@ -130,7 +130,9 @@ impl Panel {
         for (i, series) in self.series.iter().enumerate() {
             if !series.name.is_empty() && !self.named_at_ends {
                 let style = series.style.unwrap_or(i);
-                legend.entry(series.name.clone(), |sample| sample_of(sample, series.look, style));
+                legend.entry(series.name.clone(), |sample| {
+                    draw(sample, series.look, style, &SAMPLE, &[(15.0, 0.0)]);
+                });
             }
         }
         legend
@@ -264,9 +266,8 @@ impl Figure {
         let panel = |panel: &Panel| {
             let names = panel.series.iter().map(|series| series.name.as_str());
             let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
-            let names =
-                if names.is_empty() { String::new() } else { format!(": {}", names.join("; ")) };
-            format!("{}{names}", panel.y.label())
+            let colon = if names.is_empty() { "" } else { ": " };
+            format!("{}{colon}{}", panel.y.label(), names.join("; "))
         };
         let panels: Vec<String> = self.panels.iter().map(panel).collect();
         format!("Against {} (across): {}.", self.x.label(), panels.join(". "))
@@ -296,16 +297,9 @@ fn draw_panel(figure: &Figure, index: usize, sheet: &mut Sheet, x: &Mapping) -> 
             sheet.drawing.line(&coloured("jump", style), on(&(*at, *from)), on(&(*at, *to)));
         }
         for part in &parts {
-            match series.look {
-                Look::Points => {}
-                Look::Thin => sheet.drawing.stroke("thin", style, part),
-                Look::Line | Look::Both => sheet.drawing.stroke("line", style, part),
-            }
+            draw(&mut sheet.drawing, series.look, style, part, part);
             if series.look != Look::Points {
                 placement.avoid(part);
-            }
-            if matches!(series.look, Look::Points | Look::Both) {
-                part.iter().for_each(|point| sheet.drawing.marker(style, *point, ""));
             }
         }
         let end = parts.last().and_then(|part| part.last());
@@ -324,20 +318,20 @@ fn draw_panel(figure: &Figure, index: usize, sheet: &mut Sheet, x: &Mapping) -> 
     };
     // What the panel above says need not be said again.
     if index == 0 || names(&figure.panels[index - 1]) != names(panel) {
-        let top = sheet.top;
-        sheet.legend(&panel.legend(), top);
+        sheet.legend(&panel.legend(), sheet.top);
     }
     unlabelled
 }
 
-fn sample_of(sample: &mut Drawing, look: Look, style: usize) {
+/// A line through points, with these markers.
+fn draw(drawing: &mut Drawing, look: Look, style: usize, line: &[(f64, f64)], at: &[(f64, f64)]) {
     match look {
         Look::Points => {}
-        Look::Thin => sample.stroke("thin", style, &SAMPLE),
-        Look::Line | Look::Both => sample.stroke("line", style, &SAMPLE),
+        Look::Thin => drawing.stroke("thin", style, line),
+        Look::Line | Look::Both => drawing.stroke("line", style, line),
     }
     if matches!(look, Look::Points | Look::Both) {
-        sample.marker(style, (15.0, 0.0), "");
+        at.iter().for_each(|point| drawing.marker(style, *point, ""));
     }
 }
 
@@ -359,20 +353,15 @@ impl Chart for Figure {
                 _ => {
                     sheet.next_area(16.0);
                     for (at, _) in &self.marks {
-                        let x = x.position(*at);
-                        let (top, bottom) = (sheet.top, sheet.bottom());
-                        sheet.drawing.line("rule-across", (x, top), (x, bottom));
+                        sheet.upright("rule-across", x.position(*at));
                     }
                 }
             }
             unlabelled += draw_panel(self, i, &mut sheet, &x);
         }
-        let remarks = match unlabelled {
-            0 => Vec::new(),
-            count => {
-                vec![format!("{} left out for want of room.", counted(count, "text", "texts"))]
-            }
-        };
+        let texts = counted(unlabelled, "text", "texts");
+        let remark = (unlabelled > 0).then(|| format!("{texts} left out for want of room."));
+        let remarks: Vec<String> = remark.into_iter().collect();
         sheet.close(&self.title, &self.description(), &self.caption, &remarks)
     }
 
@@ -404,10 +393,8 @@ impl Chart for Figure {
         for panel in &self.panels {
             for series in &panel.series {
                 for point in series.points.iter().filter(finite) {
-                    let numbers = [Some(point.0), Some(point.1)].map(csv_number).join(",");
-                    let names =
-                        [csv_field(&panel.y.label()), csv_field(panel.name_of(series))].join(",");
-                    csv.push_str(&format!("{names},{numbers}\n"));
+                    let names = [&panel.y.label(), panel.name_of(series)];
+                    csv += &csv_row(&names, [Some(point.0), Some(point.1)]);
                 }
             }
         }

@@ -125,11 +125,15 @@ impl Sheet {
         self.top + self.height
     }
 
+    /// A line from the lower to the upper edge.
+    pub fn upright(&mut self, class: &str, x: f64) {
+        self.drawing.line(class, (x, self.top), (x, self.bottom()));
+    }
+
     /// Lines behind the data at the labelled ticks.
     pub fn grid(&mut self, x: &Mapping, y: &Mapping) {
         for tick in ticks_across(x, self.right - LEFT).iter().filter(|tick| tick.label.is_some()) {
-            let (top, bottom) = (self.top, self.bottom());
-            self.drawing.line("grid", (tick.position, top), (tick.position, bottom));
+            self.upright("grid", tick.position);
         }
         for tick in y.ticks(SPACING.1).iter().filter(|tick| tick.label.is_some()) {
             self.drawing.line("grid", (LEFT, tick.position), (self.right, tick.position));
@@ -160,15 +164,15 @@ impl Sheet {
         let bottom = self.bottom();
         self.drawing.rectangle("frame", (LEFT, self.top), (self.right, bottom));
         for tick in ticks_across(x, self.right - LEFT) {
-            let length = if tick.major { 6.0 } else { 3.0 };
-            self.drawing.line("tick", (tick.position, bottom), (tick.position, bottom + length));
+            let end = bottom + tick.length();
+            self.drawing.line("tick", (tick.position, bottom), (tick.position, end));
             if let Some(label) = tick.label.filter(|_| labelled) {
                 self.drawing.text("", Anchor::Middle, (tick.position, bottom + 20.0), &label);
             }
         }
         for tick in y.ticks(SPACING.1) {
-            let length = if tick.major { 6.0 } else { 3.0 };
-            self.drawing.line("tick", (LEFT, tick.position), (LEFT - length, tick.position));
+            let end = LEFT - tick.length();
+            self.drawing.line("tick", (LEFT, tick.position), (end, tick.position));
             if let Some(label) = tick.label {
                 self.drawing.text("", Anchor::End, (LEFT - 9.0, tick.position + 4.0), &label);
             }
@@ -189,22 +193,21 @@ impl Sheet {
     /// off.
     pub fn zero(&mut self, across: bool) {
         let bottom = self.bottom();
-        let (from, to, end, label, anchor) = match across {
+        let (from, to, end, anchor) = match across {
             true => {
                 let x = LEFT + GUTTER / 2.0;
-                let parting = ((LEFT + GUTTER, self.top), (LEFT + GUTTER, bottom));
-                self.drawing.line("rule-across", parting.0, parting.1);
-                ((x, bottom), (x, bottom + 6.0), (x, bottom + 20.0), "0", Anchor::Middle)
+                self.upright("rule-across", LEFT + GUTTER);
+                ((x, bottom), (x, bottom + 6.0), (x, bottom + 20.0), Anchor::Middle)
             }
             false => {
                 let y = bottom - GUTTER / 2.0;
-                let parting = ((LEFT, bottom - GUTTER), (self.right, bottom - GUTTER));
-                self.drawing.line("rule-across", parting.0, parting.1);
-                ((LEFT, y), (LEFT - 6.0, y), (LEFT - 9.0, y + 4.0), "0", Anchor::End)
+                let parting = bottom - GUTTER;
+                self.drawing.line("rule-across", (LEFT, parting), (self.right, parting));
+                ((LEFT, y), (LEFT - 6.0, y), (LEFT - 9.0, y + 4.0), Anchor::End)
             }
         };
         self.drawing.line("tick", from, to);
-        self.drawing.text("", anchor, end, label);
+        self.drawing.text("", anchor, end, "0");
     }
 
     /// A label by its left upper corner; how many found no place, 0 or 1.
@@ -259,14 +262,11 @@ impl Sheet {
         remarks: &[String],
     ) -> String {
         let mut y = self.lowest + 14.0;
-        let mut paragraph = String::new();
         let mut sentences = caption.sentences();
         // The command stands last, on a line of its own.
         let command = (!caption.command.is_empty()).then(|| sentences.pop()).flatten();
         sentences.extend(remarks.iter().cloned());
-        for sentence in sentences {
-            paragraph = format!("{paragraph} {sentence}");
-        }
+        let paragraph = sentences.join(" ");
         // Without small print there is nothing to part off.
         if !paragraph.is_empty() || command.is_some() {
             self.drawing.line("grid", (MARGIN, y), (WIDTH - MARGIN, y));

@@ -43,7 +43,7 @@ pub use diagram::{Cell, Diagram, Line, Part, Shape, Window};
 pub use error::{NotDrawn, PlotError};
 pub use figure::{Figure, Look, Panel, Series};
 pub use frontier::frontier;
-pub use map::{Level, Map};
+pub use map::Map;
 pub use page::{Listing, Row, Section, Table, page};
 pub use png::png;
 pub use work_precision::{Method, Point, WorkPrecision};

@@ -1,12 +1,12 @@
 //! Maps of the error over two parameters: colour for magnitude, steps where digits are lost.
 
-use super::axis::{Mapping, on};
+use super::axis::{Mapping, extremes, on};
 use super::contour::step_lines;
 use super::drawing::{Anchor, Drawing, coordinate, polyline};
 use super::layout::{LEFT, Legend, RIGHT, SAMPLE, Sheet, counted};
 use super::number::{power_of_ten, rounded};
 use super::palette::{DASHES, shade};
-use super::text::{csv_field, csv_number, json_number};
+use super::text::{csv_field, csv_row, json_number, json_places};
 use super::{Axis, Caption, Chart, PlotError, Scale};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -15,19 +15,11 @@ use std::fmt::Write;
 /// The exponents of ten that a colour scale may span: all doubles lie within.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
 
-/// A level of the error at which something changes, drawn as a step line.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Level {
-    pub value: f64,
-    /// What it means, in few words.
-    pub name: String,
-}
-
 /// A map of the error over two axes: one coloured cell for each pair of places.
 ///
 /// The colour follows the decimal logarithm of the error. A cell that is `None` was refused and is
 /// hatched; one that is infinite or not a number is crossed. Exact zeros take the colour of the
-/// lower end. Between cells on different sides of a [`Level`] runs a step line; an infinite error
+/// lower end. Between cells on different sides of a level runs a step line; an infinite error
 /// lies above every level. Where two levels share a side, the later one is seen.
 ///
 /// # Invariants
@@ -41,7 +33,7 @@ pub struct Map {
     y: (Axis, Vec<f64>),
     /// Row by row, from the lowest place of `y`.
     cells: Vec<Option<f64>>,
-    levels: Vec<Level>,
+    levels: Vec<(f64, String)>,
     /// The exponents at the ends of the colour scale.
     decades: (i32, i32),
     caption: Caption,
@@ -76,13 +68,8 @@ impl Map {
         if let Some(value) = cells.iter().flatten().copied().find(|error| *error < 0.0) {
             return Err(PlotError::Negative { what: "an error of the map".to_owned(), value });
         }
-        let logarithms = cells.iter().flatten().map(|error| error.log10());
-        let logarithms = logarithms.filter(|logarithm| logarithm.is_finite());
-        let (low, high) = logarithms
-            .fold(None, |range: Option<(f64, f64)>, value| {
-                Some(range.map_or((value, value), |(low, high)| (low.min(value), high.max(value))))
-            })
-            .unwrap_or((-16.0, 0.0));
+        let range = extremes(Scale::Logarithmic, cells.iter().flatten().copied());
+        let (low, high) = range.unwrap_or((-16.0, 0.0));
         let low = low.floor() as i32;
         let decades = (low, (high.ceil() as i32).max(low + 1));
         Ok(Map { title: title.to_owned(), x, y, cells, levels: Vec::new(), decades, caption })
@@ -90,12 +77,11 @@ impl Map {
 
     /// The same with a step line where the error crosses a level: cells below it on one side, cells
     /// at or above it on the other.
-    pub fn level(mut self, level: Level) -> Result<Map, PlotError> {
-        if level.value.is_nan() || level.value <= 0.0 {
-            let what = format!("the level \"{}\"", level.name);
-            return Err(PlotError::NotPositive { what, value: level.value });
+    pub fn level(mut self, value: f64, name: &str) -> Result<Map, PlotError> {
+        if value.is_nan() || value <= 0.0 {
+            return Err(PlotError::NotPositive { what: format!("the level \"{name}\""), value });
         }
-        self.levels.push(level);
+        self.levels.push((value, name.to_owned()));
         Ok(self)
     }
 
@@ -135,31 +121,25 @@ impl Map {
                 format!("errors from {} to {}", rounded(least), rounded(greatest))
             }
         };
-        let levels: Vec<String> = self
-            .levels
-            .iter()
-            .map(|level| {
-                let reached = self.count(|cell| cell.is_some_and(|error| error >= level.value));
-                let (name, cells) = (&level.name, self.cells.len());
-                format!(
-                    "; \"{name}\" ({} or more) in {reached} of {cells} cells",
-                    rounded(level.value)
-                )
-            })
-            .collect();
+        let level = |(value, name): &(f64, String)| {
+            let reached = self.count(|cell| cell.is_some_and(|error| error >= *value));
+            let (level, cells) = (rounded(*value), self.cells.len());
+            format!("; \"{name}\" ({level} or more) in {reached} of {cells} cells")
+        };
+        let levels: String = self.levels.iter().map(level).collect();
         let (x, y) = (self.x.0.label(), self.y.0.label());
-        format!("Map of the error over {x} (across) and {y} (up): {range}{}.", levels.concat())
+        format!("Map of the error over {x} (across) and {y} (up): {range}{levels}.")
     }
 
     fn remarks(&self) -> Vec<String> {
-        let mut remarks = Vec::new();
-        let bottom = power_of_ten(self.decades.0);
-        let zeros = self.count(|cell| cell == Some(0.0));
-        if zeros > 0 {
-            let zeros = counted(zeros, "error", "errors");
-            remarks.push(format!("{zeros} exactly zero, in the colour of {bottom}."));
+        match self.count(|cell| cell == Some(0.0)) {
+            0 => Vec::new(),
+            zeros => {
+                let zeros = counted(zeros, "error", "errors");
+                let bottom = power_of_ten(self.decades.0);
+                vec![format!("{zeros} exactly zero, in the colour of {bottom}.")]
+            }
         }
-        remarks
     }
 }
 
@@ -264,10 +244,10 @@ impl Chart for Map {
             sheet.drawing.path("refused", outline);
             sheet.drawing.fill(&format!("url(#{}-{kind})", sheet.name), outline);
         }
-        for (i, level) in self.levels.iter().enumerate() {
+        for (i, (level, _)) in self.levels.iter().enumerate() {
             let below = |column, row| {
                 let error = self.cell(column, row)?;
-                (!error.is_nan()).then_some(error < level.value)
+                (!error.is_nan()).then_some(error < *level)
             };
             for line in step_lines(self.x.1.len(), self.y.1.len(), below) {
                 let pixels: Vec<(f64, f64)> =
@@ -278,8 +258,8 @@ impl Chart for Map {
         sheet.axes((&self.x.0, &x), (&self.y.0, &y));
         let below = colour_bar(self, &mut sheet) + 26.0;
         let mut legend = Legend::default();
-        for (i, level) in self.levels.iter().enumerate() {
-            let text = format!("{}: {} or more", level.name, rounded(level.value));
+        for (i, (level, name)) in self.levels.iter().enumerate() {
+            let text = format!("{name}: {} or more", rounded(*level));
             legend.entry(text, |sample| level_line(sample, i, &SAMPLE));
         }
         let unknown = self.count(|cell| cell.is_some_and(|error| !error.is_finite()));
@@ -308,8 +288,6 @@ impl Chart for Map {
         };
         let row = |row: &[Option<f64>]| row.iter().map(|cell| json_number(*cell)).collect();
         let rows: Vec<Vec<Value>> = self.cells.chunks(self.x.1.len()).map(row).collect();
-        let level =
-            |level: &Level| json!({"value": json_number(Some(level.value)), "name": level.name});
         json!({
             "kind": "map",
             "title": self.title,
@@ -317,7 +295,7 @@ impl Chart for Map {
             "x": axis(&self.x),
             "y": axis(&self.y),
             "rows": rows,
-            "levels": self.levels.iter().map(level).collect::<Vec<_>>(),
+            "levels": json_places("value", &self.levels),
             "decades": [self.decades.0, self.decades.1],
         })
     }
@@ -327,9 +305,7 @@ impl Chart for Map {
         let mut csv = format!("{x},{y},error\n");
         for (row, &up) in self.y.1.iter().enumerate() {
             for (column, &across) in self.x.1.iter().enumerate() {
-                let places = [Some(across), Some(up), self.cell(column, row)].map(csv_number);
-                csv.push_str(&places.join(","));
-                csv.push('\n');
+                csv += &csv_row(&[], [Some(across), Some(up), self.cell(column, row)]);
             }
         }
         csv

@@ -1,7 +1,7 @@
 //! One page with pictures and their numbers, complete in one file: no script, no other resource.
 
 use super::Chart;
-use super::text::{csv_field, escape};
+use super::text::{csv_row, escape};
 use std::fmt::Write;
 
 /// A small table under a chart: what can be read from the chart, in numbers.
@@ -18,8 +18,8 @@ impl Listing {
     /// The table as comma-separated values, with the heads first.
     pub fn csv(&self) -> String {
         let line = |texts: &Vec<String>| {
-            let fields: Vec<String> = texts.iter().map(|text| csv_field(text)).collect();
-            fields.join(",") + "\n"
+            let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+            csv_row(&texts, [])
         };
         line(&self.heads) + &self.rows.iter().map(line).collect::<String>()
     }

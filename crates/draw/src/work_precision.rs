@@ -5,7 +5,7 @@ use super::drawing::{Drawing, coloured, polyline};
 use super::layout::{GUTTER, LEFT, Legend, RIGHT, Sheet, counted, fitted, label_size};
 use super::number::rounded;
 use super::placement::Placement;
-use super::text::{csv_field, csv_number, json_number};
+use super::text::{csv_row, json_number};
 use super::{Axis, Caption, Chart, PlotError, Scale, frontier};
 use serde_json::{Value, json};
 
@@ -367,8 +367,7 @@ impl Chart for WorkPrecision {
             });
         }
         legend.append(notes);
-        let top = sheet.top;
-        sheet.legend(&legend, top);
+        sheet.legend(&legend, sheet.top);
         sheet.close(&self.title, &self.description(), &self.caption, &self.remarks(unlabelled))
     }
 
@@ -405,16 +404,9 @@ impl Chart for WorkPrecision {
     fn csv(&self) -> String {
         let mut csv = String::from("method,setting,error,bound,seconds,seconds with preparation\n");
         for (method, point) in pairs(&self.methods) {
-            let fields = [
-                csv_field(&method.name),
-                csv_field(&point.setting),
-                csv_number(Some(point.error)),
-                csv_number(point.bound),
-                csv_number(Some(point.seconds)),
-                csv_number(point.prepared),
-            ];
-            csv.push_str(&fields.join(","));
-            csv.push('\n');
+            let Point { setting, error, bound, seconds, prepared } = point;
+            let numbers = [Some(*error), *bound, Some(*seconds), *prepared];
+            csv += &csv_row(&[&method.name, setting], numbers);
         }
         csv
     }

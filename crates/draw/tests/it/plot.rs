@@ -5,8 +5,8 @@ use crate::snapshot::snapshot;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use wavestep_draw::{
-    Axis, Caption, Cell, Chart, Curve, Curves, Diagram, Figure, Level, Listing, Map, Method, Panel,
-    Part, PlotError, Point, Row, Section, Series, Shape, Table, WorkPrecision, frontier, page,
+    Axis, Caption, Cell, Chart, Curve, Curves, Diagram, Figure, Listing, Map, Method, Panel, Part,
+    PlotError, Point, Row, Section, Series, Shape, Table, WorkPrecision, frontier, page,
 };
 
 /// The plotting area from side to side, and the room for zeros in it.
@@ -62,8 +62,7 @@ fn map() -> Map {
     let x = (Axis::linear("order n"), vec![10.0, 20.0, 30.0]);
     let y = (Axis::logarithmic("mass ratio"), vec![0.1, 10.0]);
     let map = Map::new("Digits lost", x, y, cells, caption()).expect("a map");
-    let level = |value, name: &str| Level { value, name: name.into() };
-    map.level(level(1e-8, "8 digits lost")).unwrap().level(level(1e-2, "useless")).unwrap()
+    map.level(1e-8, "8 digits lost").unwrap().level(1e-2, "useless").unwrap()
 }
 
 fn curves() -> Curves {
@@ -645,7 +644,7 @@ fn odd_maps_are_drawn_or_refused() {
         let error = drawn.clone().decades(low, high).unwrap_err();
         assert_eq!(error, PlotError::EmptyColourScale { low, high });
     }
-    assert!(drawn.level(Level { value: f64::NAN, name: String::new() }).is_err());
+    assert!(drawn.level(f64::NAN, "").is_err());
 }
 
 #[test]
@@ -665,7 +664,7 @@ fn texts_are_escaped_everywhere() {
     let axis = || (Axis::linear(BAD).unit(BAD), vec![1.0, 2.0]);
     let cells = vec![Some(1e-3), None, Some(f64::NAN), Some(1.0)];
     let map = Map::new(BAD, axis(), axis(), cells, caption.clone()).unwrap();
-    let map = map.level(Level { value: 0.1, name: bad() }).unwrap();
+    let map = map.level(0.1, &bad()).unwrap();
     let curve = Curve { name: bad(), points: vec![(1.0, 1.0)] };
     let curves = Curves::new(BAD, axis().0, axis().0, vec![curve], caption).unwrap();
     let curves = curves.level(1.0, BAD).unwrap();

@@ -5,7 +5,7 @@ use crate::study::harness::{Subject, worst};
 use crate::study::reference::{Reference, Sampling};
 use wavestep::answer::{Method, Way};
 use wavestep::problem::ProblemError;
-use wavestep_draw::{Axis, Caption, Level, Map, PlotError};
+use wavestep_draw::{Axis, Caption, Map, PlotError};
 
 /// How many times a period are drawn uniformly, and as many near its arrival.
 const TIMES: usize = 8;
@@ -103,8 +103,6 @@ pub fn order_map(
     let y = (Axis::logarithmic(parameter), values);
     let map =
         Map::new(&format!("Error of {method} by order and {parameter}"), x, y, cells, caption)?;
-    let half = Level { value: HALF, name: "8 digits lost".to_owned() };
-    let useless = Level { value: USELESS, name: "useful no longer".to_owned() };
-    let all = Level { value: 1.0, name: "all digits lost".to_owned() };
-    map.level(half)?.level(useless)?.level(all)?.decades(-17, 1)
+    let map = map.level(HALF, "8 digits lost")?.level(USELESS, "useful no longer")?;
+    map.level(1.0, "all digits lost")?.decades(-17, 1)
 }
