@@ -80,8 +80,14 @@ pub enum Content {
     Check(String),
 }
 
+impl Default for Content {
+    fn default() -> Content {
+        Content::Claim(Vec::new())
+    }
+}
+
 /// A numbered equation of the source, or a limit that it states in words.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Entry {
     /// Its number, or that of its section with a word: `6.7-acceleration`.
     pub number: String,
@@ -108,7 +114,7 @@ pub(super) struct Setting {
 }
 
 /// A section of the source with its equations.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Section {
     pub number: String,
     pub title: String,
@@ -146,12 +152,7 @@ impl Section {
 
     /// Reads a section; the first line that is not of the form of `sections/` is refused.
     pub(super) fn read(text: &str) -> Result<Section, Refusal> {
-        let mut section = Section {
-            number: String::new(),
-            title: String::new(),
-            entries: Vec::new(),
-            setting: Setting::default(),
-        };
+        let mut section = Section::default();
         for line in logical_lines(text) {
             match line.strip_prefix("  ") {
                 Some(item) => {
@@ -161,14 +162,8 @@ impl Section {
                 }
                 None if line.starts_with(|c: char| c.is_ascii_digit()) => {
                     let (number, states) = split(&line, " ")?;
-                    section.entries.push(Entry {
-                        number: number.to_owned(),
-                        states: states.to_owned(),
-                        content: Content::Claim(Vec::new()),
-                        unsure: None,
-                        latex: None,
-                        note: None,
-                    });
+                    let (number, states) = (number.to_owned(), states.to_owned());
+                    section.entries.push(Entry { number, states, ..Entry::default() });
                 }
                 None => section.read_setting(&line)?,
             }

@@ -1,6 +1,6 @@
 //! One equation examined: the verdict, the derived form beside it, and the steps of the proof.
 
-use crate::book::checks;
+use crate::book::checks::{self, Checked};
 use crate::book::entry::{Content, Entry, Equation, Relation, Section};
 use crate::book::refusal::Refusal;
 use crate::book::stage::{Quantity, Stage};
@@ -52,24 +52,22 @@ fn examined(
     let found = match &entry.content {
         Content::Claim(equations) => claim(stage, equations),
         Content::Readings(readings) => readings_of(stage, readings),
-        Content::Definition(_) => Ok((Verdict::Definition, Vec::new(), Vec::new())),
-        Content::Check(name) => {
-            checks::run(name).map(|checked| (checked.verdict, checked.derived, checked.steps))
+        Content::Definition(_) => {
+            Ok(Checked { verdict: Verdict::Definition, derived: Vec::new(), steps: Vec::new() })
         }
+        Content::Check(name) => checks::run(name),
     };
-    let (verdict, derived, steps) =
+    let Checked { verdict, derived, steps } =
         found.unwrap_or_else(|error| panic!("equation {}: {error}", entry.number));
     Examination { section, entry, verdict, derived, steps }
 }
-
-type Found = Result<(Verdict, Vec<Formula>, Vec<String>), Refusal>;
 
 fn on(stage: Option<&Stage>) -> Result<&Stage, Refusal> {
     stage.ok_or_else(|| Refusal::NoPeriods("none".to_owned()))
 }
 
 /// Equations that all have to hold.
-fn claim(stage: Option<&Stage>, equations: &[Equation]) -> Found {
+fn claim(stage: Option<&Stage>, equations: &[Equation]) -> Result<Checked, Refusal> {
     let stage = on(stage)?;
     let (mut grounds, mut derived, mut steps) = (Vec::new(), Vec::new(), Vec::new());
     let mut refuted = None;
@@ -105,21 +103,20 @@ fn claim(stage: Option<&Stage>, equations: &[Equation]) -> Found {
             Finding::Fails(_) => {}
         }
     }
-    let through = grounds.iter().find_map(|ground| match ground {
-        Ground::PeriodsThrough(last) => Some(*last),
-        _ => None,
-    });
-    let verdict = match (refuted, through) {
+    let some = |ground: &&Ground| matches!(ground, Ground::PeriodsThrough(_));
+    let verdict = match (refuted, grounds.iter().find(some)) {
         (Some(slip), _) => Verdict::Refuted(slip),
-        (None, None) => Verdict::Proved(grounds),
         // What is about every n is not proved by some.
-        (None, Some(last)) => Verdict::Checked(format!("exactly, on the periods 0 to {last}")),
+        (None, Some(Ground::PeriodsThrough(last))) => {
+            Verdict::Checked(format!("exactly, on the periods 0 to {last}"))
+        }
+        (None, _) => Verdict::Proved(grounds),
     };
-    Ok((verdict, derived, steps))
+    Ok(Checked { verdict, derived, steps })
 }
 
 /// Readings of which one at most can hold.
-fn readings_of(stage: Option<&Stage>, readings: &[Equation]) -> Found {
+fn readings_of(stage: Option<&Stage>, readings: &[Equation]) -> Result<Checked, Refusal> {
     let stage = on(stage)?;
     let (mut findings, mut derived, mut steps) = (Vec::new(), Vec::new(), Vec::new());
     for reading in readings {
@@ -133,7 +130,7 @@ fn readings_of(stage: Option<&Stage>, readings: &[Equation]) -> Found {
         });
         findings.push((reading.clone(), finding));
     }
-    Ok((Verdict::Unsure(findings), derived, steps))
+    Ok(Checked { verdict: Verdict::Unsure(findings), derived, steps })
 }
 
 /// What the scene gives for the waves that an equation is about: their pieces, their general forms, or

@@ -1,16 +1,16 @@
 //! An equation of the source held against what is derived.
 
 use crate::book::entry::{Equation, Relation};
-use crate::book::meaning::{Meaning, inverse};
+use crate::book::meaning::Meaning;
 use crate::book::refusal::Refusal;
-use crate::book::sequence::{Sequence, period_number};
+use crate::book::sequence::{Sequence, inverse, period_number};
 use crate::book::stage::{AHEAD, Stage};
 use crate::book::verdict::{Finding, Ground, Witness};
 use wavestep::ball::Ball;
 use wavestep::enclosure::enclose_expression;
 use wavestep::export::form_text;
 use wavestep::expression::{Expression, Fraction};
-use wavestep::recurrence::LinearForm;
+use wavestep::recurrence::{LinearForm, Operator, WaveIndex};
 use wavestep::solution::GeneralForm;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 
@@ -55,15 +55,13 @@ impl Stage {
             if !operator.sum.is_empty() {
                 return None;
             }
-            let rows = [(&operator.value, false), (&operator.slope, true)];
-            for (row, slope) in rows {
+            type Of = fn(WaveIndex, usize) -> LinearForm;
+            let rows: [(_, Of); 2] =
+                [(&operator.value, LinearForm::wave), (&operator.slope, LinearForm::slope)];
+            for (row, of) in rows {
                 for (lag, factor) in row.iter().enumerate().filter(|(_, c)| !c.is_zero()) {
                     let lag = lag.checked_sub(AHEAD).filter(|lag| *lag <= 1)?;
-                    let one = match slope {
-                        true => LinearForm::slope(wave, lag),
-                        false => LinearForm::wave(wave, lag),
-                    };
-                    form.add_scaled(&one, factor, 0);
+                    form.add_scaled(&of(wave, lag), factor, 0);
                 }
             }
         }
@@ -129,10 +127,10 @@ impl Stage {
             }
         }
         // With sums over earlier periods it is R[n] − R[n−1] that is compared; R[0] has been.
-        let sums = |(_, o): (_, &wavestep::recurrence::Operator)| !o.sum.is_empty();
+        let sums = |(_, o): (_, &Operator)| !o.sum.is_empty();
         let mut rest = Some(difference.rest.clone());
         if difference.waves.operators().any(sums) {
-            let late = difference.rest.delayed(|ratio| inverse(ratio).ok());
+            let late = difference.rest.delayed();
             rest = late.map(|late| difference.rest.plus(&late.negated()));
         }
         let general = self.general(&difference.waves.without_sums())?;
@@ -219,20 +217,19 @@ impl Stage {
         left: &Expression,
         right: &Expression,
     ) -> Result<Witness, Refusal> {
-        let mut symbols = (left - right).symbols();
-        symbols.extend(left.symbols());
+        let mut symbols = left.symbols();
         symbols.extend(right.symbols());
         symbols.retain(|symbol| symbol.square().is_none());
         symbols.sort_by(|a, b| a.name().cmp(b.name()));
         symbols.dedup();
-        let mut witness = self.witness_at(period, left, right, &symbols, 0)?;
-        for attempt in 1..ATTEMPTS {
-            if witness.is_certain() {
-                break;
+        let mut attempt = 0;
+        loop {
+            let witness = self.witness_at(period, left, right, &symbols, attempt)?;
+            attempt += 1;
+            if witness.is_certain() || attempt == ATTEMPTS {
+                return Ok(witness);
             }
-            witness = self.witness_at(period, left, right, &symbols, attempt)?;
         }
-        Ok(witness)
     }
 
     fn witness_at(

@@ -2,7 +2,7 @@
 
 use crate::book::entry::{Equation, Section, Setting};
 use crate::book::refusal::Refusal;
-use crate::book::sequence::{Sequence, period_number};
+use crate::book::sequence::{Sequence, inverse, period_number};
 use crate::book::stage::{Quantity, Stage};
 use num_traits::ToPrimitive as _;
 use wavestep::expression::Expression;
@@ -58,12 +58,6 @@ impl Meaning {
             false => Err(Refusal::DependsOnPeriod),
         }
     }
-}
-
-/// `1/value`, for a product of symbols and irreducible factors, and exponentials.
-pub(super) fn inverse(value: &Expression) -> Result<Expression, Refusal> {
-    let inverse = value.inverse_of_term().and_then(Result::ok);
-    inverse.ok_or(Refusal::NotInvertible)
 }
 
 /// Which names a formula may hold.

@@ -1,6 +1,7 @@
 //! Sequences in general n: sums of `c(n) λ^n` with rational functions of n as coefficients.
 
-use wavestep::expression::Expression;
+use crate::book::refusal::Refusal;
+use wavestep::expression::{Expression, Fraction};
 use wavestep_polynomial::{Rational, Symbol};
 
 /// `Σ_i c_i(n) λ_i^n`.
@@ -11,6 +12,11 @@ use wavestep_polynomial::{Rational, Symbol};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sequence {
     terms: Vec<(Expression, Expression)>,
+}
+
+/// `1/value`, for a product of symbols and irreducible factors, and exponentials.
+pub(super) fn inverse(value: &Expression) -> Result<Expression, Refusal> {
+    value.inverse_of_term().and_then(Result::ok).ok_or(Refusal::NotInvertible)
 }
 
 /// The number of the period, as a value.
@@ -59,17 +65,13 @@ impl Sequence {
     }
 
     /// The sequence one period late; `None` where a ratio has no inverse.
-    pub(super) fn delayed(
-        &self,
-        inverse: impl Fn(&Expression) -> Option<Expression>,
-    ) -> Option<Sequence> {
+    pub(super) fn delayed(&self) -> Option<Sequence> {
         let n = period_number();
-        let before = wavestep::expression::Fraction::symbol(&n);
-        let before = &before - &wavestep::expression::Fraction::one();
+        let before = &Fraction::symbol(&n) - &Fraction::one();
         let mut late = Sequence::default();
         for (ratio, coefficient) in &self.terms {
             let coefficient = coefficient.substitute(&n, &before).ok()?;
-            late.add(ratio.clone(), &(&coefficient * &inverse(ratio)?));
+            late.add(ratio.clone(), &(&coefficient * &inverse(ratio).ok()?));
         }
         Some(late)
     }
@@ -100,8 +102,7 @@ impl Sequence {
 
     /// The value at n; `None` where a denominator vanishes there.
     pub(super) fn value(&self, n: u32) -> Option<Expression> {
-        let number = Rational::from_integer(n.into());
-        let fraction = wavestep::expression::Fraction::constant(&number);
+        let fraction = Fraction::constant(&Rational::from_integer(n.into()));
         self.terms.iter().try_fold(Expression::zero(), |sum, (ratio, coefficient)| {
             let coefficient = coefficient.substitute(&period_number(), &fraction).ok()?;
             Some(&sum + &(&coefficient * &ratio.pow(n)))

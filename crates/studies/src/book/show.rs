@@ -100,7 +100,8 @@ impl Examination {
             out.push_str(&wrapped(&format!("The reading is not sure: {why}."), width, "    "));
         }
         if !derived.is_empty() {
-            out.push_str(&format!("\n{}\n", self.derived_heading()));
+            let heading = self.derived_heading(|scene| format!("`{scene}`"));
+            out.push_str(&format!("\n{heading}\n"));
             out.push_str(&indented(&export::text(derived, width.saturating_sub(4))));
         }
         let dictionary = section.dictionary_of(equations(entry));
@@ -124,18 +125,11 @@ impl Examination {
         out
     }
 
-    /// The scene that was derived; a check of its own needs none.
-    fn scene_of_derived(&self) -> Option<&str> {
-        match self.entry.content {
-            Content::Check(_) => None,
-            _ => self.section.scene(),
-        }
-    }
-
-    fn derived_heading(&self) -> String {
-        match self.scene_of_derived() {
-            Some(scene) => format!("Derived from the parts of the scene `{scene}`"),
-            None => "Derived".to_owned(),
+    /// Names the scene that was derived; a check of its own needs none.
+    fn derived_heading(&self, quoted: impl Fn(&str) -> String) -> String {
+        match (&self.entry.content, self.section.scene()) {
+            (Content::Check(_), _) | (_, None) => "Derived".to_owned(),
+            (_, Some(scene)) => format!("Derived from the parts of the scene {}", quoted(scene)),
         }
     }
 
@@ -160,13 +154,8 @@ impl Examination {
             out.push_str(&format!("The reading is not sure: {}.\n", escaped(why)));
         }
         if !derived.is_empty() {
-            out.push_str(&match self.scene_of_derived() {
-                Some(scene) => {
-                    format!("\nDerived from the parts of the scene \\texttt{{{scene}}}:\n")
-                }
-                None => "\nDerived:\n".to_owned(),
-            });
-            out.push_str(&export::latex(derived, LATEX_WIDTH));
+            let heading = self.derived_heading(|scene| format!("\\texttt{{{scene}}}"));
+            out.push_str(&format!("\n{heading}:\n{}", export::latex(derived, LATEX_WIDTH)));
         }
         let dictionary = section.dictionary_of(equations(entry));
         if !dictionary.is_empty() {
@@ -205,7 +194,7 @@ impl Examination {
             "states": entry.states,
             "reading": if entry.unsure.is_some() { "unsure" } else { "clear" },
             "read": read,
-            "verdict": kind(&self.verdict),
+            "verdict": Verdict::KINDS[self.verdict.kind()].0,
             "derived": derived.iter().map(formula).collect::<Vec<_>>(),
             "steps": self.steps,
         });
@@ -218,11 +207,8 @@ impl Examination {
         }
         match &self.verdict {
             Verdict::Refuted(slip) => {
-                let (equation, witness) = &**slip;
-                document["refuted"] = json!({
-                    "equation": equation.to_string(),
-                    "witness": witness.to_string(),
-                });
+                let (equation, witness) = (slip.0.to_string(), slip.1.to_string());
+                document["refuted"] = json!({"equation": equation, "witness": witness});
             }
             Verdict::Unsure(readings) => {
                 let supported = |(reading, finding): &(Equation, Finding)| json!({"reading": reading.to_string(), "supported": finding.holds()});
@@ -232,16 +218,5 @@ impl Examination {
             Verdict::Proved(_) | Verdict::Definition => {}
         }
         document
-    }
-}
-
-/// The verdict in a word or two, for programs.
-fn kind(verdict: &Verdict) -> &'static str {
-    match verdict {
-        Verdict::Proved(_) => "proved",
-        Verdict::Refuted(_) => "refuted",
-        Verdict::Unsure(_) => "unsure",
-        Verdict::Checked(_) => "checked",
-        Verdict::Definition => "definition",
     }
 }

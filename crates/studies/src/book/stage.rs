@@ -181,11 +181,8 @@ impl Stage {
             let lag = lag.filter(Rational::is_integer).and_then(|lag| lag.to_integer().to_i64());
             let delay = lag.and_then(|lag| usize::try_from(lag + AHEAD as i64).ok());
             let delay = delay.ok_or_else(|| Refusal::NoPeriods(name.to_owned()))?;
-            let wave = match seen.slope {
-                true => LinearForm::slope(seen.wave, 0),
-                false => LinearForm::wave(seen.wave, 0),
-            };
-            form.add_scaled(&wave, &seen.coefficient, delay);
+            let of = if seen.slope { LinearForm::slope } else { LinearForm::wave };
+            form.add_scaled(&of(seen.wave, 0), &seen.coefficient, delay);
         }
         Ok(Some(form))
     }

@@ -9,37 +9,28 @@ use serde_json::Value;
 
 /// How many equations have each verdict, in words.
 fn counted(all: &[Examination]) -> String {
-    type Is = fn(&Verdict) -> bool;
-    let kinds: [(&str, Is); 5] = [
-        ("proved", |v| matches!(v, Verdict::Proved(_))),
-        ("refuted as read", |v| matches!(v, Verdict::Refuted(_))),
-        ("of unsure reading", |v| matches!(v, Verdict::Unsure(_))),
-        ("checked numerically", |v| matches!(v, Verdict::Checked(_))),
-        ("definitions", |v| matches!(v, Verdict::Definition)),
-    ];
-    let count = |is: Is| all.iter().filter(|found| is(&found.verdict)).count();
-    let told = kinds.iter().filter(|(_, is)| count(*is) > 0);
-    let told: Vec<String> = told.map(|(name, is)| format!("{} {name}", count(*is))).collect();
+    let count = |kind| all.iter().filter(|found| found.verdict.kind() == kind).count();
+    let counts = Verdict::KINDS.iter().enumerate().map(|(kind, (_, name))| (count(kind), name));
+    let told = counts.filter(|(count, _)| *count > 0);
+    let told: Vec<String> = told.map(|(count, name)| format!("{count} {name}")).collect();
     let s = if all.len() == 1 { "" } else { "s" };
     format!("{} equation{s}: {}", all.len(), told.join(", "))
 }
 
-fn of_section<'a>(
-    all: &'a [Examination],
-    section: &Section,
-) -> impl Iterator<Item = &'a Examination> {
-    all.iter().filter(move |found| found.section.number == section.number)
+/// The sections of which some equations are examined, with these.
+fn by_section(all: &[Examination]) -> impl Iterator<Item = (&Section, Vec<&Examination>)> {
+    let of = |section: &'static Section| {
+        let own = all.iter().filter(|found| found.section.number == section.number);
+        (section, own.collect::<Vec<_>>())
+    };
+    sections().iter().map(of).filter(|(_, own)| !own.is_empty())
 }
 
 /// Number, statement and verdict, a line for each.
 pub fn table(all: &[Examination]) -> String {
     let width = all.iter().map(|found| found.entry.number.len()).max().unwrap_or_default();
     let mut out = String::new();
-    for section in sections() {
-        let mut rows = of_section(all, section).peekable();
-        if rows.peek().is_none() {
-            continue;
-        }
+    for (section, rows) in by_section(all) {
         out.push_str(&format!("{}  {}\n", section.number, section.title));
         for found in rows {
             let indent = " ".repeat(width + 4);
@@ -84,11 +75,7 @@ pub fn table_markdown(all: &[Examination]) -> String {
          numerically*: an estimate, with its measured error. *Definition*: nothing is claimed.\n\n",
     );
     out.push_str(&format!("{}.\n", counted(all)));
-    for section in sections() {
-        let mut rows = of_section(all, section).peekable();
-        if rows.peek().is_none() {
-            continue;
-        }
+    for (section, rows) in by_section(all) {
         out.push_str(&format!("\n## {} {}\n\n", section.number, section.title));
         if let Some(scene) = section.scene() {
             out.push_str(&format!(
@@ -107,8 +94,7 @@ pub fn table_markdown(all: &[Examination]) -> String {
             let mut verdict = found.verdict_markdown();
             if let Verdict::Refuted(slip) = &found.verdict {
                 verdict.push_str(&format!(": derived against read {}; it should be ", slip.1));
-                let derived =
-                    found.derived.iter().map(|formula| format!("`{}`", formula.to_line()));
+                let derived = found.derived.iter().map(|own| format!("`{}`", own.to_line()));
                 verdict.push_str(&derived.collect::<Vec<_>>().join(", "));
             }
             out.push_str(&format!(

@@ -3,6 +3,7 @@
 use crate::book::entry::Equation;
 use num_traits::Zero as _;
 use std::fmt;
+use thiserror::Error;
 use wavestep::ball::Ball;
 use wavestep_polynomial::Rational;
 
@@ -10,43 +11,25 @@ use wavestep_polynomial::Rational;
 const DIGITS: usize = 12;
 
 /// How an equation is known to hold.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 pub enum Ground {
-    /// Both sides are the same expression in normal form.
+    #[error("both sides are the same expression in normal form")]
     SameExpression,
-    /// The difference of both sides is a combination of the equations that the scene gives, on every
-    /// period; the first periods are compared as well.
+    #[error(
+        "the difference of both sides is a combination of the equations of the scene, for every n; both \
+         sides are the same expression on the first periods"
+    )]
     EveryPeriod,
-    /// Both sides are the same sum of powers in general n; the first periods are compared as well.
+    #[error(
+        "both sides are the same sum of powers for every n; both sides are the same expression on the \
+         first periods"
+    )]
     EveryPower,
-    /// It is the form that the scene makes continuous, and its start.
+    #[error("this is what the scene makes continuous, for every n, and its start")]
     Continuity,
-    /// The pieces agree on the periods 0 … N; for every n there is no proof.
+    /// For every n there is no proof.
+    #[error("both sides are the same expression on the periods 0 to {0}")]
     PeriodsThrough(usize),
-}
-
-impl fmt::Display for Ground {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Ground::SameExpression => {
-                f.write_str("both sides are the same expression in normal form")
-            }
-            Ground::EveryPeriod => f.write_str(
-                "the difference of both sides is a combination of the equations of the scene, for \
-                 every n; both sides are the same expression on the first periods",
-            ),
-            Ground::EveryPower => f.write_str(
-                "both sides are the same sum of powers for every n; both sides are the same \
-                 expression on the first periods",
-            ),
-            Ground::Continuity => {
-                f.write_str("this is what the scene makes continuous, for every n, and its start")
-            }
-            Ground::PeriodsThrough(last) => {
-                write!(f, "both sides are the same expression on the periods 0 to {last}")
-            }
-        }
-    }
 }
 
 /// Values of both sides of an equation that differ, with proof.
@@ -94,28 +77,43 @@ impl Finding {
 }
 
 /// What is found about a numbered equation.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum Verdict {
     /// Equal to what is derived, with the ground for each of its equations.
+    #[error("proved")]
     Proved(Vec<Ground>),
     /// As read it differs from what is derived: the first equation that fails, and a witness.
+    #[error("refuted as read")]
     Refuted(Box<(Equation, Witness)>),
     /// It can be read in more than one way: the readings, and what was found about each.
+    #[error("reading unsure")]
     Unsure(Vec<(Equation, Finding)>),
     /// An estimate, with what was measured of its error.
+    #[error("checked numerically: {0}")]
     Checked(String),
     /// Nothing is claimed.
+    #[error("definition")]
     Definition,
 }
 
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Verdict {
+    /// The verdicts in a word for programs, and as they are counted.
+    pub(super) const KINDS: [(&'static str, &'static str); 5] = [
+        ("proved", "proved"),
+        ("refuted", "refuted as read"),
+        ("unsure", "of unsure reading"),
+        ("checked", "checked numerically"),
+        ("definition", "definitions"),
+    ];
+
+    /// The place of a verdict among [`KINDS`](Self::KINDS).
+    pub(super) fn kind(&self) -> usize {
         match self {
-            Verdict::Proved(_) => f.write_str("proved"),
-            Verdict::Refuted(_) => f.write_str("refuted as read"),
-            Verdict::Unsure(_) => f.write_str("reading unsure"),
-            Verdict::Checked(bound) => write!(f, "checked numerically: {bound}"),
-            Verdict::Definition => f.write_str("definition"),
+            Verdict::Proved(_) => 0,
+            Verdict::Refuted(_) => 1,
+            Verdict::Unsure(_) => 2,
+            Verdict::Checked(_) => 3,
+            Verdict::Definition => 4,
         }
     }
 }
