@@ -12,7 +12,7 @@ use wavestep_polynomial::Rational;
 
 use super::error::{DispersionError, place};
 use super::relation::{Relation, value};
-use super::series::{Fault, Series};
+use super::series::Fault;
 use wavestep::ball::Ball;
 
 const SEARCH_BITS: u64 = 64;
@@ -55,12 +55,12 @@ impl Search<'_> {
     fn cell(&self, low: &Rational, high: &Rational) -> Result<Cell, Fault> {
         let bits = SEARCH_BITS;
         let k = Ball::between(low, high, bits);
-        let one = Series::wave_number(&k, &Ball::zero(), 1);
-        let omega = match self.relation.frequency().series(&one, bits) {
-            Ok(series) => series.coefficients()[0].clone(),
-            Err(Fault::MissingValue(symbol)) => return Err(Fault::MissingValue(symbol)),
+        let omega = match self.relation.frequency().enclose(&k, bits) {
+            Ok(omega) => omega,
             // At the first wavenumber of all, a root may have no enclosure.
-            Err(fault) if low.is_zero() => return Err(fault),
+            Err(fault) if low.is_zero() || matches!(fault, Fault::MissingValue(_)) => {
+                return Err(fault);
+            }
             Err(_) => return Ok(Cell::Open),
         };
         if omega.sign() == Some(Less) {
@@ -69,13 +69,10 @@ impl Search<'_> {
         if omega.subtract(&self.level, bits).sign() == Some(Less) {
             return Ok(Cell::Excluded);
         }
-        let unit = Ball::from_integer(&1.into());
-        let both = Series::wave_number(&k, &unit, 2);
-        let Ok(series) = self.relation.frequency().series(&both, bits) else {
+        let Ok([_, slope]) = self.relation.frequency().with_slope(&k, bits) else {
             return Ok(Cell::Open);
         };
-        let slope = series.coefficients()[1].sign();
-        Ok(match (slope, self.sign_at(low), self.sign_at(high)) {
+        Ok(match (slope.sign(), self.sign_at(low), self.sign_at(high)) {
             (Some(Greater), Some(Less), Some(Greater)) => Cell::Root,
             (Some(_), Some(Less), Some(Less)) => Cell::Excluded,
             _ => Cell::Open,
@@ -96,6 +93,10 @@ pub(super) fn cut_off_of_duration(
         Ball::pi(bits).multiply_rational(&twice, bits)
     };
     let search = Search { relation, level: level(SEARCH_BITS) };
+    let none = |through: &Rational| {
+        let through = place(&Ball::from_rational(through, SEARCH_BITS));
+        Err(DispersionError::NoCutOff { through })
+    };
     // 2π/τ < 7/τ, and of few bits.
     let start = (Rational::from_integer(7.into()) / duration).ceil().max(Rational::one());
     let two = Rational::from_integer(2.into());
@@ -107,25 +108,19 @@ pub(super) fn cut_off_of_duration(
         while let Some((from, to, depth)) = cells.pop() {
             looked_at += 1;
             if looked_at > MAX_CELLS {
-                let through = place(&Ball::from_rational(&from, SEARCH_BITS));
-                return Err(DispersionError::NoCutOff { through });
+                return none(&from);
             }
             let near = Ball::between(&from, &to, SEARCH_BITS);
             let is_narrow = depth >= MAX_DEPTH || &to - &from <= &to * &narrowest;
             let cell = match search.cell(&from, &to) {
-                Ok(cell) => cell,
-                Err(fault @ Fault::MissingValue(_)) => {
+                Err(fault) if is_narrow || matches!(fault, Fault::MissingValue(_)) => {
                     return Err(DispersionError::at(fault, &near));
                 }
-                Err(fault) if is_narrow => return Err(DispersionError::at(fault, &near)),
-                Err(_) => Cell::Open,
+                found => found.unwrap_or(Cell::Open),
             };
             match cell {
                 Cell::Excluded => {}
-                Cell::Negative => {
-                    let through = place(&Ball::from_rational(&from, SEARCH_BITS));
-                    return Err(DispersionError::NoCutOff { through });
-                }
+                Cell::Negative => return none(&from),
                 Cell::Root => return narrowed(relation, &level, (from, to), bits),
                 Cell::Open if is_narrow => {
                     return Err(DispersionError::UndecidedCutOff(place(&near)));
@@ -139,7 +134,7 @@ pub(super) fn cut_off_of_duration(
         }
         (low, high) = (high.clone(), high * &two);
     }
-    Err(DispersionError::NoCutOff { through: place(&Ball::from_rational(&low, SEARCH_BITS)) })
+    none(&low)
 }
 
 /// Newton's method on an interval with one root and a positive derivative: the root lies in

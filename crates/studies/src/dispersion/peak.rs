@@ -12,6 +12,7 @@ use super::formula::{Formula, wave_number};
 use super::pulse::{Pulse, Shape};
 use super::quadrature::integrate;
 use super::relation::{Relation, certified, value};
+use crate::ratio;
 use wavestep::ball::{Ball, Value};
 use wavestep::field::Bounded;
 
@@ -47,6 +48,12 @@ fn power(base: &Formula, exponent: i64) -> Formula {
     base.power(&Rational::from_integer(exponent.into())).expect("a power of a symbol")
 }
 
+/// The velocity of all waves, where it is one: then every sum of them has it too.
+fn common_velocity(relation: &Relation) -> Option<Formula> {
+    let velocity = relation.phase_velocity();
+    (!velocity.symbols().contains(&wave_number())).then(|| velocity.clone())
+}
+
 /// The peak velocity in closed form, with the symbol `b` for the length: for polynomial `ω(k)` and the
 /// square pulse; for the triangular one where `ω(0) = 0`. `None` for others, where a power of `k`
 /// exceeds 64, and where a parameter is called `b` itself.
@@ -60,9 +67,8 @@ fn power(base: &Formula, exponent: i64) -> Formula {
 /// For the triangle `sin²(θ/2) = (1 − cos θ)/2`, and `T_m = ½ ∫_0^π (1 − cos θ) θ^(m−1) dθ = ½(π^m/m +
 /// (m − 1) S_(m−2))` stands for `S_m`; `T_1 = π/2`.
 pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula> {
-    // Where all waves are equally fast, so is every sum of them.
-    if !relation.phase_velocity().symbols().contains(&wave_number()) {
-        return Some(relation.phase_velocity().clone());
+    if let Some(velocity) = common_velocity(relation) {
+        return Some(velocity);
     }
     let length = Symbol::new("b").expect("a name");
     if relation.parameters().contains(&length) {
@@ -74,12 +80,12 @@ pub fn exact_peak_velocity(relation: &Relation, shape: Shape) -> Option<Formula>
     if highest > 64 {
         return None;
     }
-    let half = Formula::number(&Rational::new(1.into(), 2.into()));
+    let half = Formula::number(&ratio(1, 2));
     let moment = |m: u32| match shape {
         Shape::Square => Some(sine_moment(m)),
         Shape::Triangle if lowest > 0 => {
-            let first = power(&Formula::pi(), m.into())
-                .multiply(&Formula::number(&Rational::new(1.into(), m.into())));
+            let first =
+                power(&Formula::pi(), m.into()).multiply(&Formula::number(&ratio(1, m.into())));
             let second = match m {
                 1 => Formula::zero(),
                 _ => Formula::integer(i64::from(m) - 1).multiply(&sine_moment(m - 2)),
@@ -112,17 +118,12 @@ pub fn peak_velocity(
     }
     refuse_negative(relation, &pulse.cut_off(relation, BOUND_BITS)?)?;
     let exact = match pulse.shape_and_length() {
-        Some((shape, length)) => match exact_peak_velocity(relation, shape) {
-            Some(formula) => {
-                let symbol = Symbol::new("b").expect("a name");
-                Some(formula.substitute(&[(symbol, length.clone())].into())?)
-            }
-            None => None,
-        },
-        None if !relation.phase_velocity().symbols().contains(&wave_number()) => {
-            Some(relation.phase_velocity().clone())
+        Some((shape, length)) => {
+            let of_length = [(Symbol::new("b").expect("a name"), length.clone())].into();
+            let formula = exact_peak_velocity(relation, shape);
+            formula.map(|formula| formula.substitute(&of_length)).transpose()?
         }
-        None => None,
+        None => common_velocity(relation),
     };
     let proven = |enclosure: &dyn Fn(u64) -> Result<Ball, DispersionError>| {
         certified(digits, limit_bits, enclosure)
@@ -210,19 +211,17 @@ fn refuse_negative(relation: &Relation, upper: &Ball) -> Result<(), DispersionEr
     if negative(&value(frequency, upper, BOUND_BITS)?) {
         return Err(DispersionError::NegativeFrequency(place(upper)));
     }
-    let two = Rational::from_integer(2.into());
-    let mut cells = vec![(Rational::zero(), Rational::from_integer(1.into()), 0)];
+    let mut cells = vec![(ratio(0, 1), ratio(1, 1), 0)];
     while let Some((low, high, depth)) = cells.pop() {
         let k = upper.multiply(&Ball::between(&low, &high, BOUND_BITS), BOUND_BITS);
-        let ball = value(frequency, &k, BOUND_BITS);
-        match ball {
+        match value(frequency, &k, BOUND_BITS) {
             Ok(ball) if negative(&ball) => {
                 return Err(DispersionError::NegativeFrequency(place(&k)));
             }
             Ok(ball) if !ball.contains_zero() => {}
             Err(error @ DispersionError::NotReal(_)) => return Err(error),
             _ if depth < NEGATIVE_DEPTH => {
-                let middle = (&low + &high) / &two;
+                let middle = (&low + &high) / ratio(2, 1);
                 cells.push((middle.clone(), high, depth + 1));
                 cells.push((low, middle, depth + 1));
             }

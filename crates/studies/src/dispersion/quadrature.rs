@@ -18,6 +18,7 @@ use wavestep_polynomial::Rational;
 use super::error::DispersionError;
 use super::formula::Formula;
 use super::series::{Fault, Series};
+use crate::ratio;
 use wavestep::ball::{Ball, Magnitude};
 
 /// Cells at the start: `2^START`.
@@ -49,6 +50,15 @@ impl Cell {
     }
 }
 
+/// An integrand over `0 ≤ k ≤ K`.
+struct Integrand<'a> {
+    formula: &'a Formula,
+    /// `K`.
+    upper: &'a Ball,
+    /// The precision of balls.
+    bits: u64,
+}
+
 /// `∫_0^K f dk`, with a radius of about `2^{−bits}` of the largest value of `|f|` seen, times `K`.
 /// A cell takes two Taylor series of about `bits/4` terms; after 20,000 cells it gives up.
 pub(super) fn integrate(
@@ -56,51 +66,53 @@ pub(super) fn integrate(
     upper: &Ball,
     bits: u64,
 ) -> Result<Ball, DispersionError> {
-    let working = bits + SPARE_BITS;
+    let integrand = Integrand { formula, upper, bits: bits + SPARE_BITS };
     let order = ((bits / 8) * 2).max(8) as usize;
     let mut largest = Magnitude::power_of_two(-(bits as i64) - 1024);
     for i in 0..8 {
-        let x = Rational::new((2 * i + 1).into(), 16.into());
-        let k = upper.multiply_rational(&x, working);
-        if let Ok(series) = formula.series(&Series::wave_number(&k, &Ball::zero(), 1), working) {
-            let size = series.coefficients()[0].magnitude();
-            largest = if size > largest { size } else { largest };
+        let k = upper.multiply_rational(&ratio(2 * i + 1, 16), integrand.bits);
+        if let Ok(value) = formula.enclose(&k, integrand.bits) {
+            largest = largest.max(value.magnitude());
         }
     }
     let tolerance = largest.scale(-(bits as i64) - 5);
     let mut stack: Vec<Cell> =
         (0..1 << START).rev().map(|i: i64| Cell { place: i.into(), level: START }).collect();
     let (mut sum, mut seen) = (Ball::zero(), 0);
+    let not_reached = DispersionError::AccuracyNotReached { best: None, bits };
     while let Some(cell) = stack.pop() {
         seen += 1;
         if seen > MAX_CELLS {
-            return Err(DispersionError::AccuracyNotReached { best: None, bits });
+            return Err(not_reached);
         }
-        let result = on_cell(formula, upper, &cell, order, working);
+        let result = integrand.on_cell(&cell, order);
         // Radius times width adds up to at most the tolerance over all cells, and 2^−10 of it a cell.
         if let Ok(mean) = &result
             && mean.radius().scale(-i64::from(cell.level)) <= allowed(&tolerance, cell.level)
         {
             let width = Rational::new(1.into(), BigInt::from(1) << cell.level);
-            sum = sum.add(&mean.multiply_rational(&width, working), working);
+            sum = sum.add(&mean.multiply_rational(&width, integrand.bits), integrand.bits);
             continue;
         }
         let narrow = cell.place.bits() > NARROW_BITS || u64::from(cell.level) > bits + 64;
         match result {
-            Err(fault @ (Fault::MissingValue(_) | Fault::NotReal | Fault::Ball(_))) => {
-                return Err(DispersionError::at(fault, &middle(upper, &cell, working)));
+            Err(fault)
+                if narrow
+                    || matches!(
+                        fault,
+                        Fault::MissingValue(_) | Fault::NotReal | Fault::Ball(_)
+                    ) =>
+            {
+                return Err(DispersionError::at(fault, &integrand.middle(&cell)));
             }
-            Err(fault) if narrow => {
-                return Err(DispersionError::at(fault, &middle(upper, &cell, working)));
-            }
-            Ok(_) if narrow => return Err(nearby_fault(formula, upper, &cell, working, bits)),
+            Ok(_) if narrow => return Err(integrand.nearby_fault(&cell).unwrap_or(not_reached)),
             _ => {}
         }
         let (place, level) = (&cell.place * 2, cell.level + 1);
         stack.push(Cell { place: &place + 1, level });
         stack.push(Cell { place, level });
     }
-    Ok(sum.multiply(upper, working))
+    Ok(sum.multiply(upper, integrand.bits))
 }
 
 /// The share of a cell: that of its width, and a little for being a cell.
@@ -108,60 +120,45 @@ fn allowed(tolerance: &Magnitude, level: u32) -> Magnitude {
     tolerance.scale(-i64::from(level)).add(&tolerance.scale(-CELL_SHARE))
 }
 
-/// What keeps a narrow cell from being integrated: what fails on it with its neighbours, or nothing
-/// but the precision.
-fn nearby_fault(
-    formula: &Formula,
-    upper: &Ball,
-    cell: &Cell,
-    working: u64,
-    bits: u64,
-) -> DispersionError {
-    let (low, high) = cell.ends();
-    let reach = (&high - &low) * Rational::from_integer(NEIGHBOURS.into());
-    let around = upper.multiply(&Ball::between(&(low - &reach), &(high + reach), working), working);
-    let series = Series::wave_number(&around, &Ball::from_integer(&1.into()), 2);
-    match formula.series(&series, working) {
-        Err(fault) => DispersionError::at(fault, &around),
-        Ok(_) => DispersionError::AccuracyNotReached { best: None, bits },
+impl Integrand<'_> {
+    /// What keeps a narrow cell from being integrated, if something fails on it or on its neighbours.
+    fn nearby_fault(&self, cell: &Cell) -> Option<DispersionError> {
+        let (low, high) = cell.ends();
+        let reach = (&high - &low) * ratio(NEIGHBOURS, 1);
+        let around = Ball::between(&(low - &reach), &(high + reach), self.bits);
+        let around = self.upper.multiply(&around, self.bits);
+        let fault = self.formula.with_slope(&around, self.bits).err()?;
+        Some(DispersionError::at(fault, &around))
     }
-}
 
-fn middle(upper: &Ball, cell: &Cell, bits: u64) -> Ball {
-    let (low, high) = cell.ends();
-    upper.multiply_rational(&((low + high) / Rational::from_integer(2.into())), bits)
-}
+    fn middle(&self, cell: &Cell) -> Ball {
+        let (low, high) = cell.ends();
+        self.upper.multiply_rational(&((low + high) / ratio(2, 1)), self.bits)
+    }
 
-/// An enclosure of the mean of the formula on the cell.
-fn on_cell(
-    formula: &Formula,
-    upper: &Ball,
-    cell: &Cell,
-    order: usize,
-    bits: u64,
-) -> Result<Ball, Fault> {
-    let (low, high) = cell.ends();
-    let whole = upper.multiply(&Ball::between(&low, &high, bits), bits);
-    let half = (&high - &low) / Rational::from_integer(2.into());
-    let half = upper.multiply_rational(&half, bits);
-    let remainder = formula.series(&Series::wave_number(&whole, &half, order + 1), bits);
-    let remainder = match remainder {
-        Ok(series) => series.coefficients()[order].clone(),
-        // No derivatives: the values alone.
-        Err(fault @ (Fault::RootOfZero | Fault::Divisor)) => {
-            let one = Series::wave_number(&whole, &Ball::zero(), 1);
-            let values = formula.series(&one, bits).map_err(|_| fault)?;
-            return Ok(values.coefficients()[0].clone());
+    /// An enclosure of the mean of the formula on the cell.
+    fn on_cell(&self, cell: &Cell, order: usize) -> Result<Ball, Fault> {
+        let (low, high) = cell.ends();
+        let (formula, bits) = (self.formula, self.bits);
+        let whole = self.upper.multiply(&Ball::between(&low, &high, bits), bits);
+        let half = self.upper.multiply_rational(&((&high - &low) / ratio(2, 1)), bits);
+        let remainder = formula.series(&Series::wave_number(&whole, &half, order + 1), bits);
+        let remainder = match remainder {
+            Ok(series) => series.coefficients()[order].clone(),
+            // No derivatives: the values alone.
+            Err(fault @ (Fault::RootOfZero | Fault::Divisor)) => {
+                return formula.enclose(&whole, bits).map_err(|_| fault);
+            }
+            Err(fault) => return Err(fault),
+        };
+        let at = self.middle(cell);
+        let series = formula.series(&Series::wave_number(&at, &half, order), bits)?;
+        let mut sum = Ball::zero();
+        for (n, coefficient) in series.coefficients().iter().enumerate().step_by(2) {
+            let part = ratio(1, n as i64 + 1);
+            sum = sum.add(&coefficient.multiply_rational(&part, bits), bits);
         }
-        Err(fault) => return Err(fault),
-    };
-    let at = middle(upper, cell, bits);
-    let series = formula.series(&Series::wave_number(&at, &half, order), bits)?;
-    let mut sum = Ball::zero();
-    for (n, coefficient) in series.coefficients().iter().enumerate().step_by(2) {
-        let part = Rational::new(1.into(), (n as i64 + 1).into());
-        sum = sum.add(&coefficient.multiply_rational(&part, bits), bits);
+        let part = ratio(1, order as i64 + 1);
+        Ok(sum.add(&remainder.multiply_rational(&part, bits), bits))
     }
-    let part = Rational::new(1.into(), (order as i64 + 1).into());
-    Ok(sum.add(&remainder.multiply_rational(&part, bits), bits))
 }

@@ -8,7 +8,6 @@ use wavestep_polynomial::{Rational, Symbol};
 
 use super::error::{DispersionError, NoGrid, place};
 use super::formula::{Formula, pi, wave_number};
-use super::series::Series;
 use wavestep::ball::{Ball, Value};
 use wavestep::field::Bounded;
 
@@ -147,9 +146,7 @@ impl Relation {
 
 /// A formula for all `k` of a ball.
 pub(super) fn value(formula: &Formula, k: &Ball, bits: u64) -> Result<Ball, DispersionError> {
-    let series = Series::wave_number(k, &Ball::zero(), 1);
-    let value = formula.series(&series, bits).map_err(|fault| DispersionError::at(fault, k))?;
-    Ok(value.coefficients()[0].clone())
+    formula.enclose(k, bits).map_err(|fault| DispersionError::at(fault, k))
 }
 
 /// Proven digits.

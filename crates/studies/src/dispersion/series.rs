@@ -8,6 +8,7 @@ use num_traits::{One, Signed, ToPrimitive as _, Zero};
 use wavestep_polynomial::{Integer, Rational, Symbol};
 
 use super::formula::{Formula, Function, Node, pi, wave_number};
+use crate::ratio;
 use wavestep::ball::{Ball, BallError, Magnitude};
 
 /// Arguments of `sinc` below this are summed as a power series.
@@ -43,7 +44,7 @@ impl From<BallError> for Fault {
 pub(super) struct Series(Vec<Ball>);
 
 fn rational(value: i64) -> Rational {
-    Rational::from_integer(value.into())
+    ratio(value, 1)
 }
 
 impl Series {
@@ -129,20 +130,19 @@ impl Series {
         let first = if exponent.denom() == &Integer::from(2) {
             let root = base.sqrt(bits).ok_or(Fault::RootOfZero)?;
             let count = exponent.numer().abs().to_u64().expect("an exponent within limits");
-            let power = Series(vec![root]).whole_power(count, bits).0.remove(0);
-            if exponent.is_negative() { power.reciprocal(bits)? } else { power }
+            Series(vec![root]).whole_power(count, bits).0.remove(0)
         } else {
             let [low, high] = <[_; 2]>::from(base.endpoints()).map(|end| Rational::from(&end));
             let (low, _) = root_bounds(&low, &exponent.abs(), bits);
             let (_, high) = root_bounds(&high, &exponent.abs(), bits);
-            let power = Ball::between(&low, &high, bits);
-            if exponent.is_negative() { power.reciprocal(bits)? } else { power }
+            Ball::between(&low, &high, bits)
         };
+        let first = if exponent.is_negative() { first.reciprocal(bits)? } else { first };
         self.power_by_recurrence(exponent, first, bits)
     }
 
     fn whole_power(&self, mut count: u64, bits: u64) -> Series {
-        let mut power = Series::constant(Ball::from_integer(&1.into()), self.len());
+        let mut power = Series::constant(one(), self.len());
         let mut square = self.clone();
         while count > 0 {
             if count & 1 == 1 {
@@ -169,9 +169,7 @@ impl Series {
     /// `y' = z' y`.
     fn exp(&self, bits: u64) -> Result<Series, Fault> {
         let first = &self.0[0];
-        let exactly_zero = first.is_exact() && first.midpoint().is_zero();
-        let one = || Ball::from_integer(&1.into());
-        let mut y = vec![if exactly_zero { one() } else { first.exp(bits)? }];
+        let mut y = vec![if is_zero(first) { one() } else { first.exp(bits)? }];
         for n in 1..self.len() {
             y.push(self.integrated(n, &y, bits));
         }
@@ -183,30 +181,28 @@ impl Series {
         let (cos, sin) = self.0[0].cos_sin(bits)?;
         let (mut cos, mut sin) = (vec![cos], vec![sin]);
         for n in 1..self.len() {
-            let (next_cos, next_sin) =
-                (self.integrated(n, &sin, bits).negate(), self.integrated(n, &cos, bits));
-            cos.push(next_cos);
-            sin.push(next_sin);
+            let next = self.integrated(n, &cos, bits);
+            cos.push(self.integrated(n, &sin, bits).negate());
+            sin.push(next);
         }
         Ok((Series(cos), Series(sin)))
     }
 
     /// `y' = z' (1 − y²)`, from `tanh z = 1 − 2/(e^{2z} + 1)`.
     fn tanh(&self, bits: u64) -> Result<Series, Fault> {
-        let one = Ball::from_integer(&1.into());
         let first = &self.0[0];
-        let value = if first.is_exact() && first.midpoint().is_zero() {
+        let value = if is_zero(first) {
             Ball::zero()
         } else {
             let power = first.multiply_rational(&rational(2), bits).exp(bits)?;
-            let inverse = power.add(&one, bits).reciprocal(bits)?;
-            one.subtract(&inverse.multiply_rational(&rational(2), bits), bits)
+            let inverse = power.add(&one(), bits).reciprocal(bits)?;
+            one().subtract(&inverse.multiply_rational(&rational(2), bits), bits)
         };
         let (mut y, mut w) = (vec![value], Vec::new());
         for n in 1..self.len() {
             // w = 1 − y², one coefficient behind.
             let square = dot(&y, &y, bits).negate();
-            w.push(if n == 1 { one.add(&square, bits) } else { square });
+            w.push(if n == 1 { one().add(&square, bits) } else { square });
             y.push(self.integrated(n, &w, bits));
         }
         Ok(Series(y))
@@ -247,11 +243,19 @@ impl Series {
                 let part = Rational::new((-1).into(), divisor.into());
                 sum = sum.multiply(&w, bits).scale(&part, bits);
             }
-            sum.0[0] = sum.0[0].add(&Ball::from_integer(&1.into()), bits);
+            sum.0[0] = sum.0[0].add(&one(), bits);
         }
         let left_out = term(&tail, &factorial);
         Ok(Series(sum.0.iter().map(|c| c.widened(&left_out)).collect()))
     }
+}
+
+fn one() -> Ball {
+    Ball::from_integer(&1.into())
+}
+
+fn is_zero(ball: &Ball) -> bool {
+    ball.is_exact() && ball.midpoint().is_zero()
 }
 
 fn dot(left: &[Ball], right: &[Ball], bits: u64) -> Ball {
@@ -278,6 +282,17 @@ fn root_bounds(x: &Rational, r: &Rational, bits: u64) -> (Rational, Rational) {
 }
 
 impl Formula {
+    /// An enclosure for all `k` of a ball.
+    pub(super) fn enclose(&self, k: &Ball, bits: u64) -> Result<Ball, Fault> {
+        Ok(self.series(&Series::wave_number(k, &Ball::zero(), 1), bits)?.0.remove(0))
+    }
+
+    /// The value and the derivative for all `k` of a ball.
+    pub(super) fn with_slope(&self, k: &Ball, bits: u64) -> Result<[Ball; 2], Fault> {
+        let both = self.series(&Series::wave_number(k, &one(), 2), bits)?;
+        Ok([both.0[0].clone(), both.0[1].clone()])
+    }
+
     /// Its series for that of `k`.
     pub(super) fn series(&self, k: &Series, bits: u64) -> Result<Series, Fault> {
         let count = k.len();
@@ -291,15 +306,13 @@ impl Formula {
                 base.series(k, bits)?.power(exponent, nonnegative, bits)?
             }
             Node::Product(factors) => {
-                let mut product = factors[0].series(k, bits)?;
-                for factor in &factors[1..] {
-                    product = match factors[0].as_number() {
-                        // Only the first factor is a number.
-                        Some(value) if std::ptr::eq(factor, &factors[1]) => {
-                            factor.series(k, bits)?.scale(value, bits)
-                        }
-                        _ => product.multiply(&factor.series(k, bits)?, bits),
-                    };
+                // Only the first factor is a number.
+                let (mut product, rest) = match factors[0].as_number() {
+                    Some(value) => (factors[1].series(k, bits)?.scale(value, bits), &factors[2..]),
+                    None => (factors[0].series(k, bits)?, &factors[1..]),
+                };
+                for factor in rest {
+                    product = product.multiply(&factor.series(k, bits)?, bits);
                 }
                 product
             }
