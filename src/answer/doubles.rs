@@ -75,7 +75,6 @@ pub enum Remark {
 /// With this local contact values are tested, not certified.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Tested {
-    /// The name of the contact.
     pub contact: String,
     /// To how much of the largest value.
     pub tolerance: f64,
@@ -140,7 +139,6 @@ impl<'p> Choice<'p, '_> {
         })
     }
 
-    /// The method that is named.
     fn named(&mut self, method: Method, tolerance: Option<Tolerance>) -> Result<Way<'p>, WayError> {
         let absolute = tolerance.map(|tolerance| self.absolute(tolerance)).transpose()?;
         let way = Way::new(method, self.question, absolute)?;

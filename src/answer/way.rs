@@ -16,10 +16,8 @@ use wavestep_polynomial::Rational;
 /// Why a way has no values.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum WayError {
-    /// A method refuses.
     #[error(transparent)]
     Method(#[from] MethodError),
-    /// A model refuses.
     #[error(transparent)]
     Model(#[from] ModelError),
     /// A model has no scene to be made of.
@@ -31,7 +29,6 @@ pub enum WayError {
     /// Models have values after arrivals only.
     #[error("{0} is a model, and has no limits from one side")]
     LeftLimit(&'static str),
-    /// A method gives no number at a time.
     #[error("{} gives no number at {}", .0, in_decimals(.1))]
     NoNumber(Method, Rational),
     /// A tolerance is relative to values so small that doubles near them are too coarse, or are zero.
@@ -165,7 +162,6 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// The values at many exact times.
     pub fn exact_values(&self, at: &[Rational], side: Limit) -> Result<Vec<f64>, WayError> {
         match &self.inner {
             Ways::Model(model, place) if side == Limit::Right => {

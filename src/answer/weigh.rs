@@ -33,9 +33,7 @@ const MARCHED_WAVES: f64 = 1e-13;
 pub enum Promise {
     /// A bound that will be proven.
     Proven(f64),
-    /// What was measured.
     Measured(f64),
-    /// Nothing.
     Nothing,
 }
 

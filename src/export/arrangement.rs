@@ -145,7 +145,6 @@ impl Coefficient {
         self.parts.iter().any(bracket)
     }
 
-    /// The terms, ascending.
     fn terms(&self) -> Vec<Term> {
         let part = |(exponent, p): &Summand| (exponent.clone(), divided_terms(p, &self.divisor));
         sum_of_parts(self.parts.iter().map(part))

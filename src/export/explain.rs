@@ -44,7 +44,6 @@ impl Derivation {
         derivation
     }
 
-    /// Adds formulas under a heading.
     pub fn add(&mut self, heading: &'static str, formulas: Vec<Formula>) {
         self.parts.push(Block::Heading(heading));
         self.parts.push(Block::Equations(formulas));
@@ -149,7 +148,6 @@ impl Derivation {
         }
     }
 
-    /// The laws at the nodes.
     fn laws(&mut self, network: &Network, writer: &Writer<'_>) {
         self.parts.push(Block::Heading("Laws at ends and joints"));
         self.sentence_with(
@@ -220,7 +218,6 @@ fn negated(part: &Expression) -> Vec<Term> {
     arrange(part, None).into_iter().map(flip).collect()
 }
 
-/// A law in a sentence.
 fn told(network: &Network, law: &Law) -> String {
     let scene = network.scene();
     let name = |element: &ElementIndex| format!("`{}`", scene.elements[*element].name);
@@ -251,13 +248,11 @@ fn flat(value: &Fraction, variable: &str) -> Vec<Term> {
     arrange(&value.clone().into(), Some(&variable))
 }
 
-/// The terms of a polynomial in x.
 fn polynomial_in_x(coefficients: &[Fraction]) -> Vec<Term> {
     let x = Fraction::symbol(&Symbol::new("x").expect("a name"));
     flat(&coefficients.iter().fold(Fraction::zero(), |sum, c| &(&sum * &x) + c), "x")
 }
 
-/// A definition as a right side.
 fn definition(value: &Definition) -> Right {
     match value {
         Definition::Root(value) => root(value),
@@ -296,7 +291,6 @@ fn root(value: &Root) -> Right {
     })
 }
 
-/// A sentence in LaTeX.
 fn prose(sentence: &str) -> String {
     let mut out = String::new();
     let mut quoted = false;

@@ -12,7 +12,6 @@ use crate::recurrence::Statement;
 use std::sync::Arc;
 use wavestep_polynomial::{Rational, Symbol};
 
-/// The width of a line of plain text.
 pub const TEXT_WIDTH: usize = 100;
 
 /// The width of a line of LaTeX, in characters on the page.

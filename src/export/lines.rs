@@ -34,7 +34,6 @@ impl Writing {
         self.stretches.push(Stretch { end: self.text.len(), width: 0, depth });
     }
 
-    /// The text in one line.
     pub fn text(&self) -> &str {
         &self.text
     }

@@ -18,7 +18,6 @@ pub(crate) struct Name {
 pub(crate) type Names = BTreeMap<Symbol, Name>;
 
 impl Name {
-    /// A name without brackets, in text and in LaTeX.
     pub fn plain((text, latex): (String, String)) -> Name {
         Name { text, latex, compound: false, leads: false }
     }

@@ -46,7 +46,6 @@ impl Notation {
         }
     }
 
-    /// The name of a wave.
     pub fn name(self, name: &str) -> String {
         if self == Text { name.to_owned() } else { latex_name(name, None) }
     }

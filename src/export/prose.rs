@@ -19,7 +19,6 @@ pub fn wrapped(text: &str, width: usize, indent: &str) -> String {
     out + line.trim_end() + "\n"
 }
 
-/// A text that begins with a capital letter.
 pub fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()

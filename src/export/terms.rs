@@ -12,7 +12,6 @@ pub(crate) fn fraction_terms(fraction: &Fraction) -> Vec<Term> {
     divided_terms(fraction, &Integer::one())
 }
 
-/// The terms of a fraction over a number.
 pub(crate) fn divided_terms(fraction: &Fraction, divisor: &Integer) -> Vec<Term> {
     match fraction.as_polynomial() {
         Some(p) => monomials(p, coefficients(p, divisor)),

@@ -34,7 +34,6 @@ impl Sign {
         if value.is_negative() { Sign::Minus } else { Sign::Plus }
     }
 
-    /// The sign of a product.
     pub fn times(self, other: Sign) -> Sign {
         if self == other { Sign::Plus } else { Sign::Minus }
     }

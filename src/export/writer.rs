@@ -156,7 +156,6 @@ impl<'a> Writer<'a> {
         writer.writing.text().to_owned()
     }
 
-    /// A tree in one line.
     fn flat(&self, tree: &Tree) -> String {
         let n = self.notation;
         match tree {

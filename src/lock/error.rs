@@ -14,7 +14,6 @@ pub enum LockError {
     Evaluate(#[from] EvaluateError),
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// An observable is no signal.
     #[error(transparent)]
     Signal(Box<SignalError>),
     #[error("{0} significant digits cannot be certified")]

@@ -124,7 +124,6 @@ impl Events {
     }
 }
 
-/// The facts that differ, one in a line.
 fn differing_facts(old: &Facts, new: &Facts) -> Vec<String> {
     let by_name = |facts: &Facts| facts.0.iter().cloned().collect::<BTreeMap<String, String>>();
     let (old_facts, new_facts) = (by_name(old), by_name(new));

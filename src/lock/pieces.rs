@@ -74,7 +74,6 @@ impl Pieces {
     }
 }
 
-/// The terms in which two pieces differ.
 fn differing_terms(old: &Piece, new: &Piece) -> Vec<String> {
     if old.variable != new.variable {
         return vec![format!("locked as a function of {}, now of {}", old.variable, new.variable)];

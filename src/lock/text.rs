@@ -322,7 +322,6 @@ fn lines(source: &Source) -> Vec<Line<'_>> {
     lines
 }
 
-/// The version that the first line says.
 fn version(first: Line<'_>) -> Result<u32, Diagnostic> {
     let Some(version) = first.text.strip_prefix(HEADING) else {
         return Err(Diagnostic::new(

@@ -53,7 +53,6 @@ pub(crate) struct Chain {
 }
 
 impl Chain {
-    /// Cuts a line.
     pub fn of(line: &Line, cells: usize, courant: f64) -> Result<Chain, ModelError> {
         let refuse = |reason| Err(ModelError::Refused { model: NAME, reason });
         let shortest = line.bars.iter().filter_map(|bar| bar.travel).fold(f64::INFINITY, f64::min);
@@ -146,7 +145,6 @@ impl Chain {
         }
     }
 
-    /// The motion at the start.
     pub fn start(&self) -> Motion<'_> {
         let mut velocities = vec![0.0; self.points];
         let mut forces = Vec::new();
@@ -436,7 +434,6 @@ impl Motion<'_> {
         if mirrored { bar.cells as f64 - at } else { at }
     }
 
-    /// The velocity of a section.
     fn in_bar(&self, line: &Line, section: &Section<f64>) -> f64 {
         let (bar, at) = (&self.chain.bars[section.bar], self.cells_from_left(line, section));
         let whole = (at.floor() as usize).min(bar.cells - 1);

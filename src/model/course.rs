@@ -27,7 +27,6 @@ pub(crate) fn double(numbers: &Numbers, value: &Fraction) -> Result<f64, Enclosu
     }
 }
 
-/// A number, rounded.
 pub(crate) fn double_of(value: &Number) -> f64 {
     match value {
         Number::Exact(value) => value.to_f64().unwrap_or(f64::NAN),
@@ -74,7 +73,6 @@ impl Course {
         Ok(Course { terms })
     }
 
-    /// The value at a time.
     pub fn value(&self, time: f64) -> f64 {
         let mut sum = 0.0;
         for ([decay, turn], polynomial) in &self.terms {

@@ -10,7 +10,6 @@ use crate::scene::ElementIndex;
 use num_traits::ToPrimitive as _;
 use std::collections::BTreeMap;
 
-/// A bar in doubles.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Bar {
     pub element: ElementIndex,
@@ -208,7 +207,6 @@ impl Line {
         })
     }
 
-    /// The line of a scene, for a model that takes linear laws.
     pub fn linear(model: &'static str, scaled: &ScaledScene) -> Result<Line, ModelError> {
         let line = Line::of(scaled)?;
         let mut elements = line.nodes.iter().flat_map(|node| &node.elements);
@@ -234,7 +232,6 @@ impl Line {
         }
     }
 
-    /// An observable by its number.
     pub fn observable(&self, model: &'static str, index: usize) -> Result<&Observable, ModelError> {
         let count = self.observables.len();
         let observable = self.observables.get(index);
@@ -265,7 +262,6 @@ impl Line {
         Ok(factors)
     }
 
-    /// An observable is refused.
     pub fn refuse<T>(
         &self,
         model: &'static str,

@@ -16,7 +16,6 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A part of a chain.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Part {
     Bar { impedance: f64, travel: f64 },
@@ -34,7 +33,6 @@ struct Angle {
 }
 
 impl Angle {
-    /// The angle of the end of a chain at its left.
     fn of_end(held: bool) -> Angle {
         match held {
             true => Angle { turns: 0.0, sine: 0.0, cosine: 1.0 },
@@ -42,7 +40,6 @@ impl Angle {
         }
     }
 
-    /// The angle behind a part.
     fn behind(self, part: &Part, frequency: f64) -> Angle {
         let Angle { mut turns, mut sine, mut cosine } = self;
         match *part {

@@ -89,7 +89,6 @@ fn measure(times: &[(String, Fraction)]) -> Result<Option<(Fraction, Vec<i64>)>,
 }
 
 impl Steps {
-    /// The method of steps with a relative tolerance.
     pub fn new(scene: &impl AsRef<ScaledScene>, tolerance: f64) -> Result<Steps, ModelError> {
         let scaled = scene.as_ref();
         if !(1e-13..=1e-2).contains(&tolerance) {
@@ -369,7 +368,6 @@ impl Motion<'_> {
         rows.iter().enumerate().map(series).collect()
     }
 
-    /// The value of a reading at a time.
     fn value(&self, reading: &Reading<f64>, time: f64) -> f64 {
         let line = &self.steps.line;
         let velocity = |face: Face| {

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// The degree of a piece.
 pub(crate) const DEGREE: usize = 24;
 
 pub(crate) const POINTS: usize = DEGREE + 1;

@@ -160,7 +160,6 @@ fn values(relation: &Relation, k: BigRational, options: &Dispersion) -> Result<A
     }
 }
 
-/// Which pulse is told of.
 enum Told {
     Nothing,
     Shape(Shape),

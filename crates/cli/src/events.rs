@@ -40,7 +40,6 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
-    /// A value with the unit of its dimension.
     fn value(&self, value: &Value, dimension: Dimension) -> String {
         let dimensional = self.problem.has_units();
         let text = match value {

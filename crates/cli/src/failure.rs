@@ -38,7 +38,6 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// What is wrong, and the remedy.
     pub fn new(code: u8, message: impl Into<String>, remedy: impl Into<String>) -> Failure {
         let (message, remedy, report) = (message.into(), remedy.into(), String::new());
         Failure::Told { code, message, remedy, report }
@@ -57,7 +56,6 @@ impl Failure {
         self
     }
 
-    /// The same failure with another remedy.
     pub fn with_remedy(mut self, other: &str) -> Failure {
         match &mut self {
             Failure::Unanswered(_, remedy) => *remedy = Some(other.to_owned()),

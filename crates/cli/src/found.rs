@@ -30,7 +30,6 @@ impl Told<'_> {
         if self.problem.has_units() { " s" } else { "" }
     }
 
-    /// A time with its unit.
     fn time(&self, time: &Value) -> String {
         let text = match time {
             Value::Exact(time) if self.problem.has_units() => in_decimals(time),
@@ -265,7 +264,6 @@ fn document(told: &Told<'_>, body: Json) -> String {
     format!("{document}\n")
 }
 
-/// The heading of columns.
 const HEADING: &str = "kind,time,until,radius,exact\n";
 
 /// A line of columns: the time, or the first and last one of an interval, each as a fraction where

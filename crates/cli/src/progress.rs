@@ -4,7 +4,6 @@
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 use std::time::Duration;
 
-/// Progress by points.
 pub fn counted(count: usize) -> ProgressBar {
     shown(Some(count as u64), "{wide_bar} {pos}/{len} points, {eta} left")
 }

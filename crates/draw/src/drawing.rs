@@ -92,7 +92,6 @@ impl Drawing {
         let _ = writeln!(self.body, "<path fill=\"url(#{pattern})\" d=\"{path}\"/>");
     }
 
-    /// The rectangle between two corners.
     pub fn rectangle(&mut self, class: &str, corner: (f64, f64), other: (f64, f64)) {
         let (left, top) = (corner.0.min(other.0), corner.1.min(other.1));
         let (wide, high) = ((corner.0 - other.0).abs(), (corner.1 - other.1).abs());
@@ -118,7 +117,6 @@ impl Drawing {
         );
     }
 
-    /// A centred text that reads upwards.
     pub fn text_upwards(&mut self, class: &str, (x, y): (f64, f64), text: &str) {
         let (x, y) = (coordinate(x), coordinate(y));
         let text = escape(text);
@@ -144,7 +142,6 @@ impl Drawing {
         );
     }
 
-    /// The stroke of a line through points, in the class of its width.
     pub fn stroke(&mut self, class: &str, line: usize, points: &[(f64, f64)]) {
         if points.len() > 1 {
             let dash = line % DASHES.len();

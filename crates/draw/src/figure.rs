@@ -222,7 +222,6 @@ impl Figure {
         self.panels.iter().flat_map(Panel::points)
     }
 
-    /// The panels, from above.
     pub fn panels(&self) -> &[Panel] {
         &self.panels
     }

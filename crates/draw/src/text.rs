@@ -94,7 +94,6 @@ pub(super) fn csv_number(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| format!("{value:e}"))
 }
 
-/// A line of texts, then numbers.
 pub(super) fn csv_row(texts: &[&str], numbers: impl IntoIterator<Item = Option<f64>>) -> String {
     let texts = texts.iter().map(|text| csv_field(text));
     let fields: Vec<String> = texts.chain(numbers.into_iter().map(csv_number)).collect();

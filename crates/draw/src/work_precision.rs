@@ -130,7 +130,6 @@ impl WorkPrecision {
     }
 }
 
-/// All points with their methods.
 fn pairs(methods: &[Method]) -> impl Iterator<Item = (&Method, &Point)> {
     methods.iter().flat_map(|method| method.points.iter().map(move |point| (method, point)))
 }

@@ -182,7 +182,6 @@ impl Stage {
         Ok(Some(sum))
     }
 
-    /// What is continuous, and where it starts.
     fn start(&self, form: &Meaning, start: &Meaning) -> Result<Finding, Refusal> {
         let start = start.as_expression()?;
         let lead = |form: &LinearForm| {

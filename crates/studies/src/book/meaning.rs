@@ -255,7 +255,6 @@ impl Stage {
         Interpreter::new(self, Names::Source).meaning(tree)?.as_expression()
     }
 
-    /// What both sides of an equation mean.
     pub(super) fn sides(&self, equation: &Equation) -> Result<[Meaning; 2], Refusal> {
         let interpreter = Interpreter::new(self, Names::Source);
         Ok([interpreter.meaning(&equation.left)?, interpreter.meaning(&equation.right)?])

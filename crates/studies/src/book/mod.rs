@@ -82,7 +82,6 @@ impl UnknownNumber {
     }
 }
 
-/// The equation of this number, and its section.
 pub fn find(number: &str) -> Result<(&'static Section, &'static Entry), UnknownNumber> {
     let wanted = number.trim();
     let all = sections().iter().flat_map(|s| s.entries.iter().map(move |entry| (s, entry)));

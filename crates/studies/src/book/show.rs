@@ -19,7 +19,6 @@ fn equations(entry: &Entry) -> &[Equation] {
 /// The heading for what no formula states.
 const IN_WORDS: &str = "Stated in words";
 
-/// A heading for what is read.
 fn heading(entry: &Entry) -> &'static str {
     match (&entry.content, &entry.latex) {
         (Content::Check(_), None) => IN_WORDS,

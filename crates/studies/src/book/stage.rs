@@ -123,7 +123,6 @@ impl Stage {
         })
     }
 
-    /// Names a quantity.
     pub(super) fn call(&mut self, name: &str, quantity: Quantity) {
         self.quantities.insert(name.to_owned(), quantity);
     }

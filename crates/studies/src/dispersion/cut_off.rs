@@ -26,7 +26,6 @@ const MAX_DEPTH: u32 = 1200;
 /// The most steps of Newton's method; each halves the interval at least, and soon doubles the digits.
 const MAX_STEPS: usize = 400;
 
-/// What is known of a cell.
 enum Cell {
     /// No root.
     Excluded,

@@ -105,7 +105,6 @@ impl Formula {
         Formula::symbol(&pi())
     }
 
-    /// The number it is, where it is a rational one.
     pub fn as_number(&self) -> Option<&Rational> {
         match self.node() {
             Node::Number(value) => Some(value),

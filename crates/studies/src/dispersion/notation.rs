@@ -12,7 +12,6 @@ pub fn formula_text(formula: &Formula) -> String {
     sum(formula, Notation::Text)
 }
 
-/// A formula as LaTeX, for math mode.
 pub fn formula_latex(formula: &Formula) -> String {
     sum(formula, Notation::Latex)
 }

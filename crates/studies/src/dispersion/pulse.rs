@@ -86,7 +86,6 @@ fn positive(what: &'static str, value: &Rational) -> Result<(), DispersionError>
 }
 
 impl Pulse {
-    /// A pulse of this length.
     pub fn in_space(shape: Shape, length: &Rational) -> Result<Pulse, DispersionError> {
         positive("the length of the pulse", length)?;
         let extent = Extent::Length(Formula::number(length));

@@ -45,7 +45,6 @@ pub fn read_spectrum(source: &Source) -> Result<Formula, Diagnostic> {
     }
 }
 
-/// The formula of a tree.
 fn formula(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
     let failed = |error: FormulaError, label: &str| {
         Diagnostic::new(source, error.to_string(), tree.span, label)

@@ -62,7 +62,6 @@ impl Relation {
         &self.group_velocity
     }
 
-    /// One of the three formulas.
     pub fn formula(&self, quantity: Quantity) -> &Formula {
         match quantity {
             Quantity::Frequency => &self.frequency,
@@ -149,7 +148,6 @@ pub(super) fn value(formula: &Formula, k: &Ball, bits: u64) -> Result<Ball, Disp
     formula.enclose(k, bits).map_err(|fault| DispersionError::at(fault, k))
 }
 
-/// Proven digits.
 pub(super) fn certified(
     digits: usize,
     limit_bits: u64,

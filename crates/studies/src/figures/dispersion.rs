@@ -6,7 +6,6 @@ use crate::picture::PictureError;
 use std::f64::consts::TAU;
 use wavestep_draw::{Axis, Figure, Look, Panel, PlotError, Series};
 
-/// Points of a curve.
 const POINTS: u32 = 240;
 
 /// Two waves that lie near each other, on the built-in relation of masses on springs.

@@ -183,7 +183,6 @@ fn cells_of(
     })
 }
 
-/// The fronts of a bar.
 fn lines_of(bar: &BarWaves, left: f64, window: Window) -> Vec<Line> {
     let (right, travel) = (left + bar.length, bar.length * bar.slowness);
     let line = |front: &Front, from: f64, to: f64| Line {

@@ -33,7 +33,6 @@ const FEW_PARAMETERS: [&str; 3] = ["1/10000", "1", "10000"];
 const HUGE: f64 = 100.0;
 const LAST_OF_HUGE: usize = 20;
 
-/// The methods that have maps.
 const MAPPED: [Method; 6] = DOUBLES;
 
 /// How much is measured.
@@ -184,7 +183,6 @@ impl Study<'_> {
         }
     }
 
-    /// The caption with another norm and sampling.
     fn other(&self, norm: &str, sampling: &str) -> Caption {
         let (norm, sampling) = (norm.to_owned(), sampling.to_owned());
         Caption { norm, sampling, ..self.caption.clone() }
