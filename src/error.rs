@@ -32,7 +32,6 @@ use std::fmt;
 #[derive(Debug)]
 pub struct Error(Box<ProblemError>);
 
-/// Every error is of one kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Kind {
     BadInput,

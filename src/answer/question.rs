@@ -6,7 +6,6 @@ use wavestep_polynomial::Rational;
 
 /// An observable on a window, with what there is to compute it from.
 pub struct Question<'a> {
-    /// The observable.
     pub signal: Box<dyn Signal + 'a>,
     /// The scene, and the place of the observable in it; models need it.
     pub scene: Option<(&'a Network, usize)>,

@@ -39,7 +39,6 @@ pub enum WayError {
     NotMet {
         /// The methods that were weighed.
         weighed: Box<Weighed>,
-        /// What was asked for.
         tolerance: Tolerance,
         /// The same in the unit of the values.
         absolute: f64,
@@ -117,7 +116,6 @@ impl<'a> Way<'a> {
         Ok(Way { method, inner: Ways::Model(model, place) })
     }
 
-    /// Its name and settings.
     pub fn method(&self) -> Method {
         self.method
     }

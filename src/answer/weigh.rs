@@ -40,7 +40,6 @@ pub enum Promise {
 /// A way that was weighed.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Candidate {
-    /// Which.
     pub method: Method,
     /// How far off it can be; `None` where it has no values.
     pub promise: Option<Promise>,
@@ -75,7 +74,6 @@ pub enum Verdict {
 /// The ways that were weighed, the one that was picked first.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Weighed {
-    /// All of them.
     pub candidates: Vec<Candidate>,
     /// Whether the first is good enough.
     pub met: bool,

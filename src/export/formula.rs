@@ -217,12 +217,6 @@ impl Formula {
     }
 }
 
-/// How wide LaTeX is on the page, in characters of plain text: a command counts as one, a sign with
-/// its space as two, braces and other spaces as none.
-pub fn latex_width(latex: &str) -> usize {
-    Latex.width(latex)
-}
-
 /// An expression as plain text in one line, which the language reads back.
 pub fn expression_text(expression: &Expression) -> String {
     write_flat(&arrange(expression, None), Text)

@@ -24,7 +24,7 @@ pub use c::{CHeading, to_c};
 pub use explain::Derivation;
 pub use forms::{form_text, solved_equations};
 pub use formula::{
-    Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, latex_width, text,
+    Formula, Head, LATEX_WIDTH, TEXT_WIDTH, expression_text, latex, latex_cases, text,
 };
 pub use general::{assumed_factors, general_form, operator_names, operator_of};
 pub use names::latex_name;

@@ -45,7 +45,6 @@ enum Contents {
 /// Values by quantity and time.
 type Values = BTreeMap<(String, Rational), String>;
 
-/// The values to lock.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Request {
     /// The scene times of the values, each the limit from later times.

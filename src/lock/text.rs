@@ -121,7 +121,6 @@ impl Lock {
         text
     }
 
-    /// How much the lock holds.
     fn held(&self) -> String {
         let contents = match &self.contents {
             Contents::Pieces(pieces) => format!("{} pieces", pieces.all.len()),
@@ -132,7 +131,6 @@ impl Lock {
         format!("{} statements, {contents}, {} values", self.stated.len(), self.values.len())
     }
 
-    /// Reads a lock.
     pub fn read(source: &Source) -> Result<Lock, Diagnostic> {
         let lines = lines(source);
         let contents = match version(lines[0])? {

@@ -2,12 +2,13 @@
 
 use crate::limits::MAX_CELL_UPDATES;
 use crate::model::error::{ModelError, NotRepresented};
-use crate::model::leapfrog::NAME;
 use crate::model::line::Line;
 use crate::network::{
     Acting, ElementLaw, Face, Field, Link, Lump, Lumped, Node, Reading, Section, Side, Term,
 };
 use crate::scene::Drive;
+
+pub(crate) const NAME: &str = "leapfrog";
 
 /// Cells of a bar: from point `first` to point `first + cells`.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -12,7 +12,6 @@ const BITS: u64 = 96;
 /// A complex number as its two parts.
 type Complex = [f64; 2];
 
-/// An exponential polynomial of time in doubles.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Course {
     /// Rate `λ` and the coefficients of `p`, lowest power first.

@@ -25,10 +25,10 @@ pub enum ModelError {
     #[error("there is no observable {asked}; the scene has {count}, counted from 0")]
     NoObservable { asked: usize, count: usize },
     #[error(
-        "in the model \"{model}\" the solver of differential equations gave up: {reason}; try another \
-         tolerance"
+        "in the model \"{model}\" the solver of differential equations gave up: no piece of period \
+         {period} is smooth; try another tolerance"
     )]
-    Solver { model: &'static str, reason: SolverFailure },
+    NotSmooth { model: &'static str, period: i64 },
 }
 
 /// What a model cannot represent. Elements are given by their names.
@@ -133,14 +133,6 @@ pub enum BadSetting {
     NoModes,
     #[error("the tolerance {0:e} is not between 1e-13 and 1e-2")]
     Tolerance(f64),
-}
-
-/// Where the solver of differential equations gave up.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SolverFailure {
-    #[error("no piece of period {0} is smooth")]
-    NotSmooth(i64),
 }
 
 impl ModelError {

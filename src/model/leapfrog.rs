@@ -19,12 +19,10 @@
 
 use crate::limits::MAX_CELL_UPDATES;
 use crate::model::Model;
-use crate::model::chain::Chain;
+use crate::model::chain::{Chain, NAME};
 use crate::model::error::{BadSetting, ModelError, NotSeen};
 use crate::model::line::Line;
 use crate::network::{Reading, ScaledScene, Term};
-
-pub(crate) const NAME: &str = "leapfrog";
 
 /// Finite differences on staggered points.
 ///
@@ -81,9 +79,7 @@ struct Samples<'a> {
     term: &'a Term<f64>,
     /// The displacement so far.
     moved: f64,
-    /// The sample before, and its time.
     before: Option<(f64, f64)>,
-    /// How many times have been served.
     served: usize,
 }
 

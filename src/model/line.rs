@@ -101,7 +101,6 @@ impl LocalContact {
     }
 }
 
-/// What a load does in doubles.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Load {
     pub course: Course,
@@ -151,7 +150,6 @@ impl Observable {
     }
 }
 
-/// A scene in doubles.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Line {
     /// The bars from left to right.

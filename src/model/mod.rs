@@ -19,7 +19,7 @@ mod third;
 mod track;
 
 pub use equivalent::equivalent_stiffness;
-pub use error::{BadSetting, ModelError, NotRepresented, NotSeen, SolverFailure};
+pub use error::{BadSetting, ModelError, NotRepresented, NotSeen};
 pub use leapfrog::Leapfrog;
 pub use modes::Modes;
 pub use rigid::RigidBody;

@@ -113,7 +113,6 @@ impl RigidBody {
         self.mass
     }
 
-    /// Adds what a node holds.
     fn join(&mut self, node: &Node<f64>) -> Result<(), ModelError> {
         let bar = |side| matches!(side, Side::Bar(_));
         let moves = |run: usize| node.mass_of(run).0 > 0.0 || node.sides(run).any(bar);

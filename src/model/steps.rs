@@ -22,7 +22,7 @@ use crate::limits::MAX_NODE_PERIODS;
 use crate::model::Model;
 use crate::model::collocation::{Collocation, Pressing};
 use crate::model::course::{double, double_of};
-use crate::model::error::{BadSetting, ModelError, NotRepresented, SolverFailure};
+use crate::model::error::{BadSetting, ModelError, NotRepresented};
 use crate::model::line::{Bar, Line, LocalContact};
 use crate::model::track::{DEGREE, POINTS, Track, Values, points, series};
 use crate::network::{
@@ -134,7 +134,6 @@ impl Steps {
         Ok(Steps { line, systems, contacts, tolerance, period, delays, acting })
     }
 
-    /// The motion until a time.
     fn motion(&self, last: f64) -> Result<Motion<'_>, ModelError> {
         // Without delays one period is as long as what is asked for.
         let period = self.period.unwrap_or(if last > 0.0 { last } else { 1.0 });
@@ -223,18 +222,15 @@ struct Motion<'a> {
     speed: f64,
 }
 
-/// The motion of a node on a piece.
 struct Solved {
     start: f64,
     length: f64,
     /// The series of velocities of runs, displacements, and what leaves to the left and to the right.
     rows: Vec<Values>,
-    /// The state at the end.
     last: Vec<f64>,
 }
 
 impl Motion<'_> {
-    /// Solves one period at all nodes.
     fn step(&mut self, number: i64) -> Result<(), ModelError> {
         let mut all = Vec::new();
         for node in 0..self.states.len() {
@@ -276,8 +272,7 @@ impl Motion<'_> {
             known.or_insert_with(|| Collocation::of(system, contacts, length));
             let Some(piece) = self.piece(node, number, (start, halvings), &state) else {
                 if halvings >= MAX_HALVINGS {
-                    let reason = SolverFailure::NotSmooth(number);
-                    return Err(ModelError::Solver { model: NAME, reason });
+                    return Err(ModelError::NotSmooth { model: NAME, period: number });
                 }
                 (start, halvings) = (2 * start, halvings + 1);
                 continue;

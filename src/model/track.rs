@@ -83,7 +83,6 @@ pub(crate) fn integral(series: &Values) -> [f64; POINTS + 1] {
 }
 
 impl Track {
-    /// A function that was constant before the start.
     pub fn new(before: f64, period: f64) -> Track {
         Track { before, period, periods: Vec::new(), total: 0.0 }
     }
@@ -92,7 +91,6 @@ impl Track {
         self.periods.push(Vec::new());
     }
 
-    /// Adds a piece to the last period.
     pub fn push(&mut self, start: f64, length: f64, series: Values) {
         let integral = integral(&series).map(|entry| entry * length);
         let piece = Piece { start, length, series, integral, total: self.total };

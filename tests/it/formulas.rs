@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use wavestep::export::{self, Formula, LATEX_WIDTH, TEXT_WIDTH, general_form, latex_width};
+use wavestep::export::{self, Formula, LATEX_WIDTH, Notation, TEXT_WIDTH, general_form};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, read_listing, read_recurrence};
 use wavestep::recurrence::WaveIndex;
@@ -290,7 +290,7 @@ fn assert_sound_latex(latex: &str) {
         if !right.starts_with('=') && !right.starts_with("\\quad") {
             continue;
         }
-        let width = latex_width(head) + latex_width(right);
+        let width = Notation::Latex.width(head) + Notation::Latex.width(right);
         assert!(width <= LATEX_WIDTH + 2 || !breakable(right), "{width}: {line}");
     }
 }

@@ -8,7 +8,6 @@ use serde_json::json;
 use wavestep::export::TEXT_WIDTH;
 use wavestep_studies::book::{self, UnknownNumber};
 
-/// The table of all equations, or one of them.
 pub fn run(options: &Book) -> Result<String, Failure> {
     let unknown = |error: UnknownNumber| Failure::usage(error.to_string(), error.remedy());
     let Some(number) = &options.number else {

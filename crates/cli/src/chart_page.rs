@@ -21,7 +21,6 @@ fn unusable(folder: &str, reason: impl std::fmt::Display) -> Failure {
     Failure::usage(message, "name a folder that can be written to with -o")
 }
 
-/// Writes all files, and says which.
 pub fn write(folder: &str, title: &str, charts: &Charts) -> Result<String, Failure> {
     fs::create_dir_all(folder).map_err(|error| unusable(folder, error))?;
     let folder = Path::new(folder);

@@ -9,7 +9,6 @@ use super::progress;
 use std::fmt::Write as _;
 use wavestep::problem::{Checked, Derivations, General, Periods, Solved};
 
-/// Checks a scene and says what was found.
 pub fn run(options: &Check) -> Result<String, Failure> {
     if let Some(file) = &options.locked {
         return lock::check(&options.scene.scene, file);

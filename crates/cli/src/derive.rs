@@ -111,7 +111,6 @@ fn source_form_as_json() -> Failure {
     Failure::usage("the source's form is for reading, not for programs", remedy)
 }
 
-/// Formulas as text or LaTeX.
 fn formulas_as(formulas: &[Formula], options: &Derive) -> String {
     match options.format {
         Format::Latex => export::latex(formulas, options.width()),

@@ -55,7 +55,6 @@ struct At {
     values: Vec<Value>,
 }
 
-/// All that was asked for.
 struct Answer {
     title: String,
     relation: Relation,

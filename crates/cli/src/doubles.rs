@@ -14,7 +14,6 @@ use wavestep::ball::in_decimals;
 use wavestep::evaluate::Limit;
 use wavestep::problem::{Problem, ProblemError};
 
-/// A method by its name and settings.
 pub fn method(text: &str) -> Result<Method, Failure> {
     text.parse().map_err(|error| {
         let names: Vec<&str> = Method::NAMES.iter().map(|(name, _)| *name).collect();
@@ -22,7 +21,6 @@ pub fn method(text: &str) -> Result<Method, Failure> {
     })
 }
 
-/// A tolerance as the command line gives it.
 pub fn tolerance(text: &str) -> Result<Tolerance, Failure> {
     text.parse().map_err(|error| {
         let remedy = "write 1e-9 (of the largest value), abs:1e-9 or ulp:4";
@@ -85,7 +83,6 @@ pub fn refused(error: ProblemError, points: usize, explain: bool) -> Failure {
     error.into()
 }
 
-/// The methods that were weighed, as a table.
 fn explained(weighed: &Weighed, points: usize, tolerance: &str, absolute: f64) -> String {
     let mut text = format!(
         "{points} value{} within {tolerance}, that is {absolute:.1e}\n",
@@ -120,7 +117,6 @@ fn double(value: f64) -> String {
     }
 }
 
-/// Values in the format asked for.
 pub fn written(
     found: &Doubles,
     problem: &Problem,

@@ -15,7 +15,6 @@ use wavestep::history::{Body, Ending, Event, EventKind, History};
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
 
-/// Tells the history of a scene.
 pub fn run(options: &Events) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;

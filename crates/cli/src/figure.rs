@@ -5,7 +5,6 @@ use super::failure::Failure;
 use super::{picture, progress};
 use wavestep_studies::figures::{FIGURES, Listed, find};
 
-/// Draws a figure, or lists all.
 pub fn run(options: &Figure) -> Result<String, Failure> {
     let (Some(number), Some(output)) = (&options.number, &options.output) else {
         let line = |figure: &Listed| format!("{:<6}{}\n", figure.number, figure.title);

@@ -12,7 +12,6 @@ use wavestep::evaluate::Goal;
 use wavestep::language;
 use wavestep::problem::{Crossing, EqualExtrema, number};
 
-/// Finds the value of the symbol.
 pub fn run(options: &Find) -> Result<String, Failure> {
     let (goal, name) = options.extremum().expect("arguments conflict with roots");
     let (symbol, range) = symbol(options.equal.as_deref().unwrap_or_default())?;

@@ -13,13 +13,11 @@ use wavestep::problem::{Problem, Wanted};
 /// Digits of bounds and of intervals that stay undecided.
 const BOUND_DIGITS: usize = 20;
 
-/// What was asked for.
 pub struct Told<'a> {
     pub options: &'a Find,
     pub name: &'a str,
     /// The level, as it was written.
     pub level: &'a str,
-    /// What was read.
     pub problem: &'a Problem,
     pub wanted: &'a Wanted,
     pub window: &'a [BigRational; 2],
@@ -51,17 +49,11 @@ impl Told<'_> {
     }
 }
 
-/// Roots in the format asked for.
 pub fn roots(roots: &Roots, told: &Told<'_>) -> String {
+    let rows: Vec<Json> = roots.all.iter().map(root_json).collect();
     match told.options.format {
-        Format::Json => {
-            let list: Vec<Json> = roots.all.iter().map(root_json).collect();
-            document(told, json!({ "level": told.level, "roots": list }))
-        }
-        Format::Csv => {
-            let line = |root: &Root| columns(&root_json(root));
-            HEADING.to_owned() + &roots.all.iter().map(line).collect::<String>()
-        }
+        Format::Json => document(told, json!({ "level": told.level, "roots": rows })),
+        Format::Csv => columns(&rows),
         _ => {
             roots.all.iter().map(|root| root_line(root, told)).collect::<String>()
                 + &summary(roots, told)
@@ -69,20 +61,16 @@ pub fn roots(roots: &Roots, told: &Told<'_>) -> String {
     }
 }
 
-/// An extremum in the format asked for.
 pub fn extremum(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
+    let rows: Vec<Json> = extremum.places.iter().map(place_json).collect();
+    let which = if goal == Goal::Largest { "largest" } else { "smallest" };
     match told.options.format {
         Format::Json => {
-            let places: Vec<Json> = extremum.places.iter().map(place_json).collect();
-            let goal = if goal == Goal::Largest { "largest" } else { "smallest" };
-            let body = json!({ "goal": goal, "value": number(&extremum.value), "places": places });
-            document(told, body)
+            let value = number(&extremum.value);
+            document(told, json!({ "goal": which, "value": value, "places": rows }))
         }
-        Format::Csv => {
-            let line = |place: &Place| columns(&place_json(place));
-            HEADING.to_owned() + &extremum.places.iter().map(line).collect::<String>()
-        }
-        _ => extremum_text(extremum, goal, told),
+        Format::Csv => columns(&rows),
+        _ => extremum_text(extremum, which, told),
     }
 }
 
@@ -145,8 +133,7 @@ fn summary(roots: &Roots, told: &Told<'_>) -> String {
     format!("{known}, {undecided} undecided; no others in {}\n", told.window())
 }
 
-fn extremum_text(extremum: &Extremum, goal: Goal, told: &Told<'_>) -> String {
-    let which = if goal == Goal::Largest { "largest" } else { "smallest" };
+fn extremum_text(extremum: &Extremum, which: &str, told: &Told<'_>) -> String {
     let (name, value, window) = (told.name, told.value(&extremum.value), told.window());
     let mut text = format!("{which} {name} = {value} in {window}\n");
     let second = told.second();
@@ -264,18 +251,19 @@ fn document(told: &Told<'_>, body: Json) -> String {
     format!("{document}\n")
 }
 
-const HEADING: &str = "kind,time,until,radius,exact\n";
-
-/// A line of columns: the time, or the first and last one of an interval, each as a fraction where
-/// it is exact; else the digits, or a midpoint, and the radius of an enclosure.
-fn columns(body: &Json) -> String {
+/// A heading, then a line of columns each: the time, or the first and last one of an interval, as a fraction
+/// where it is exact; else the digits, or a midpoint, and the radius of an enclosure.
+fn columns(rows: &[Json]) -> String {
     let text = |value: &Json| value.as_str().unwrap_or_default().to_owned();
     let written = |time: &Json| {
         let keys = ["exact", "decimal", "midpoint"];
         keys.iter().map(|key| text(&time[*key])).find(|text| !text.is_empty()).unwrap_or_default()
     };
-    let time = if body["time"].is_null() { &body["from"] } else { &body["time"] };
-    let (kind, first, until) = (text(&body["kind"]), written(time), written(&body["to"]));
-    let (radius, exact) = (text(&time["radius"]), !time["exact"].is_null());
-    format!("{kind},{first},{until},{radius},{exact}\n")
+    let line = |body: &Json| {
+        let time = if body["time"].is_null() { &body["from"] } else { &body["time"] };
+        let (kind, first, until) = (text(&body["kind"]), written(time), written(&body["to"]));
+        let (radius, exact) = (text(&time["radius"]), !time["exact"].is_null());
+        format!("{kind},{first},{until},{radius},{exact}\n")
+    };
+    "kind,time,until,radius,exact\n".to_owned() + &rows.iter().map(line).collect::<String>()
 }

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use wavestep::ball::Ball;
 use wavestep::problem::{Problem, ProblemError, number};
 use wavestep::scene::Dimension;
-use wavestep_studies::hertz::{ContactOfScene, HertzError, NoContact, distance_from_spring};
+use wavestep_studies::hertz::{ContactOfScene, HertzError, distance_from_spring};
 
 /// Bits beyond those of the digits.
 const SPARE_BITS: u64 = 48;
@@ -32,7 +32,6 @@ impl From<HertzError> for Failure {
 /// Decimal places of the distance from the equivalent spring.
 const PLACES: u32 = 6;
 
-/// A value with its name, what it is in JSON, its unit, and how many digits of it are told.
 struct Row {
     name: String,
     key: String,
@@ -45,7 +44,7 @@ pub fn run(options: &Hertz) -> Result<String, Failure> {
     input::digits(options.digits)?;
     let problem = input::problem(&options.scene)?;
     let scaled = problem.scaled().map_err(|error| match error {
-        ProblemError::Equations(_) => HertzError::Scene(NoContact::Recurrence).into(),
+        ProblemError::Equations(_) => HertzError::Recurrence.into(),
         error => Failure::from(error),
     })?;
     let bits = 10 * options.digits as u64 / 3 + SPARE_BITS;
@@ -85,7 +84,6 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
-    /// All values.
     fn rows(&self) -> Result<Vec<Row>, Failure> {
         let mut rows = self.constants()?;
         for share in &self.options.rise {

@@ -29,7 +29,6 @@ pub fn problem_with(scene: &str, values: &Values) -> Result<Problem, Failure> {
     Ok(Problem::of_text(scene, bytes, values)?)
 }
 
-/// The built-in scene called `name`.
 pub fn built_in(name: &str) -> Result<&'static scenes::Scene, Failure> {
     scenes::find(name).ok_or_else(|| ProblemError::NotBuiltIn(name.to_owned()).into())
 }

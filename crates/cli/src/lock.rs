@@ -27,7 +27,6 @@ pub fn run(options: &Options) -> Result<String, Failure> {
     write(options, &lock)
 }
 
-/// Why nothing is locked.
 fn refused(error: ProblemError) -> Failure {
     match error {
         ProblemError::TooManyTerms(_) => {
@@ -67,7 +66,6 @@ fn write(options: &Options, lock: &Lock) -> Result<String, Failure> {
 /// What a differing scene is to be treated with.
 const AGAIN: &str = "undo what was changed in the scene, or lock it again";
 
-/// Compares a scene with what is locked.
 pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
     let bytes = input::bytes(file, MAX_LOCK_BYTES).map_err(|error| {
         let remedy = format!("write it with `wavestep lock {scene} --through N -o {file}`");
@@ -97,7 +95,6 @@ pub fn check(scene: &str, file: &str) -> Result<String, Failure> {
     Err(Failure::new(COMPUTATION, message, remedy).with_report(report))
 }
 
-/// How much is locked.
 fn counted(lock: &Lock) -> String {
     let (count, values) = lock.counts();
     let what = match lock.extent() {

@@ -59,14 +59,12 @@ fn fields_at(problem: &Problem, options: &Plot) -> Result<Box<dyn Chart>, Failur
     }))
 }
 
-/// Why there are no fields to draw.
 fn no_fields(error: ProblemError) -> Failure {
     let ProblemError::LocalContact { .. } = error else { return error.into() };
     let message = "diagrams and fields need waves in closed form, and a local contact has none";
     Failure::usage(message, "draw observables against time, or use a spring")
 }
 
-/// The fields asked for with `--at-time`.
 fn fields(options: &Plot) -> Result<Vec<Quantity>, Failure> {
     if options.quantity.is_empty() {
         return Ok(vec![Quantity::Velocity, Quantity::Strain, Quantity::Displacement]);

@@ -18,7 +18,6 @@ const MAX_FRACTION: usize = 40;
 /// More digits than a ball of the highest precision has.
 pub const ALL_DIGITS: usize = 1 << 30;
 
-/// The scene times asked for.
 pub fn times(problem: &Problem, options: &Eval) -> Result<Vec<BigRational>, Failure> {
     if let (Some(n), Some(local)) = (options.piece, &options.local) {
         let wanted = problem.wanted(&options.quantity)?;
@@ -45,7 +44,6 @@ pub fn times(problem: &Problem, options: &Eval) -> Result<Vec<BigRational>, Fail
     options.at.iter().map(|time| Ok(problem.time("--at", time.as_str())?)).collect()
 }
 
-/// Values at times in the format asked for.
 pub fn written(
     problem: &Problem,
     wanted: &Wanted,
@@ -62,7 +60,6 @@ pub fn written(
     }
 }
 
-/// Lines of text, with the units of time and value.
 pub fn lines<'a>(
     problem: &Problem,
     unit: &str,
@@ -81,7 +78,6 @@ pub fn lines<'a>(
     rows.map(line).collect()
 }
 
-/// Columns with a heading.
 fn csv((times, values): (&[BigRational], &[Value]), digits: usize) -> String {
     let line = |(time, value): (&BigRational, &Value)| {
         let (decimal, exactness) = value.decimal(digits);
@@ -94,7 +90,6 @@ fn csv((times, values): (&[BigRational], &[Value]), digits: usize) -> String {
         .collect()
 }
 
-/// Decimal strings with proven radii.
 fn json_document(
     problem: &Problem,
     wanted: &Wanted,

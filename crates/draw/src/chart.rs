@@ -6,7 +6,6 @@ use serde_json::Value;
 ///
 /// Equal charts give equal bytes.
 pub trait Chart {
-    /// The title.
     fn title(&self) -> &str;
 
     /// The picture as SVG, 900 pixels wide, in a document of its own.

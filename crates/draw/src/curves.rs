@@ -11,7 +11,6 @@ use serde_json::{Value, json};
 /// A line through points `(x, y)`, in their order.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Curve {
-    /// The name, as the legend gives it.
     pub name: String,
     /// The points; one that is not finite interrupts the line.
     pub points: Vec<(f64, f64)>,

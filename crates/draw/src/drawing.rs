@@ -4,16 +4,13 @@ use super::palette::{COLOURS, DASHES, MARKERS};
 use super::text::escape;
 use std::fmt::Write;
 
-/// The width of every picture in pixels.
 pub(super) const WIDTH: f64 = 900.0;
 
 /// The size of the small print in pixels; nothing is smaller.
 pub(super) const SMALL: f64 = 11.0;
 
-/// The size of labels in pixels.
 pub(super) const MEDIUM: f64 = 12.0;
 
-/// The size of titles in pixels.
 pub(super) const LARGE: f64 = 17.0;
 
 /// Where a text stands about its place.

@@ -98,11 +98,6 @@ impl Panel {
         self
     }
 
-    /// What is measured upwards.
-    pub fn axis(&self) -> &Axis {
-        &self.y
-    }
-
     pub fn series(&self) -> &[Series] {
         &self.series
     }
@@ -112,12 +107,10 @@ impl Panel {
         if series.name.is_empty() { &self.y.name } else { &series.name }
     }
 
-    /// All points that are finite.
     fn points(&self) -> impl Iterator<Item = &(f64, f64)> {
         self.series.iter().flat_map(|series| &series.points).filter(finite)
     }
 
-    /// All values upwards that are finite.
     fn heights(&self) -> impl Iterator<Item = f64> + '_ {
         let points = self.points().map(|point| point.1);
         let range = self.range.into_iter().flat_map(|(low, high)| [low, high]);
@@ -217,7 +210,6 @@ impl Figure {
         self.window.unwrap_or(all)
     }
 
-    /// All points that are finite.
     fn points(&self) -> impl Iterator<Item = &(f64, f64)> {
         self.panels.iter().flat_map(Panel::points)
     }

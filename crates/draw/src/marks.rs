@@ -24,7 +24,6 @@ fn rows_of(marks: &[(f64, &str)]) -> Vec<(f64, usize)> {
     rows
 }
 
-/// The height of a row of labels.
 const ROW: f64 = 15.0;
 
 /// The room that the labels of vertical lines take above the plotting area.

@@ -1,13 +1,12 @@
 //! One page with pictures and their numbers, complete in one file: no script, no other resource.
 
 use super::Chart;
-use super::text::{csv_row, escape};
+use super::text::escape;
 use std::fmt::Write;
 
 /// A small table under a chart: what can be read from the chart, in numbers.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Listing {
-    /// What it lists.
     pub caption: String,
     pub heads: Vec<String>,
     /// Its rows, each with one text a column.
@@ -15,15 +14,6 @@ pub struct Listing {
 }
 
 impl Listing {
-    /// The table as comma-separated values, with the heads first.
-    pub fn csv(&self) -> String {
-        let line = |texts: &Vec<String>| {
-            let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
-            csv_row(&texts, [])
-        };
-        line(&self.heads) + &self.rows.iter().map(line).collect::<String>()
-    }
-
     fn markup(&self) -> String {
         let cells = |tag: &str, texts: &[String]| -> String {
             let cell = |text: &String| {
@@ -176,7 +166,6 @@ pub fn page(title: &str, sections: &[Section<'_>], table: &Table) -> String {
     page
 }
 
-/// How the page looks.
 const STYLE: &str = "\
 :root{color-scheme:light dark}\
 body{margin:0;background:#fff;color:#222;\

@@ -27,7 +27,6 @@ pub struct Point {
 /// A method with what was measured at its settings, in their order.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Method {
-    /// The name, as the legend gives it.
     pub name: String,
     /// The points, joined in this order.
     pub points: Vec<Point>,

@@ -91,14 +91,12 @@ impl Default for Content {
 pub struct Entry {
     /// Its number, or that of its section with a word: `6.7-acceleration`.
     pub number: String,
-    /// What it says, in words.
     pub states: String,
     pub content: Content,
     /// Why the reading is not sure, where it is not.
     pub unsure: Option<String>,
     /// How it looks on the page, where the language has no way to say it.
     pub latex: Option<String>,
-    /// What is to be known about it.
     pub note: Option<String>,
 }
 
@@ -113,7 +111,6 @@ pub(super) struct Setting {
     pub(super) values: Vec<(String, Rational)>,
 }
 
-/// A section of the source with its equations.
 #[derive(Clone, Debug, Default)]
 pub struct Section {
     pub number: String,

@@ -10,7 +10,6 @@ use wavestep::export::{Formula, Head, SourceForm, latex_name, solved_equations};
 use wavestep::expression::Expression;
 use wavestep::language::syntax::{Expression as Tree, Node};
 
-/// What is found about a numbered equation.
 #[derive(Clone, Debug)]
 pub struct Examination {
     pub section: &'static Section,
@@ -33,7 +32,6 @@ pub fn examine(number: &str) -> Result<Examination, UnknownNumber> {
     Ok(examined(section, entry, stage.as_ref()))
 }
 
-/// Examines every equation, in the order of the source.
 pub fn examine_all() -> Vec<Examination> {
     let mut all = Vec::new();
     for section in sections() {

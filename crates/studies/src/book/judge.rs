@@ -23,7 +23,6 @@ const WITNESS_BITS: u64 = 192;
 const ATTEMPTS: usize = 8;
 
 impl Stage {
-    /// Holds an equation against the scene.
     pub fn judge(&self, equation: &Equation) -> Result<Finding, Refusal> {
         let [left, right] = self.sides(equation)?;
         if equation.relation == Relation::Starts {

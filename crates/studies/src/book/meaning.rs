@@ -63,7 +63,6 @@ impl Meaning {
 /// Which names a formula may hold.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Names {
-    /// Those of the source.
     Source,
     /// Those of the scene: its waves and observables, by themselves.
     Scene,

@@ -45,7 +45,6 @@ static SECTIONS: LazyLock<Vec<Section>> = LazyLock::new(|| {
     TEXTS.iter().map(read).collect()
 });
 
-/// All sections with their equations, in the order of the source.
 pub fn sections() -> &'static [Section] {
     &SECTIONS
 }

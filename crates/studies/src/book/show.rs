@@ -64,7 +64,6 @@ impl Examination {
         }
     }
 
-    /// The equations that are read, as text.
     pub(super) fn read(&self) -> Vec<String> {
         equations(self.entry).iter().map(ToString::to_string).collect()
     }
@@ -176,7 +175,6 @@ impl Examination {
         out
     }
 
-    /// For programs.
     pub fn to_json(&self) -> Value {
         let Examination { section, entry, derived, .. } = self;
         let read: Vec<Value> = equations(entry)

@@ -186,7 +186,6 @@ impl Stage {
         Ok(Some(form))
     }
 
-    /// The derivative of a form by the scene's time.
     pub(super) fn slope(&self, form: &LinearForm) -> Result<LinearForm, Refusal> {
         let plain = |(_, operator): (WaveIndex, &wavestep::recurrence::Operator)| {
             operator.slope.is_empty() && operator.sum.is_empty()

@@ -76,7 +76,6 @@ impl Finding {
     }
 }
 
-/// What is found about a numbered equation.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum Verdict {
     /// Equal to what is derived, with the ground for each of its equations.

@@ -57,7 +57,6 @@ pub struct Seen {
     pub velocity: f64,
     pub height: f64,
     pub first_height: f64,
-    /// The period of the grid.
     pub length: f64,
     pub points: usize,
     /// The displacements at `x = −length/2 + i length/points`.

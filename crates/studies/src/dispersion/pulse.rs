@@ -53,7 +53,6 @@ impl Shape {
     }
 }
 
-/// What a pulse is given by.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Content {
     Shape(Shape),

@@ -11,7 +11,6 @@ use super::formula::{Formula, pi, wave_number};
 use wavestep::ball::{Ball, Value};
 use wavestep::field::Bounded;
 
-/// The precision of samples in doubles.
 const SAMPLE_BITS: u64 = 80;
 
 /// What is known of a wave from its wavenumber.
@@ -37,7 +36,6 @@ pub struct Relation {
 }
 
 impl Relation {
-    /// The relation `ω = frequency`.
     pub fn new(frequency: Formula) -> Result<Relation, DispersionError> {
         if !frequency.symbols().contains(&wave_number()) {
             return Err(DispersionError::NoWaveNumber);
@@ -78,7 +76,6 @@ impl Relation {
         symbols
     }
 
-    /// The relation with values in place of parameters.
     pub fn with_values(
         &self,
         values: &BTreeMap<String, Rational>,

@@ -14,7 +14,6 @@ use wavestep::ball::{Ball, BallError, Magnitude};
 /// Arguments of `sinc` below this are summed as a power series.
 const SINC_NEAR: i64 = 8;
 
-/// Why a formula has no series at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Fault {
     MissingValue(Symbol),

@@ -7,7 +7,6 @@ use crate::ratio;
 use wavestep::ball::Ball;
 use wavestep_draw::{Axis, Panel, Series};
 
-/// The precision of values that are drawn.
 const BITS: u64 = 64;
 
 fn double(ball: &Ball) -> f64 {

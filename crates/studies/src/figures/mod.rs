@@ -21,9 +21,7 @@ use wavestep_polynomial::Rational;
 /// A figure, computed.
 type Drawn = Result<Box<dyn Chart>, PictureError>;
 
-/// A figure that can be drawn.
 pub struct Listed {
-    /// Its number in the source.
     pub number: &'static str,
     pub title: &'static str,
     draw: fn(&Listed) -> Drawn,

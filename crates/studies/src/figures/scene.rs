@@ -5,7 +5,6 @@ use wavestep::problem::Problem;
 use wavestep::signal::Purpose;
 use wavestep_polynomial::Rational;
 
-/// A built-in scene or recurrence.
 pub(super) fn problem(name: &str, given: &[(&str, Rational)]) -> Problem {
     let text = wavestep::scenes::find(name).expect("a built-in scene").text;
     let values = given.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();

@@ -34,7 +34,6 @@ impl Sample {
     }
 }
 
-/// The ends of an enclosure.
 fn ends(ball: &Ball) -> [Rational; 2] {
     let (low, high) = ball.endpoints();
     [Rational::from(&low), Rational::from(&high)]
@@ -51,7 +50,6 @@ fn sizes([low, high]: &[Rational; 2]) -> [Rational; 2] {
     [largest, smallest]
 }
 
-/// The smallest enclosure of both.
 fn hull(one: &Ball, other: &Ball, precision: u64) -> Ball {
     let ([a, b], [c, d]) = (ends(one), ends(other));
     Ball::between(&a.min(c), &b.max(d), precision)

@@ -22,18 +22,6 @@ pub enum HertzError {
     NotPositive(&'static str, String),
     #[error("a Poisson ratio of {0}: it must be above -1 and at most 1/2, as 3/10 for steel")]
     Poisson(String),
-    #[error(transparent)]
-    Scene(#[from] NoContact),
-    #[error(transparent)]
-    Enclosure(#[from] EnclosureError),
-    #[error(transparent)]
-    Ball(#[from] BallError),
-}
-
-/// Why closed forms of local contact do not describe a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NoContact {
     #[error("a recurrence has no contact; give a scene")]
     Recurrence,
     #[error("the scene has no `hertz` element; put one between two bars")]
@@ -42,4 +30,8 @@ pub enum NoContact {
         "closed forms need a bar without strain on both sides of the `hertz` element; use `eval`"
     )]
     NotBetweenBars,
+    #[error(transparent)]
+    Enclosure(#[from] EnclosureError),
+    #[error(transparent)]
+    Ball(#[from] BallError),
 }

@@ -61,7 +61,6 @@ impl LongBars {
         Ok(LongBars { law, largest_force, largest_compression, stiffness, time_unit, precision })
     }
 
-    /// The time at which the force has a share of the largest one.
     pub fn rise_time(&self, share: &Rational) -> Result<Ball, HertzError> {
         let time = self.law.time(share, self.precision)?;
         Ok(time.multiply(&self.time_unit, self.precision))

@@ -72,13 +72,11 @@ fn negligible(precision: u64) -> Magnitude {
 }
 
 impl PowerLaw {
-    /// The largest exponent.
     pub const MOST: i64 = 100;
 
     /// The inverse of the smallest exponent: below it the second series cancels.
     pub const LEAST_INVERSE: i64 = 10;
 
-    /// The law `X = k α^m`.
     pub fn new(exponent: Rational) -> Result<PowerLaw, HertzError> {
         match exponent >= ratio(1, Self::LEAST_INVERSE) && exponent <= ratio(Self::MOST, 1) {
             true => Ok(PowerLaw { exponent }),
@@ -91,7 +89,6 @@ impl PowerLaw {
         PowerLaw { exponent: ratio(3, 2) }
     }
 
-    /// m.
     pub fn exponent(&self) -> &Rational {
         &self.exponent
     }
@@ -236,25 +233,15 @@ impl PowerLaw {
         for _ in 0..60 {
             guess += (target - of(guess)) * (1.0 - guess.powf(m));
         }
-        let mut near = rational(guess);
-        let precisions = Precisions::doubling(80, working);
-        let mut good = precisions.first();
-        loop {
-            let compression = exact(&near, good + 16);
-            let force = compression.power(&self.exponent, good + 16)?;
-            let there = self.first_series(&compression, &force, good + 16);
-            let residual = time.subtract(&there, good + 16);
-            let slope = one().subtract(&force, good + 16);
-            let next = compression.add(&residual.multiply(&slope, good + 16), good + 16);
-            let Some(more) = precisions.after(good) else {
-                let compression = compression.widened(&residual.magnitude());
-                let force = compression.power(&self.exponent, working)?;
-                let deficit = one().subtract(&force, working);
-                return Ok(Share { force, deficit, compression });
-            };
-            near = Rational::from(next.midpoint());
-            good = more;
-        }
+        let [compression, residual] = newton(guess, working, |compression, bits| {
+            let force = compression.power(&self.exponent, bits)?;
+            let there = self.first_series(compression, &force, bits);
+            Ok([time.subtract(&there, bits), one().subtract(&force, bits)])
+        })?;
+        let compression = compression.widened(&residual.magnitude());
+        let force = compression.power(&self.exponent, working)?;
+        let deficit = one().subtract(&force, working);
+        Ok(Share { force, deficit, compression })
     }
 
     /// Beyond it.
@@ -279,40 +266,44 @@ impl PowerLaw {
             let is_early = middle - series((-middle).exp()) < wanted;
             if is_early { low = middle } else { high = middle }
         }
-        let mut near = rational(low.max(2.0_f64.ln()));
-        let precisions = Precisions::doubling(80, working);
-        let mut good = precisions.first();
-        loop {
-            let bits = good + 16;
-            let exponent = exact(&near, bits);
+        let [exponent, residual] = newton(low.max(2.0_f64.ln()), working, |exponent, bits| {
             let deficit = exponent.clone().negate().exp(bits)?;
             // m (t̄ − t̄(λ))
             let there = exponent.subtract(&self.second_series(&deficit, bits), bits);
-            let residual = target.subtract(&there, bits);
             // dλ/d(m t̄) = (1 − y)^{−a}
             let rising = one().subtract(&deficit, bits);
             let slope = rising.power(&(Rational::one() - self.exponent.recip()), bits)?;
-            let next = exponent.add(&residual.multiply(&slope, bits), bits);
-            let Some(more) = precisions.after(good) else {
-                // All numbers between λ and λ* are those of deficits up to 1/2 and hardly beyond.
-                let most = if a > 0.0 {
-                    Magnitude::power_of_two(a.ceil() as i64 + 1)
-                } else {
-                    Magnitude::from_u64(1)
-                };
-                let exponent = exponent.widened(&residual.magnitude().multiply(&most));
-                let deficit = exponent.negate().exp(working)?;
-                let force = one().subtract(&deficit, working);
-                let compression = force.power(&self.exponent.recip(), working)?;
-                return Ok(Share { force, deficit, compression });
-            };
-            near = Rational::from(next.midpoint());
-            good = more;
-        }
+            Ok([target.subtract(&there, bits), slope])
+        })?;
+        // All numbers between λ and λ* are those of deficits up to 1/2 and hardly beyond.
+        let most = if a > 0.0 { a.ceil() as i64 + 1 } else { 0 };
+        let exponent = exponent.widened(&residual.magnitude().scale(most));
+        let deficit = exponent.negate().exp(working)?;
+        let force = one().subtract(&deficit, working);
+        let compression = force.power(&self.exponent.recip(), working)?;
+        Ok(Share { force, deficit, compression })
     }
 }
 
-/// A double as a fraction.
+/// Newton's method from a double, with rising precision: the last number, and what is left there. `step`
+/// gives what is left at a number, and by what it is multiplied to become the next step.
+fn newton(
+    start: f64,
+    working: u64,
+    step: impl Fn(&Ball, u64) -> Result<[Ball; 2], HertzError>,
+) -> Result<[Ball; 2], HertzError> {
+    let precisions = Precisions::doubling(80, working);
+    let (mut near, mut good) = (rational(start), precisions.first());
+    loop {
+        let bits = good + 16;
+        let at = exact(&near, bits);
+        let [residual, slope] = step(&at, bits)?;
+        let Some(more) = precisions.after(good) else { return Ok([at, residual]) };
+        near = Rational::from(at.add(&residual.multiply(&slope, bits), bits).midpoint());
+        good = more;
+    }
+}
+
 fn rational(value: f64) -> Rational {
     let ball = wavestep::ball::Binary::from_double(value).expect("a finite number");
     Rational::from(&ball)

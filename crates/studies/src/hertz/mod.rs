@@ -12,7 +12,7 @@ mod law;
 mod scene;
 
 pub use comparison::distance_from_spring;
-pub use error::{HertzError, NoContact};
+pub use error::HertzError;
 pub use impact::LongBars;
 pub use law::{PowerLaw, Share, equal_bars_constant};
 pub use scene::ContactOfScene;

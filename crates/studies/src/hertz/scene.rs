@@ -1,6 +1,6 @@
 //! The two bars of a scene that meet at a local contact.
 
-use super::error::{HertzError, NoContact};
+use super::error::HertzError;
 use super::impact::LongBars;
 use super::law::PowerLaw;
 use wavestep::ball::Ball;
@@ -25,7 +25,7 @@ impl ContactOfScene {
     /// Beside it there have to be two bars free of strain, which approach each other.
     pub fn new(scaled: &ScaledScene, precision: u64) -> Result<ContactOfScene, HertzError> {
         let (scene, model) = (scaled.scene(), scaled.model());
-        let element = scaled.local_contact().ok_or(NoContact::NoElement)?;
+        let element = scaled.local_contact().ok_or(HertzError::NoElement)?;
         let line = &scene.line;
         let place = line.elements.iter().position(|other| *other == element);
         let place = place.expect("an element of the line");
@@ -36,7 +36,7 @@ impl ContactOfScene {
             is_bar.then(|| &model.bars[index]).filter(|bar| bar.force.is_zero())
         };
         let [Some(left), Some(right)] = beside.map(bar) else {
-            return Err(NoContact::NotBetweenBars.into());
+            return Err(HertzError::NotBetweenBars);
         };
         let ElementLaw::LocalContact { force, compression, exponent } = &model.lumps[&element]
         else {

@@ -70,7 +70,6 @@ pub fn courses(
     Ok((courses, tested))
 }
 
-/// Values by the method of steps.
 fn by_model(
     problem: &Problem,
     wanted: &Wanted,

@@ -66,9 +66,7 @@ pub fn lagrange(
     Ok(diagram.lines(lines.collect()).parts(parts.collect()))
 }
 
-/// Where the bars of a line are.
 pub(super) struct Places {
-    /// The left ends of the bars.
     pub lefts: Vec<f64>,
     /// From the left end of the line to the right end.
     pub window: (f64, f64),

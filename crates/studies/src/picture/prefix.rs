@@ -5,9 +5,7 @@ use wavestep_draw::Axis;
 /// A unit with a prefix, and by what values in the bare unit are multiplied.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Prefixed {
-    /// The unit with its prefix.
     pub unit: String,
-    /// What values in the bare unit are multiplied by.
     pub factor: f64,
 }
 
@@ -50,7 +48,6 @@ impl Prefixed {
         }
     }
 
-    /// A linear axis in this unit.
     pub fn axis(&self, name: &str) -> Axis {
         Axis::linear(name).unit(&self.unit)
     }

@@ -16,7 +16,6 @@ use wavestep::problem::{Problem, number};
 use wavestep_draw::{Axis, Caption, Chart, Curves, Listing, PlotError, Table};
 use wavestep_polynomial::Rational;
 
-/// The norm of most charts.
 const NORM: &str = "the largest |computed − exact|, in parts of the largest value";
 
 /// How many periods, or lengths of the scene, the window has where none is asked for, and that of maps.
@@ -35,12 +34,10 @@ const LAST_OF_HUGE: usize = 20;
 
 const MAPPED: [Method; 6] = DOUBLES;
 
-/// How much is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Effort {
     /// Little: to see whether it works.
     Quick,
-    /// All.
     Full,
 }
 
@@ -53,7 +50,6 @@ impl Effort {
         self.pick(Settings { runs: 1, time: Duration::ZERO }, Settings::default())
     }
 
-    /// The orders of maps and costs.
     fn orders(self) -> &'static [usize] {
         self.pick(&[1, 5, 10, 20], &[1, 5, 10, 15, 20, 30, 40, 60, 80, 100, 120, 140, 170, 200])
     }
@@ -66,7 +62,6 @@ impl Effort {
 
 #[derive(Clone, Debug)]
 pub struct ToChart<'a> {
-    /// The wave or observable.
     pub quantity: &'a str,
     /// At how many times errors are measured, and the seed of these.
     pub sampling: Sampling,
@@ -77,7 +72,6 @@ pub struct ToChart<'a> {
     pub command: &'a str,
 }
 
-/// A chart with what is to be seen.
 pub struct Charted {
     /// What its files are called.
     pub name: String,
@@ -138,7 +132,6 @@ pub fn charts(
     Ok(Charts { all: study.all, table, left_out: study.left_out })
 }
 
-/// The length of a period, where there is one.
 fn period_of(question: &answer::Question<'_>) -> Option<f64> {
     question.signal.closed_form().ok()?.period()
 }
@@ -157,7 +150,6 @@ fn caption(asked: &ToChart<'_>, sampling: String) -> Caption {
     }
 }
 
-/// The charts that are drawn so far.
 struct Study<'s> {
     subject: Subject<'s>,
     question: &'s answer::Question<'s>,
@@ -244,7 +236,6 @@ impl Study<'_> {
         );
     }
 
-    /// Errors and costs by order.
     fn by_order(&mut self, period: f64) {
         let (subject, effort) = (self.subject, self.asked.effort);
         let problem = subject.problem;

@@ -1,7 +1,7 @@
 //! What things cost by the order: exact derivation, preparation, and values.
 
 use crate::study::curves::DOUBLES;
-use crate::study::harness::{Measured, Settings, Subject, measure};
+use crate::study::harness::{Measured, Settings, Subject, least, measure};
 use crate::study::reference::{Reference, Sampling};
 use std::time::{Duration, Instant};
 use wavestep::answer::Method;
@@ -26,20 +26,14 @@ pub fn derivation_cost(
 ) -> Result<Vec<(f64, f64)>, ObserveError> {
     let mut points = Vec::new();
     for &order in orders {
-        let mut least = Duration::MAX;
-        let start = Instant::now();
-        let mut runs = 0;
-        while runs < settings.runs || start.elapsed() < settings.time {
+        let least = least(settings, PATIENCE, || {
             let solution = Solution::new(recurrence.clone());
             let start = Instant::now();
             let pieces = std::hint::black_box(solution.observed(observation, 0, order)?);
-            least = least.min(start.elapsed());
+            let elapsed = start.elapsed();
             drop(pieces);
-            runs += 1;
-            if least > PATIENCE {
-                break;
-            }
-        }
+            Ok::<_, ObserveError>(elapsed)
+        })?;
         points.push((order as f64, least.as_secs_f64().max(1e-9)));
         if least > PATIENCE {
             break;

@@ -44,7 +44,6 @@ pub(super) fn by_method(
     curves
 }
 
-/// There is nothing to draw.
 pub(super) fn empty(title: &str) -> PlotError {
     PlotError::Empty { title: title.to_owned() }
 }

@@ -10,7 +10,6 @@ use wavestep_polynomial::Rational;
 #[derive(Clone, Copy)]
 pub struct Subject<'p> {
     pub problem: &'p Problem,
-    /// The wave or observable.
     pub quantity: &'p str,
 }
 
@@ -22,12 +21,10 @@ impl<'p> Subject<'p> {
     }
 }
 
-/// How long is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Settings {
     /// How often at least; the least time counts.
     pub runs: usize,
-    /// For how long at least.
     pub time: Duration,
 }
 
@@ -84,6 +81,21 @@ fn from_scratch(
     Ok(begin.elapsed())
 }
 
+/// The least time of several runs; what takes longer than `enough` is not repeated.
+pub(super) fn least<E>(
+    settings: Settings,
+    enough: Duration,
+    mut run: impl FnMut() -> Result<Duration, E>,
+) -> Result<Duration, E> {
+    let (begin, mut runs, mut least) = (Instant::now(), 0, Duration::MAX);
+    while (runs < settings.runs || begin.elapsed() < settings.time) && !(runs > 0 && least > enough)
+    {
+        least = least.min(run()?);
+        runs += 1;
+    }
+    Ok(least)
+}
+
 /// Prepares a way, compares it with a reference, and takes its time there.
 ///
 /// Each preparation begins with a signal of which nothing is computed; the least of some counts.
@@ -105,19 +117,12 @@ pub fn measure(
     let question = anew()?;
     let way = Way::new(method, &question, tolerance)?;
     let values = way.values(reference.times())?;
-    let mut least = Duration::MAX;
-    let begin = Instant::now();
-    let mut runs = 0;
-    while runs < settings.runs || begin.elapsed() < settings.time {
+    // What takes long is not repeated for the sake of a third digit.
+    let least = least(settings, 10 * settings.time, || {
         let begin = Instant::now();
         std::hint::black_box(way.values(std::hint::black_box(reference.times()))?);
-        least = least.min(begin.elapsed());
-        runs += 1;
-        // What takes long is not repeated for the sake of a third digit.
-        if least > 10 * settings.time {
-            break;
-        }
-    }
+        Ok::<_, WayError>(begin.elapsed())
+    })?;
     let half_ulp = f64::EPSILON / 2.0;
     Ok(Measured {
         method,

@@ -18,7 +18,6 @@ const NEAREST: f64 = 6.0;
 pub struct OrderRow {
     /// The largest error on each period; `None` where the way has no values.
     pub errors: Vec<Option<f64>>,
-    /// Why it has none.
     pub refusal: Option<ProblemError>,
 }
 

@@ -12,7 +12,6 @@ const MAX_BITS: u64 = 1 << 14;
 /// The radius of references that is aimed at, in parts of the largest value: `2^−100`.
 const FINENESS: f64 = 1.0 / (1_u128 << 100) as f64;
 
-/// How times are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sampling {
     pub points: usize,
@@ -31,7 +30,6 @@ impl Sampling {
         (0..self.points).map(draw).collect()
     }
 
-    /// The law in words.
     pub fn law(&self) -> String {
         format!("{} times, one in each of equal parts of the window, uniform there", self.points)
     }
@@ -85,7 +83,6 @@ impl Reference {
         &self.times
     }
 
-    /// The largest absolute value that is known of.
     pub fn scale(&self) -> f64 {
         self.scale
     }
@@ -95,7 +92,6 @@ impl Reference {
         if self.scale == 0.0 { 1.0 } else { self.scale }
     }
 
-    /// The absolute values in parts of the largest.
     pub(crate) fn sizes(&self) -> Vec<f64> {
         self.values.iter().map(|(high, _)| high.abs() / self.unit()).collect()
     }

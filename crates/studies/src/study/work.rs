@@ -48,11 +48,9 @@ pub const LADDER: [Step; 33] = [
     (Method::Certified, None),
 ];
 
-/// What came of one step.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     pub step: Step,
-    /// What was measured, or why the way refused.
     pub result: Result<Measured, ProblemError>,
 }
 
@@ -80,7 +78,6 @@ impl Outcome {
     }
 }
 
-/// Whether a step takes long.
 fn is_heavy(method: Method) -> bool {
     match method {
         Method::Modes { count } => count > 1_000,
@@ -158,7 +155,6 @@ pub fn work_precision(
     Ok((chart, Table { compared_with: "certified".to_owned(), rows }))
 }
 
-/// A time for people.
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1e-3 => format!("{:.0} µs", s * 1e6),

@@ -7,7 +7,6 @@ use wavestep::evaluate::{ClosedForm, Root, Search};
 use wavestep_draw::{Axis, Caption, Curves, PlotError};
 use wavestep_polynomial::Rational;
 
-/// The powers of ten of the distances.
 const DECADES: std::ops::RangeInclusive<i32> = 1..=12;
 
 /// The digits of roots: some more than a double has.
