@@ -18,6 +18,7 @@ use crate::problem::{EqualError, LockRefusal, ProblemError};
 use crate::scenes::SCENES;
 use crate::solution::{SolveError, Unsolvable};
 use std::fmt;
+use wavestep_polynomial::Symbol;
 
 /// Why there is no answer.
 ///
@@ -111,6 +112,24 @@ impl std::error::Error for Error {
 impl<E: Into<ProblemError>> From<E> for Error {
     fn from(error: E) -> Error {
         Error(Box::new(error.into()))
+    }
+}
+
+impl ProblemError {
+    /// The symbol that has no value, where that is all.
+    pub fn missing_value(&self) -> Option<&Symbol> {
+        match self {
+            ProblemError::History(HistoryError::MissingValue(symbol)) => Some(symbol),
+            ProblemError::Evaluate(error) => match &**error {
+                EvaluateError::MissingValue(symbol) => Some(symbol),
+                _ => None,
+            },
+            ProblemError::Way(error) => match &**error {
+                WayError::Model(ModelError::MissingValue(symbol)) => Some(symbol),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 }
 
@@ -216,12 +235,11 @@ fn kind_of_way(error: &WayError) -> Kind {
 
 /// What can be done about an error: what its layer says, what names something of the problem, or a rule.
 fn remedy(error: &ProblemError) -> Option<String> {
+    if let Some(symbol) = error.missing_value() {
+        return Some(format!("give {symbol} a value"));
+    }
     Some(match error {
         ProblemError::Solve(error) => remedy_of_solve(error),
-        ProblemError::Network(error) => remedy_of_network(error).to_owned(),
-        ProblemError::Evaluate(error) => remedy_of_evaluate(error),
-        ProblemError::History(error) => remedy_of_history(error),
-        ProblemError::Way(error) => remedy_of_way(error),
         ProblemError::Equal(error) => remedy_of_equal(error),
         ProblemError::NotBuiltIn(_) => {
             format!("the built-in scenes are {}", SCENES.map(|scene| scene.name).join(", "))
@@ -250,6 +268,10 @@ fn remedy(error: &ProblemError) -> Option<String> {
 /// The same where it depends on nothing but the variant.
 fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
     Some(match error {
+        ProblemError::Network(error) => remedy_of_network(error),
+        ProblemError::Evaluate(error) => remedy_of_evaluate(error),
+        ProblemError::History(error) => remedy_of_history(error),
+        ProblemError::Way(error) => remedy_of_way(error),
         ProblemError::NoLock(refusal) => remedy_of_lock(refusal),
         ProblemError::Lock(_) | ProblemError::Undecided { .. } => "ask for fewer digits",
         ProblemError::Field(error) => match **error {
@@ -329,9 +351,8 @@ fn remedy_of_network(error: &NetworkError) -> &'static str {
     }
 }
 
-fn remedy_of_evaluate(error: &EvaluateError) -> String {
-    let usual = match error {
-        EvaluateError::MissingValue(symbol) => return format!("give {symbol} a value"),
+fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
+    match error {
         EvaluateError::NoClosedForm | EvaluateError::NotLinear => {
             "use the method compiled or certified"
         }
@@ -345,30 +366,24 @@ fn remedy_of_evaluate(error: &EvaluateError) -> String {
         }
         EvaluateError::AccuracyNotReached { .. } => "allow more bits, or ask for fewer digits",
         _ => "ask for an earlier time",
-    };
-    usual.to_owned()
+    }
 }
 
-fn remedy_of_history(error: &HistoryError) -> String {
-    let usual = match error {
-        HistoryError::MissingValue(symbol) => return format!("give {symbol} a value"),
+fn remedy_of_history(error: &HistoryError) -> &'static str {
+    match error {
         HistoryError::Undecided { .. } => "change a value a little, or ask for an earlier end",
         HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
             "ask for an earlier end"
         }
         HistoryError::Refused(_) => "docs/scene-language.md says under `Contacts` what is followed",
         _ => "ask for an earlier time",
-    };
-    usual.to_owned()
+    }
 }
 
-fn remedy_of_way(error: &WayError) -> String {
-    let usual = match error {
+fn remedy_of_way(error: &WayError) -> &'static str {
+    match error {
         WayError::Method(MethodError::NoTaps(_)) => "use the method compiled or certified",
         WayError::Method(_) => "ask for a shorter window, or use the method certified",
-        WayError::Model(ModelError::MissingValue(symbol)) => {
-            return format!("give {symbol} a value");
-        }
         WayError::Model(_) => "use another model, or a method on the exact solution",
         WayError::NeedsRecurrence(_) => "use the method of steps",
         WayError::NeedsScene(_) => DESCRIBE,
@@ -376,8 +391,7 @@ fn remedy_of_way(error: &WayError) -> String {
         WayError::NoNumber(..) | WayError::TooSmall(_) | WayError::NotMet { .. } => {
             "ask for digits instead"
         }
-    };
-    usual.to_owned()
+    }
 }
 
 fn remedy_of_equal(error: &EqualError) -> String {

@@ -30,8 +30,6 @@ pub enum Role {
     Displacement(ElementIndex),
     /// The velocity of a node beside no bar, by the node and the first of its places.
     Velocity(usize, usize),
-    /// The integral of a wave over time.
-    Integral(WaveIndex),
 }
 
 /// A wave of a network.

@@ -66,10 +66,8 @@ fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String
     };
     let symbols = if options.source_form { Symbols::Source } else { Symbols::Own };
     if options.general {
-        return Ok((
-            written_general(problem, &problem.general_formulas(what, symbols)?, options)?,
-            None,
-        ));
+        let formulas = problem.general_formulas(what, symbols)?;
+        return Ok((written_general(problem, &formulas, options)?, None));
     }
     let orders = options.orders();
     if let Orders::Through(first, last) = orders
@@ -86,24 +84,7 @@ fn derived(problem: &Problem, options: &Derive) -> Result<(String, Option<String
             _ => Ok((formulas_as(&formulas, options), None)),
         };
     }
-    let form = options.form;
-    let derived = problem.functions(what, orders, form)?;
-    let names = match &derived {
-        Derived::Arrivals(_) => Some(plain(problem, &derived, form, options)?),
-        _ => None,
-    };
-    Ok((written(problem, &derived, form, options)?, names))
-}
-
-fn plain(
-    problem: &Problem,
-    derived: &Derived,
-    form: Form,
-    options: &Derive,
-) -> Result<String, Failure> {
-    let all = problem.formulas(derived, form)?;
-    let formulas = all.iter().flat_map(|(_, formulas)| formulas);
-    Ok(formulas.map(|formula| formula.to_text(options.width())).collect())
+    written(problem, &problem.functions(what, orders, options.form)?, options)
 }
 
 fn source_form_as_json() -> Failure {
@@ -121,22 +102,26 @@ fn formulas_as(formulas: &[Formula], options: &Derive) -> String {
 fn written(
     problem: &Problem,
     derived: &Derived,
-    form: Form,
     options: &Derive,
-) -> Result<String, Failure> {
+) -> Result<(String, Option<String>), Failure> {
     if options.format == Format::Json {
-        return json_document(problem, derived, form);
+        return Ok((json_document(problem, derived, options.form)?, None));
     }
-    let all = problem.formulas(derived, form)?;
-    if (options.format, form) == (Format::Latex, Form::Piecewise) {
+    let all = problem.formulas(derived, options.form)?;
+    let plain = || {
+        let formulas = all.iter().flat_map(|(_, formulas)| formulas);
+        formulas.map(|formula| formula.to_text(options.width())).collect()
+    };
+    let names = matches!(derived, Derived::Arrivals(_)).then(plain);
+    if (options.format, options.form) == (Format::Latex, Form::Piecewise) {
         let time = &problem.recurrence()?.statement().time;
         let cases = |(name, formulas): &(String, Vec<Formula>)| {
             export::latex_cases(name, time, formulas, options.width())
         };
-        return Ok(all.iter().map(cases).collect());
+        return Ok((all.iter().map(cases).collect(), names));
     }
     let all: Vec<Formula> = all.into_iter().flat_map(|(_, formulas)| formulas).collect();
-    Ok(formulas_as(&all, options))
+    Ok((formulas_as(&all, options), names))
 }
 
 fn json_document(problem: &Problem, derived: &Derived, form: Form) -> Result<String, Failure> {
@@ -213,26 +198,23 @@ fn written_general(
     all: &[GeneralFormulas],
     options: &Derive,
 ) -> Result<String, Failure> {
-    match options.format {
-        Format::Json if options.source_form => Err(source_form_as_json()),
-        Format::Json => {
-            // A formula is text that is not broken, with its remark apart.
-            let formula = |formula: &Formula| {
-                let remark = formula.remark.as_ref().map(|(text, _)| text);
-                json!({"formula": formula.to_line(), "remark": remark})
-            };
-            let wave = |wave: &GeneralFormulas| {
-                let formulas: Vec<Value> = wave.formulas.iter().map(formula).collect();
-                json!({"wave": wave.wave, "formulas": formulas})
-            };
-            let mut document = header(problem, "general")?;
-            document["waves"] = all.iter().map(wave).collect();
-            Ok(format!("{document}\n"))
-        }
-        _ => {
-            let all: Vec<Formula> =
-                all.iter().flat_map(|wave| wave.formulas.iter().cloned()).collect();
-            Ok(formulas_as(&all, options))
-        }
+    if options.format != Format::Json {
+        let all: Vec<Formula> = all.iter().flat_map(|wave| wave.formulas.clone()).collect();
+        return Ok(formulas_as(&all, options));
     }
+    if options.source_form {
+        return Err(source_form_as_json());
+    }
+    // A formula is text that is not broken, with its remark apart.
+    let formula = |formula: &Formula| {
+        let remark = formula.remark.as_ref().map(|(text, _)| text);
+        json!({"formula": formula.to_line(), "remark": remark})
+    };
+    let wave = |wave: &GeneralFormulas| {
+        let formulas: Vec<Value> = wave.formulas.iter().map(formula).collect();
+        json!({"wave": wave.wave, "formulas": formulas})
+    };
+    let mut document = header(problem, "general")?;
+    document["waves"] = all.iter().map(wave).collect();
+    Ok(format!("{document}\n"))
 }

@@ -6,14 +6,11 @@ use wavestep::answer::WayError;
 use wavestep::evaluate::{EvaluateError, MethodError};
 use wavestep::expression::NotInvertible;
 use wavestep::field::FieldError;
-use wavestep::history::HistoryError;
 use wavestep::language::Diagnostic;
-use wavestep::model::ModelError;
 use wavestep::network::NetworkError;
 use wavestep::problem::{LockRefusal, ProblemError};
 use wavestep::solution::Unsolvable;
 use wavestep_draw::PlotError;
-use wavestep_polynomial::Symbol;
 use wavestep_studies::picture::PictureError;
 
 /// Exit code: could not compute, or not as locked.
@@ -144,22 +141,16 @@ impl From<PlotError> for Failure {
 
 /// The remedy, where it takes options or subcommands of this program.
 fn in_options(cause: &ProblemError) -> Option<String> {
+    if let Some(symbol) = cause.missing_value() {
+        return Some(format!("give it one: --set {symbol}=1"));
+    }
     Some(match cause {
-        ProblemError::History(HistoryError::MissingValue(symbol)) => set(symbol),
         ProblemError::Solve(error) => match &error.reason {
             Unsolvable::NotInvertible(NotInvertible::Undeclared(factor)) => {
                 format!("{VALUES}, or state `nonzero {factor}` in the scene")
             }
             Unsolvable::DegreeTooHigh => return None,
             _ => VALUES.to_owned(),
-        },
-        ProblemError::Evaluate(error) => match &**error {
-            EvaluateError::MissingValue(symbol) => set(symbol),
-            error => for_evaluate(error)?.to_owned(),
-        },
-        ProblemError::Way(error) => match &**error {
-            WayError::Model(ModelError::MissingValue(symbol)) => set(symbol),
-            error => for_way(error)?.to_owned(),
         },
         ProblemError::LocalContact { spring, .. } => {
             format!("ask for values, with `eval`, or put a spring in its place: {spring}")
@@ -183,6 +174,8 @@ fn in_options(cause: &ProblemError) -> Option<String> {
 fn usual(cause: &ProblemError) -> Option<&'static str> {
     Some(match cause {
         ProblemError::Network(error) => for_network(error)?,
+        ProblemError::Evaluate(error) => for_evaluate(error)?,
+        ProblemError::Way(error) => for_way(error)?,
         ProblemError::NoLock(refusal) => for_lock(refusal)?,
         ProblemError::EmptyWindow(_) => WINDOW,
         ProblemError::Field(error) => match &**error {
@@ -284,7 +277,3 @@ fn for_lock(refusal: &LockRefusal) -> Option<&'static str> {
 const VALUES: &str = "give values with --set";
 const WINDOW: &str = "give --from before --to";
 const STEPS: &str = "leave out --method, or ask for `--method steps:1e-10`";
-
-fn set(symbol: &Symbol) -> String {
-    format!("give it one: --set {symbol}=1")
-}

@@ -3,19 +3,11 @@
 use super::arguments::{Arguments, Generate, Generated};
 use super::failure::Failure;
 use clap::CommandFactory as _;
-use clap_complete::Shell;
 
 pub fn run(options: &Generate) -> Result<String, Failure> {
     let mut command = Arguments::command();
+    let Generated::Completions(shell) = options.what else { return manual(command) };
     let mut out = Vec::new();
-    let shell = match options.what {
-        Generated::Bash => Shell::Bash,
-        Generated::Elvish => Shell::Elvish,
-        Generated::Fish => Shell::Fish,
-        Generated::Powershell => Shell::PowerShell,
-        Generated::Zsh => Shell::Zsh,
-        Generated::Manual => return manual(command),
-    };
     clap_complete::generate(shell, &mut command, "wavestep", &mut out);
     Ok(text(out))
 }

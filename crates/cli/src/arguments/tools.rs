@@ -1,6 +1,8 @@
 //! Arguments of `scenes` and `generate`.
 
-use clap::{Args, ValueEnum};
+use super::named;
+use clap::Args;
+use clap_complete::Shell;
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  wavestep scenes\n  wavestep scenes rigid-mass > mine.wave")]
@@ -16,23 +18,20 @@ pub struct Scenes {
     wavestep generate manual > wavestep.1 && man ./wavestep.1")]
 pub struct Generate {
     /// What to write
-    #[arg(value_enum)]
+    #[arg(value_parser = named([
+        ("bash", Generated::Completions(Shell::Bash), "Completions for bash"),
+        ("elvish", Generated::Completions(Shell::Elvish), "Completions for elvish"),
+        ("fish", Generated::Completions(Shell::Fish), "Completions for fish"),
+        ("powershell", Generated::Completions(Shell::PowerShell), "Completions for PowerShell"),
+        ("zsh", Generated::Completions(Shell::Zsh), "Completions for zsh"),
+        ("manual", Generated::Manual, "The manual page, for man"),
+    ]))]
     pub what: Generated,
 }
 
 /// What `generate` writes.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy)]
 pub enum Generated {
-    /// Completions for bash
-    Bash,
-    /// Completions for elvish
-    Elvish,
-    /// Completions for fish
-    Fish,
-    /// Completions for PowerShell
-    Powershell,
-    /// Completions for zsh
-    Zsh,
-    /// The manual page, for man
+    Completions(Shell),
     Manual,
 }

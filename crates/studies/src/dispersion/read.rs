@@ -8,7 +8,7 @@ use wavestep_polynomial::Symbol;
 use super::error::DispersionError;
 use super::formula::{Formula, FormulaError, Function};
 use super::relation::Relation;
-use wavestep::language::syntax::{Expression, Function as Written, Node, Operator, Sign};
+use wavestep::language::syntax::{Expression, Factor, Function as Written, Node, Operator, Sign};
 use wavestep::language::{Diagnostic, RESERVED, Source, constant, parse_expression};
 
 /// Functions that are names to the grammar.
@@ -57,27 +57,11 @@ fn formula(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
             Formula::symbol(&symbol)
         }
         Node::Negate(operand) => formula(operand, source)?.negate(),
-        Node::Sum(terms) => {
-            let mut sum = Formula::integer(0);
-            for term in terms {
-                let value = formula(&term.value, source)?;
-                sum = match term.sign {
-                    Sign::Plus => sum.add(&value),
-                    Sign::Minus => sum.subtract(&value),
-                };
-            }
-            sum
-        }
-        Node::Product(factors) => {
-            let mut product = Formula::integer(1);
-            for factor in factors {
-                product = match factor.operator {
-                    Operator::Multiply => product.multiply(&formula(&factor.value, source)?),
-                    Operator::Divide => product.multiply(&inverse(&factor.value, source)?),
-                };
-            }
-            product
-        }
+        Node::Sum(terms) => terms.iter().try_fold(Formula::integer(0), |sum, term| {
+            let value = formula(&term.value, source)?;
+            Ok(if term.sign == Sign::Plus { sum.add(&value) } else { sum.subtract(&value) })
+        })?,
+        Node::Product(factors) => product(factors, Operator::Multiply, source)?,
         Node::Power { base, exponent } => {
             let exponent = constant(exponent, source)?;
             let base = formula(base, source)?;
@@ -115,6 +99,14 @@ fn formula(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
     })
 }
 
+/// The product of factors, those with another operator than `above` as divisors.
+fn product(factors: &[Factor], above: Operator, source: &Source) -> Result<Formula, Diagnostic> {
+    factors.iter().try_fold(Formula::integer(1), |product, factor| {
+        let of = if factor.operator == above { formula } else { inverse };
+        Ok(product.multiply(&of(&factor.value, source)?))
+    })
+}
+
 /// One over the formula of a tree; powers and products stay as they are written, `1/(1 + k)^2` is not
 /// multiplied out.
 fn inverse(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
@@ -128,16 +120,7 @@ fn inverse(tree: &Expression, source: &Source) -> Result<Formula, Diagnostic> {
     };
     match &tree.value {
         Node::Negate(operand) => Ok(inverse(operand, source)?.negate()),
-        Node::Product(factors) => {
-            let mut product = Formula::integer(1);
-            for factor in factors {
-                product = product.multiply(&match factor.operator {
-                    Operator::Multiply => inverse(&factor.value, source)?,
-                    Operator::Divide => formula(&factor.value, source)?,
-                });
-            }
-            Ok(product)
-        }
+        Node::Product(factors) => product(factors, Operator::Divide, source),
         Node::Power { base, exponent } => {
             let exponent = -constant(exponent, source)?;
             formula(base, source)?.power(&exponent).map_err(failed)

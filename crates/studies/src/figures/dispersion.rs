@@ -16,7 +16,11 @@ const CREST: f64 = 2.0;
 
 /// A curve of a function from 0 to `last`.
 fn curve(name: &str, last: f64, function: impl Fn(f64) -> f64) -> Series {
-    let points = (0..=POINTS).map(|i| f64::from(i) / f64::from(POINTS) * last);
+    dense_curve(POINTS, name, last, function)
+}
+
+fn dense_curve(count: u32, name: &str, last: f64, function: impl Fn(f64) -> f64) -> Series {
+    let points = (0..=count).map(|i| f64::from(i) / f64::from(count) * last);
     Series::new(name, points.map(|x| (x, function(x))).collect())
 }
 
@@ -58,15 +62,11 @@ fn pair(time: f64) -> Result<[Series; 3], PictureError> {
     let last = 2.0 * TAU / (second - first);
     let sum = move |x: f64| (w1 * time - first * x).cos() + (w2 * time - second * x).cos();
     let half = move |x: f64| ((w2 - w1) * time - (second - first) * x) / 2.0;
-    let mut series = [
-        curve("both waves", last, sum),
+    Ok([
+        dense_curve(1200, "both waves", last, sum),
         curve("envelope", last, move |x| 2.0 * half(x).cos().abs()).styled(1),
         curve("", last, move |x| -2.0 * half(x).cos().abs()).styled(1),
-    ];
-    // The sum has many crests.
-    let points = (0..=1200).map(|i| f64::from(i) / 1200.0 * last);
-    series[0].points = points.map(|x| (x, sum(x))).collect();
-    Ok(series)
+    ])
 }
 
 /// 6.25.
@@ -111,14 +111,13 @@ pub(super) fn crests(listed: &Listed) -> Drawn {
         let time = periods * TAU / carrier;
         let half = move |x: f64| ((w2 - w1) * time - step * x) / 2.0;
         let wave = move |x: f64| 2.0 * half(x).cos() * (carrier * time - k * x).cos();
-        let points = (0..=900).map(|i| f64::from(i) / 900.0 * last);
         // The second crest of the first group, ahead of its middle, where both waves are in step; it is
         // followed for as long as the envelope keeps its sign there.
         let crest = carrier / k * time + CREST * TAU / k;
         let middle = group_velocity * time;
         let envelope = |sign: f64| move |x: f64| sign * 2.0 * half(x).cos().abs();
         let series = vec![
-            Series::new("both waves", points.map(|x| (x, wave(x))).collect()).styled(0),
+            dense_curve(900, "both waves", last, wave).styled(0),
             curve("envelope", last, envelope(1.0)).styled(1),
             curve("", last, envelope(-1.0)).styled(1),
             Series::new("one crest", vec![(crest, wave(crest))]).look(Look::Points).styled(3),

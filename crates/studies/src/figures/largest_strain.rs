@@ -6,6 +6,7 @@
 //! striking mass, the later the period in which that is largest of all.
 
 use super::scene::problem;
+use crate::ratio;
 use num_traits::One as _;
 use wavestep::ball::Ball;
 use wavestep::enclosure::{enclose_expression, enclose_zero};
@@ -35,7 +36,7 @@ impl LargestStrain {
         let solution = problem.solution().expect("a recurrence");
         let local = &solution.recurrence().statement().local;
         let pieces = solution.pieces(0, 0, last).expect("a wave with pieces");
-        let two = Rational::from_integer(2.into());
+        let two = ratio(2, 1);
         let strains = pieces.iter().map(|f| f.at_zero(local).scale(&two)).collect();
         let mu = Symbol::new("mu").expect("a name");
         let period = Fraction::symbol(&mu).scale(&two);
@@ -59,8 +60,9 @@ impl LargestStrain {
     /// within a period, so that it then pushed all the time, and the front of this period is as in
     /// [`strain`](Self::strain).
     pub fn is_pushed(&self, period: usize, mu: &Rational) -> bool {
-        let zero = Ball::from_rational(&Rational::default(), 8);
-        self.forces[..period].iter().all(|force| zero.is_below(&self.enclose(force, mu, 64)))
+        self.forces[..period]
+            .iter()
+            .all(|force| Ball::zero().is_below(&self.enclose(force, mu, 64)))
     }
 
     fn enclose(&self, expression: &Expression, mu: &Rational, bits: u64) -> Ball {
@@ -92,18 +94,16 @@ impl LargestStrain {
 
     /// The inverse of the smallest zero, as far as is looked, of an expression that is positive before it.
     fn last_change(&self, expression: &Expression, period: usize, bits: u64) -> Option<Ball> {
-        let zero = Ball::from_rational(&Rational::default(), 8);
         let is_positive =
-            |ratio: &Rational| zero.is_below(&self.enclose(expression, &ratio.recip(), 64));
+            |ratio: &Rational| Ball::zero().is_below(&self.enclose(expression, &ratio.recip(), 64));
         let count = i64::try_from(period + 2).ok()?;
         let mut high = Rational::from_integer((4 * count * count).into());
         if !is_positive(&high) {
             return None;
         }
-        let shrink = Rational::new(15.into(), 16.into());
         loop {
-            let low = &high * &shrink;
-            if low < Rational::new(1.into(), 8.into()) {
+            let low = &high * ratio(15, 16);
+            if low < ratio(1, 8) {
                 return None;
             }
             if !is_positive(&low) {
@@ -135,21 +135,18 @@ impl LargestStrain {
             }
             sum
         };
-        let zero = Ball::from_rational(&Rational::default(), 8);
         let (mut low, mut high) = (Rational::default(), Rational::one());
-        let half = Rational::new(1.into(), 2.into());
         for _ in 0..34 {
-            let middle = (&low + &high) * &half;
-            if zero.is_below(&force(&middle)) { low = middle } else { high = middle }
+            let middle = (&low + &high) * ratio(1, 2);
+            if Ball::zero().is_below(&force(&middle)) { low = middle } else { high = middle }
         }
         let within = num_traits::ToPrimitive::to_f64(&low)?;
         Some(2.0 * (period as f64 + within))
     }
 
     /// `[1 + (1/μ + 1/3)^{1/2}]`, the estimate 6.86 in `V/c`.
-    pub fn estimate(ratio: &Rational, bits: u64) -> Ball {
-        let third = Rational::new(1.into(), 3.into());
-        let root = Ball::square_root(&(ratio + third), bits).expect("a positive number");
+    pub fn estimate(mass: &Rational, bits: u64) -> Ball {
+        let root = Ball::square_root(&(mass + ratio(1, 3)), bits).expect("a positive number");
         root.add(&Ball::from_rational(&Rational::one(), bits), bits)
     }
 }

@@ -49,20 +49,15 @@ pub fn along_the_line(
             let mut points: Vec<(f64, f64)> = Vec::new();
             let mut jumps = Vec::new();
             for (bar, profile) in profiles.iter().enumerate() {
-                let mut stretches: Vec<Vec<(f64, f64)>> = Vec::new();
-                for stretch in &profile.stretches {
-                    let place = |x: f64| if mirrored(bar) { -x } else { places.lefts[bar] + x };
-                    let on = |(x, fields): &(f64, [f64; 4])| {
-                        (place(*x) * metre.factor, of(fields) * unit.factor)
-                    };
-                    let mut points: Vec<(f64, f64)> = stretch.iter().map(on).collect();
-                    if mirrored(bar) {
-                        points.reverse();
-                    }
-                    stretches.push(points);
-                }
+                let place = |x: f64| if mirrored(bar) { -x } else { places.lefts[bar] + x };
+                let on = |(x, fields): &(f64, [f64; 4])| {
+                    (place(*x) * metre.factor, of(fields) * unit.factor)
+                };
+                let all = profile.stretches.iter().map(|stretch| stretch.iter().map(on).collect());
+                let mut stretches: Vec<Vec<(f64, f64)>> = all.collect();
                 if mirrored(bar) {
                     stretches.reverse();
+                    stretches.iter_mut().for_each(|stretch| stretch.reverse());
                 }
                 for stretch in stretches {
                     let Some(&(x, start)) = stretch.first() else { continue };

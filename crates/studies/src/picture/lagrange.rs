@@ -98,8 +98,9 @@ impl Places {
             });
         let stoutest = stoutest.fold(0.0, f64::max);
         let (mut lefts, mut parts) = (Vec::new(), Vec::new());
+        let wall = |x| Part { name: String::new(), from: x, to: x, shape: Shape::Wall };
         if scene.line.left == End::Fixed {
-            parts.push(Part { name: String::new(), from: x, to: x, shape: Shape::Wall });
+            parts.push(wall(x));
         }
         for element in &scene.line.elements {
             let name = scene.elements[*element].name.clone();
@@ -115,7 +116,7 @@ impl Places {
             parts.push(Part { name, from, to: x, shape });
         }
         if scene.line.right == End::Fixed {
-            parts.push(Part { name: String::new(), from: x, to: x, shape: Shape::Wall });
+            parts.push(wall(x));
         }
         Ok(Places { lefts, window: (start, x), parts })
     }

@@ -4,6 +4,7 @@ use super::Checked;
 use crate::book::refusal::Refusal;
 use crate::book::stage::derived;
 use crate::book::verdict::Verdict;
+use crate::ratio;
 use num_traits::{One as _, Signed as _};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -15,21 +16,8 @@ use wavestep_polynomial::Rational;
 
 const BITS: u64 = 96;
 
-/// The masses of the striking body, in that of the bar, at which estimates are measured.
-const MASSES: [(i64, i64); 12] = [
-    (1, 4),
-    (1, 2),
-    (1, 1),
-    (2, 1),
-    (3, 1),
-    (4, 1),
-    (5, 1),
-    (6, 1),
-    (8, 1),
-    (10, 1),
-    (15, 1),
-    (20, 1),
-];
+/// The masses of the striking body, in quarters of that of the bar, at which estimates are measured.
+const QUARTERS: [i64; 12] = [1, 2, 4, 8, 12, 16, 20, 24, 32, 40, 60, 80];
 
 /// Two equal bars: the force is 1/2 during the first period, and would be a pull in the second.
 pub(super) fn equal_bars() -> Result<Checked, Refusal> {
@@ -79,7 +67,7 @@ pub(super) fn better_estimate() -> Result<Checked, Refusal> {
 
 /// `(1/μ + 1/3)^{1/2}`, for a mass `1/μ`.
 fn root(mass: &Rational) -> Result<Ball, Refusal> {
-    let square = mass + Rational::new(1.into(), 3.into());
+    let square = mass + ratio(1, 3);
     Ball::square_root(&square, BITS).ok_or(Refusal::NotInvertible)
 }
 
@@ -99,8 +87,8 @@ fn largest_strain(mass: &Rational) -> Result<Ball, Refusal> {
     let (impact, fixed) = (observe("strain_impact")?, observe("strain_fixed")?);
     // The first root lies within some four times √μ, half the period of a mass on a spring; the
     // window grows until it holds one.
-    let mut end = &mu * Rational::from_integer(4.into()) + Rational::from_integer(2.into());
-    let start = Rational::new(1.into(), 1024.into());
+    let mut end = &mu * ratio(4, 1) + ratio(2, 1);
+    let start = ratio(1, 1024);
     let opening = loop {
         let signal = ClosedSignal::of_recurrence(&solution, &impact, [&start, &end])?;
         let search = Search::new(&signal)?;
@@ -112,19 +100,18 @@ fn largest_strain(mass: &Rational) -> Result<Ball, Refusal> {
         if let Some(time) = simple {
             break parse_number(&time)?;
         }
-        end *= Rational::from_integer(2.into());
+        end *= ratio(2, 1);
     };
     let last = &opening + &mu;
     let signal = ClosedSignal::of_recurrence(&solution, &fixed, [&mu, &last])?;
     let search = Search::new(&signal)?;
     let smallest = search.enclose_extremum(Goal::Smallest, BITS)?;
-    Ok(smallest.multiply_rational(&Rational::from_integer((-1).into()), BITS))
+    Ok(smallest.multiply_rational(&ratio(-1, 1), BITS))
 }
 
-/// The largest strains for [`MASSES`], which all estimates are held against.
-static LARGEST: LazyLock<Result<Vec<Ball>, Refusal>> = LazyLock::new(|| {
-    MASSES.iter().map(|(a, b)| largest_strain(&Rational::new((*a).into(), (*b).into()))).collect()
-});
+/// The largest strains for these masses, which all estimates are held against.
+static LARGEST: LazyLock<Result<Vec<Ball>, Refusal>> =
+    LazyLock::new(|| QUARTERS.iter().map(|own| largest_strain(&ratio(*own, 4))).collect());
 
 /// An estimate of the largest strain, by the mass, held against the exact one.
 fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, Refusal> {
@@ -134,15 +121,13 @@ fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, 
          enclosed by a search of all extrema."
             .to_owned(),
     ];
-    let hundred = Rational::from_integer(100.into());
     let largest = LARGEST.as_ref().map_err(Clone::clone)?;
-    for ((above, below), exact) in MASSES.into_iter().zip(largest) {
-        let mass = Rational::new(above.into(), below.into());
+    for (quarters, exact) in QUARTERS.into_iter().zip(largest) {
+        let mass = ratio(quarters, 4);
         let estimate = of(&mass)?;
-        let ratio = exact.reciprocal(BITS)?;
-        let ratio = ratio.multiply(&estimate, BITS);
-        let off = ratio.subtract(&Ball::from_rational(&Rational::one(), BITS), BITS);
-        let percent = off.multiply_rational(&hundred, BITS).to_decimal(20);
+        let share = exact.reciprocal(BITS)?.multiply(&estimate, BITS);
+        let off = share.subtract(&Ball::from_rational(&Rational::one(), BITS), BITS);
+        let percent = off.multiply_rational(&ratio(100, 1), BITS).to_decimal(20);
         let middle = percent.midpoint().to_rational();
         let size = middle.abs() + percent.radius().to_rational();
         steps.push(format!(
@@ -156,14 +141,13 @@ fn estimate(of: &dyn Fn(&Rational) -> Result<Ball, Refusal>) -> Result<Checked, 
         }
     }
     // Rounded upwards to a tenth of a per cent.
-    let ten = Rational::from_integer(10.into());
-    let bound = (&worst.0 * &ten).ceil() / ten;
+    let bound = (&worst.0 * ratio(10, 1)).ceil() / ratio(10, 1);
     let bound = Decimal::from_rational(&bound, 6).0;
-    let [(first, below), .., (last, _)] = MASSES;
+    let [first, .., last] = QUARTERS.map(|quarters| ratio(quarters, 4));
     let told = format!(
-        "off by up to {bound} % of the largest strain at {} masses, 1/mu from {first}/{below} to {last}; worst \
-         at 1/mu = {}",
-        MASSES.len(),
+        "off by up to {bound} % of the largest strain at {} masses, 1/mu from {first} to {last}; worst at \
+         1/mu = {}",
+        QUARTERS.len(),
         worst.1
     );
     Ok(Checked { verdict: Verdict::Checked(told), derived: Vec::new(), steps })
