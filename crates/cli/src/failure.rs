@@ -121,7 +121,7 @@ impl From<PictureError> for Failure {
                 Failure::new(COMPUTATION, error.to_string(), remedy)
             }
             PictureError::Plot(error) => error.into(),
-            PictureError::NoFigure(_) => {
+            PictureError::NoFigure { .. } => {
                 Failure::usage(error.to_string(), "`wavestep figure` lists them with their titles")
             }
             error => Failure::usage(error.to_string(), "see `wavestep plot --help`"),

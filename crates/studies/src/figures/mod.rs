@@ -94,5 +94,8 @@ pub static FIGURES: [Listed; 18] = [
 
 pub fn find(number: &str) -> Result<&'static Listed, PictureError> {
     let found = FIGURES.iter().find(|figure| figure.number == number);
-    found.ok_or_else(|| PictureError::NoFigure(number.to_owned()))
+    found.ok_or_else(|| {
+        let known = FIGURES.each_ref().map(|figure| figure.number).join(", ");
+        PictureError::NoFigure { asked: number.to_owned(), known }
+    })
 }

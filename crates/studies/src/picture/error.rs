@@ -1,7 +1,6 @@
 //! Why there is no picture.
 
 use crate::dispersion::DispersionError;
-use crate::figures::FIGURES;
 use crate::hertz::HertzError;
 use wavestep::evaluate::EvaluateError;
 use wavestep::field::{FieldError, Quantity};
@@ -12,12 +11,8 @@ use wavestep_draw::PlotError;
 pub enum PictureError {
     #[error("there is no diagram of the {}: give velocity, strain or force", .0.name())]
     NoDiagram(Quantity),
-    #[error(
-        "there is no figure {} that can be computed; those that can be are {}",
-        .0,
-        FIGURES.each_ref().map(|figure| figure.number).join(", ")
-    )]
-    NoFigure(String),
+    #[error("there is no figure {asked} that can be computed; those that can be are {known}")]
+    NoFigure { asked: String, known: String },
     #[error("the scene has no bar along which to draw")]
     NoBars,
     #[error("nothing is observed in this scene")]
