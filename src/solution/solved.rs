@@ -118,7 +118,7 @@ impl Solution {
             first.map(|echo| row_of(&Transform::of(echo, local))).collect();
         if template.first.len() <= through {
             rows = rows.zip(template.numeric_rows(through)).map(|(mut rows, (rate, later))| {
-                rows.extend(later.into_iter().map(|row| EchoRow::new(vec![(-&rate, row)])));
+                rows.extend(later.into_iter().map(|row| EchoRow::new([(-&rate, row)])));
                 rows
             });
         }
@@ -135,5 +135,5 @@ fn row_of(transform: &Transform) -> Option<EchoRow> {
         let integers = values.iter().map(|value| value.numer() * (&common / value.denom()));
         Some((pole.as_constant()?, Univariate::new(integers, common.clone())))
     });
-    parts.collect::<Option<_>>().map(EchoRow::new)
+    parts.collect::<Option<Vec<_>>>().map(EchoRow::new)
 }

@@ -2,6 +2,7 @@
 //!
 //! `docs/divided-powers.md` proves that they are integers, and counts them.
 
+use std::rc::Rc;
 use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate};
 
 /// One echo whose constants are all rational numbers,
@@ -16,14 +17,14 @@ use wavestep_polynomial::{Integer, IntegerRef, IntegerRow, Rational, Univariate}
 /// - the exponents `λ_i` are pairwise different, no `P_i` is zero.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct EchoRow {
-    pub parts: Vec<(Rational, Univariate)>,
+    pub parts: Vec<(Rational, Rc<Univariate>)>,
 }
 
 impl EchoRow {
     /// `Σ_i e^{λ_i x} P_i(x)`, the `λ_i` pairwise different.
-    pub(crate) fn new(mut parts: Vec<(Rational, Univariate)>) -> EchoRow {
-        parts.retain(|(_, polynomial)| !polynomial.is_zero());
-        EchoRow { parts }
+    pub(crate) fn new(parts: impl IntoIterator<Item = (Rational, Univariate)>) -> EchoRow {
+        let parts = parts.into_iter().filter(|(_, polynomial)| !polynomial.is_zero());
+        EchoRow { parts: parts.map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect() }
     }
 }
 
@@ -88,7 +89,7 @@ impl EchoTable {
     fn parts(&self, n: usize) -> impl Iterator<Item = (u32, &Rational, &Univariate)> {
         self.rows[..=n].iter().enumerate().flat_map(move |(k, row)| {
             let age = u32::try_from(n - k).expect("orders fit 32 bits");
-            row.parts.iter().map(move |(rate, polynomial)| (age, rate, polynomial))
+            row.parts.iter().map(move |(rate, polynomial)| (age, rate, &**polynomial))
         })
     }
 }

@@ -42,15 +42,13 @@ impl Arriving {
             }
         }
         let latest = last + &latest;
-        let mut bounds = Vec::new();
-        for (period, lag) in network.lattice().periods().iter().zip(network.largest_lags()) {
-            // In a direction without lags nothing arrives but at once.
-            bounds.push(if lag == 0 {
-                0
-            } else {
-                whole_periods(&numbers, &latest, period, MAX_ECHOES)?
-            });
-        }
+        // In a direction without lags nothing arrives but at once.
+        let bound = |(period, lag): (&Fraction, usize)| match lag {
+            0 => Ok(0),
+            _ => whole_periods(&numbers, &latest, period, MAX_ECHOES),
+        };
+        let directions = network.lattice().periods().iter().zip(network.largest_lags());
+        let bounds: Vec<usize> = directions.map(bound).collect::<Result<_, _>>()?;
         let total =
             bounds.iter().fold(1_u128, |product, bound| product.saturating_mul(*bound as u128 + 1));
         if total > MAX_ECHOES as u128 {

@@ -7,22 +7,19 @@ use crate::evaluate::signal::{Limit, Point};
 use crate::expression::{EchoSum, Expression};
 use crate::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_ORDER_WITHOUT_FORM};
 use crate::recurrence::{Observation, Recurrence, WaveIndex};
-use crate::solution::{EchoRow, GeneralForm, Solution};
+use crate::solution::{EchoRow, EchoTable, GeneralForm, Solution};
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
-use wavestep_polynomial::{Rational, Symbol, Univariate};
+use wavestep_polynomial::{Rational, Symbol};
 
 /// The echoes of a wave, in the cheapest exact form.
 enum Echoes {
-    Rows(Vec<Row>),
+    Rows(EchoTable),
     Expressions(EchoSum),
 }
-
-/// The parts of an echo: rates with polynomials.
-type Row = Vec<(Rational, Rc<Univariate>)>;
 
 /// The echoes of a solution in which every symbol has a value, exactly.
 pub(super) struct ExactEchoes<'a> {
@@ -125,7 +122,7 @@ impl<'a> ExactEchoes<'a> {
         for k in 0..=last {
             let x = time - &self.period * Rational::from_integer(k.into());
             match &*echoes {
-                Echoes::Rows(rows) => add_row(&rows[k], slope, x, &mut parts.rational),
+                Echoes::Rows(table) => add_row(&table.rows[k], slope, x, &mut parts.rational),
                 Echoes::Expressions(sum) => {
                     let echo = &sum.echoes[k];
                     match slope {
@@ -173,7 +170,7 @@ impl<'a> ExactEchoes<'a> {
         // With some in reserve: times are often asked for in ascending order.
         let through = (last + last / 2).max(16);
         let echoes = Rc::new(match self.solution.table(wave, through)? {
-            Some(table) => Echoes::Rows(table.rows.into_iter().map(shared).collect()),
+            Some(table) => Echoes::Rows(table),
             None => Echoes::Expressions(self.solution.echoes(wave, through)?),
         });
         self.echoes.borrow_mut().insert(wave, (through, echoes.clone()));
@@ -181,13 +178,9 @@ impl<'a> ExactEchoes<'a> {
     }
 }
 
-fn shared(row: EchoRow) -> Row {
-    row.parts.into_iter().map(|(rate, polynomial)| (rate, Rc::new(polynomial))).collect()
-}
-
 /// Adds the echo, or its derivative `Σ e^{λx} (P' + λP)`, at `x`.
-fn add_row(row: &Row, slope: bool, x: Rational, contributions: &mut Vec<Contribution>) {
-    for (rate, polynomial) in row {
+fn add_row(row: &EchoRow, slope: bool, x: Rational, contributions: &mut Vec<Contribution>) {
+    for (rate, polynomial) in &row.parts {
         let mut add = |polynomial, factor| {
             contributions.push(Contribution {
                 factor,

@@ -38,6 +38,7 @@ const FEW_PIECES: usize = 400;
 const MAX_PRECISIONS: usize = 3;
 
 /// An observable with numbers in place of all symbols, as a function of the user's time.
+#[derive(Clone)]
 pub struct ClosedForm {
     pub(super) recurrence: Recurrence,
     pub(super) observation: Observation,
@@ -113,16 +114,8 @@ impl ClosedForm {
 
     /// A part of what is seen, in the scale of the waves; these are solved once for all of its parts.
     pub(super) fn part(&self, observation: &Observation) -> ClosedForm {
-        ClosedForm {
-            recurrence: self.recurrence.clone(),
-            observation: observation.clone(),
-            unit: Root::from(Fraction::one()),
-            slowness: self.slowness.clone(),
-            numbers: self.numbers.clone(),
-            lattice: self.lattice.clone(),
-            seen: self.seen.clone(),
-            solved: self.solved.clone(),
-        }
+        let unit = Root::from(Fraction::one());
+        ClosedForm { observation: observation.clone(), unit, ..self.clone() }
     }
 
     /// The recurrence of the waves that are seen.
