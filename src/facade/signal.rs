@@ -16,7 +16,8 @@ const DIGITS_OF_DOUBLE: usize = 40;
 
 /// A wave or an observable as a function of time `t`, zero for `t < 0`, analytic between breaks.
 ///
-/// Times and values are plain numbers, or in SI units where the scene has units. Answers are proven: digits
+/// Times and values are plain numbers, or in SI units where the scene has units; times as text name their unit
+/// there, `120 us`. Answers are proven: digits
 /// are correctly rounded, no root is missed. Only [`values_by`](Signal::values_by) computes with a method
 /// that may have no proof; [`Doubles::bound`] tells.
 ///

@@ -28,6 +28,7 @@ mod written;
 use std::collections::BTreeMap;
 
 use num_rational::BigRational;
+use num_traits::Zero as _;
 
 use crate::expression;
 use crate::recurrence;
@@ -74,15 +75,24 @@ pub fn read_number(source: &Source) -> Result<BigRational, Diagnostic> {
 }
 
 /// Reads a number with a unit of the dimension that is needed, in SI units: `120 us` is
-/// `3/25000`. A number without a unit is taken to be in SI units.
+/// `3/25000`. Nothing but zero goes without a unit.
 pub fn read_quantity(
     source: &Source,
     needed: physics::Dimension,
 ) -> Result<BigRational, Diagnostic> {
     let (tree, unit) = parser::quantity(source)?;
     let number = constant::constant(&tree, source)?;
-    let Some(unit) = unit else { return Ok(number) };
     let scope = scope::Scope::new(source);
+    let Some(unit) = unit else {
+        let described = needed.described();
+        let what = described.split(", ").next().unwrap_or(&described);
+        let message = format!("{what} needs a unit in this scene");
+        let remedy = format!("write `{} {}`, for example", source.text().trim(), needed.unit());
+        return match number.is_zero() {
+            true => Ok(number),
+            false => Err(scope.error(message, tree.span, "a plain number").with_remedy(remedy)),
+        };
+    };
     let scene::units::Worth { value, dimension } = scene::units::worth(&scope, &unit)?;
     match dimension == needed {
         true => Ok(number * value),

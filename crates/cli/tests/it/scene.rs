@@ -140,10 +140,11 @@ fn json_is_json() {
 // ---- Numbers ------------------------------------------------------------------------------------
 
 #[test]
-fn values_have_units_and_times_may_have_them() {
+fn values_and_times_have_units() {
     let at = |time: &str| output(&["eval", "hopkinson", "--quantity", "force", "--at", time]);
-    let (micro, seconds) = (at("400us"), at("4e-4"));
+    let (micro, seconds) = (at("400us"), at("4e-4 s"));
     assert_eq!(micro, seconds);
+    assert_eq!(at("0"), at("0 s"));
     assert!(micro.starts_with("force(0.0004 s) = ") && micro.ends_with(" N\n"), "{micro}");
 }
 
@@ -208,9 +209,10 @@ fn what_scenes_cannot_be_asked_is_refused() {
         "derive two.wave",
         "eval hopkinson --quantity force --at 3mm",
         "eval pushed-bar --quantity velocity --at 1e9",
-        "eval incommensurate --quantity energy --at 1000",
+        "eval incommensurate --quantity energy --at 1000s",
         "eval pushed-bar --quantity velocty --at 1",
-        "lock hopkinson --through 1 --at 1",
+        "eval hopkinson --quantity force --at 1",
+        "lock hopkinson --through 1 --at 1s",
     ] {
         let arguments: Vec<&str> = line.split(' ').collect();
         let (code, message) = refusal(&folder, &arguments);
