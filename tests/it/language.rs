@@ -260,7 +260,8 @@ fn quantities_are_exact_in_si_units() {
     let read = |text: &str, dimension| read_quantity(&source(text), dimension);
     for (text, dimension, value) in [
         ("120 us", Dimension::TIME, "120e-6"),
-        ("1/3", Dimension::TIME, "1/3"),
+        ("1/3 s", Dimension::TIME, "1/3"),
+        ("0", Dimension::TIME, "0"),
         ("1 kg", Dimension::MASS, "1"),
         ("1 mm", Dimension::LENGTH, "1e-3"),
         ("1 min", Dimension::TIME, "60"),
@@ -275,6 +276,10 @@ fn quantities_are_exact_in_si_units() {
         assert_eq!(error.message(), format!("unknown unit `{name}`"));
     }
     assert!(read("3 mm", Dimension::TIME).unwrap_err().message().contains("a length"));
+    assert_eq!(
+        read("1/3", Dimension::TIME).unwrap_err().message(),
+        "a time needs a unit in this scene"
+    );
     assert_eq!(Dimension::STIFFNESS.unit(), "N/m");
     assert_eq!(Dimension::NONE.unit(), "");
     assert_eq!(Dimension::PRESSURE.units(), "Pa = N/m^2");
