@@ -6,19 +6,19 @@ use wavestep_polynomial::Rational;
 
 /// A number as it is given, a value, a time or a level: text, an integer, a rational number, or a double.
 ///
-/// Text is exact: `33/10`, `12.34`, `1e-3`; in scenes with units times and levels may have one, as in
-/// `2 ms`, and are in SI units without. A double stands for its exact value, so `0.1` is not a tenth.
+/// Text is exact: `33/10`, `12.34`, `1e-3`; in scenes with units times and levels as text have one, as in
+/// `2 ms`, and numbers are in SI units. A double stands for its exact value, so `0.1` is not a tenth.
 ///
 /// ```
 /// let bars = wavestep::Problem::builtin("hopkinson")?;
 /// let force = bars.signal("force")?;
-/// assert_eq!(force.at("400 us", 9)?, force.at("1/2500", 9)?);
-/// assert_ne!(force.at(4e-4, 30)?, force.at("4e-4", 30)?);
+/// assert_eq!(force.at("400 us", 9)?, force.at("0.4 ms", 9)?);
+/// assert_ne!(force.at(4e-4, 30)?, force.at("4e-4 s", 30)?);
 /// # Ok::<(), wavestep::Error>(())
 /// ```
 #[derive(Clone, PartialEq, Debug)]
 pub enum Given {
-    /// Text such as `33/10` or `12.34`; times of scenes with units may have one.
+    /// Text such as `33/10` or `12.34`; times of scenes with units have one.
     Text(String),
     /// An exact number.
     Exact(Rational),
