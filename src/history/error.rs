@@ -3,7 +3,6 @@
 use crate::ball::{Ball, BallError};
 use crate::enclosure::EnclosureError;
 use crate::evaluate::EvaluateError;
-use crate::scene::Mistake;
 use wavestep_polynomial::Symbol;
 
 /// Why a history cannot be followed to its end.
@@ -88,9 +87,6 @@ pub enum NotFollowed {
         /// Where, in words.
         place: String,
     },
-    /// A measure at a place that does not have it.
-    #[error("{0}")]
-    Measure(Mistake),
 }
 
 /// What the precision allowed does not decide.
