@@ -6,8 +6,8 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use wavestep::evaluate::{Certified, Compiled, Evaluator, Limit, Marched, Summation, Summed, Taps};
 use wavestep::language::parse_number;
+use wavestep::signal::{Certified, Compiled, Evaluator, Limit, Marched, Summation, Summed, Taps};
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_polynomial::Rational;
 

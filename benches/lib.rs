@@ -1,8 +1,8 @@
 //! What several benchmarks share.
 
-use wavestep::evaluate::Signal;
 use wavestep::language::parse_number;
 use wavestep::problem::Problem;
+use wavestep::signal::Signal;
 
 /// Calls `work` with the wave f of a recurrence on a window from 0, with a value for its symbol `mu` where
 /// one is given.

@@ -6,7 +6,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::cell::LazyCell;
 use std::hint::black_box;
-use wavestep::evaluate::{Certified, Compiled, Evaluator, Marched, Signal, Summation, Summed};
+use wavestep::signal::{Certified, Compiled, Evaluator, Marched, Signal, Summation, Summed};
 use wavestep_benches::{rigid_mass, with_signal};
 use wavestep_kernels::march::{Bounds, March, MarchOptions, Reflection};
 use wavestep_kernels::{Level, Piece, Table};

@@ -5,7 +5,6 @@
 
 use crate::answer::WayError;
 use crate::ball::BallError;
-use crate::evaluate::{EvaluateError, MethodError};
 use crate::expression::{NotAUnit, NotInvertible};
 use crate::field::FieldError;
 use crate::history::HistoryError;
@@ -16,6 +15,7 @@ use crate::model::ModelError;
 use crate::network::NetworkError;
 use crate::problem::{EqualError, LockRefusal, ProblemError};
 use crate::scenes::SCENES;
+use crate::signal::{EvaluateError, MethodError};
 use crate::solution::{SolveError, Unsolvable};
 use std::fmt;
 use wavestep_polynomial::Symbol;

@@ -42,8 +42,6 @@ pub mod ball;
 #[doc(hidden)]
 pub mod enclosure;
 #[doc(hidden)]
-pub mod evaluate;
-#[doc(hidden)]
 pub mod export;
 #[doc(hidden)]
 pub mod expression;
@@ -60,6 +58,8 @@ pub mod model;
 #[doc(hidden)]
 pub mod network;
 #[doc(hidden)]
+pub mod planner;
+#[doc(hidden)]
 pub mod problem;
 #[doc(hidden)]
 pub mod recurrence;
@@ -72,10 +72,10 @@ pub mod solution;
 
 pub use answer::{Doubles, Method, Tolerance};
 pub use error::Error;
-pub use evaluate::{Extremum, Goal, Place, Root, Roots, StablePrecision, Value};
 pub use facade::{Formula, Signal};
 pub use field::{BarFields, Bounded, Fields, Quantity};
 pub use history::{Body, ContactSummary, Ending, Event, EventKind, History};
 pub use language::{Diagnostic, Label, Span};
 pub use problem::{Given, Problem};
+pub use signal::{Extremum, Goal, Place, Root, Roots, StablePrecision, Value};
 pub use wavestep_polynomial::Rational;

@@ -5,7 +5,7 @@
 //! `docs/accuracy-and-speed.md` draws such measurements.
 
 use crate::answer::method::Method;
-use crate::evaluate::StablePrecision;
+use crate::signal::StablePrecision;
 
 /// How large a problem is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -5,7 +5,7 @@ use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
 use crate::answer::way::{Way, WayError};
 use crate::answer::weigh::{Weighed, consider};
-use crate::evaluate::Limit;
+use crate::signal::Limit;
 use std::cell::OnceCell;
 use wavestep_polynomial::Rational;
 

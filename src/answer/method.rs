@@ -1,6 +1,6 @@
 //! Ways to values, by name and settings.
 
-use crate::evaluate::StablePrecision;
+use crate::signal::StablePrecision;
 use std::fmt;
 use std::str::FromStr;
 

@@ -1,7 +1,7 @@
 //! Answers in doubles: which way to values is the cheapest that is good enough.
 //!
 //! A [`Question`] is an observable on a window. There are many ways to its values: the methods that
-//! evaluate the exact solution ([`evaluate`](crate::evaluate)), and cheaper models of the same scene
+//! evaluate the exact solution ([`signal`](crate::signal)), and cheaper models of the same scene
 //! ([`model`](crate::model)). A [`Tolerance`] says how far values may be off; [`consider`] weighs the
 //! ways by their proven bounds and by a measured table of costs, and says why it picks one.
 

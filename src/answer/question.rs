@@ -1,7 +1,7 @@
 //! What is asked for: an observable on a window of time.
 
-use crate::evaluate::{EvaluateError, Evaluator as _, Limit, Marched, Signal, Taps, scale};
 use crate::network::Network;
+use crate::signal::{EvaluateError, Evaluator as _, Limit, Marched, Signal, Taps, scale};
 use wavestep_polynomial::Rational;
 
 /// An observable on a window, with what there is to compute it from.

@@ -5,11 +5,11 @@ use crate::answer::question::Question;
 use crate::answer::tolerance::Tolerance;
 use crate::answer::weigh::Weighed;
 use crate::ball::in_decimals;
-use crate::evaluate::{
-    Certified, Compiled, EvaluateError, Evaluator, Limit, Marched, MethodError, Summation, Summed,
-};
 use crate::model::{Leapfrog, Model, ModelError, Modes, RigidBody, Steps, ThirdOfMass};
 use crate::network::ScaledScene;
+use crate::signal::{
+    Certified, Compiled, EvaluateError, Evaluator, Limit, Marched, MethodError, Summation, Summed,
+};
 use num_traits::ToPrimitive as _;
 use wavestep_polynomial::Rational;
 

@@ -4,8 +4,8 @@ use crate::answer::cost::{Cost, Size};
 use crate::answer::method::Method;
 use crate::answer::question::Question;
 use crate::ball::unit_in_the_last_place;
-use crate::evaluate::{EvaluateError, NoTaps, StablePrecision, Taps};
 use crate::limits::MAX_PIECES;
+use crate::signal::{EvaluateError, NoTaps, StablePrecision, Taps};
 
 /// The methods that are weighed; models leave something out and are picked by name only.
 const METHODS: [Method; 7] = [

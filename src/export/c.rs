@@ -4,7 +4,7 @@
 //! in which the polynomial of a time is looked up. The function needs nothing but C89 and doubles after
 //! IEEE 754; the bound holds whether multiplications and additions are fused or not.
 
-use crate::evaluate::{Compiled, Evaluator as _};
+use crate::signal::{Compiled, Evaluator as _};
 use std::fmt::Write as _;
 
 /// The heading of a C file.

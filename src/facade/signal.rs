@@ -4,10 +4,10 @@ use super::proven;
 use crate::answer::{Accuracy, Doubles, Method, Tolerance};
 use crate::ball::Value;
 use crate::error::Error;
-use crate::evaluate::{Extremum, Goal, Limit, Roots, Search, Signal as Analytic};
 use crate::limits::{SEARCH_BITS, VALUE_BITS};
+use crate::planner::Purpose;
 use crate::problem::{Digits, Given, Problem, Wanted, window};
-use crate::signal::Purpose;
+use crate::signal::{Extremum, Goal, Limit, Roots, Search, Signal as Analytic};
 use std::ops::RangeInclusive;
 use wavestep_polynomial::Rational;
 

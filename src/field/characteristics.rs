@@ -7,9 +7,9 @@
 use super::wave::{Entering, Heading, Instant, Order};
 use super::{FIRST_BITS, FieldError, FieldEvaluator, MAX_BITS};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
-use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar};
+use crate::signal::{EvaluateError, Limit};
 use wavestep_polynomial::Rational;
 
 /// A stretch of a wave, by the times at which it enters the bar.

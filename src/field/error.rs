@@ -2,9 +2,9 @@
 
 use crate::ball::Ball;
 use crate::enclosure::EnclosureError;
-use crate::evaluate::EvaluateError;
 use crate::network::NetworkError;
-use crate::signal::SignalError;
+use crate::planner::SignalError;
+use crate::signal::EvaluateError;
 use wavestep_polynomial::Rational;
 
 /// Why fields cannot be given.

@@ -16,10 +16,10 @@ use super::fields::{BarFields, Bounded, Fields};
 use super::wave::{Entering, Heading, Instant, Order, Waves};
 use super::{FIRST_BITS, FieldError, MAX_BITS, Mesh, Sampling};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
-use crate::evaluate::{EvaluateError, Limit};
 use crate::expression::{Fraction, Root};
 use crate::network::{Extent, FieldBar, Network};
 use crate::scene::Kind;
+use crate::signal::{EvaluateError, Limit};
 use wavestep_polynomial::Rational;
 
 /// Radii so far below the largest value need no more bits: a double has 53.

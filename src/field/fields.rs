@@ -1,8 +1,8 @@
 //! Fields as numbers.
 
 use super::Sampling;
-use crate::evaluate::Limit;
 use crate::scene::Dimension;
+use crate::signal::Limit;
 use wavestep_polynomial::Rational;
 
 /// A field.

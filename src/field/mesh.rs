@@ -1,8 +1,8 @@
 //! The places at which fields are given.
 
 use super::FieldError;
-use crate::evaluate::Limit;
 use crate::limits::MAX_FIELD_CELLS;
+use crate::signal::Limit;
 use wavestep_polynomial::Rational;
 
 /// Whether fields are given as values or as averages.

@@ -3,9 +3,9 @@
 use super::evaluator::{MeshPoint, delays};
 use super::wave::{Entering, Heading};
 use super::{FieldError, FieldEvaluator};
-use crate::evaluate::EvaluateError;
 use crate::expression::Fraction;
 use crate::network::Extent;
+use crate::signal::EvaluateError;
 use wavestep_polynomial::Rational;
 
 /// The fields along a bar at a time, in stretches between fronts.

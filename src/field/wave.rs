@@ -15,11 +15,11 @@
 use super::{FIRST_BITS, FieldError};
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
-use crate::evaluate::{At, EvaluateError, Limit, Signal, has_begun, last_begun};
 use crate::expression::Fraction;
 use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
-use crate::signal::{self, EnteringWave};
+use crate::planner::{self, EnteringWave};
+use crate::signal::{At, EvaluateError, Limit, Signal, has_begun, last_begun};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -95,7 +95,7 @@ impl<'a> Waves<'a> {
         Ok(Waves {
             numbers: Numbers::new(&network.model().constants),
             slowness: &network.model().slowness,
-            entering: signal::entering_waves(network, last)?,
+            entering: planner::entering_waves(network, last)?,
             drawn: OnceCell::new(),
         })
     }
@@ -267,8 +267,8 @@ impl<'a> Waves<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evaluate::digits;
     use crate::language::{Source, parse_number, read_scene};
+    use crate::signal::digits;
 
     fn number(text: &str) -> Rational {
         parse_number(text).unwrap()

@@ -1,13 +1,13 @@
 //! Bodies: the parts of the line between open contacts, with their energies and momenta.
 
 use crate::ball::{Ball, Magnitude, Number};
-use crate::evaluate::Limit;
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::network::{ElementLaw, Network};
 use crate::scene::{ElementIndex, End, Kind};
+use crate::signal::Limit;
 use std::cmp::Ordering;
 use std::ops::Range;
 use wavestep_polynomial::Rational;

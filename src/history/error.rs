@@ -2,7 +2,7 @@
 
 use crate::ball::{Ball, BallError};
 use crate::enclosure::EnclosureError;
-use crate::evaluate::EvaluateError;
+use crate::signal::EvaluateError;
 use wavestep_polynomial::Symbol;
 
 /// Why a history cannot be followed to its end.

@@ -2,7 +2,6 @@
 
 use crate::ball::{Attempt, Number, Precisions, Value};
 use crate::enclosure::{EnclosureError, Numbers};
-use crate::evaluate::Limit;
 use crate::expression::{Expression, Fraction, Root};
 use crate::history::body::parts;
 use crate::history::closed_form;
@@ -13,6 +12,7 @@ use crate::history::moment::Moment;
 use crate::limits::MAX_HISTORY_BITS;
 use crate::network::Network;
 use crate::scene::{Dimension, Kind};
+use crate::signal::Limit;
 use std::cmp::Ordering;
 use std::ops::Range;
 use wavestep_polynomial::Rational;

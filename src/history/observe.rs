@@ -2,7 +2,6 @@
 //! contacts; and what elements hold at an instant.
 
 use crate::ball::Number;
-use crate::evaluate::Limit;
 use crate::expression::{Fraction, Root};
 use crate::history::energy::Integrand;
 use crate::history::engine::Engine;
@@ -14,6 +13,7 @@ use crate::network::{
     Elements, Energy, Field, Lump, Lumped, Network, Reading, Section, Side, Term, Window,
 };
 use crate::scene::ElementIndex;
+use crate::signal::Limit;
 
 type Outcome<T> = Result<T, HistoryError>;
 

@@ -2,7 +2,6 @@
 //! forces of contacts.
 
 use crate::ball::Number;
-use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::contacts::Cause;
 use crate::history::energy::Integrand;
@@ -12,6 +11,7 @@ use crate::history::moment::Moment;
 use crate::history::series::Series;
 use crate::history::track::Track;
 use crate::network::{ElementLaw, Side, Window};
+use crate::signal::Limit;
 
 type Outcome<T> = Result<T, HistoryError>;
 

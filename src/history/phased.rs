@@ -2,7 +2,6 @@
 
 use crate::ball::{Attempt, Ball, Magnitude, Number, Precisions};
 use crate::enclosure::EnclosureError;
-use crate::evaluate::{At, Effort, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor};
 use crate::expression::{Expression, Fraction};
 use crate::history::engine::Engine;
 use crate::history::error::HistoryError;
@@ -13,6 +12,7 @@ use crate::history::series::{Series, Truncation};
 use crate::limits::MAX_HISTORY_BITS;
 use crate::network::{Network, Observed, Squared};
 use crate::scene::Dimension;
+use crate::signal::{At, Effort, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor};
 use num_traits::Zero as _;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};

@@ -1,13 +1,13 @@
 //! What is read off nodes and contacts, once they have been followed to an instant.
 
 use crate::ball::Number;
-use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::engine::{Cell, Engine};
 use crate::history::error::HistoryError;
 use crate::history::moment::Moment;
 use crate::history::series::Series;
 use crate::network::{Contact, Node, Side};
+use crate::signal::Limit;
 use std::cmp::Ordering;
 
 type Outcome<T> = Result<T, HistoryError>;

@@ -2,12 +2,12 @@
 
 use crate::ball::Number;
 use crate::enclosure::EnclosureError;
-use crate::evaluate::Limit;
 use crate::expression::Fraction;
 use crate::history::energy::{Integrand, Wave};
 use crate::history::error::HistoryError;
 use crate::history::moment::{Clock, Moment};
 use crate::history::series::{Series, Truncation};
+use crate::signal::Limit;
 use std::cmp::Ordering;
 
 /// A function of time from its first cell to its end.

@@ -1,8 +1,8 @@
 //! Why nothing can be locked.
 
-use crate::evaluate::EvaluateError;
 use crate::history::HistoryError;
-use crate::signal::SignalError;
+use crate::planner::SignalError;
+use crate::signal::EvaluateError;
 use crate::solution::SolveError;
 
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]

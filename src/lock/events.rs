@@ -3,13 +3,13 @@
 //! The formulas of waves are those of closed contacts and are not locked here.
 
 use crate::ball::{Attempt, Ball, Decimal, Precisions};
-use crate::evaluate::{Limit, Value, value};
 use crate::history::{ContactSummary, Ending, Event, History, HistoryError};
 use crate::lock::difference::{Difference, both, compared};
 use crate::lock::stated::of_scene;
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
 use crate::network::Network;
-use crate::signal::{self, Purpose};
+use crate::planner::{self, Purpose};
+use crate::signal::{Limit, Value, value};
 use num_bigint::BigInt;
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -74,7 +74,7 @@ fn values(network: &Network, request: &Request, digits: u64) -> Result<Values, L
     let writer = Writer { digits: request.digits };
     for observed in network.observables() {
         let name = &observed.name;
-        let signal = signal::of_scene(network, observed, [first, last], Purpose::Values)?;
+        let signal = planner::of_scene(network, observed, [first, last], Purpose::Values)?;
         for time in &request.times {
             let value = value(&*signal, time, Limit::Right, digits as usize, LIMIT_BITS);
             let value = value.map_err(HistoryError::from)?;

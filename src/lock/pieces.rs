@@ -1,11 +1,11 @@
 //! Locked pieces of the waves of a recurrence.
 
-use crate::evaluate::{ClosedSignal, Limit, digits};
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::lock::difference::{Difference, compared};
 use crate::lock::stated::of_recurrence;
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
+use crate::signal::{ClosedSignal, Limit, digits};
 use crate::solution::Solution;
 use std::collections::{BTreeMap, BTreeSet};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};

@@ -2,10 +2,10 @@
 
 use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
-use crate::evaluate::arrivals;
 use crate::expression::{Condition, Expression};
 use crate::network::Network;
 use crate::recurrence::Statement;
+use crate::signal::arrivals;
 use crate::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
 use wavestep_polynomial::Symbol;
 

@@ -3,13 +3,13 @@
 use super::bounds::{refuse_terms, terms_of_piece, terms_through};
 use super::error::Missing;
 use super::{Kind, Problem, ProblemError};
-use crate::evaluate::{Arrival, arrivals};
 use crate::export::{self, Derivation, Formula, SourceForm};
 use crate::expression::{Expression, Fraction};
 use crate::language;
 use crate::limits::MAX_DERIVED_ECHOES;
 use crate::network::{Network, ObservedValue};
 use crate::recurrence::{Observable, Recurrence, WaveIndex};
+use crate::signal::{Arrival, arrivals};
 use crate::solution::{ObserveError, ObservedStretch, Solution, Unknown};
 
 /// The periods that an explanation ends with.

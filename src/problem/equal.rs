@@ -6,11 +6,11 @@
 //! there is only one is not proven.
 
 use super::{EqualError, Problem, ProblemError};
-use crate::evaluate::{Goal, Search};
 use crate::expression::Fraction;
 use crate::language::{self, Source};
 use crate::limits::MAX_DIGITS_OF_SYMBOL;
-use crate::signal::Purpose;
+use crate::planner::Purpose;
+use crate::signal::{Goal, Search};
 use num_traits::Signed as _;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};

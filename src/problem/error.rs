@@ -1,7 +1,6 @@
 //! Why a problem has no answer.
 
 use crate::answer::{InvalidMethod, InvalidTolerance, Tolerance, WayError};
-use crate::evaluate::{EvaluateError, MethodError};
 use crate::field::FieldError;
 use crate::history::HistoryError;
 use crate::language::Diagnostic;
@@ -9,8 +8,9 @@ use crate::limits::MAX_DERIVED_TERMS;
 use crate::lock::LockError;
 use crate::model::{ModelError, equivalent_stiffness};
 use crate::network::{NetworkError, ScaledScene};
+use crate::planner::SignalError;
 use crate::scene::Dimension;
-use crate::signal::SignalError;
+use crate::signal::{EvaluateError, MethodError};
 use crate::solution::SolveError;
 use std::cmp::Ordering;
 use wavestep_polynomial::{Rational, Symbol};

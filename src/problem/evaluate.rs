@@ -4,11 +4,11 @@
 use super::error::equivalent_spring;
 use super::{Kind, Problem, ProblemError, Wanted};
 use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, Way, WayError};
-use crate::evaluate::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
 use crate::model::ModelError;
-use crate::signal::{self, Purpose};
+use crate::planner::{self, Purpose};
+use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::Signed as _;
 use wavestep_polynomial::Rational;
 
@@ -57,7 +57,7 @@ impl Problem {
         let all = |signal: &dyn Signal| -> Result<Vec<Value>, ProblemError> {
             let mut values = Vec::with_capacity(times.len());
             for time in times {
-                match evaluate::digits(signal, time, limit, count, max_bits) {
+                match signal::digits(signal, time, limit, count, max_bits) {
                     // More bits than those tried do not help.
                     Err(EvaluateError::AccuracyNotReached { best, .. })
                         if signal.most_bits() < u64::MAX =>
@@ -122,7 +122,7 @@ impl Problem {
     ) -> Result<Box<dyn Signal + '_>, ProblemError> {
         match (&self.kind, &wanted.observed) {
             (Kind::Line { network, .. }, Some(observed)) => {
-                Ok(signal::of_scene(network, observed, window, purpose)?)
+                Ok(planner::of_scene(network, observed, window, purpose)?)
             }
             (Kind::Equations(solution), _) => {
                 let observation = wanted.observation().expect("it is linear");

@@ -19,9 +19,9 @@ mod wanted;
 
 use crate::language::{self, Source, Stated};
 use crate::network::{Network, NetworkError, ScaledScene};
+use crate::planner;
 use crate::recurrence::{Recurrence, Statement};
 use crate::scene::{PI, Scene};
-use crate::signal;
 use crate::solution::Solution;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -193,7 +193,7 @@ impl Problem {
 
     /// Whether there are periods and echoes, not events.
     fn has_periods(&self) -> bool {
-        !matches!(&self.kind, Kind::Line { network, .. } if !signal::has_periods(network))
+        !matches!(&self.kind, Kind::Line { network, .. } if !planner::has_periods(network))
     }
 
     /// Whether waves return at times without a common measure.

@@ -1,11 +1,11 @@
 //! Times, with units where the scene has them.
 
 use super::{Given, Kind, Problem, ProblemError, number};
-use crate::evaluate::{ClosedForm, EvaluateError};
 use crate::expression::Fraction;
 use crate::language::{self, Source};
 use crate::network::{Network, ObservedValue};
 use crate::scene::Dimension;
+use crate::signal::{ClosedForm, EvaluateError};
 use num_integer::Integer as _;
 use num_traits::{Signed as _, ToPrimitive as _};
 use wavestep_polynomial::{Rational, fraction};

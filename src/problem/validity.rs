@@ -1,10 +1,10 @@
 //! What contacts do, and how long forms with closed contacts are true.
 
 use super::{Kind, Problem, ProblemError};
-use crate::evaluate::Value;
 use crate::history::{History, Validity};
 use crate::network::Network;
 use crate::scene::{Element, Joint, Kind as ElementKind, Scene};
+use crate::signal::Value;
 use wavestep_polynomial::Rational;
 
 /// How many cells are followed beside a derivation.

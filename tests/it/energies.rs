@@ -2,13 +2,13 @@
 //! and their extrema are those of dense samples; where contacts stay closed and where they open.
 
 use wavestep::ball::Ball;
-use wavestep::evaluate::{
+use wavestep::language::{Source, parse_number, read_scene};
+use wavestep::network::Network;
+use wavestep::planner::{Purpose, of_scene};
+use wavestep::signal::{
     At, EvaluateError, Goal, Limit, Marched, MethodError, Root, Search, Signal, Summation, Summed,
     Value, value,
 };
-use wavestep::language::{Source, parse_number, read_scene};
-use wavestep::network::Network;
-use wavestep::signal::{Purpose, of_scene};
 use wavestep_polynomial::Rational;
 
 /// A mass strikes a bar that is held by a spring at its end; what flows into each element is its power.

@@ -10,11 +10,11 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use proptest::prelude::*;
 use wavestep::ball::Decimal;
-use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, Value};
 use wavestep::expression::{ExponentialSum, Expression};
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::limits::{MAX_ORDER, MAX_ORDER_OF_SEQUENCE, MAX_PIECES};
 use wavestep::recurrence::Recurrence;
+use wavestep::signal::{ClosedSignal, EvaluateError, Limit, Value};
 use wavestep::solution::{PeriodByPeriod, Solution};
 
 const BITS: u64 = 1 << 16;
@@ -83,7 +83,7 @@ fn told(
 ) -> Result<Value, EvaluateError> {
     let observation = solution.recurrence().observation(quantity).expect(quantity);
     let signal = ClosedSignal::of_recurrence(solution, &observation, [at, at])?;
-    wavestep::evaluate::digits(&signal, at, side, digits, bits)
+    wavestep::signal::digits(&signal, at, side, digits, bits)
 }
 
 fn decimal(value: &Value, digits: usize) -> Decimal {

@@ -2,13 +2,13 @@
 //! averages against nodes, the two sides of fronts, and what is refused.
 
 use proptest::prelude::*;
-use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, digits};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Fields, Mesh, Quantity};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::limits::MAX_FIELD_CELLS;
 use wavestep::network::Network;
 use wavestep::scene::{Kind, Measure, Observable, Place, Position, Seen};
+use wavestep::signal::{ClosedSignal, EvaluateError, Limit, digits};
 use wavestep_polynomial::Symbol;
 
 type Rational = wavestep_polynomial::Rational;

@@ -4,12 +4,12 @@ use num_rational::BigRational;
 use num_traits::Signed as _;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
-use wavestep::evaluate::{
-    ClosedSignal, EvaluateError, Extremum, Goal, Limit, Place, Root, Search, Value, digits,
-};
 use wavestep::language::{Source, parse_number, read_recurrence, read_scene};
 use wavestep::network::Network;
 use wavestep::scenes;
+use wavestep::signal::{
+    ClosedSignal, EvaluateError, Extremum, Goal, Limit, Place, Root, Search, Value, digits,
+};
 use wavestep::solution::Solution;
 
 const BITS: u64 = 1 << 12;

@@ -4,7 +4,6 @@
 
 use num_traits::ToPrimitive as _;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{ClosedSignal, Limit, Value, digits};
 use wavestep::language::{Source, read_scene};
 use wavestep::model::{
     Leapfrog, Model, ModelError, Modes, NotRepresented, RigidBody, Steps, ThirdOfMass,
@@ -12,6 +11,7 @@ use wavestep::model::{
 };
 use wavestep::network::{Network, NetworkError, ScaledScene};
 use wavestep::scene::{Hertz, Kind, Scene};
+use wavestep::signal::{ClosedSignal, Limit, Value, digits};
 use wavestep_polynomial::Rational;
 
 fn scene_of(text: &str) -> Scene {

@@ -2,14 +2,14 @@
 //! places, averages against momentum, energy and displacements, against closed contacts as long as they
 //! are closed; and fronts of what an opening or a closing sends out.
 
-use wavestep::evaluate::{Limit, Value, value};
 use wavestep::expression::Fraction;
 use wavestep::field::{Bounded, FieldError, FieldEvaluator, Mesh, Profile, Quantity};
 use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
+use wavestep::planner::{Purpose, SignalError, of_scene};
 use wavestep::scene::{Kind, Measure, Observable, Place, Position, Scene, Seen};
-use wavestep::signal::{Purpose, SignalError, of_scene};
+use wavestep::signal::{Limit, Value, value};
 
 type Rational = wavestep_polynomial::Rational;
 

@@ -2,10 +2,10 @@
 //! as what they show, and come out of derivations with second-order poles.
 
 use proptest::prelude::*;
-use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, Value, digits};
 use wavestep::export::{Formula, LATEX_WIDTH, expression_text, latex};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::language::{Source, parse_number, read_expression, read_listing, read_recurrence};
+use wavestep::signal::{ClosedSignal, EvaluateError, Limit, Value, digits};
 use wavestep::solution::Solution;
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
 

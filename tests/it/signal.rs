@@ -5,11 +5,11 @@
 
 use num_traits::Signed as _;
 use std::collections::BTreeMap;
-use wavestep::evaluate::{At, ClosedSignal, EvaluateError, Limit, Signal as _, digits};
 use wavestep::language::parse_number;
 use wavestep::network::Network;
 use wavestep::problem::Problem;
 use wavestep::scenes::SCENES;
+use wavestep::signal::{At, ClosedSignal, EvaluateError, Limit, Signal as _, digits};
 use wavestep_polynomial::Rational;
 
 /// The shipped linear scenes with numbers for their symbols.

@@ -7,11 +7,11 @@ use super::json;
 use super::progress;
 use super::validity;
 use serde_json::{Value, json};
-use wavestep::evaluate::Arrival;
 use wavestep::export::{self, Formula};
 use wavestep::problem::{
     Derived, Form, Functions, GeneralFormulas, Orders, Problem, Symbols, ToDerive,
 };
+use wavestep::signal::Arrival;
 use wavestep::solution::ObservedStretch;
 
 pub fn run(options: &Derive) -> Result<String, Failure> {

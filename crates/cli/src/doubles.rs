@@ -11,8 +11,8 @@ use wavestep::answer::{
     Candidate, Doubles, Method, Promise, Remark, Tested, Tolerance, WayError, Weighed,
 };
 use wavestep::ball::in_decimals;
-use wavestep::evaluate::Limit;
 use wavestep::problem::{Problem, ProblemError};
+use wavestep::signal::Limit;
 
 pub fn method(text: &str) -> Result<Method, Failure> {
     text.parse().map_err(|error| {

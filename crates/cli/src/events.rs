@@ -9,11 +9,11 @@ use super::progress;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use wavestep::ball::in_decimals;
-use wavestep::evaluate::Value;
 use wavestep::export::expression_text;
 use wavestep::history::{Body, Ending, Event, EventKind, History};
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
+use wavestep::signal::Value;
 
 pub fn run(options: &Events) -> Result<String, Failure> {
     input::digits(options.digits)?;

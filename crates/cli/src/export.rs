@@ -9,8 +9,8 @@ use super::progress;
 use num_rational::BigRational;
 use num_traits::ToPrimitive as _;
 use wavestep::answer::{Tolerance, WayError};
-use wavestep::evaluate::{Compiled, Evaluator as _};
 use wavestep::export::{CHeading, to_c};
+use wavestep::signal::{Compiled, Evaluator as _};
 
 pub fn run(options: &Export) -> Result<String, Failure> {
     let tolerance = options.tol.as_deref().map_or(Ok(Tolerance::Ulps(4.0)), tolerance)?;

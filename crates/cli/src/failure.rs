@@ -3,12 +3,12 @@
 use super::diagnostic::{Style, render};
 use wavestep::Error;
 use wavestep::answer::WayError;
-use wavestep::evaluate::{EvaluateError, MethodError};
 use wavestep::expression::NotInvertible;
 use wavestep::field::FieldError;
 use wavestep::language::Diagnostic;
 use wavestep::network::NetworkError;
 use wavestep::problem::{LockRefusal, ProblemError};
+use wavestep::signal::{EvaluateError, MethodError};
 use wavestep::solution::Unsolvable;
 use wavestep_draw::PlotError;
 use wavestep_studies::picture::PictureError;

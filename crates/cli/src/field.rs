@@ -7,11 +7,11 @@ use super::json::SCHEMA_VERSION;
 use super::output::written;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
-use wavestep::evaluate::Limit;
 use wavestep::field::{BarFields, Bounded, Fields, Mesh, Quantity, Sampling};
 use wavestep::language;
 use wavestep::problem::Problem;
 use wavestep::scene::Dimension;
+use wavestep::signal::Limit;
 
 pub fn run(options: &Field) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;

@@ -8,8 +8,8 @@ use super::input;
 use super::output::plural;
 use super::progress;
 use super::validity;
-use wavestep::evaluate::{Place, Search};
-use wavestep::signal::Purpose;
+use wavestep::planner::Purpose;
+use wavestep::signal::{Place, Search};
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     input::digits(options.digits)?;

@@ -8,9 +8,9 @@ use super::progress;
 use num_rational::BigRational;
 use serde_json::json;
 use wavestep::ball::{Ball, Decimal};
-use wavestep::evaluate::Goal;
 use wavestep::language;
 use wavestep::problem::{Crossing, EqualExtrema, number};
+use wavestep::signal::Goal;
 
 pub fn run(options: &Find) -> Result<String, Failure> {
     let (goal, name) = options.extremum().expect("arguments conflict with roots");

@@ -7,8 +7,8 @@ use super::rows::ALL_DIGITS;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use wavestep::ball::{Ball, in_decimals};
-use wavestep::evaluate::{Extremum, Goal, Place, Root, Roots, Value};
 use wavestep::problem::{Problem, Wanted};
+use wavestep::signal::{Extremum, Goal, Place, Root, Roots, Value};
 
 /// Digits of bounds and of intervals that stay undecided.
 const BOUND_DIGITS: usize = 20;

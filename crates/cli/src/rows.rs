@@ -6,8 +6,8 @@ use super::json::SCHEMA_VERSION;
 use num_rational::BigRational;
 use serde_json::{Value as Json, json};
 use wavestep::ball::{Decimal, Exactness, in_decimals};
-use wavestep::evaluate::{Limit, Value};
 use wavestep::problem::{self, Problem, Wanted, evenly_spaced};
+use wavestep::signal::{Limit, Value};
 
 /// The most times that are evaluated at once.
 const MAX_POINTS: usize = 1_000_000;

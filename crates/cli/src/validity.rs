@@ -1,8 +1,8 @@
 //! How long a form with closed contacts is true, as a note on standard error.
 
 use num_rational::BigRational;
-use wavestep::evaluate::Value;
 use wavestep::problem::{Holds, Pressed, Problem};
+use wavestep::signal::Value;
 
 /// Significant digits of the instant until which a form holds.
 const DIGITS: usize = 12;

@@ -5,15 +5,15 @@
 
 use super::{Mark, Outcome, Rule, Scale, value_at};
 use crate::ball::Ball;
-use crate::evaluate::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
 use crate::expression::{Expression, Fraction};
+use crate::signal::{At, Effort, Enclosure, Known, Limit, Signal, Taylor};
 use num_traits::{One as _, Zero as _};
 use std::ops::Range;
 use std::rc::Rc;
 use wavestep_polynomial::{Rational, binomial};
 
 /// A coefficient times signals, by their places among the operands.
-pub(in crate::signal) struct Product {
+pub(crate) struct Product {
     pub coefficient: Fraction,
     pub factors: Vec<usize>,
 }
@@ -22,7 +22,7 @@ pub(in crate::signal) struct Product {
 ///
 /// # Invariants
 /// - all operands have the window of the combination; a product has a factor.
-pub(in crate::signal) struct Combination<'a> {
+pub(crate) struct Combination<'a> {
     pub scale: Rc<Scale<'a>>,
     pub operands: Vec<Rc<dyn Signal + 'a>>,
     pub products: Vec<Product>,

@@ -9,8 +9,8 @@
 
 use super::{Mark, Outcome, Rule, Scale, locate, value_at, working};
 use crate::ball::{Ball, Magnitude};
-use crate::evaluate::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun};
 use crate::expression::{Expression, Fraction};
+use crate::signal::{Effort, Enclosure, Instant, Known, Limit, Signal, Taylor, has_begun};
 use num_traits::Zero as _;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ const WIDE: i64 = 1 << 20;
 /// # Invariants
 /// - the window of the integrand reaches to the end of that of the integral, and as far back as it is
 ///   integrated.
-pub(in crate::signal) struct Integral<'a> {
+pub(crate) struct Integral<'a> {
     scale: Rc<Scale<'a>>,
     of: Rc<dyn Signal + 'a>,
     /// The length; none for integrals from the start.

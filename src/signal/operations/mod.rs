@@ -8,17 +8,17 @@
 mod combination;
 mod integral;
 
-pub(super) use combination::{Combination, Product};
-pub(super) use integral::Integral;
+pub(crate) use combination::{Combination, Product};
+pub(crate) use integral::Integral;
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};
 use crate::enclosure::Numbers;
-use crate::evaluate::{
+use crate::expression::{Expression, Fraction, Root};
+use crate::network::Network;
+use crate::signal::{
     At, ClosedForm, Effort, Enclosure, EvaluateError, Instant, Known, Limit, Point, Signal, Taylor,
     last_begun,
 };
-use crate::expression::{Expression, Fraction, Root};
-use crate::network::Network;
 use num_traits::{Signed as _, Zero as _};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -44,7 +44,7 @@ fn working(bits: u64) -> u64 {
 type Outcome<T> = Result<T, EvaluateError>;
 
 /// The scales of a scene, and its constants.
-pub(super) struct Scale<'a> {
+pub(crate) struct Scale<'a> {
     network: &'a Network,
     numbers: Numbers,
 }
@@ -91,7 +91,7 @@ impl<'a> Scale<'a> {
 }
 
 /// A time of the user's, as far as it is known.
-pub(super) struct Mark<'m> {
+pub(crate) struct Mark<'m> {
     exact: Option<Rational>,
     instant: Option<Instant>,
     enclose: Box<dyn Fn(u64) -> Outcome<Ball> + 'm>,
@@ -179,7 +179,7 @@ fn value_at(
 
 /// What an operation is between the breaks of its operands. A list of places says for each operand, or
 /// for each end of an integral, on which stretch it is.
-pub(super) trait Rule {
+pub(crate) trait Rule {
     /// The places on the first stretch, and the ends of those that follow, one range for each operand.
     fn ranges(&self) -> Outcome<Vec<Range<usize>>>;
 
@@ -226,7 +226,7 @@ struct Step {
 }
 
 /// The signal of a rule, in a unit, on a window of the user's time.
-pub(super) struct Operation<'a, R> {
+pub(crate) struct Operation<'a, R> {
     scale: Rc<Scale<'a>>,
     rule: R,
     unit: Root,

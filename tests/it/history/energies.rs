@@ -2,8 +2,8 @@
 
 use crate::history::{Values, ball, is_zero, network_of, rational, values};
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Limit, Value};
 use wavestep::network::Network;
+use wavestep::signal::{Limit, Value};
 use wavestep_polynomial::Rational;
 
 /// A mass strikes a fixed bar and leaves it; each body is seen by itself.

@@ -14,11 +14,11 @@ mod validity;
 use crate::support::mirror::mirrored;
 use std::collections::BTreeMap;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{Limit, Signal, Value, value};
 use wavestep::history::{Ending, Event, EventKind, History};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
-use wavestep::signal::{Purpose, SignalError, of_scene};
+use wavestep::planner::{Purpose, SignalError, of_scene};
+use wavestep::signal::{Limit, Signal, Value, value};
 use wavestep_polynomial::Rational;
 
 type Values<'a> = &'a [(&'a str, &'a str)];

@@ -2,8 +2,8 @@
 
 use crate::history::{ball, rational, shipped};
 use std::fs;
-use wavestep::evaluate::{ClosedSignal, Goal, Place, Search};
 use wavestep::history::History;
+use wavestep::signal::{ClosedSignal, Goal, Place, Search};
 use wavestep_polynomial::Rational;
 
 const DIGITS: usize = 12;
@@ -37,7 +37,7 @@ fn line(ratio: i64) -> String {
     )
 }
 
-fn ball_of(time: &wavestep::evaluate::Value) -> f64 {
+fn ball_of(time: &wavestep::signal::Value) -> f64 {
     ball(time).rounded().unwrap()
 }
 

@@ -1,10 +1,10 @@
 //! What is found and drawn across the phases of contacts agrees with values, events and closed forms.
 
 use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped, signal};
-use wavestep::evaluate::{EvaluateError, Goal, Limit, Place, Root, Search, Value};
 use wavestep::history::{EventKind, History, HistoryError};
 use wavestep::network::Network;
-use wavestep::signal::Purpose;
+use wavestep::planner::Purpose;
+use wavestep::signal::{EvaluateError, Goal, Limit, Place, Root, Search, Value};
 use wavestep_polynomial::Rational;
 
 const BITS: u64 = 1 << 10;
@@ -84,7 +84,7 @@ fn no_value_is_larger_than_the_largest() {
             Place::Undecided { .. } => panic!("{name} {observable}: {place:?}"),
         };
         // Instants that are no rational numbers are missed by a little; on a smooth run that is nothing.
-        let exact = matches!(time, wavestep::evaluate::Value::Exact(_));
+        let exact = matches!(time, wavestep::signal::Value::Exact(_));
         if exact || matches!(place, Place::Critical(_)) {
             let at = near(time);
             let there = crate::history::values(&network, &observable, &[at], side, 9);

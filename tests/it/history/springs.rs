@@ -1,8 +1,8 @@
 //! Springs and dampers beside contacts that open.
 
 use crate::history::{ball, is_zero, network_of, rational, values};
-use wavestep::evaluate::{Limit, Value};
 use wavestep::history::{EventKind, History};
+use wavestep::signal::{Limit, Value};
 use wavestep_polynomial::Rational;
 
 /// A mass strikes a fixed bar through a damper, and leaves it.

@@ -2,8 +2,8 @@
 //! they follow what arrives.
 
 use crate::history::{ball, is_zero, network_of, rational, values};
-use wavestep::evaluate::Limit;
 use wavestep::history::{EventKind, History};
+use wavestep::signal::Limit;
 use wavestep_polynomial::Rational;
 
 /// What is followed is the closed form of the same scene with closed contacts, as long as these would not open.

@@ -3,9 +3,9 @@
 use crate::history::{SHIPPED, ball, is_zero, network_of, rational, shipped};
 use std::cmp::Ordering;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{ClosedSignal, Limit, Value, digits};
 use wavestep::history::{EventKind, History, HistoryError, Validity};
 use wavestep::network::Network;
+use wavestep::signal::{ClosedSignal, Limit, Value, digits};
 use wavestep_polynomial::Rational;
 
 const CELLS: usize = 2_000;

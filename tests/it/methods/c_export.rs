@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use wavestep::evaluate::Limit;
 use wavestep::export::{CHeading, to_c};
+use wavestep::signal::Limit;
 
 /// Options under which compilers shall find nothing.
 const STRICT: [&str; 5] = ["-std=c89", "-Wall", "-Wextra", "-Werror", "-pedantic"];
@@ -91,7 +91,7 @@ fn check(name: &str, quantity: &str, subject: &Subject<'_>, tolerance: Option<f6
         let lines: Vec<&str> = printed.lines().collect();
         assert_eq!(lines.len(), at.len() + 1);
         let bound = double(lines[at.len()]);
-        assert_eq!(Some(bound), wavestep::evaluate::Evaluator::bound(&compiled));
+        assert_eq!(Some(bound), wavestep::signal::Evaluator::bound(&compiled));
         let mut values = Vec::new();
         for (i, line) in lines[..at.len()].iter().enumerate() {
             let columns: Vec<f64> = line.split(' ').map(double).collect();

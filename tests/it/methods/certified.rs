@@ -7,7 +7,7 @@ use crate::methods::{LATE_BITS, Values, exact, mass_ratio, random, times};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Certified, Evaluator as _, Limit, Value};
+use wavestep::signal::{Certified, Evaluator as _, Limit, Value};
 
 /// Bits of the enclosures that decide: no double-double, and no precision of Ziv's loop.
 const REFERENCE_BITS: u64 = 300;

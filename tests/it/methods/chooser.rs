@@ -7,7 +7,7 @@ use proptest::prelude::RngExt as _;
 use wavestep::answer::{
     Cost, Method, Promise, Question, Size, Tolerance, Verdict, Way, WayError, Weighed, consider,
 };
-use wavestep::evaluate::{Limit, StablePrecision};
+use wavestep::signal::{Limit, StablePrecision};
 
 /// Problems of all kinds: on a grid with one pole, with several, in units, and on a lattice.
 const PROBLEMS: [(&str, Values<'static>, &str, &str); 5] = [

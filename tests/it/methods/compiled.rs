@@ -5,8 +5,8 @@ use crate::methods::response::Response;
 use crate::methods::subject::{Subject, with};
 use crate::methods::tally::Tally;
 use crate::methods::{exact, random, times, unit_in_the_last_place};
-use wavestep::evaluate::{Compiled, Evaluator as _, Limit};
 use wavestep::language::parse_number;
+use wavestep::signal::{Compiled, Evaluator as _, Limit};
 
 /// Values of polynomials, at the ends of all pieces and without pattern, against the march in
 /// fixed-point numbers.

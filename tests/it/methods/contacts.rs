@@ -6,8 +6,8 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive as _, Zero as _};
 use proptest::prelude::RngExt as _;
 use wavestep::answer::{Accuracy, Method, Question, Tolerance, Way, WayError};
-use wavestep::evaluate::{EvaluateError, Limit, MethodError, Value, digits};
 use wavestep::problem::Problem;
+use wavestep::signal::{EvaluateError, Limit, MethodError, Value, digits};
 
 /// Scenes whose contacts open, with their linear observables and the end of a window in which they do.
 const SCENES: &[(&str, Values<'static>, &[&str], &str)] = &[

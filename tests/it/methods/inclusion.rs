@@ -8,7 +8,7 @@ use crate::methods::{
 };
 use num_rational::BigRational;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Certified, Evaluator, Limit, Summation, Summed};
+use wavestep::signal::{Certified, Evaluator, Limit, Summation, Summed};
 
 /// Comparisons by method.
 struct Tallies {

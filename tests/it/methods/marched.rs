@@ -6,8 +6,8 @@ use crate::methods::subject::{Subject, with};
 use crate::methods::tally::{Tally, ends};
 use crate::methods::{Values, exact, random, times, unit_in_the_last_place};
 use num_rational::BigRational;
-use wavestep::evaluate::{Evaluator as _, Limit, Marched, MethodError, Taps};
 use wavestep::problem::Problem;
+use wavestep::signal::{Evaluator as _, Limit, Marched, MethodError, Taps};
 
 /// A rigid mass whose bar ends in a dashpot: all but a part of each wave is lost; and what is seen
 /// beside large functions of time.

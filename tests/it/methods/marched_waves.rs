@@ -6,7 +6,7 @@ use crate::methods::tally::{Tally, ends};
 use crate::methods::{Values, exact, random, times};
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{EvaluateError, Evaluator as _, Limit, MethodError, NoTaps, Taps};
+use wavestep::signal::{EvaluateError, Evaluator as _, Limit, MethodError, NoTaps, Taps};
 
 /// The largest error, relative to the largest value.
 const ALLOWED: f64 = 1e-13;

@@ -8,8 +8,8 @@ use astro_float::{BigFloat, Consts, RoundingMode, Sign as FloatSign};
 use num_bigint::{BigInt, BigUint, Sign};
 use num_rational::BigRational;
 use num_traits::{One as _, Signed as _, Zero as _};
-use wavestep::evaluate::{Limit, Value};
 use wavestep::language::parse_number;
+use wavestep::signal::{Limit, Value};
 
 /// Scenes with observables and ends of windows.
 const SCENES: [(&str, Values<'static>, &str, &str); 10] = [

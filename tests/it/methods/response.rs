@@ -3,7 +3,7 @@
 
 use crate::methods::exact;
 use num_rational::BigRational;
-use wavestep::evaluate::Limit;
+use wavestep::signal::Limit;
 use wavestep_kernels::fixed::{
     DelayEquation, FRACTION_BITS, March, MarchOptions, Position, Reduction,
 };

@@ -7,8 +7,8 @@ use crate::methods::tally::{Tally, ends};
 use crate::methods::{exact, mass_ratio, random, unit_in_the_last_place};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
-use wavestep::evaluate::{Evaluator, Limit, MethodError, NoTaps, Summation, Summed};
 use wavestep::language::parse_number;
+use wavestep::signal::{Evaluator, Limit, MethodError, NoTaps, Summation, Summed};
 
 /// Doubles on every period up to a last one: just after its start, just before its end, and four
 /// between, most of them near the front.

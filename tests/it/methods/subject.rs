@@ -5,11 +5,11 @@ use num_rational::BigRational;
 use std::collections::BTreeMap;
 use wavestep::answer::Question;
 use wavestep::ball::Ball;
-use wavestep::evaluate::{
-    At, ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Signal, Value, digits,
-};
 use wavestep::language::parse_number;
 use wavestep::problem::Problem;
+use wavestep::signal::{
+    At, ClosedForm, ClosedSignal, Compiled, Limit, Marched, MethodError, Signal, Value, digits,
+};
 
 /// Precision that the exact forms may use.
 const LIMIT_BITS: u64 = 1 << 14;

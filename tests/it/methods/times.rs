@@ -6,7 +6,7 @@ use crate::methods::{exact, near};
 use num_rational::BigRational;
 use proptest::prelude::RngExt as _;
 use proptest::test_runner::TestRng;
-use wavestep::evaluate::{Limit, Signal as _};
+use wavestep::signal::{Limit, Signal as _};
 
 /// The smallest double of the window, and the largest.
 pub fn ends(subject: &Subject<'_>) -> (f64, f64) {

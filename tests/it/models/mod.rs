@@ -9,10 +9,10 @@ mod steps;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use std::collections::BTreeMap;
-use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::model::Model;
 use wavestep::network::{Network, ObservedValue};
+use wavestep::signal::{ClosedSignal, Limit, digits};
 
 type Settings<'a> = &'a [(&'a str, &'a str)];
 

@@ -2,9 +2,9 @@
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use wavestep::evaluate::{Limit, digits};
+use wavestep::planner::{Purpose, of_scene};
 use wavestep::scene::Scene;
-use wavestep::signal::{Purpose, of_scene};
+use wavestep::signal::{Limit, digits};
 
 use crate::scenes::march::March;
 use crate::scenes::{built_in, network_of, rational, scene_of, shipped, usual};

@@ -2,11 +2,11 @@
 //! in two, and everything mirrored.
 
 use num_rational::BigRational;
-use wavestep::evaluate::{Limit, digits};
 use wavestep::expression::{Expression, Fraction};
 use wavestep::network::{Network, NetworkError};
+use wavestep::planner::{Purpose, of_scene};
 use wavestep::scene::{Kind, Scene};
-use wavestep::signal::{Purpose, of_scene};
+use wavestep::signal::{Limit, digits};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Symbol;
 

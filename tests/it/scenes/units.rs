@@ -1,7 +1,7 @@
 //! Scenes in units, with constants that are no rational numbers, and travel times without a common
 //! measure: in seconds, metres and newtons, as the march has them.
 
-use wavestep::evaluate::{ClosedSignal, EvaluateError, Limit, digits};
+use wavestep::signal::{ClosedSignal, EvaluateError, Limit, digits};
 
 use crate::scenes::numbers::assert_as_marched;
 use crate::scenes::{network_of, rational, scene_of};

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use wavestep::evaluate::{Limit, digits};
-use wavestep::signal::{Purpose, of_scene};
+use wavestep::planner::{Purpose, of_scene};
+use wavestep::signal::{Limit, digits};
 
 use crate::scenes::{built_in, network_of, rational, scene_of, usual};
 

@@ -2,8 +2,8 @@
 
 use super::{Format, Scene, limits, value_formats};
 use clap::Args;
-use wavestep::evaluate::Limit;
 use wavestep::limits::VALUE_BITS;
+use wavestep::signal::Limit;
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \

@@ -2,8 +2,8 @@
 
 use super::{Format, Scene, value_formats};
 use clap::{ArgGroup, Args};
-use wavestep::evaluate::Goal;
 use wavestep::limits::SEARCH_BITS;
+use wavestep::signal::Goal;
 
 #[derive(Args)]
 #[command(group = ArgGroup::new("goal").required(true).args(["max", "min", "zero", "level"]),

@@ -26,7 +26,7 @@ pub use tools::{Generate, Generated, Scenes};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand as Subcommands, ValueHint};
-use wavestep::evaluate::Limit;
+use wavestep::signal::Limit;
 
 /// How results are written. Each command takes some of these.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use super::{Format, Scene, limits, named};
 use clap::{Args, ValueHint};
-use wavestep::evaluate::Limit;
 use wavestep::field::Quantity;
+use wavestep::signal::Limit;
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \

@@ -2,9 +2,9 @@
 
 use super::{anywhere, run, snapshot, words};
 use num_rational::BigRational;
-use wavestep::evaluate::{ClosedSignal, Limit, digits};
 use wavestep::language::{Source, parse_number, read_recurrence};
 use wavestep::scenes;
+use wavestep::signal::{ClosedSignal, Limit, digits};
 use wavestep::solution::Solution;
 
 const BITS: u64 = 1 << 12;

@@ -4,10 +4,10 @@ use crate::dispersion::DispersionError;
 use crate::hertz::HertzError;
 use wavestep::ball::BallError;
 use wavestep::enclosure::EnclosureError;
-use wavestep::evaluate::EvaluateError;
 use wavestep::language::Diagnostic;
 use wavestep::network::NetworkError;
 use wavestep::recurrence::InvalidRecurrence;
+use wavestep::signal::EvaluateError;
 use wavestep::solution::{ObserveError, SolveError};
 
 /// Why a formula of the source cannot be held against a scene.

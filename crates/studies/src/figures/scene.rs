@@ -1,8 +1,8 @@
 //! Built-in scenes and recurrences with numbers put in.
 
 use crate::picture::{PictureError, Sampled, sampled};
+use wavestep::planner::Purpose;
 use wavestep::problem::Problem;
-use wavestep::signal::Purpose;
 use wavestep_polynomial::Rational;
 
 pub(super) fn problem(name: &str, given: &[(&str, Rational)]) -> Problem {

@@ -20,7 +20,7 @@ pub fn along_the_line(
     caption: Caption,
 ) -> Result<Figure, PictureError> {
     if times.is_empty() {
-        return Err(wavestep::evaluate::EvaluateError::EmptyWindow.into());
+        return Err(wavestep::signal::EvaluateError::EmptyWindow.into());
     }
     let network = evaluator.network();
     let mut found: Vec<Vec<Profile>> = Vec::with_capacity(times.len());

@@ -5,9 +5,9 @@ use crate::hertz::ContactOfScene;
 use crate::nearest;
 use wavestep::answer::{Accuracy, Method, Remark, Tested};
 use wavestep::ball::Ball;
-use wavestep::evaluate::Limit;
+use wavestep::planner::Purpose;
 use wavestep::problem::{Problem, ProblemError, Wanted, two_figures};
-use wavestep::signal::Purpose;
+use wavestep::signal::Limit;
 use wavestep_polynomial::Rational;
 
 /// The method for local contacts: far finer than a picture shows.

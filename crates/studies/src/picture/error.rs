@@ -2,9 +2,9 @@
 
 use crate::dispersion::DispersionError;
 use crate::hertz::HertzError;
-use wavestep::evaluate::EvaluateError;
 use wavestep::field::{FieldError, Quantity};
 use wavestep::problem::ProblemError;
+use wavestep::signal::EvaluateError;
 use wavestep_draw::PlotError;
 
 #[derive(Clone, Debug, thiserror::Error)]

@@ -1,7 +1,7 @@
 //! Observables sampled for a line: more densely where they bend, from both sides where they jump.
 
 use wavestep::ball::{Attempt, Ball, Precisions};
-use wavestep::evaluate::{At, EvaluateError, Limit, Signal};
+use wavestep::signal::{At, EvaluateError, Limit, Signal};
 use wavestep_polynomial::Rational;
 
 /// The precision tried first, and the highest.

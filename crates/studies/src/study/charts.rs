@@ -11,8 +11,8 @@ use crate::picture::PictureError;
 use num_traits::ToPrimitive as _;
 use std::time::Duration;
 use wavestep::answer::{self, Method};
-use wavestep::evaluate::instructions;
 use wavestep::problem::{Problem, number};
+use wavestep::signal::instructions;
 use wavestep_draw::{Axis, Caption, Chart, Curves, Listing, PlotError, Table};
 use wavestep_polynomial::Rational;
 

@@ -3,7 +3,7 @@
 use crate::study::harness::{Subject, errors};
 use crate::study::reference::Reference;
 use wavestep::answer::{Method, Question};
-use wavestep::evaluate::{StablePrecision, first_doubles};
+use wavestep::signal::{StablePrecision, first_doubles};
 use wavestep_draw::{Axis, Caption, Curve, Curves, PlotError};
 use wavestep_polynomial::Rational;
 

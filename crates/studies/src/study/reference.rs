@@ -2,7 +2,7 @@
 
 use wavestep::answer::Question;
 use wavestep::ball::{Attempt, Precisions};
-use wavestep::evaluate::{At, EvaluateError, Limit};
+use wavestep::signal::{At, EvaluateError, Limit};
 use wavestep_polynomial::Rational;
 
 /// The bits of balls tried first, and the most.

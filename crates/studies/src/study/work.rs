@@ -3,8 +3,8 @@
 use crate::study::harness::{Measured, Settings, Subject, measure};
 use crate::study::reference::Reference;
 use wavestep::answer::Method;
-use wavestep::evaluate::StablePrecision;
 use wavestep::problem::ProblemError;
+use wavestep::signal::StablePrecision;
 use wavestep_draw::{Caption, PlotError, Point, Row, Table, WorkPrecision};
 use wavestep_polynomial::Rational;
 

@@ -3,7 +3,7 @@
 use crate::study::curves::{DOUBLES, by_method, empty};
 use crate::study::reference::Reference;
 use wavestep::answer::Question;
-use wavestep::evaluate::{ClosedForm, Root, Search};
+use wavestep::signal::{ClosedForm, Root, Search};
 use wavestep_draw::{Axis, Caption, Curves, PlotError};
 use wavestep_polynomial::Rational;
 

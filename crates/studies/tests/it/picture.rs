@@ -1,9 +1,9 @@
 //! Lines that are drawn go through the values.
 
-use wavestep::evaluate::{Limit, Signal, Value, value};
 use wavestep::language::{Source, parse_number, read_scene};
 use wavestep::network::Network;
-use wavestep::signal::{Purpose, of_scene};
+use wavestep::planner::{Purpose, of_scene};
+use wavestep::signal::{Limit, Signal, Value, value};
 use wavestep_polynomial::Rational;
 use wavestep_studies::picture::{Prefixed, sampled};
 

@@ -1,8 +1,8 @@
 //! The harness of the charts, measured itself: a known error in is a known error out.
 
 use wavestep::answer::{Method, Question};
-use wavestep::evaluate::StablePrecision;
 use wavestep::problem::Problem;
+use wavestep::signal::StablePrecision;
 use wavestep_draw::Caption;
 use wavestep_studies::study::{
     Loss, Reference, Sampling, Settings, Subject, errors, errors_by_order, first_losses, measure,

@@ -9,8 +9,8 @@ use num_traits::{One as _, Signed as _};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use wavestep::ball::{Ball, Decimal};
-use wavestep::evaluate::{ClosedSignal, Goal, Root, Search};
 use wavestep::language::parse_number;
+use wavestep::signal::{ClosedSignal, Goal, Root, Search};
 use wavestep::solution::Solution;
 use wavestep_polynomial::Rational;
 

@@ -1,0 +1,97 @@
+//! Energies as signals: `Σ c q²` of masses and springs, `Σ c ∫ q² dt` of the waves in bars.
+
+use super::{SignalError, has_periods};
+use crate::expression::{Fraction, Root};
+use crate::history::{FollowedSignal, Follower};
+use crate::network::{EnergyTerm, Network, Window};
+use crate::signal::{
+    ClosedSignal, Combination, EvaluateError, Integral, Operation, Product, Scale, Signal,
+};
+use num_traits::{Signed as _, Zero as _};
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// Bits with which it is told how far back an integral reaches.
+const REACH_BITS: u64 = 64;
+
+/// An energy of a scene, the sum of its terms, on a window of the user's time.
+pub(super) fn of_scene<'a>(
+    network: &'a Network,
+    terms: &[EnergyTerm],
+    unit: &Root,
+    [from, to]: [&Rational; 2],
+) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    if to < from {
+        return Err(EvaluateError::EmptyWindow.into());
+    }
+    let scale = Scale::of(network);
+    let reaches: Vec<Rational> =
+        terms.iter().map(|term| reach(&scale, term, from)).collect::<Result<_, _>>()?;
+    let squared = squared(network, terms, &reaches, to)?;
+    let (mut operands, mut products): (Vec<Rc<dyn Signal + 'a>>, Vec<Product>) = Default::default();
+    for (place, (term, of)) in terms.iter().zip(squared).enumerate() {
+        let coefficient = term.coefficient.clone();
+        let last = match &term.window {
+            Window::Now => {
+                operands.push(of);
+                products.push(Product { coefficient, factors: vec![place, place] });
+                continue;
+            }
+            Window::Last(travel) => Some(travel.clone()),
+            Window::Always => None,
+        };
+        let one = Product { coefficient: Fraction::one(), factors: vec![0, 0] };
+        let square = combination(&scale, vec![of], vec![one]);
+        let square = Operation::new(&scale, square, one_root(), [&reaches[place], to]);
+        let before = term.before.pow(2);
+        let integral = Integral::new(&scale, Rc::new(square), last, before, [from, to]);
+        operands.push(Rc::new(Operation::new(&scale, integral, one_root(), [from, to])));
+        products.push(Product { coefficient, factors: vec![place] });
+    }
+    let sum = combination(&scale, operands, products);
+    Ok(Box::new(Operation::new(&scale, sum, unit.clone(), [from, to])))
+}
+
+fn one_root() -> Root {
+    Root::from(Fraction::one())
+}
+
+fn combination<'a>(
+    scale: &Rc<Scale<'a>>,
+    operands: Vec<Rc<dyn Signal + 'a>>,
+    products: Vec<Product>,
+) -> Combination<'a> {
+    Combination { scale: Rc::clone(scale), operands, products }
+}
+
+/// A time before which a term is not asked for its quantity.
+fn reach(scale: &Scale<'_>, term: &EnergyTerm, from: &Rational) -> Result<Rational, EvaluateError> {
+    let reach = match &term.window {
+        Window::Now => from.clone(),
+        Window::Last(travel) => {
+            from - Rational::from(&scale.time(travel, REACH_BITS)?.endpoints().1)
+        }
+        Window::Always => Rational::zero(),
+    };
+    Ok(if reach.is_negative() { Rational::zero() } else { reach })
+}
+
+/// What the terms are the squares of.
+fn squared<'a>(
+    network: &'a Network,
+    terms: &[EnergyTerm],
+    reaches: &[Rational],
+    to: &Rational,
+) -> Result<Vec<Rc<dyn Signal + 'a>>, SignalError> {
+    let windows = terms.iter().zip(reaches.iter().map(|from| [from, to]));
+    if has_periods(network) {
+        let squared: Vec<_> = windows.map(|(term, window)| (&term.of, window)).collect();
+        let signals = ClosedSignal::several(network, &squared, to)?.into_iter();
+        return Ok(signals.map(|signal| Rc::new(signal) as Rc<dyn Signal>).collect());
+    }
+    let follower = Follower::new(network, to)?;
+    let signal = |(term, window): (&EnergyTerm, _)| -> Result<Rc<dyn Signal + 'a>, SignalError> {
+        Ok(Rc::new(FollowedSignal::squared(&follower, &term.squared, window)?))
+    };
+    windows.map(signal).collect()
+}

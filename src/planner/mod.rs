@@ -1,0 +1,108 @@
+//! The planner: which source of signals answers for a quantity.
+//!
+//! Where contacts stay closed, waves have a closed form, which is cheap and exact; where they open, the
+//! scene is followed from cell to cell. Energies are sums of squares of such signals, in bars integrated
+//! over the last travel time. Who has a signal need not know which it is; what is no signal, such as a lock,
+//! asks whether there are periods.
+
+mod energy;
+
+use crate::history::{FollowedSignal, Follower, HistoryError};
+use crate::network::{FieldBars, Network, Observed, ObservedValue};
+use crate::signal::{ClosedSignal, EvaluateError, Signal};
+use num_traits::Zero as _;
+use wavestep_polynomial::Rational;
+
+/// Why there is no signal.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum SignalError {
+    /// There is no closed form.
+    #[error(transparent)]
+    Closed(#[from] EvaluateError),
+    /// The scene cannot be followed.
+    #[error(transparent)]
+    Followed(#[from] HistoryError),
+}
+
+/// What is asked of a signal, which decides what is prepared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Purpose {
+    /// Values at times.
+    Values,
+    /// Values at times, from echoes that are counted one by one.
+    Echoes,
+    /// Stretches between breaks, for roots, extrema and polynomials.
+    Stretches,
+}
+
+/// Whether the waves of a scene have periods and echoes, which can be counted; else it is followed, and has
+/// events.
+pub fn has_periods(network: &Network) -> bool {
+    !network.scene().contacts_open
+}
+
+/// An observable of a scene on a window of the user's time.
+pub fn of_scene<'a>(
+    network: &'a Network,
+    observed: &Observed,
+    window: [&Rational; 2],
+    purpose: Purpose,
+) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    if let ObservedValue::Energy(terms) = &observed.value {
+        return energy::of_scene(network, terms, &observed.unit, window);
+    }
+    if has_periods(network) {
+        let signal = ClosedSignal::of_scene(network, observed, window)?;
+        return Ok(Box::new(match purpose {
+            Purpose::Echoes => signal.echo_by_echo(),
+            Purpose::Values | Purpose::Stretches => signal,
+        }));
+    }
+    let followed = FollowedSignal::of_scene(network, observed, window)?;
+    Ok(match purpose {
+        Purpose::Values | Purpose::Echoes => Box::new(followed),
+        Purpose::Stretches => Box::new(followed.cut_at_breaks()?),
+    })
+}
+
+/// A wave as it enters a bar, without the state at the start, its integral over time since then, and the
+/// integral of that.
+pub(crate) type EnteringWave<'a> = [Box<dyn Signal + 'a>; 3];
+
+/// Of each bar of a scene the waves to the right and to the left in its scale, until a time of the user's;
+/// none for what comes from the far side of an endless bar.
+pub(crate) fn entering_waves<'a>(
+    network: &'a Network,
+    last: &Rational,
+) -> Result<Vec<[Option<EnteringWave<'a>>; 2]>, SignalError> {
+    let window = [&Rational::zero(), last];
+    let follower = match has_periods(network) {
+        true => None,
+        false => Some(Follower::new(network, last)?),
+    };
+    let FieldBars { network: own, bars } = network.field_bars().map_err(EvaluateError::from)?;
+    let mut signals: Vec<Box<dyn Signal + 'a>> = Vec::new();
+    match follower {
+        Some(follower) => {
+            for (bar, place) in bars.iter().zip(0..) {
+                for (direction, wave) in bar.entering.iter().enumerate() {
+                    for integrated in 0..wave.as_ref().map_or(0, |levels| levels.len()) {
+                        let wave = (place, direction);
+                        let signal = FollowedSignal::entering(&follower, wave, integrated, window)?;
+                        signals.push(Box::new(signal));
+                    }
+                }
+            }
+        }
+        None => {
+            let levels = bars.iter().flat_map(|bar| bar.entering.iter().flatten().flatten());
+            let observed: Vec<_> = levels.map(|level| (level, window)).collect();
+            let closed = ClosedSignal::several(own, &observed, last)?.into_iter();
+            signals.extend(closed.map(|signal| Box::new(signal) as Box<dyn Signal>));
+        }
+    }
+    let mut signals = signals.into_iter();
+    let mut next = |_| signals.next().expect("one for each level");
+    let mut wave = |levels: &Option<_>| levels.as_ref().map(|_| [0, 1, 2].map(&mut next));
+    Ok(bars.iter().map(|bar| bar.entering.each_ref().map(&mut wave)).collect())
+}

@@ -1,0 +1,262 @@
+//! Observables as functions of time: where they are smooth, and enclosures there.
+//!
+//! Between two arrivals an observable is one exponential polynomial. On a grid it is made of one piece
+//! of each wave that is seen; on a lattice of all echoes that have arrived. Either way it can be
+//! enclosed at a time, and expanded about a time with a proven remainder: what tables of polynomials,
+//! roots and largest values are made from. [`stretch`] tells where it is smooth, [`values`] what it is
+//! there.
+
+use crate::enclosure::Numbers;
+use crate::signal::closed::echoes::{Arriving, Echoes, solve_in, whole_periods};
+use crate::signal::closed::memory::Memory;
+use crate::signal::closed::periods::Periods;
+
+use crate::expression::{Fraction, Root};
+use crate::limits::MAX_PIECES;
+use crate::network::Network;
+use crate::recurrence::{Observation, Recurrence};
+use crate::signal::error::EvaluateError;
+use crate::solution::Demand;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// The most stretches between arrivals of one window.
+pub(super) const MAX_STRETCHES: usize = 200_000;
+
+/// The most periods that are counted.
+const MAX_ORDER: usize = 1_000_000_000;
+
+/// The precision of the first pieces, which tell what all will take.
+const FORESEEING_BITS: u64 = 192;
+
+/// So many pieces always fit.
+const FEW_PIECES: usize = 400;
+
+/// At how many precisions the waves are held at once.
+const MAX_PRECISIONS: usize = 3;
+
+/// An observable with numbers in place of all symbols, as a function of the user's time.
+#[derive(Clone)]
+pub struct ClosedForm {
+    pub(super) recurrence: Recurrence,
+    pub(super) observation: Observation,
+    /// What 1 in the scale of the waves is.
+    pub(super) unit: Root,
+    /// Time in the scale of the waves for one unit of the user's.
+    pub(super) slowness: Fraction,
+    pub(super) numbers: Rc<Numbers>,
+    /// The echoes, where arrivals lie on no grid.
+    pub(super) lattice: Option<Rc<Arriving>>,
+    /// All that is seen of the waves, here and in other views of them.
+    seen: Rc<Observation>,
+    /// The waves, by bits.
+    solved: Rc<RefCell<ByBits>>,
+}
+
+/// The waves, by bits.
+type ByBits = BTreeMap<u64, Rc<RefCell<Solved>>>;
+
+/// The waves, in balls.
+pub(super) enum Solved {
+    Periods(Box<Periods>),
+    Echoes(Rc<Echoes>),
+}
+
+impl ClosedForm {
+    /// A wave or observable of a recurrence without symbols.
+    pub fn of_recurrence(
+        recurrence: &Recurrence,
+        observation: &Observation,
+    ) -> Result<ClosedForm, EvaluateError> {
+        ClosedForm::on_grid(recurrence, observation, Root::from(Fraction::one()), Fraction::one())
+    }
+
+    /// An observable of a scene in a unit, for times up to `last`; on a grid this may be any.
+    pub fn of_scene(
+        network: &Network,
+        observation: &Observation,
+        unit: Root,
+        last: &Rational,
+    ) -> Result<ClosedForm, EvaluateError> {
+        let slowness = network.model().slowness.clone();
+        if network.lattice().periods().len() == 1 {
+            let recurrence = network.recurrence()?;
+            return ClosedForm::on_grid(&recurrence, observation, unit, slowness);
+        }
+        let arriving = Arriving::of(network, &slowness.scale(last))?;
+        let recurrence = arriving.unfolded.recurrence();
+        let signal = ClosedForm::on_grid(recurrence, observation, unit, slowness)?;
+        Ok(ClosedForm { lattice: Some(Rc::new(arriving)), ..signal })
+    }
+
+    fn on_grid(
+        recurrence: &Recurrence,
+        observation: &Observation,
+        unit: Root,
+        slowness: Fraction,
+    ) -> Result<ClosedForm, EvaluateError> {
+        if let Some(symbol) = recurrence.symbols().next() {
+            return Err(EvaluateError::MissingValue(symbol.clone()));
+        }
+        Ok(ClosedForm {
+            numbers: Rc::new(Numbers::new(recurrence.constants())),
+            recurrence: recurrence.clone(),
+            observation: observation.clone(),
+            unit,
+            slowness,
+            lattice: None,
+            seen: Rc::new(observation.clone()),
+            solved: Rc::default(),
+        })
+    }
+
+    /// A part of what is seen, in the scale of the waves; these are solved once for all of its parts.
+    pub(super) fn part(&self, observation: &Observation) -> ClosedForm {
+        let unit = Root::from(Fraction::one());
+        ClosedForm { observation: observation.clone(), unit, ..self.clone() }
+    }
+
+    /// The recurrence of the waves that are seen.
+    pub fn recurrence(&self) -> &Recurrence {
+        &self.recurrence
+    }
+
+    /// What is seen of them.
+    pub fn observation(&self) -> &Observation {
+        &self.observation
+    }
+
+    /// The numbers of its constants.
+    pub(crate) fn numbers(&self) -> &Numbers {
+        &self.numbers
+    }
+
+    /// What 1 in the scale of the waves is.
+    pub(crate) fn unit(&self) -> &Root {
+        &self.unit
+    }
+
+    /// Time in the scale of the waves for one unit of the user's.
+    pub fn slowness(&self) -> &Fraction {
+        &self.slowness
+    }
+
+    /// The length of a period in the user's time, near it; `None` on a lattice.
+    pub fn period(&self) -> Option<f64> {
+        let period = self.numbers.enclose(&self.recurrence.statement().period, 128).ok()?;
+        let slowness = self.numbers.enclose(&self.slowness, 128).ok()?;
+        let inverse = slowness.reciprocal(128).ok()?;
+        self.is_on_grid().then(|| period.multiply(&inverse, 128).to_double().0)
+    }
+
+    /// Whether unit and time are those of the waves, but for rational factors.
+    pub(crate) fn is_rational(&self) -> bool {
+        let unit = self.unit.exact().and_then(|unit| unit.as_constant());
+        unit.is_some() && self.slowness.as_constant().is_some()
+    }
+
+    /// Whether arrivals lie on one grid, so that pieces follow from earlier ones.
+    pub fn is_on_grid(&self) -> bool {
+        self.lattice.is_none()
+    }
+
+    /// How many periods have begun at a time, or one more; on a lattice, how many echoes can have
+    /// arrived.
+    pub fn order(&self, at: &Rational) -> Result<usize, EvaluateError> {
+        let at = self.slowness.scale(at);
+        match &self.lattice {
+            None => {
+                // A wave may be seen before its own clock.
+                let period = &self.recurrence.statement().period;
+                let mut order = whole_periods(&self.numbers, &at, period, MAX_ORDER)?;
+                for seen in &self.observation.waves {
+                    let since = &at - &seen.delay;
+                    order = order.max(whole_periods(&self.numbers, &since, period, MAX_ORDER)?);
+                }
+                Ok(order)
+            }
+            Some(lattice) => Ok(lattice.arrivals.len()),
+        }
+    }
+
+    pub(super) fn solved(&self, bits: u64) -> Result<Rc<RefCell<Solved>>, EvaluateError> {
+        if let Some(known) = self.solved.borrow().get(&bits) {
+            return Ok(known.clone());
+        }
+        let solved = match &self.lattice {
+            None => Solved::Periods(Box::new(Periods::new(
+                &self.recurrence,
+                self.numbers.clone(),
+                bits,
+            )?)),
+            Some(lattice) => {
+                let demand = self.demand(&lattice.arrivals);
+                let (echoes, _) = self.solve_echoes(demand, bits)?;
+                Solved::Echoes(Rc::new(echoes))
+            }
+        };
+        let solved = Rc::new(RefCell::new(solved));
+        let mut known = self.solved.borrow_mut();
+        // With more bits wanted, those with few have done their work.
+        while known.len() >= MAX_PRECISIONS {
+            known.pop_first();
+        }
+        known.insert(bits, solved.clone());
+        Ok(solved)
+    }
+
+    /// Refuses a time until which all pieces are more than can be held, before they are worked out.
+    pub fn foresee(&self, to: &Rational) -> Result<(), EvaluateError> {
+        let order = self.order(to)?;
+        if self.lattice.is_some() || order < FEW_PIECES {
+            return Ok(());
+        }
+        if order > MAX_PIECES + 1 {
+            let (echoes, limit) = (order as u128, MAX_PIECES);
+            return Err(EvaluateError::TooManyEchoes { echoes, limit });
+        }
+        Periods::new(&self.recurrence, self.numbers.clone(), FORESEEING_BITS)?.foresee(order)
+    }
+
+    /// The echoes that are there until a time, by wave and number, with their numbers and delays.
+    pub(crate) fn echoes(
+        &self,
+        to: &Rational,
+        limit: usize,
+        bits: u64,
+    ) -> Result<(Echoes, Vec<(usize, Fraction)>), EvaluateError> {
+        let order = self.order(to)?;
+        if order > limit {
+            return Err(EvaluateError::TooManyEchoes { echoes: order as u128, limit });
+        }
+        let arrivals = match &self.lattice {
+            Some(lattice) => lattice.arrivals.clone(),
+            None => {
+                let period = &self.recurrence.statement().period;
+                let delay = |k: usize| period.scale(&Rational::from_integer(k.into()));
+                (0..=order).map(|k| (k, delay(k))).collect()
+            }
+        };
+        let (echoes, _) = self.solve_echoes(self.demand(&arrivals), bits)?;
+        Ok((echoes, arrivals))
+    }
+
+    fn solve_echoes(&self, demand: Demand, bits: u64) -> Result<(Echoes, usize), EvaluateError> {
+        let field = self.numbers.field(bits);
+        Ok(solve_in(&self.recurrence, field, demand, Memory::of_balls(bits))?)
+    }
+
+    /// The echoes that are needed for those of the waves that are seen.
+    fn demand(&self, arrivals: &[(usize, Fraction)]) -> Demand {
+        let mut demand = Demand::none(&self.recurrence);
+        let exists = |k| self.lattice.as_ref().is_none_or(|l| l.unfolded.counts(k).is_some());
+        for seen in &self.seen.waves {
+            for (number, _) in arrivals {
+                demand.add_where(&self.recurrence, seen.wave, *number, exists);
+            }
+        }
+        demand
+    }
+}

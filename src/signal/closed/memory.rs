@@ -1,0 +1,79 @@
+//! The memory of echoes and pieces, foreseen while the first of them are worked out.
+//!
+//! Counts of coefficients grow as a power of the number of echoes. That power is read off from one doubling
+//! of the number to the next, which tells what all of them will take when little of the work is done.
+
+use crate::ball::ComplexBall;
+use crate::limits::MAX_WAVE_BYTES;
+use crate::signal::error::EvaluateError;
+
+/// From so many steps on a growth is told.
+const FIRST: usize = 32;
+
+/// Coefficients as they are counted, step by step.
+pub(super) struct Memory {
+    bytes_each: u64,
+    steps: usize,
+    coefficients: u64,
+    /// The count at the last power of two.
+    before: u64,
+}
+
+impl Memory {
+    /// Of coefficients with so many bits.
+    pub fn of_balls(bits: u64) -> Memory {
+        Memory::of(size_of::<ComplexBall>() as u64 + bits / 8)
+    }
+
+    /// Of coefficients of so many bytes.
+    pub fn of(bytes_each: u64) -> Memory {
+        Memory { bytes_each, steps: 0, coefficients: 0, before: 0 }
+    }
+
+    /// Adds what one step of so many made; refuses where all would take more than [`MAX_WAVE_BYTES`].
+    pub fn add(&mut self, coefficients: usize, last: usize) -> Result<(), EvaluateError> {
+        self.steps += 1;
+        self.coefficients += coefficients as u64;
+        if !self.steps.is_power_of_two() || self.steps > last {
+            return Ok(());
+        }
+        let before = std::mem::replace(&mut self.before, self.coefficients);
+        if self.steps < FIRST || before == 0 {
+            return Ok(());
+        }
+        let taken = (self.coefficients * self.bytes_each) as f64;
+        let power = (self.coefficients as f64 / before as f64).log2().max(f64::MIN_POSITIVE);
+        let rest = last as f64 / self.steps as f64;
+        let bytes = taken * rest.powf(power);
+        let limit = MAX_WAVE_BYTES as f64;
+        if bytes <= limit {
+            return Ok(());
+        }
+        let share = (limit / bytes).powf(power.recip());
+        let (gigabytes, percent) = ((bytes / 1e9).ceil() as u64, (100.0 * share) as u64);
+        Err(EvaluateError::TooMuchMemory { gigabytes, percent })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Echoes of one pole have as many coefficients as there were echoes before.
+    #[test]
+    fn what_does_not_fit_is_known_early() {
+        let steps = |last: usize| {
+            let mut memory = Memory::of(1000);
+            (0..last).find_map(|step| memory.add(step + 1, last).err().map(|error| (step, error)))
+        };
+        let fits = (2.0 * MAX_WAVE_BYTES as f64 / 1000.0).sqrt() as usize;
+        assert_eq!(steps(fits * 9 / 10), None);
+        let Some((step, EvaluateError::TooMuchMemory { gigabytes, percent })) = steps(10 * fits)
+        else {
+            panic!("ten times as many take a hundred times as much")
+        };
+        assert!(step < 64 && (9..=11).contains(&percent), "{step} {percent}");
+        // A power read off the first echoes is a little low: 32·33/(16·17) is 2^1.96.
+        assert!((75..=100).contains(&(gigabytes * 1_000_000_000 / MAX_WAVE_BYTES)), "{gigabytes}");
+    }
+}

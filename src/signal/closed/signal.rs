@@ -1,0 +1,509 @@
+//! Waves and observables in closed form on a window of time.
+
+use super::exact::ExactEchoes;
+use super::form::ClosedForm;
+use super::scene::SceneEchoes;
+use super::stretch::Stretch;
+use crate::ball::{Ball, Magnitude, Value};
+use crate::expression::{Expression, Field as _, Fraction, Root};
+use crate::limits::MAX_PIECES;
+use crate::network::{Network, Observed, ObservedValue};
+use crate::recurrence::Observation;
+use crate::signal::error::EvaluateError;
+use crate::signal::signal::{At, Effort, Instant, Known, Limit, Point, Signal, last_begun};
+use crate::signal::taylor::Taylor;
+use crate::solution::Solution;
+use std::borrow::Cow;
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+use std::rc::Rc;
+use wavestep_polynomial::Rational;
+
+/// The precision in bits with which echoes that are zero are left out.
+const FIRST_BITS: u64 = 192;
+
+/// The most bits that an exact value is looked for with.
+const SIGN_BITS: u64 = 1 << 12;
+
+/// Digits of what is only compared with a rational number.
+const FEW_DIGITS: usize = 6;
+
+/// The most exact zeros that are asked for to see whether a function vanishes.
+const MAX_ZEROS: usize = 48;
+
+/// The precision of the scale of time.
+const SCALE_BITS: u64 = 64;
+
+/// A wave or an observable in closed form, on a window of the user's time; every symbol has a value.
+///
+/// It is held twice: as a [`ClosedForm`], which is enclosed in balls, and as what is asked for exact values
+/// where a ball cannot decide because the answer is zero. Either is made when it is first asked for.
+pub struct ClosedSignal<'a> {
+    source: Source<'a>,
+    window: [Rational; 2],
+    form: OnceCell<ClosedForm>,
+    stretches: OnceCell<Vec<Stretch>>,
+}
+
+/// Where exact values come from.
+enum Source<'a> {
+    Recurrence {
+        echoes: Box<ExactEchoes<'a>>,
+        value: Observation,
+    },
+    Scene {
+        network: &'a Network,
+        value: Box<Observation>,
+        unit: Root,
+        /// Those of its recurrence, where all that is observed has a closed form without units.
+        exact: OnceCell<Option<Box<ExactEchoes<'static>>>>,
+        /// Those until the end of the window.
+        echoes: Rc<Shared<'a>>,
+    },
+}
+
+/// Echoes that several signals of a scene may be seen in.
+#[derive(Default)]
+struct Shared<'a> {
+    /// What the signals see, where they are several.
+    seen: Vec<Observation>,
+    made: OnceCell<SceneEchoes<'a>>,
+}
+
+impl<'a> ClosedSignal<'a> {
+    /// A wave or observable of a recurrence.
+    pub fn of_recurrence(
+        solution: &'a Solution,
+        observation: &Observation,
+        window: [&Rational; 2],
+    ) -> Result<Self, EvaluateError> {
+        let echoes = Box::new(ExactEchoes::new(Cow::Borrowed(solution))?);
+        let value = observation.clone();
+        ClosedSignal::new(Source::Recurrence { echoes, value }, window)
+    }
+
+    /// An observable of a scene whose contacts stay closed.
+    pub fn of_scene(
+        network: &'a Network,
+        observed: &Observed,
+        window: [&Rational; 2],
+    ) -> Result<Self, EvaluateError> {
+        let ObservedValue::Linear(value) = &observed.value else {
+            return Err(EvaluateError::NotLinear);
+        };
+        let (value, unit) = (Box::new(value.clone()), observed.unit.clone());
+        let (exact, echoes) = (OnceCell::new(), Rc::default());
+        ClosedSignal::new(Source::Scene { network, value, unit, exact, echoes }, window)
+    }
+
+    /// Several observations of a scene in its own scale, on windows with one end: waves are solved and
+    /// echoes worked out once for all of them.
+    pub(crate) fn several(
+        network: &'a Network,
+        observed: &[(&Observation, [&Rational; 2])],
+        until: &Rational,
+    ) -> Result<Vec<Self>, EvaluateError> {
+        let seen: Vec<Observation> = observed.iter().map(|(of, _)| (*of).clone()).collect();
+        let waves = seen.iter().flat_map(|of| of.waves.iter().cloned()).collect();
+        let all = Observation { waves, forcing: Expression::zero() };
+        let unit = Root::from(Fraction::one());
+        let form = ClosedForm::of_scene(network, &all, unit.clone(), until)?;
+        let echoes = Rc::new(Shared { seen, made: OnceCell::new() });
+        let signal = |(of, window): &(&Observation, [&Rational; 2])| {
+            let (value, unit) = (Box::new((*of).clone()), unit.clone());
+            let (exact, echoes) = (OnceCell::from(None), Rc::clone(&echoes));
+            let source = Source::Scene { network, value, unit, exact, echoes };
+            let form = OnceCell::from(form.part(of));
+            Ok(ClosedSignal { form, ..ClosedSignal::new(source, *window)? })
+        };
+        observed.iter().map(signal).collect()
+    }
+
+    fn new(source: Source<'a>, [from, to]: [&Rational; 2]) -> Result<Self, EvaluateError> {
+        if to < from {
+            return Err(EvaluateError::EmptyWindow);
+        }
+        let window = [from.clone(), to.clone()];
+        Ok(ClosedSignal { source, window, form: OnceCell::new(), stretches: OnceCell::new() })
+    }
+
+    /// The same, with exact values from single echoes alone, of which [`Signal::echoes`] tells.
+    #[must_use]
+    pub fn echo_by_echo(mut self) -> Self {
+        if let Source::Scene { exact, .. } = &mut self.source {
+            *exact = OnceCell::from(None);
+        }
+        self
+    }
+
+    /// The closed form in balls.
+    pub fn form(&self) -> Result<&ClosedForm, EvaluateError> {
+        if let Some(form) = self.form.get() {
+            return Ok(form);
+        }
+        let form = match &self.source {
+            Source::Recurrence { echoes, value } => {
+                ClosedForm::of_recurrence(echoes.recurrence(), value)?
+            }
+            Source::Scene { network, value, unit, .. } => {
+                ClosedForm::of_scene(network, value, unit.clone(), &self.window[1])?
+            }
+        };
+        Ok(self.form.get_or_init(|| form))
+    }
+
+    /// A limit at a time after the start, from the pieces of its period.
+    fn enclosed(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+        let form = self.form()?;
+        let stretches = form.stretches(&Rational::default(), at)?;
+        let at = form.slowness().scale(at);
+        let begins = |stretch: usize| form.numbers().compare(&stretches[stretch].from, &at);
+        let stretch = stretches[last_begun(stretches.len(), side, begins)?].clone();
+        let enclose = move |bits| form.enclose(&stretch, 0, &at, bits);
+        let negligible = Magnitude::power_of_two(-(SCALE_BITS as i64));
+        Ok(Point { known: Known::Unknown, negligible, ..Point::irrational(enclose) })
+    }
+
+    fn has_no_forcing(&self) -> bool {
+        self.known_form().observation().forcing.is_zero()
+    }
+
+    fn known_form(&self) -> &ClosedForm {
+        self.form.get().expect("stretches were counted before they are asked for")
+    }
+
+    fn stretch(&self, stretch: usize) -> &Stretch {
+        &self.stretches.get().expect("stretches were counted before they are asked for")[stretch]
+    }
+
+    /// A time in the scale of the waves.
+    fn scaled<'s>(&'s self, stretch: usize, at: At<'s>) -> Cow<'s, Fraction> {
+        match at {
+            At::Time(time) => Cow::Owned(self.scaled_time(time)),
+            At::Scaled(time) => Cow::Borrowed(time),
+            At::End(Limit::Right) => Cow::Borrowed(&self.stretch(stretch).from),
+            At::End(Limit::Left) => Cow::Borrowed(&self.stretch(stretch).to),
+        }
+    }
+
+    /// The value at a time in the scale of the waves, where it is rational.
+    fn exact_value(&self, at: &Fraction, side: Limit) -> Result<Option<Rational>, EvaluateError> {
+        let digits = |point: Point<'_>| point.value(FEW_DIGITS, SIGN_BITS);
+        let value = match &self.source {
+            Source::Recurrence { echoes, value } => match at.as_constant() {
+                Some(at) => echoes.point(value, &at, side).and_then(digits),
+                None => return Ok(None),
+            },
+            Source::Scene { network, value, unit, exact, echoes } => {
+                match (exact_form(network, value, unit, exact)?, at.as_constant()) {
+                    (Some(echoes), Some(at)) => echoes.point(value, &at, side).and_then(digits),
+                    _ => {
+                        let known = self.scene_echoes(network, echoes).ok();
+                        let told =
+                            known.map(|known| known.point(value, unit, at, side).and_then(digits));
+                        match told {
+                            Some(told @ Ok(Value::Exact(_))) => told,
+                            // With the echoes until then alone, exact arithmetic may be within reach.
+                            _ => SceneEchoes::new(network, at)
+                                .and_then(|echoes| digits(echoes.point(value, unit, at, side)?)),
+                        }
+                    }
+                }
+            }
+        };
+        match value {
+            Ok(Value::Exact(value)) => Ok(Some(value)),
+            Ok(Value::Certified { .. } | Value::Enclosed(_))
+            | Err(
+                EvaluateError::TooManyPeriods { .. }
+                | EvaluateError::TooManyEchoes { .. }
+                | EvaluateError::Solve(_)
+                | EvaluateError::Network(_),
+            ) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The echoes of a scene until the end of the window.
+    fn scene_echoes<'s>(
+        &self,
+        network: &'a Network,
+        Shared { seen, made }: &'s Shared<'a>,
+    ) -> Result<&'s SceneEchoes<'a>, EvaluateError> {
+        if let Some(known) = made.get() {
+            return Ok(known);
+        }
+        let echoes = SceneEchoes::new(network, &network.scaled_time(&self.window[1]))?;
+        for observation in seen {
+            echoes.want_until_last(observation)?;
+        }
+        Ok(made.get_or_init(|| echoes))
+    }
+}
+
+/// The echoes of a scene in which those of all that is observed have a closed form, without units and
+/// named constants: then any of them is had without those before.
+fn exact_form<'s>(
+    network: &Network,
+    value: &Observation,
+    unit: &Root,
+    known: &'s OnceCell<Option<Box<ExactEchoes<'static>>>>,
+) -> Result<Option<&'s ExactEchoes<'static>>, EvaluateError> {
+    if known.get().is_none() {
+        let _ = known.set(made_exact(network, value, unit)?);
+    }
+    Ok(known.get().and_then(Option::as_deref))
+}
+
+fn made_exact(
+    network: &Network,
+    value: &Observation,
+    unit: &Root,
+) -> Result<Option<Box<ExactEchoes<'static>>>, EvaluateError> {
+    let has_scale = network.scene().dimensional
+        || *unit != Root::from(Fraction::one())
+        || network.model().slowness != Fraction::one();
+    if has_scale || network.lattice().periods().len() > 1 {
+        return Ok(None);
+    }
+    let recurrence = network.recurrence()?;
+    if recurrence.symbols().next().is_some() || !recurrence.constants().is_empty() {
+        return Ok(None);
+    }
+    let solution = Solution::new(recurrence);
+    match value.waves.iter().all(|seen| solution.general(seen.wave).is_ok()) {
+        true => Ok(Some(Box::new(ExactEchoes::new(Cow::Owned(solution))?))),
+        false => Ok(None),
+    }
+}
+
+impl Signal for ClosedSignal<'_> {
+    fn window(&self) -> [&Rational; 2] {
+        self.window.each_ref()
+    }
+
+    fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError> {
+        match &self.source {
+            Source::Recurrence { echoes, value } => match echoes.point(value, at, side) {
+                // Pieces in balls may go further.
+                Err(EvaluateError::TooManyPeriods { periods, limit }) => {
+                    match periods <= MAX_PIECES.into() {
+                        true => self.enclosed(at, side),
+                        false => {
+                            let limit = limit.max(MAX_PIECES);
+                            Err(EvaluateError::TooManyPeriods { periods, limit })
+                        }
+                    }
+                }
+                told => told,
+            },
+            Source::Scene { network, value, unit, exact, echoes } => {
+                match exact_form(network, value, unit, exact)? {
+                    Some(echoes) => echoes.point(value, at, side),
+                    None => {
+                        let echoes = self.scene_echoes(network, echoes)?;
+                        echoes.point(value, unit, &network.scaled_time(at), side)
+                    }
+                }
+            }
+        }
+    }
+
+    fn closed_form(&self) -> Result<&ClosedForm, EvaluateError> {
+        self.form()
+    }
+
+    fn echoes(&self) -> Option<(usize, usize)> {
+        let Source::Scene { network, echoes, .. } = &self.source else { return None };
+        match echoes.seen.is_empty() {
+            true => echoes.made.get()?.work(),
+            // What several signals share is not made until it is asked for.
+            false => self.scene_echoes(network, echoes).ok()?.work(),
+        }
+    }
+
+    fn instant(&self, stretch: usize) -> Option<Instant> {
+        let scene = match &self.source {
+            Source::Scene { network, .. } => std::ptr::from_ref(*network).addr(),
+            Source::Recurrence { echoes, .. } => std::ptr::from_ref(echoes.recurrence()).addr(),
+        };
+        Some(Instant { scene, event: None, delay: self.stretch(stretch).from.clone() })
+    }
+
+    fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression> {
+        let Source::Scene { network, value, unit, echoes, .. } = &self.source else {
+            return None;
+        };
+        if effort == Effort::Little {
+            return None;
+        }
+        let unit = unit.exact()?;
+        let echoes = self.scene_echoes(network, echoes).ok()?;
+        let value = echoes.exact_since(value, &self.stretch(stretch).from, at)?;
+        Some(value.times(&unit))
+    }
+
+    fn count(&self) -> Result<usize, EvaluateError> {
+        if let Some(stretches) = self.stretches.get() {
+            return Ok(stretches.len());
+        }
+        let (form, [from, to]) = (self.form()?, &self.window);
+        let stretches = form.audible(form.stretches(from, to)?, FIRST_BITS)?;
+        Ok(self.stretches.get_or_init(|| stretches).len())
+    }
+
+    fn scaled_time(&self, time: &Rational) -> Fraction {
+        match &self.source {
+            Source::Recurrence { .. } => Fraction::constant(time),
+            Source::Scene { network, .. } => network.scaled_time(time),
+        }
+    }
+
+    fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError> {
+        Ok(self.known_form().numbers().compare(&self.stretch(stretch).from, at)?)
+    }
+
+    fn is_instant(&self, stretch: usize) -> bool {
+        self.stretch(stretch).from == self.stretch(stretch).to
+    }
+
+    fn is_zero(&self, stretch: usize) -> bool {
+        let stretch = self.stretch(stretch);
+        stretch.is_silent() || (stretch.has_no_waves() && self.has_no_forcing())
+    }
+
+    fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational> {
+        let at = self.scaled(stretch, At::End(end));
+        let slowness = self.known_form().slowness();
+        let own = self.window.iter().rev().find(|time| slowness.scale(time) == *at);
+        own.cloned().or_else(|| Some(at.as_constant()? / slowness.as_constant()?))
+    }
+
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError> {
+        let numbers = self.known_form().numbers();
+        let slowness = numbers.enclose(self.known_form().slowness(), bits)?;
+        let inverse = slowness.reciprocal(bits).map_err(EvaluateError::Ball)?;
+        let at = self.scaled(stretch, At::End(end));
+        Ok(numbers.enclose(&at, bits)?.multiply(&inverse, bits))
+    }
+
+    fn enclose(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: At<'_>,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let at = self.scaled(stretch, at);
+        self.known_form().enclose(self.stretch(stretch), order, &at, bits)
+    }
+
+    fn taylor(
+        &self,
+        stretch: usize,
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        self.known_form().taylor(self.stretch(stretch), order, place, terms, bits)
+    }
+
+    fn size(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: &Rational,
+        bits: u64,
+    ) -> Result<(Magnitude, Magnitude), EvaluateError> {
+        let (size, error) = self.known_form().size(self.stretch(stretch), order, at, bits)?;
+        let slowness =
+            self.known_form().numbers().enclose(self.known_form().slowness(), SCALE_BITS)?;
+        let slowness = slowness.magnitude();
+        let scaled =
+            |value| (0..order).fold(value, |value: Magnitude, _| value.multiply(&slowness));
+        Ok((scaled(size), scaled(error)))
+    }
+
+    fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError> {
+        let side = match at {
+            At::Time(_) | At::Scaled(_) => Limit::Right,
+            At::End(side) => side,
+        };
+        self.exact_value(&self.scaled(stretch, at), side)
+    }
+
+    /// For observables that see no derivatives and no function of time themselves.
+    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError> {
+        let at = self.scaled(stretch, At::End(end));
+        let value = match &self.source {
+            Source::Recurrence { echoes, value } => {
+                let Some((slope, at)) = slope_of(value).zip(at.as_constant()) else {
+                    return Ok(false);
+                };
+                let zero = Known::Rational(Rational::default());
+                return Ok(echoes.point(&slope, &at, end).is_ok_and(|point| point.known == zero));
+            }
+            Source::Scene { network, value, unit, .. } => {
+                let Some(slope) = slope_of(value) else { return Ok(false) };
+                let Ok(echoes) = SceneEchoes::new(network, &at) else { return Ok(false) };
+                echoes
+                    .point(&slope, unit, &at, end)
+                    .and_then(|point| point.value(FEW_DIGITS, SIGN_BITS))
+            }
+        };
+        Ok(matches!(value, Ok(Value::Exact(value)) if value == Rational::default()))
+    }
+
+    /// A real function `Σ_λ e^{λx} Σ_j c_j x^j/j!` with N coefficients, of which the value is one, solves
+    /// a linear equation of order N with constant real coefficients. If it is not zero everywhere, it
+    /// has at most `N − 1` roots on any interval where λ are real (Pólya and Szegő, *Problems and
+    /// Theorems* V.75), and on intervals shorter than `π/ω` with `ω = max |Im λ|` otherwise: there
+    /// each factor `(d/dx − σ)² + ω²` has solutions without two roots, and so no product of factors
+    /// of order N has one with N roots. N exact zeros therefore prove it.
+    fn equals(
+        &self,
+        stretch: usize,
+        value: &Rational,
+        [from, to]: &[Rational; 2],
+        bits: u64,
+    ) -> Result<bool, EvaluateError> {
+        let mut rates = self.known_form().rates(self.stretch(stretch), bits)?;
+        rates.entry(Fraction::zero()).or_insert(1);
+        let count: usize = rates.values().sum();
+        if count > MAX_ZEROS {
+            return Ok(false);
+        }
+        let field = self.known_form().numbers().field(bits);
+        let mut fastest = Magnitude::ZERO;
+        for rate in rates.keys() {
+            fastest = fastest.max(field.embed(&rate.clone().into())?.imaginary().magnitude());
+        }
+        // Rates are those of the waves' own time.
+        let slowness =
+            self.known_form().numbers().enclose(self.known_form().slowness(), bits)?.magnitude();
+        let fastest = Rational::from(&fastest.multiply(&slowness));
+        let mut length = to - from;
+        if fastest > Rational::default() {
+            length = length.min(Rational::from_integer(3.into()) / fastest);
+        }
+        for i in 1..=count {
+            let share = Rational::new(i.into(), (count + 1).into());
+            let at = self.known_form().slowness().scale(&(from + &length * share));
+            if self.exact_value(&at, Limit::Right)?.as_ref() != Some(value) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
+/// The observable's derivative between arrivals.
+fn slope_of(value: &Observation) -> Option<Observation> {
+    if !value.forcing.is_zero() || value.waves.iter().any(|seen| seen.slope) {
+        return None;
+    }
+    let mut slope = value.clone();
+    slope.waves.iter_mut().for_each(|seen| seen.slope = true);
+    Some(slope)
+}

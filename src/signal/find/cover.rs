@@ -1,0 +1,288 @@
+//! A stretch cut into cells, on each of which something is proven.
+//!
+//! On a cell `|t − m| ≤ h` a function `F` and its derivative have Taylor polynomials
+//! `F(m + hu) = Σ_k c_k u^k`, `F'(m + hu) = Σ_k d_k u^k` with proven remainders for `|u| ≤ 1`. So
+//! `|F − c_0| ≤ Σ_{k≥1} |c_k| + R` on all of it:
+//!
+//! - where `|c_0|` is larger than that, `F` has the sign of `c_0` and no root ([`Finding::Clear`]);
+//! - where `|d_0|` is larger than the same sum of `F'`, `F` is strictly monotone and has at most
+//!   one root ([`Finding::Monotone`]);
+//! - else the cell is halved, until it is `2^{-DEPTH}` of the stretch or less ([`Finding::Open`]).
+//!
+//! A simple root is at last in a cell of the second kind, since there `F' ≠ 0`; a root of higher
+//! order never is. Cells are closed and share their ends, so that nothing lies between them. For
+//! extrema cells whose largest value is below one that is known to be taken are dropped
+//! ([`Finding::Low`]).
+
+use crate::ball::{Attempt, Ball, Binary, Magnitude, Precisions};
+use crate::limits::MAX_POLYNOMIALS;
+use crate::signal::error::EvaluateError;
+use crate::signal::find::search::{Search, Target};
+use crate::signal::taylor::Taylor;
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// How often a stretch is halved.
+const DEPTH: usize = 56;
+
+/// How often a cell is halved before its polynomials are worked out again.
+const HALVINGS: usize = 6;
+
+/// The length of polynomials.
+const TERMS: usize = 20;
+
+/// A remainder has to be smaller than what is left of a polynomial by so many bits.
+const REMAINDER_BITS: i64 = 8;
+
+/// The relative precision of polynomials in bits on the first cells; two more each time one is
+/// halved, since a double root is as flat as that.
+const RELATIVE_BITS: i64 = 64;
+
+/// What is smaller than the waves it is the sum of by so many bits may be zero.
+const CANCELLED_BITS: i64 = 100;
+
+/// What is proven of a cell.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Finding {
+    /// The function is above zero, or below it.
+    Clear(Ordering),
+    /// It rises, or falls.
+    Monotone(Ordering),
+    /// Nothing is proven.
+    Open,
+    /// The observable is smaller than it is elsewhere.
+    Low,
+}
+
+/// A closed cell in the user's time.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Cell {
+    pub from: Rational,
+    pub to: Rational,
+    pub finding: Finding,
+}
+
+/// The largest value that is known to be taken, of the observable or of its negative.
+pub(crate) struct Record {
+    pub negative: bool,
+    pub best: Option<Binary>,
+}
+
+impl Record {
+    /// Notes a value that is taken.
+    pub(crate) fn note(&mut self, value: &Ball) {
+        let (lower, _) = value.endpoints();
+        if self.best.as_ref().is_none_or(|best| *best < lower) {
+            self.best = Some(lower);
+        }
+    }
+
+    /// Whether all values of a ball are below it.
+    pub(crate) fn beats(&self, value: &Ball) -> bool {
+        self.best.as_ref().is_some_and(|best| value.endpoints().1 < *best)
+    }
+}
+
+/// Polynomials about the middle of a cell.
+struct Expansion {
+    middle: Rational,
+    half: Rational,
+    depth: usize,
+    /// The function, its derivative, and for extrema the observable.
+    polynomials: Vec<Taylor>,
+    bits: u64,
+}
+
+/// The work on one stretch.
+struct Cover<'a, 's, 'b> {
+    search: &'a Search<'s>,
+    stretch: usize,
+    target: Target<'b>,
+    record: Option<&'b mut Record>,
+    /// The largest coefficient seen.
+    scale: Magnitude,
+    cells: Vec<Cell>,
+}
+
+impl Search<'_> {
+    /// The cells of a stretch, in order, neighbours with the same finding joined.
+    pub(crate) fn cover(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        record: Option<&mut Record>,
+    ) -> Result<Vec<Cell>, EvaluateError> {
+        let [from, to] = self.bounds(stretch)?;
+        let (middle, _) = middle_and_half(&from, &to);
+        // Far from the start the first bits may tell nothing.
+        let attempt = |bits| {
+            self.bits.set(bits);
+            let (size, error) = self.function.size(stretch, target.order, &middle, bits)?;
+            Ok::<_, EvaluateError>(Attempt::of(size, error.scale(RELATIVE_BITS) <= size))
+        };
+        let size = self.precisions(target).raise(attempt)?.best();
+        let (scale, cells) = (size.scale(-CANCELLED_BITS), Vec::new());
+        let mut cover = Cover { search: self, stretch, target, record, scale, cells };
+        cover.descend(from, to, 0, None)?;
+        Ok(cover.cells)
+    }
+
+    /// From the precision that has done so far on.
+    fn precisions(&self, target: Target<'_>) -> Precisions {
+        let bits = self.bits.get();
+        Precisions::doubling(bits, target.limit_bits.max(bits))
+    }
+
+    /// A polynomial of a derivative, less the level where it is the observable itself.
+    pub(crate) fn expand(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        (middle, half): (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError> {
+        let place = (middle, half);
+        let mut taylor = self.function.taylor(stretch, target.order, place, terms, bits)?;
+        if target.order == 0 && *target.level != Rational::default() {
+            let level = Ball::from_rational(target.level, bits);
+            taylor.coefficients[0] = taylor.coefficients[0].subtract(&level, bits);
+        }
+        Ok(taylor)
+    }
+
+    /// An enclosure of a derivative on all of a cell.
+    pub(crate) fn range(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        (from, to): (&Rational, &Rational),
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let (middle, half) = middle_and_half(from, to);
+        Ok(range_of(&self.expand(stretch, target, (&middle, &half), 8, bits)?))
+    }
+}
+
+impl Cover<'_, '_, '_> {
+    fn descend(
+        &mut self,
+        from: Rational,
+        to: Rational,
+        depth: usize,
+        known: Option<&Expansion>,
+    ) -> Result<(), EvaluateError> {
+        let search = self.search;
+        search.work.set(search.work.get() + 1);
+        if search.work.get() > MAX_POLYNOMIALS {
+            return Err(EvaluateError::TooManyCells { limit: MAX_POLYNOMIALS });
+        }
+        let (middle, half) = middle_and_half(&from, &to);
+        if let Some(known) = known {
+            let polynomials = known.on(&middle, &half);
+            if let Some(finding) = self.decided(&polynomials) {
+                self.push(from, to, finding);
+                return Ok(());
+            }
+            if depth < known.depth + HALVINGS && polynomials.iter().all(is_sharp) {
+                let middle = middle.clone();
+                self.descend(from, middle.clone(), depth + 1, Some(known))?;
+                return self.descend(middle, to, depth + 1, Some(known));
+            }
+        }
+        let expansion = self.expanded(&middle, &half, depth)?;
+        if let Some(finding) = self.decided(&expansion.polynomials) {
+            self.push(from, to, finding);
+            return Ok(());
+        }
+        let sharp = expansion.polynomials.iter().all(is_sharp);
+        let hopeless =
+            sharp && expansion.polynomials[0].coefficients.iter().all(Ball::contains_zero);
+        if hopeless || depth >= DEPTH {
+            self.push(from, to, Finding::Open);
+            return Ok(());
+        }
+        let known = sharp.then_some(&expansion);
+        self.descend(from, middle.clone(), depth + 1, known)?;
+        self.descend(middle, to, depth + 1, known)
+    }
+
+    /// Polynomials with as many bits as the depth calls for.
+    fn expanded(
+        &mut self,
+        middle: &Rational,
+        half: &Rational,
+        depth: usize,
+    ) -> Result<Expansion, EvaluateError> {
+        let search = self.search;
+        let attempt = |bits| {
+            search.bits.set(bits);
+            let of = |order: usize| {
+                let target = Target { order, ..self.target };
+                search.expand(self.stretch, target, (middle, half), TERMS, bits)
+            };
+            let order = self.target.order;
+            let mut polynomials = vec![of(order)?, of(order + 1)?];
+            if let Some(record) = &self.record {
+                let one = Ball::from_integer(&if record.negative { -1 } else { 1 }.into());
+                polynomials.push(of(0)?.scaled(&one, bits));
+            }
+            let own = &polynomials[0];
+            for coefficient in &own.coefficients {
+                self.scale = self.scale.max(coefficient.midpoint().magnitude());
+            }
+            let wanted = self.scale.scale(-(RELATIVE_BITS + 2 * depth as i64));
+            let coarse = own.coefficients.iter().any(|c| *c.radius() > wanted);
+            let (middle, half) = (middle.clone(), half.clone());
+            Ok(Attempt::of(Expansion { middle, half, depth, polynomials, bits }, !coarse))
+        };
+        search.precisions(self.target).raise(attempt).map(Attempt::best)
+    }
+
+    fn decided(&mut self, polynomials: &[Taylor]) -> Option<Finding> {
+        if let (Some(record), Some(observable)) = (&mut self.record, polynomials.get(2)) {
+            if record.beats(&range_of(observable)) {
+                return Some(Finding::Low);
+            }
+            record.note(&observable.coefficients[0].widened(&observable.remainder));
+        }
+        match range_of(&polynomials[0]).sign() {
+            Some(Ordering::Equal) | None => {}
+            Some(sign) => return Some(Finding::Clear(sign)),
+        }
+        match range_of(&polynomials[1]).sign() {
+            Some(Ordering::Equal) | None => None,
+            Some(sign) => Some(Finding::Monotone(sign)),
+        }
+    }
+
+    fn push(&mut self, from: Rational, to: Rational, finding: Finding) {
+        match self.cells.last_mut() {
+            Some(last) if last.finding == finding => last.to = to,
+            _ => self.cells.push(Cell { from, to, finding }),
+        }
+    }
+}
+
+impl Expansion {
+    /// The same functions on a part of the cell.
+    fn on(&self, middle: &Rational, half: &Rational) -> Vec<Taylor> {
+        let (a, b) = ((middle - &self.middle) / &self.half, half / &self.half);
+        self.polynomials.iter().map(|polynomial| polynomial.part(&a, &b, self.bits)).collect()
+    }
+}
+
+/// Whether what is left out matters little.
+fn is_sharp(polynomial: &Taylor) -> bool {
+    polynomial.remainder.scale(REMAINDER_BITS) <= polynomial.tail(1)
+}
+
+/// `c_0 ± Σ_{k≥1} |c_k| ± R`: all values on the cell.
+pub(crate) fn range_of(polynomial: &Taylor) -> Ball {
+    polynomial.coefficients[0].widened(&polynomial.tail(1))
+}
+
+pub(crate) fn middle_and_half(from: &Rational, to: &Rational) -> (Rational, Rational) {
+    let two = Rational::from_integer(2.into());
+    ((from + to) / &two, (to - from) / two)
+}

@@ -1,0 +1,401 @@
+//! The largest or smallest value on a window, and where it is taken.
+//!
+//! Branch and bound on every stretch: a cell whose largest value lies below one that is taken
+//! elsewhere is dropped. On the cells left, `f'` without a root leaves the ends of the stretch
+//! alone; `f'' > 0` likewise; on a run with `f'' < 0` the derivative falls strictly, and where it
+//! changes sign there is exactly one critical point, refined as a root of `f'`. Where nothing of
+//! this is proven, the cell itself is listed. The limits at both ends of every stretch are
+//! candidates too, since observables jump.
+//!
+//! Candidates are compared by enclosures that are narrowed; those that cannot be told apart stay,
+//! all of them. The supremum then lies between the largest lower bound and the largest upper bound.
+
+use crate::ball::{Attempt, Ball, Precisions, Value};
+use crate::limits::MAX_ROOTS;
+use crate::signal::error::EvaluateError;
+use crate::signal::find::cover::{Finding, Record, middle_and_half, range_of};
+use crate::signal::find::refine::Isolated;
+use crate::signal::find::search::{Search, Target, rationals};
+use crate::signal::signal::{At, Limit};
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// The precisions at which candidates are compared.
+fn comparisons() -> Precisions {
+    Precisions::doubling(64, 512)
+}
+
+/// Bits of balls beyond those of a value.
+const SPARE_BITS: u64 = 64;
+
+/// Which extremum.
+///
+/// ```
+/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let strain = mass.signal("strain_fixed")?;
+/// let least = strain.extremum(wavestep::Goal::Smallest, 0..=5, 9)?;
+/// assert_eq!(least.value.to_string(), "-2.27067057"); // -2 - 2 exp(-2)
+/// # Ok::<(), wavestep::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Goal {
+    /// The supremum.
+    Largest,
+    /// The infimum.
+    Smallest,
+}
+
+/// Where an extremum is taken, or approached. Times are the user's.
+///
+/// ```
+/// use wavestep::{Goal, Place, Problem};
+///
+/// let mass = Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let least = mass.signal("strain_fixed")?.extremum(Goal::Smallest, 0..=5, 9)?;
+/// assert!(matches!(&least.places[..], [Place::Arrival { time, after: true, .. }] if time.to_f64() == 3.0));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// At a simple root of the derivative.
+    Critical(Value),
+    /// At an end of the window.
+    End(Value),
+    /// Where an echo arrives.
+    Arrival {
+        /// When.
+        time: Value,
+        /// In the limit from earlier times.
+        before: bool,
+        /// In the limit from later times: the value itself.
+        after: bool,
+    },
+    /// On all of an interval, at its first time as well.
+    Plateau {
+        /// Its first time.
+        from: Value,
+        /// Its end.
+        to: Value,
+        /// Whether the value is taken at the end as well: where that of the window is it.
+        closed: bool,
+    },
+    /// Somewhere in an interval, where no critical point could be proven.
+    Undecided {
+        /// Its first time, rounded down.
+        from: Rational,
+        /// Its last time, rounded up.
+        to: Rational,
+    },
+}
+
+impl Place {
+    /// Whether the value is taken there: a limit from earlier times alone is not.
+    pub fn is_attained(&self) -> bool {
+        !matches!(self, Place::Arrival { after: false, .. })
+    }
+}
+
+/// The largest or smallest value with all places that cannot be told apart.
+///
+/// ```
+/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let greatest = mass.signal("velocity")?.extremum(wavestep::Goal::Largest, 0..=5, 9)?;
+/// assert_eq!((greatest.value.to_string(), greatest.places.len()), ("1".into(), 1));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Extremum {
+    /// The value.
+    pub value: Value,
+    /// In order of time. With several of them one at least has the value; which one, balls do not
+    /// tell.
+    pub places: Vec<Place>,
+}
+
+/// A place that may have the largest value.
+#[derive(Clone, Debug)]
+enum Candidate {
+    Limit {
+        stretch: usize,
+        side: Limit,
+    },
+    Critical(Isolated),
+    /// A stretch on which the observable is constant, and the limit that tells its value.
+    Plateau {
+        stretch: usize,
+        side: Limit,
+    },
+    Open {
+        stretch: usize,
+        from: Rational,
+        to: Rational,
+    },
+}
+
+/// The candidates of a window that are left.
+struct Contenders<'a, 's> {
+    search: &'a Search<'s>,
+    goal: Goal,
+    limit_bits: u64,
+    left: RefCell<Vec<Candidate>>,
+}
+
+impl<'s> Search<'s> {
+    /// The supremum or infimum on the window, with so many digits, and where it is taken.
+    pub fn extremum(
+        &self,
+        goal: Goal,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Extremum, EvaluateError> {
+        let contenders = self.contenders(goal, limit_bits)?;
+        for bits in comparisons().iter() {
+            contenders.compare(bits)?;
+        }
+        let value = match contenders.exact()? {
+            Some(value) => Value::Exact(value),
+            None => {
+                let limit = contenders.limit_bits;
+                Value::certify(digits, limit, |bits| contenders.enclose(bits))?.exact_if_known()
+            }
+        };
+        Ok(Extremum { value, places: contenders.places(digits)? })
+    }
+
+    /// The most bits that two extrema are told apart with.
+    pub const COMPARISON_BITS: u64 = 1 << 10;
+
+    /// The sign of this extremum less that of another search; `None` where it is not decided, since they
+    /// are equal or too near.
+    pub fn compare_extremum(
+        &self,
+        other: &Search<'_>,
+        goal: Goal,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        let attempt = |bits| {
+            let (own, others) =
+                (self.enclose_extremum(goal, bits)?, other.enclose_extremum(goal, bits)?);
+            let sign = own.subtract(&others, 2 * bits).sign().filter(|sign| sign.is_ne());
+            Ok(Attempt::of(sign, sign.is_some()))
+        };
+        Precisions::doubling(64, Search::COMPARISON_BITS).raise(attempt).map(Attempt::best)
+    }
+
+    /// An enclosure of the extremum with a relative precision of about so many bits.
+    pub fn enclose_extremum(&self, goal: Goal, bits: u64) -> Result<Ball, EvaluateError> {
+        let contenders = self.contenders(goal, 8 * bits)?;
+        for early in comparisons().iter().filter(|early| *early < bits) {
+            contenders.compare(early)?;
+        }
+        contenders.enclose(bits)
+    }
+
+    fn contenders(&self, goal: Goal, limit_bits: u64) -> Result<Contenders<'_, 's>, EvaluateError> {
+        let limit_bits = self.most_bits(limit_bits);
+        self.work.set(0);
+        let (negative, zero) = (goal == Goal::Smallest, Rational::default());
+        let mut record = Record { negative, best: None };
+        let (mut left, mut moving) = (Vec::new(), Vec::new());
+        let contenders = Contenders { search: self, goal, limit_bits, left: RefCell::default() };
+        for stretch in 0..self.count {
+            let instant = self.function.is_instant(stretch);
+            if !instant && self.is_constant(stretch)? {
+                left.push(Candidate::Plateau { stretch, side: Limit::Right });
+                continue;
+            }
+            left.push(Candidate::Limit { stretch, side: Limit::Right });
+            if !instant {
+                left.push(Candidate::Limit { stretch, side: Limit::Left });
+                moving.push(stretch);
+            }
+        }
+        for candidate in &left {
+            record.note(&contenders.value(&mut candidate.clone(), comparisons().first())?);
+        }
+        let target = Target { order: 1, level: &zero, limit_bits };
+        for stretch in moving {
+            self.critical_points(stretch, target, &mut record, &mut left)?;
+            if left.len() > MAX_ROOTS + 2 * self.count {
+                return Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS });
+            }
+        }
+        contenders.left.replace(left);
+        Ok(contenders)
+    }
+
+    fn critical_points(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        record: &mut Record,
+        left: &mut Vec<Candidate>,
+    ) -> Result<(), EvaluateError> {
+        let concave = if record.negative { Ordering::Greater } else { Ordering::Less };
+        let cells = self.cover(stretch, target, Some(record))?;
+        for (i, cell) in cells.iter().enumerate() {
+            let open = match cell.finding {
+                Finding::Clear(_) | Finding::Low => false,
+                Finding::Open => true,
+                Finding::Monotone(sign) if sign != concave => false,
+                Finding::Monotone(_) => match self.signs(stretch, target, &cells, i, None)? {
+                    // Exactly flat at an end: the limit there is the extremum of the run.
+                    [Some(first), Some(last)] => {
+                        let root = Isolated::between(cell, stretch, [first, last]);
+                        left.extend(root.map(Candidate::Critical));
+                        false
+                    }
+                    _ => true,
+                },
+            };
+            if open {
+                let (from, to) = (cell.from.clone(), cell.to.clone());
+                left.push(Candidate::Open { stretch, from, to });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Contenders<'_, '_> {
+    /// The observable, or its negative, so that the largest is sought.
+    fn signed(&self, value: Ball) -> Ball {
+        match self.goal {
+            Goal::Largest => value,
+            Goal::Smallest => value.negate(),
+        }
+    }
+
+    /// The value at a candidate, signed.
+    fn value(&self, candidate: &mut Candidate, bits: u64) -> Result<Ball, EvaluateError> {
+        let search = self.search;
+        let working = (bits + SPARE_BITS).max(search.bits.get());
+        let zero = Rational::default();
+        let target = Target { order: 0, level: &zero, limit_bits: self.limit_bits };
+        let value = match candidate {
+            Candidate::Limit { stretch, side } | Candidate::Plateau { stretch, side } => {
+                search.enclose(*stretch, target, At::End(*side), working)?
+            }
+            Candidate::Critical(root) => {
+                let slope = Target { order: 1, ..target };
+                // The value is as flat as the square of what is unknown of the time.
+                search.narrow(root, slope, bits / 2 + 8)?;
+                let (middle, half) = middle_and_half(&root.from, &root.to);
+                range_of(&search.expand(root.stretch, target, (&middle, &half), 8, working)?)
+            }
+            Candidate::Open { stretch, from, to } => {
+                search.range(*stretch, target, (from, to), working)?
+            }
+        };
+        Ok(self.signed(value))
+    }
+
+    /// The values at all candidates that are left.
+    fn values(&self, left: &mut [Candidate], bits: u64) -> Result<Vec<Ball>, EvaluateError> {
+        left.iter_mut().map(|candidate| self.value(candidate, bits)).collect()
+    }
+
+    /// Drops those that are certainly smaller than another.
+    fn compare(&self, bits: u64) -> Result<(), EvaluateError> {
+        let mut left = self.left.borrow_mut();
+        if left.len() > 1 {
+            let values = self.values(&mut left, bits)?;
+            let mut record = Record { negative: false, best: None };
+            values.iter().for_each(|value| record.note(value));
+            let mut values = values.iter();
+            left.retain(|_| !record.beats(values.next().expect("one value each")));
+        }
+        Ok(())
+    }
+
+    /// An enclosure of the extremum.
+    fn enclose(&self, bits: u64) -> Result<Ball, EvaluateError> {
+        let values = self.values(&mut self.left.borrow_mut(), bits)?;
+        if let [only] = &values[..] {
+            return Ok(self.signed(only.clone()));
+        }
+        let larger = |(a, b): (Rational, Rational), (c, d)| (a.max(c), b.max(d));
+        let bounds = values.iter().map(rationals).reduce(larger);
+        let (lower, upper) = bounds.expect("a window has ends");
+        Ok(self.signed(Ball::between(&lower, &upper, bits + SPARE_BITS)))
+    }
+
+    /// The extremum where it is the same rational number at all places that are left.
+    fn exact(&self) -> Result<Option<Rational>, EvaluateError> {
+        let mut common: Option<Rational> = None;
+        for candidate in &*self.left.borrow() {
+            let (Candidate::Limit { stretch, side } | Candidate::Plateau { stretch, side }) =
+                candidate
+            else {
+                return Ok(None);
+            };
+            let exact = self.search.function.exact(*stretch, At::End(*side))?;
+            let Some(value) = exact else { return Ok(None) };
+            if common.get_or_insert_with(|| value.clone()) != &value {
+                return Ok(None);
+            }
+        }
+        Ok(common)
+    }
+
+    fn places(&self, digits: usize) -> Result<Vec<Place>, EvaluateError> {
+        let search = self.search;
+        let zero = Rational::default();
+        let target = Target { order: 1, level: &zero, limit_bits: self.limit_bits };
+        let exact = |time: &Rational| Value::Exact(time.clone());
+        let last = search.count - 1;
+        let end = |stretch: usize| match stretch == last {
+            true => Ok(exact(search.function.window()[1])),
+            false => search.beginning(stretch + 1, digits, self.limit_bits),
+        };
+        let mut found: Vec<(usize, u8, Place)> = Vec::new();
+        for candidate in &*self.left.borrow() {
+            found.push(match candidate {
+                Candidate::Limit { stretch, side: Limit::Right } => {
+                    let time = search.beginning(*stretch, digits, self.limit_bits)?;
+                    let place = match stretch {
+                        0 => Place::End(time),
+                        _ => Place::Arrival { time, before: false, after: true },
+                    };
+                    (*stretch, 0, place)
+                }
+                Candidate::Limit { stretch, side: Limit::Left } => {
+                    let time = end(*stretch)?;
+                    let at_end = *stretch == last && !search.open;
+                    let place = match at_end {
+                        true => Place::End(time),
+                        false => Place::Arrival { time, before: true, after: false },
+                    };
+                    (*stretch, 2, place)
+                }
+                Candidate::Critical(root) => {
+                    (root.stretch, 1, Place::Critical(search.root(root, target, digits)?))
+                }
+                Candidate::Plateau { stretch, .. } => {
+                    let from = search.beginning(*stretch, digits, self.limit_bits)?;
+                    let closed = *stretch == last && !search.open;
+                    (*stretch, 1, Place::Plateau { from, to: end(*stretch)?, closed })
+                }
+                Candidate::Open { stretch, from, to } => {
+                    (*stretch, 1, Place::Undecided { from: from.clone(), to: to.clone() })
+                }
+            });
+        }
+        found.sort_by_key(|(stretch, rank, _)| (*stretch, *rank));
+        let mut places: Vec<Place> = Vec::new();
+        for (_, _, place) in found {
+            // Both limits at one arrival are one place.
+            if let (
+                Some(Place::Arrival { time: known, before: true, after }),
+                Place::Arrival { time, before: false, after: true },
+            ) = (places.last_mut(), &place)
+                && known == time
+            {
+                *after = true;
+                continue;
+            }
+            places.push(place);
+        }
+        Ok(places)
+    }
+}

@@ -1,0 +1,177 @@
+//! One root of a monotone function, to any precision.
+//!
+//! For a root `t*` in an interval `I` with a point `m`, by the mean value theorem `0 = F(m) +
+//! F'(ξ)(t* − m)` with `ξ` in `I`, so that `t*` lies in `m − F(m)/F'(I)`: the interval method of
+//! Newton. Where that does not halve the interval, the sign of `F(m)` does. Precision is doubled
+//! where `F(m)` is too coarse for either.
+
+use crate::ball::{Ball, Precisions, Value};
+use crate::signal::error::EvaluateError;
+use crate::signal::find::cover::{Cell, middle_and_half};
+use crate::signal::find::search::{Search, Target, rationals};
+use crate::signal::signal::At;
+use std::cmp::Ordering;
+use wavestep_polynomial::{Integer, Rational};
+
+/// Bits of balls beyond those of the root.
+const SPARE_BITS: u64 = 64;
+
+/// The precision of a root at which it is asked whether it is a simple rational number.
+const SUSPICION_BITS: u64 = 80;
+
+/// The longest denominator of such a number in bits.
+const MAX_DENOMINATOR_BITS: u64 = 24;
+
+/// An interval with at most one root of a function that is monotone on it.
+///
+/// # Invariants
+/// - the function rises strictly, or falls, as `rises` says; it has exactly one root, unless it is
+///   narrowed to learn where one may be.
+#[derive(Clone, Debug)]
+pub(crate) struct Isolated {
+    pub stretch: usize,
+    pub from: Rational,
+    pub to: Rational,
+    pub rises: bool,
+}
+
+impl Isolated {
+    /// The root on a monotone cell, or where one may be.
+    pub(crate) fn on(cell: &Cell, stretch: usize, rises: bool) -> Isolated {
+        Isolated { stretch, from: cell.from.clone(), to: cell.to.clone(), rises }
+    }
+
+    /// The one root on a monotone cell whose ends have these signs; there is none where they are the same,
+    /// or one of them is zero.
+    pub(crate) fn between(cell: &Cell, stretch: usize, signs: [Ordering; 2]) -> Option<Isolated> {
+        let rises = signs[1] == Ordering::Greater;
+        differ(signs).then(|| Isolated::on(cell, stretch, rises))
+    }
+}
+
+/// Whether one of two signs is positive, and one negative.
+pub(crate) fn differ([first, last]: [Ordering; 2]) -> bool {
+    first as i8 * last as i8 == -1
+}
+
+impl Search<'_> {
+    /// Narrows the interval to a relative width of `2^{-bits}`, or as far as the bits allowed do.
+    /// An interval whose ends come out in the wrong order holds no root.
+    pub(crate) fn narrow(
+        &self,
+        root: &mut Isolated,
+        target: Target<'_>,
+        bits: u64,
+    ) -> Result<(), EvaluateError> {
+        let stretch = root.stretch;
+        let mut working = bits.saturating_add(SPARE_BITS).max(self.bits.get());
+        let most = target.limit_bits.saturating_mul(2).max(working);
+        let precisions = Precisions::doubling(working, most);
+        loop {
+            let width = &root.to - &root.from;
+            let goal = &root.to * power_of_half(bits);
+            if width <= goal {
+                return Ok(());
+            }
+            let (middle, _) = middle_and_half(&root.from, &root.to);
+            let near = Rational::from(Ball::from_rational(&middle, working).midpoint());
+            let middle = if root.from < near && near < root.to { near } else { middle };
+            let value = self.enclose(stretch, target, At::Time(&middle), working)?;
+            let slope = Target { order: target.order + 1, ..target };
+            let slope = self.range(stretch, slope, (&root.from, &root.to), working)?;
+            if let Ok(inverse) = slope.reciprocal(working) {
+                let step = value.multiply(&inverse, working);
+                let place = Ball::from_rational(&middle, working).subtract(&step, working);
+                let (lower, upper) = rationals(&place);
+                if lower > root.from {
+                    root.from = lower;
+                }
+                if upper < root.to {
+                    root.to = upper;
+                }
+            }
+            let narrowed = &root.to - &root.from;
+            if &narrowed + &narrowed <= width {
+                continue;
+            }
+            match value.sign() {
+                Some(Ordering::Equal) => (root.from, root.to) = (middle.clone(), middle),
+                Some(sign) => match (sign == Ordering::Greater) == root.rises {
+                    true if middle < root.to => root.to = middle,
+                    false if middle > root.from => root.from = middle,
+                    _ => {}
+                },
+                None => match precisions.after(working) {
+                    Some(more) => working = more,
+                    None => return Ok(()),
+                },
+            }
+        }
+    }
+
+    /// The root with proven digits; exactly, where it is a rational number with a short
+    /// denominator.
+    pub(crate) fn root(
+        &self,
+        root: &Isolated,
+        target: Target<'_>,
+        digits: usize,
+    ) -> Result<Value, EvaluateError> {
+        let mut root = root.clone();
+        self.narrow(&mut root, target, SUSPICION_BITS)?;
+        let simple = simplest(&root.from, &root.to);
+        if target.order == 0
+            && simple.denom().bits() <= MAX_DENOMINATOR_BITS
+            && self.function.exact(root.stretch, At::Time(&simple))?.as_ref() == Some(target.level)
+        {
+            return Ok(Value::Exact(simple));
+        }
+        let time = Value::certify(digits, target.limit_bits, |bits| {
+            self.narrow(&mut root, target, bits)?;
+            Ok::<_, EvaluateError>(Ball::between(
+                &root.from,
+                &root.to,
+                bits.saturating_add(SPARE_BITS),
+            ))
+        })?;
+        Ok(time.exact_if_known())
+    }
+}
+
+/// `2^{-bits}`.
+fn power_of_half(bits: u64) -> Rational {
+    Rational::new(1.into(), Integer::from(1) << bits)
+}
+
+/// The rational number with the smallest denominator between two positive ones, ends included, by
+/// continued fractions.
+pub(crate) fn simplest(from: &Rational, to: &Rational) -> Rational {
+    let whole = from.ceil();
+    if whole <= *to {
+        return whole;
+    }
+    let floor = from.floor();
+    let (from, to) = (from - &floor, to - &floor);
+    floor + simplest(&to.recip(), &from.recip()).recip()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn simplest_fractions_are_simplest() {
+        let ratio = |p: i64, q: i64| Rational::new(p.into(), q.into());
+        for (from, to) in
+            [((1, 7), (2, 9)), ((31, 10), (32, 10)), ((5, 3), (5, 3)), ((0, 1), (1, 9))]
+        {
+            let (from, to) = (ratio(from.0, from.1), ratio(to.0, to.1));
+            let found = simplest(&from, &to);
+            assert!(from <= found && found <= to);
+            for q in 1..found.denom().try_into().unwrap() {
+                let above = (&from * ratio(q, 1)).ceil() / ratio(q, 1);
+                assert!(above > to, "{above} is simpler than {found}");
+            }
+        }
+    }
+}

@@ -1,0 +1,409 @@
+//! All roots of `f − v` in a window.
+//!
+//! Stretch by stretch, the cells of [`cover`](super::cover) leave runs on which `f − v` is strictly
+//! monotone. Such a run holds exactly one root where the signs at its ends differ, and none where
+//! they are the same. At an end of the stretch itself the limit counts; where it is exactly zero,
+//! the root is the arrival, and the run has no other. On what stays open nothing is proven, with
+//! two exceptions:
+//!
+//! - a stretch on which `f' = 0` coefficient by coefficient: `f` is constant, and one exact value
+//!   tells whether it is `v`; where waves cancel each other, several exact values tell;
+//! - an open cell at an arrival where `f − v` and `f'` both vanish exactly and `f''` has a sign on
+//!   all of the cell: `f − v` has that sign beside the arrival.
+//!
+//! Between stretches the two limits tell of jumps.
+
+use crate::ball::{Ball, Value};
+use crate::limits::MAX_ROOTS;
+use crate::signal::error::EvaluateError;
+use crate::signal::find::cover::{Cell, Finding, middle_and_half};
+use crate::signal::find::refine::{Isolated, differ};
+use crate::signal::find::search::{Search, Target, rationals};
+use crate::signal::signal::{At, Limit};
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// A root of `f − v`, or where there may be one. Times are the user's.
+///
+/// ```
+/// use wavestep::{Problem, Root};
+///
+/// let mass = Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let found = mass.signal("strain_impact")?.roots(2..=4, 9)?.all;
+/// assert!(matches!(&found[0], Root::Simple { time, rises: true } if time.to_string() == "3.06766764"));
+/// assert!(matches!(&found[1], Root::Jump { time, .. } if time.to_string() == "4"));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Root {
+    /// A change of sign with a derivative that is not zero.
+    Simple {
+        /// When.
+        time: Value,
+        /// Whether from below to above.
+        rises: bool,
+    },
+    /// `f = v` exactly at an end of the window.
+    End {
+        /// When.
+        time: Value,
+    },
+    /// `f = v` exactly in a limit where an echo arrives.
+    Arrival {
+        /// When.
+        time: Value,
+        /// Whether the limit from earlier times is v.
+        before: bool,
+        /// Whether the limit from later times, the value, is v.
+        after: bool,
+    },
+    /// A jump over v where an echo arrives; there is no root.
+    Jump {
+        /// When.
+        time: Value,
+        /// The limits before and after, as they can be told.
+        limits: [Value; 2],
+    },
+    /// `f = v` on all of an interval.
+    Interval {
+        /// Its first time, at which the value is v.
+        from: Value,
+        /// Its last time.
+        to: Value,
+        /// Whether the value is v at the last time as well.
+        closed: bool,
+    },
+    /// An interval that may hold roots.
+    Undecided {
+        /// Its first time, rounded down.
+        from: Rational,
+        /// Its last time, rounded up.
+        to: Rational,
+        /// All values of `f − v` there.
+        #[doc(hidden)]
+        range: Ball,
+        /// Whether the signs at its ends differ, so that there is at least one root.
+        crosses: bool,
+    },
+}
+
+/// All roots of a window, in order.
+///
+/// # Invariants
+/// - `f − v` has no other roots in the window; no root is in two of these.
+///
+/// ```
+/// let mass = wavestep::Problem::builtin("rigid-mass")?.with("mu", 1)?;
+/// let found = mass.signal("strain_impact")?.roots(2..=4, 9)?;
+/// assert_eq!((found.all.len(), found.undecided()), (2, 0));
+/// # Ok::<(), wavestep::Error>(())
+/// ```
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Roots {
+    /// What was found.
+    pub all: Vec<Root>,
+}
+
+impl Roots {
+    /// How many intervals stay undecided.
+    pub fn undecided(&self) -> usize {
+        self.all.iter().filter(|root| matches!(root, Root::Undecided { .. })).count()
+    }
+}
+
+/// The relative width in bits of an interval that stays undecided.
+const UNDECIDED_BITS: u64 = 80;
+
+/// A search on its way.
+struct Finder<'s, 'a> {
+    search: &'s Search<'a>,
+    target: Target<'s>,
+    digits: usize,
+    all: Vec<Root>,
+}
+
+/// What is known of a stretch at its ends.
+struct Ends {
+    first: Option<Ordering>,
+    last: Option<Ordering>,
+    /// Whether the observable is v on all of it.
+    vanishes: bool,
+}
+
+/// A number that is known.
+fn known(value: &Rational) -> Value {
+    Value::Exact(value.clone())
+}
+
+impl Search<'_> {
+    /// All roots of `f − level` in the window, times with so many digits.
+    pub fn roots(
+        &self,
+        level: &Rational,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Roots, EvaluateError> {
+        let target = Target { order: 0, level, limit_bits: self.most_bits(limit_bits) };
+        self.work.set(0);
+        let mut finder = Finder { search: self, target, digits, all: Vec::new() };
+        finder.all_stretches()?;
+        Ok(Roots { all: finder.all })
+    }
+
+    /// When a stretch begins.
+    pub(crate) fn beginning(
+        &self,
+        stretch: usize,
+        digits: usize,
+        limit_bits: u64,
+    ) -> Result<Value, EvaluateError> {
+        if stretch == 0 {
+            return Ok(known(self.function.window()[0]));
+        }
+        match self.function.exact_time(stretch, Limit::Right) {
+            Some(time) => Ok(known(&time)),
+            None => {
+                let time = |bits| self.function.time(stretch, Limit::Right, bits);
+                Ok(Value::certify(digits, limit_bits, time)?.exact_if_known())
+            }
+        }
+    }
+
+    /// Whether the observable is constant on a stretch: coefficient by coefficient, its derivative
+    /// having none but exact zeros; or since waves cancel each other, as exact values prove.
+    pub(crate) fn is_constant(&self, stretch: usize) -> Result<bool, EvaluateError> {
+        let bounds = self.bounds(stretch)?;
+        let (middle, half) = middle_and_half(&bounds[0], &bounds[1]);
+        let bits = self.bits.get();
+        let slope = self.function.taylor(stretch, 1, (&middle, &half), 4, bits)?;
+        if slope.tail(0).is_zero() {
+            return Ok(true);
+        }
+        if !slope.coefficients.iter().all(Ball::contains_zero) {
+            return Ok(false);
+        }
+        match self.function.exact(stretch, At::End(Limit::Right))? {
+            Some(value) => self.function.equals(stretch, &value, &bounds, bits),
+            None => Ok(false),
+        }
+    }
+
+    /// The signs of a target at both ends of the i-th of the cells of a stretch; at the ends of the stretch
+    /// itself, which the cell may reach beyond, those of the limits, which may be known.
+    pub(crate) fn signs(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        cells: &[Cell],
+        i: usize,
+        known: Option<[Option<Ordering>; 2]>,
+    ) -> Result<[Option<Ordering>; 2], EvaluateError> {
+        let sign = |is_end: bool, time, end, known: Option<Option<Ordering>>| match (is_end, known)
+        {
+            (true, Some(known)) => Ok(known),
+            (true, None) => self.sign(stretch, target, At::End(end)),
+            (false, _) => self.sign(stretch, target, At::Time(time)),
+        };
+        let (first, last) = (known.map(|known| known[0]), known.map(|known| known[1]));
+        Ok([
+            sign(i == 0, &cells[i].from, Limit::Right, first)?,
+            sign(i + 1 == cells.len(), &cells[i].to, Limit::Left, last)?,
+        ])
+    }
+}
+
+impl Finder<'_, '_> {
+    /// The roots of all stretches, and where they meet.
+    fn all_stretches(&mut self) -> Result<(), EvaluateError> {
+        let (search, target) = (self.search, self.target);
+        let equal = Some(Ordering::Equal);
+        let mut before: Option<Ends> = None;
+        for stretch in 0..search.count {
+            let first = search.sign(stretch, target, At::End(Limit::Right))?;
+            if search.function.is_instant(stretch) {
+                let now = Ends { first, last: None, vanishes: false };
+                return self.join(stretch, before, &now);
+            }
+            let last = search.sign(stretch, target, At::End(Limit::Left))?;
+            let constant = search.is_constant(stretch)?;
+            let vanishes = constant && (first == equal || last == equal);
+            let now = Ends { first, last, vanishes };
+            self.join(stretch, before, &now)?;
+            if constant && first.is_none() {
+                let [from, to] = search.bounds(stretch)?;
+                self.leave(stretch, (from, to), false)?;
+            } else if !constant {
+                self.roots_within(stretch, &now)?;
+            }
+            self.check()?;
+            before = Some(now);
+        }
+        let end = before.expect("a window has a stretch that is no instant");
+        if end.vanishes {
+            self.end_interval(known(search.function.window()[1]), equal);
+        } else if end.last == equal {
+            self.all.push(Root::End { time: known(search.function.window()[1]) });
+        }
+        Ok(())
+    }
+
+    /// Refuses to list too many.
+    fn check(&self) -> Result<(), EvaluateError> {
+        match self.all.len() > MAX_ROOTS {
+            true => Err(EvaluateError::TooManyRoots { limit: MAX_ROOTS }),
+            false => Ok(()),
+        }
+    }
+
+    /// What happens where a stretch begins.
+    fn join(
+        &mut self,
+        stretch: usize,
+        before: Option<Ends>,
+        now: &Ends,
+    ) -> Result<(), EvaluateError> {
+        let (search, digits, bits) = (self.search, self.digits, self.target.limit_bits);
+        let time = || search.beginning(stretch, digits, bits);
+        let equal = Ordering::Equal;
+        let starts = now.vanishes && before.as_ref().is_none_or(|before| !before.vanishes);
+        if starts {
+            let interval = Root::Interval { from: time()?, to: time()?, closed: true };
+            self.all.push(interval);
+            return Ok(());
+        }
+        let Some(before) = before else {
+            if now.first == Some(equal) {
+                let root = Root::End { time: time()? };
+                self.all.push(root);
+            }
+            return Ok(());
+        };
+        if before.vanishes {
+            if now.vanishes {
+                return Ok(());
+            }
+            let time = time()?;
+            self.end_interval(time, now.first);
+            if now.first.is_some() {
+                return Ok(());
+            }
+        }
+        match (before.last, now.first) {
+            (Some(before), Some(after)) if before == equal || after == equal => {
+                let (before, after) = (before == equal, after == equal);
+                let root = Root::Arrival { time: time()?, before, after };
+                self.all.push(root);
+            }
+            (Some(before), Some(after)) if before != after => {
+                let limits = [
+                    self.limit_value(stretch - 1, Limit::Left)?,
+                    self.limit_value(stretch, Limit::Right)?,
+                ];
+                let root = Root::Jump { time: time()?, limits };
+                self.all.push(root);
+            }
+            (Some(_), Some(_)) => {}
+            _ => {
+                // A limit that cannot be told from v.
+                let [from, _] = search.bounds(stretch)?;
+                let [_, to] = search.bounds(stretch - 1)?;
+                let (from, to) = if to < from { (to, from) } else { (from, to) };
+                self.leave(stretch, (from, to), false)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A limit with digits.
+    fn limit_value(&self, stretch: usize, side: Limit) -> Result<Value, EvaluateError> {
+        let function = self.search.function;
+        if let Some(value) = function.exact(stretch, At::End(side))? {
+            return Ok(known(&value));
+        }
+        let limit = |bits| function.enclose(stretch, 0, At::End(side), bits);
+        Ok(Value::certify(self.digits, self.target.limit_bits, limit)?.exact_if_known())
+    }
+
+    /// The roots within a stretch, its ends excluded.
+    fn roots_within(&mut self, stretch: usize, ends: &Ends) -> Result<(), EvaluateError> {
+        let (search, target) = (self.search, self.target);
+        let cells = search.cover(stretch, target, None)?;
+        let count = cells.len();
+        for (i, cell) in cells.iter().enumerate() {
+            if matches!(cell.finding, Finding::Clear(_) | Finding::Low) {
+                continue;
+            }
+            let signs = search.signs(stretch, target, &cells, i, Some([ends.first, ends.last]))?;
+            match (cell.finding, signs) {
+                (Finding::Monotone(_), [Some(first), Some(last)]) => {
+                    if let Some(root) = Isolated::between(cell, stretch, [first, last]) {
+                        let time = search.root(&root, target, self.digits)?;
+                        self.all.push(Root::Simple { time, rises: root.rises });
+                    }
+                }
+                (Finding::Monotone(slope), _) => {
+                    // A value that cannot be told from v, and the root near it if there is one.
+                    let mut root = Isolated::on(cell, stretch, slope == Ordering::Greater);
+                    search.narrow(&mut root, target, UNDECIDED_BITS)?;
+                    if root.from <= root.to {
+                        self.leave(stretch, (root.from, root.to), false)?;
+                    }
+                }
+                (_, [first, last]) => {
+                    let equal = Some(Ordering::Equal);
+                    let (starts, stops) =
+                        (i == 0 && first == equal, i + 1 == count && last == equal);
+                    let lone = match (starts, stops) {
+                        (true, false) => self.touches(stretch, Limit::Right, cell)?,
+                        (false, true) => self.touches(stretch, Limit::Left, cell)?,
+                        _ => false,
+                    };
+                    if !lone {
+                        let crosses = first.zip(last).is_some_and(|(a, b)| differ([a, b]));
+                        self.leave(stretch, (cell.from.clone(), cell.to.clone()), crosses)?;
+                    }
+                }
+            }
+            self.check()?;
+        }
+        Ok(())
+    }
+
+    /// Whether `f − v`, exactly zero at this end of the stretch, has no other root in the cell
+    /// beside it: `f' = 0` there exactly, and `f''` has a sign on all of the cell.
+    fn touches(&self, stretch: usize, side: Limit, cell: &Cell) -> Result<bool, EvaluateError> {
+        let (search, curvature) = (self.search, Target { order: 2, ..self.target });
+        let range = search.range(stretch, curvature, (&cell.from, &cell.to), search.bits.get())?;
+        let sign = range.sign();
+        Ok(sign.is_some_and(|sign| sign != Ordering::Equal)
+            && search.slope_vanishes(stretch, side)?)
+    }
+
+    /// Notes an interval on which nothing is proven, as one with that before it where they meet.
+    fn leave(
+        &mut self,
+        stretch: usize,
+        (mut from, mut to): (Rational, Rational),
+        mut crosses: bool,
+    ) -> Result<(), EvaluateError> {
+        let bits = self.search.bits.get();
+        let mut range = self.search.range(stretch, self.target, (&from, &to), bits)?;
+        if let Some(Root::Undecided { from: first, to: last, range: known, .. }) = self.all.last()
+            && *last >= from
+        {
+            let ((a, b), (c, d)) = (rationals(known), rationals(&range));
+            range = Ball::between(&a.min(c), &b.max(d), bits);
+            (from, to, crosses) = (from.min(first.clone()), to.max(last.clone()), false);
+            self.all.pop();
+        }
+        self.all.push(Root::Undecided { from, to, range, crosses });
+        Ok(())
+    }
+
+    /// Ends the interval of roots that is last; its end belongs to it where the signal has the value there.
+    fn end_interval(&mut self, end: Value, there: Option<Ordering>) {
+        if let Some(Root::Interval { to, closed, .. }) = self.all.last_mut() {
+            (*to, *closed) = (end, there == Some(Ordering::Equal));
+        }
+    }
+}

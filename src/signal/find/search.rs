@@ -1,0 +1,163 @@
+//! A window of time in which roots and extrema of one observable are looked for.
+//!
+//! A search asks it for enclosures, and for exact values
+//! where a ball cannot decide because the answer is zero.
+
+use crate::ball::{Attempt, Ball, Precisions};
+use crate::signal::error::EvaluateError;
+use crate::signal::signal::{At, Limit, Signal};
+use std::cell::Cell;
+use std::cmp::Ordering;
+use wavestep_polynomial::Rational;
+
+/// The precision in bits that is begun with.
+const FIRST_BITS: u64 = 192;
+
+/// The precision in bits of times that are irrational, where they bound a cell.
+const BOUND_BITS: u64 = 320;
+
+/// The most bits of such times: more than it takes to tell two arrivals apart.
+const MAX_BOUND_BITS: u64 = 1 << 16;
+
+/// Of how many parts of a stretch its bounds may lie one beyond its ends.
+const BOUND_SHARE: u128 = 1 << 80;
+
+/// The most bits that a sign is tried with, unless fewer are allowed.
+const SIGN_BITS: u64 = 1 << 12;
+
+/// The same of a derivative.
+const SLOPE_BITS: u64 = 1 << 10;
+
+/// What is looked at: the derivative of this order, less a level where that is 0.
+#[derive(Clone, Copy)]
+pub(crate) struct Target<'a> {
+    pub order: usize,
+    pub level: &'a Rational,
+    /// The most bits of balls.
+    pub limit_bits: u64,
+}
+
+/// An observable on a window of the user's time.
+///
+/// # Invariants
+/// - the window is not empty; every symbol has a value; its arrivals are known.
+pub struct Search<'a> {
+    pub(crate) function: &'a dyn Signal,
+    /// How many stretches are looked at.
+    pub(crate) count: usize,
+    /// The precision that has done so far.
+    pub(crate) bits: Cell<u64>,
+    /// The cells looked at so far.
+    pub(crate) work: Cell<usize>,
+    /// Whether the end of the window, at which an echo arrives, is left out.
+    pub(crate) open: bool,
+}
+
+impl<'a> Search<'a> {
+    /// A signal on its window, both its ends included.
+    pub fn new(signal: &'a dyn Signal) -> Result<Search<'a>, EvaluateError> {
+        let window = signal.window();
+        if window[1] <= window[0] || *window[0] < Rational::default() {
+            return Err(EvaluateError::EmptyWindow);
+        }
+        if let Ok(form) = signal.closed_form() {
+            form.foresee(window[1])?;
+        }
+        let (count, bits, work) = (signal.count()?, Cell::new(FIRST_BITS), Cell::new(0));
+        Ok(Search { function: signal, count, bits, work, open: false })
+    }
+
+    /// As many bits as are allowed and tell more.
+    pub(crate) fn most_bits(&self, limit_bits: u64) -> u64 {
+        limit_bits.min(self.function.most_bits()).max(self.bits.get())
+    }
+
+    /// The same window without its end: an echo that arrives there does not count, the limit before
+    /// does.
+    #[must_use]
+    pub fn half_open(mut self) -> Search<'a> {
+        if self.count > 1 && self.function.is_instant(self.count - 1) {
+            self.count -= 1;
+            self.open = true;
+        }
+        self
+    }
+
+    /// An enclosure of the target.
+    pub(crate) fn enclose(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        at: At<'_>,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError> {
+        let value = self.function.enclose(stretch, target.order, at, bits)?;
+        if target.order > 0 || *target.level == Rational::default() {
+            return Ok(value);
+        }
+        Ok(value.subtract(&Ball::from_rational(target.level, bits), bits))
+    }
+
+    /// The sign of the target by balls, and exactly where the first balls do not tell it; `None` where it is
+    /// not decided.
+    pub(crate) fn sign(
+        &self,
+        stretch: usize,
+        target: Target<'_>,
+        at: At<'_>,
+    ) -> Result<Option<Ordering>, EvaluateError> {
+        let function = self.function;
+        if target.order == 0 && function.is_zero(stretch) {
+            return Ok(Some(Rational::default().cmp(target.level)));
+        }
+        let most = if target.order == 0 { SIGN_BITS } else { SLOPE_BITS };
+        let precisions = Precisions::doubling(self.bits.get(), target.limit_bits.min(most));
+        let attempt = |bits| {
+            let sign = match (self.enclose(stretch, target, at, bits)?.sign(), target.order, at) {
+                (None, 0, _) if bits == precisions.first() => {
+                    function.exact(stretch, at)?.map(|value| value.cmp(target.level))
+                }
+                (None, 1, At::End(side)) if bits == precisions.first() => {
+                    self.slope_vanishes(stretch, side)?.then_some(Ordering::Equal)
+                }
+                (sign, ..) => sign,
+            };
+            Ok(Attempt::of(sign, sign.is_some()))
+        };
+        precisions.raise(attempt).map(Attempt::best)
+    }
+
+    /// Whether the derivative in the limit at an end of a stretch is known to be exactly zero.
+    pub(crate) fn slope_vanishes(
+        &self,
+        stretch: usize,
+        side: Limit,
+    ) -> Result<bool, EvaluateError> {
+        let slope = self.function.enclose(stretch, 1, At::End(side), self.bits.get())?;
+        Ok(slope.contains_zero() && self.function.slope_vanishes(stretch, side)?)
+    }
+
+    /// Rational bounds of a stretch: its ends themselves where they are rational, else so little
+    /// beyond them that the middle of no cell lies outside.
+    pub(crate) fn bounds(&self, stretch: usize) -> Result<[Rational; 2], EvaluateError> {
+        let attempt = |bits| {
+            let outer = |end| -> Result<(Rational, Rational), EvaluateError> {
+                if let Some(time) = self.function.exact_time(stretch, end) {
+                    return Ok((time.clone(), time));
+                }
+                Ok(rationals(&self.function.time(stretch, end, bits)?))
+            };
+            let ((first, after), (before, last)) = (outer(Limit::Right)?, outer(Limit::Left)?);
+            let slack = (&after - &first).max(&last - &before);
+            let is_near = slack * Rational::from_integer(BOUND_SHARE.into()) <= &before - &after;
+            Ok(Attempt::of([first, last], is_near))
+        };
+        Precisions::doubling(BOUND_BITS, MAX_BOUND_BITS).raise(attempt).map(Attempt::best)
+    }
+}
+
+/// Two rationals with the ball between them.
+pub(crate) fn rationals(ball: &Ball) -> (Rational, Rational) {
+    let (lower, upper) = ball.endpoints();
+    (Rational::from(&lower), Rational::from(&upper))
+}

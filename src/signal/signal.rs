@@ -1,0 +1,256 @@
+//! A real function of time, cut at its breaks: what every consumer asks.
+
+use crate::ball::{Ball, Magnitude};
+use crate::expression::{Expression, Fraction, Root};
+use crate::signal::closed::ClosedForm;
+use crate::signal::error::EvaluateError;
+use crate::signal::taylor::Taylor;
+use std::cmp::Ordering;
+pub use wavestep_kernels::Limit;
+use wavestep_polynomial::Rational;
+
+/// Where in a stretch.
+#[derive(Clone, Copy)]
+pub enum At<'a> {
+    /// A time of the user's.
+    Time(&'a Rational),
+    /// A time in the scale of the scene, which may be no rational number in the user's.
+    Scaled(&'a Fraction),
+    /// The limit at an end of the stretch: on the right side of its first time, the left of its last.
+    End(Limit),
+}
+
+/// What is known of a value without enclosures.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Known {
+    /// It is this number.
+    Rational(Rational),
+    /// It is no rational number.
+    Irrational,
+    /// Exact arithmetic has not told.
+    Unknown,
+}
+
+impl Known {
+    /// What an exact value, where there is one, tells of itself in a unit.
+    pub(crate) fn of(value: Option<Expression>, unit: &Root) -> Known {
+        let unit = unit.exact().and_then(|unit| unit.as_constant());
+        match (value, unit) {
+            (Some(value), _) if value.is_zero() => Known::Rational(Rational::default()),
+            (Some(value), Some(unit)) => match value.as_constant() {
+                Some(value) => Known::Rational(value * unit),
+                None => Known::Irrational,
+            },
+            (Some(_), None) => Known::Irrational,
+            (None, _) => Known::Unknown,
+        }
+    }
+}
+
+/// An exact instant by which breaks of two signals are known as one: those of one scene that are equal
+/// are one instant, whatever their enclosures tell.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Instant {
+    /// The scene, by its address.
+    pub(crate) scene: usize,
+    /// The event that it is counted from: the precision in bits with which the scene was followed, and the
+    /// number of the event, which are the same whenever it is followed again; `None` for the start.
+    pub(crate) event: Option<(u64, usize)>,
+    /// The delay since then, in the scale of the scene.
+    pub(crate) delay: Fraction,
+}
+
+/// How much work an exact form may cost.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Effort {
+    /// None to speak of.
+    Little,
+    /// That of exact echoes, as far as these are worked out at all.
+    Much,
+}
+
+/// `f(bits)`: an enclosure with about so many bits.
+pub(crate) type Enclosure<'a> = Box<dyn Fn(u64) -> Result<Ball, EvaluateError> + 'a>;
+
+/// One limit of a signal at one time, prepared for enclosures.
+pub struct Point<'a> {
+    pub(crate) known: Known,
+    pub(crate) enclose: Enclosure<'a>,
+    /// What exact arithmetic tells at a high cost, where a first look left it open.
+    pub(crate) decide: Box<dyn Fn() -> Known + 'a>,
+    /// A value below this is suspected to be zero.
+    pub(crate) negligible: Magnitude,
+    /// More bits than these tell no more, unless the digits themselves need them.
+    pub(crate) most_bits: u64,
+}
+
+impl<'a> Point<'a> {
+    /// A rational value.
+    pub(crate) fn exact(value: Rational) -> Point<'a> {
+        let ball = value.clone();
+        let enclose = move |bits| Ok(Ball::from_rational(&ball, bits));
+        Point { known: Known::Rational(value), ..Point::irrational(enclose) }
+    }
+
+    /// A value that is no rational number.
+    pub(crate) fn irrational(
+        enclose: impl Fn(u64) -> Result<Ball, EvaluateError> + 'a,
+    ) -> Point<'a> {
+        Point {
+            known: Known::Irrational,
+            enclose: Box::new(enclose),
+            decide: Box::new(|| Known::Unknown),
+            negligible: Magnitude::ZERO,
+            most_bits: u64::MAX,
+        }
+    }
+}
+
+/// Whether what begins has begun at a time, by how its beginning compares with that.
+pub(crate) fn has_begun(begins: Ordering, side: Limit) -> bool {
+    begins == Ordering::Less || (begins == Ordering::Equal && side == Limit::Right)
+}
+
+/// The last of some stretches that has begun at a time, or the first; `begins` compares the beginning of
+/// one with that time.
+pub(crate) fn last_begun<E>(
+    count: usize,
+    side: Limit,
+    begins: impl Fn(usize) -> Result<Ordering, E>,
+) -> Result<usize, E> {
+    let (mut low, mut high) = (0, count);
+    while high - low > 1 {
+        let middle = low.midpoint(high);
+        match has_begun(begins(middle)?, side) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    Ok(low)
+}
+
+/// A real function of the user's time on a window, cut into stretches, on each of which it is analytic.
+///
+/// # Invariants
+/// - Stretches follow each other without gaps and fill the window; only the last may be an instant,
+///   the end of the window where the function jumps.
+/// - The function of a stretch goes on analytically a little beyond its ends, and enclosures hold there.
+/// - Enclosures hold for every precision in bits; with more bits they are narrower, until a limit.
+pub trait Signal {
+    /// The first time and the last.
+    fn window(&self) -> [&Rational; 2];
+
+    /// One limit at a time of the window, zero before time 0.
+    fn point(&self, at: &Rational, side: Limit) -> Result<Point<'_>, EvaluateError>;
+
+    /// The waves that it is seen in, where these are known in closed form: what methods for doubles
+    /// that sum echoes or march from period to period need.
+    ///
+    /// # Errors
+    /// [`EvaluateError::NotLinear`] for energies, [`EvaluateError::NoClosedForm`] where contacts open.
+    fn closed_form(&self) -> Result<&ClosedForm, EvaluateError> {
+        Err(EvaluateError::NoClosedForm)
+    }
+
+    /// More bits than these tell no more of stretches.
+    fn most_bits(&self) -> u64 {
+        u64::MAX
+    }
+
+    /// How many echoes other than zero are worked out for values, and how many can reach what is observed;
+    /// nothing where echoes are not counted.
+    fn echoes(&self) -> Option<(usize, usize)> {
+        None
+    }
+
+    /// How many stretches there are, with numbers from 0 on; to tell that, all breaks are found.
+    fn count(&self) -> Result<usize, EvaluateError>;
+
+    /// A time of the user's in the scale of the scene.
+    fn scaled_time(&self, time: &Rational) -> Fraction;
+
+    /// How the beginning of a stretch compares with a time in the scale of the scene.
+    fn begins(&self, stretch: usize, at: &Fraction) -> Result<Ordering, EvaluateError>;
+
+    /// The stretch of a time: for the limit from the left the one that ends there, which is not known
+    /// where the window begins.
+    ///
+    /// # Errors
+    /// [`EvaluateError::AfterLast`] outside the window; [`EvaluateError`] where the order of two times is not decided.
+    fn stretch_at(&self, at: &Rational, side: Limit) -> Result<Option<usize>, EvaluateError> {
+        let [from, to] = self.window();
+        if at < from || at > to {
+            return Err(EvaluateError::AfterLast);
+        }
+        if at == from && side == Limit::Left {
+            return Ok(None);
+        }
+        let at = self.scaled_time(at);
+        last_begun(self.count()?, side, |stretch| self.begins(stretch, &at)).map(Some)
+    }
+
+    /// Whether a stretch is the last instant of the window alone.
+    fn is_instant(&self, stretch: usize) -> bool;
+
+    /// Whether the function is known to be zero on a stretch.
+    fn is_zero(&self, stretch: usize) -> bool;
+
+    /// The time of an end, where it is known to be rational.
+    fn exact_time(&self, stretch: usize, end: Limit) -> Option<Rational>;
+
+    /// What identifies the first time of a stretch, where it is known exactly since the start or an event.
+    fn instant(&self, stretch: usize) -> Option<Instant>;
+
+    /// The function of a stretch at an exact time in the scale of the scene, which may hold a symbol, where
+    /// that is known and costs no more than this.
+    fn exact_at(&self, stretch: usize, at: &Fraction, effort: Effort) -> Option<Expression>;
+
+    /// An enclosure of the time of an end.
+    fn time(&self, stretch: usize, end: Limit, bits: u64) -> Result<Ball, EvaluateError>;
+
+    /// An enclosure of the derivative of an order.
+    fn enclose(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: At<'_>,
+        bits: u64,
+    ) -> Result<Ball, EvaluateError>;
+
+    /// The derivative of an order at `m + hu` as a polynomial in `−1 ≤ u ≤ 1` with so many terms, and
+    /// a bound of what is left out.
+    fn taylor(
+        &self,
+        stretch: usize,
+        order: usize,
+        place: (&Rational, &Rational),
+        terms: usize,
+        bits: u64,
+    ) -> Result<Taylor, EvaluateError>;
+
+    /// The size of the largest of those functions whose sum is the derivative of an order, at a time,
+    /// and of what is unknown of it.
+    fn size(
+        &self,
+        stretch: usize,
+        order: usize,
+        at: &Rational,
+        bits: u64,
+    ) -> Result<(Magnitude, Magnitude), EvaluateError>;
+
+    /// The value, where it is known to be rational.
+    fn exact(&self, stretch: usize, at: At<'_>) -> Result<Option<Rational>, EvaluateError>;
+
+    /// Whether the derivative in the limit at an end is known to be exactly zero.
+    fn slope_vanishes(&self, stretch: usize, end: Limit) -> Result<bool, EvaluateError>;
+
+    /// Whether the function is known to have one value on all of a stretch, which lies within these
+    /// bounds.
+    fn equals(
+        &self,
+        stretch: usize,
+        value: &Rational,
+        bounds: &[Rational; 2],
+        bits: u64,
+    ) -> Result<bool, EvaluateError>;
+}

@@ -1,0 +1,350 @@
+//! Taylor polynomials in balls, with a proven bound on what is left out.
+//!
+//! An exponential polynomial is expanded about a point, in `u` with `x = x₀ + hu`:
+//!
+//! ```text
+//! P(x₀ + hu) = Σ_m d_m (hu)^m/m!,   d_m = Σ_j c_{j+m} x₀^j/j!
+//! ```
+//!
+//! times `e^{λx₀} e^{λhu}`. What is left out beyond M terms is bounded for all `|u| ≤ 1`:
+//!
+//! - of the polynomial, with `N = j + m` and any `0 < θ ≤ 1`,
+//!   `Σ_{m≥M} |h|^m/m! Σ_j |c_{j+m}| |x₀|^j/j! = Σ_N |c_N|/N! Σ_{m≥M} C(N,m) |h|^m |x₀|^{N−m}
+//!   ≤ θ^M Σ_{N≥M} |c_N|/N! (|x₀| + |h|/θ)^N`;
+//! - of the exponential, with `η = |λh| ≤ (M+1)/2`, `Σ_{m≥M} η^m/m! ≤ 2 η^M/M!`;
+//! - of the product, what either leaves out times a bound of the other, and the terms of too high a
+//!   degree.
+
+use crate::ball::{Ball, ComplexBall, Magnitude};
+use crate::enclosure::{EnclosureError, Numbers, real_part};
+use crate::expression::{Field as _, Fraction, Transform};
+use crate::signal::error::EvaluateError;
+use crate::signal::transforms::{divided_powers, dot, exponential};
+use wavestep_polynomial::Rational;
+
+/// The powers of two that are tried for `1/θ`.
+const TAIL_SHIFTS: [i64; 5] = [1, 2, 3, 4, 6];
+
+/// A remainder as a power of two that tells nothing.
+const WIDE: i64 = 1 << 20;
+
+/// `|f − Σ_m c_m u^m| ≤ remainder` for `|u| ≤ 1`.
+///
+/// # Invariants
+/// - holds for one choice of points in the balls `c_m`.
+#[derive(Clone, Debug)]
+pub struct Taylor<V = Ball> {
+    /// `c_0, c_1, …`
+    pub coefficients: Vec<V>,
+    /// What is left out.
+    pub remainder: Magnitude,
+}
+
+impl<V> Taylor<V> {
+    /// A polynomial, of which nothing is left out.
+    pub(crate) fn polynomial(coefficients: Vec<V>) -> Self {
+        Taylor { coefficients, remainder: Magnitude::ZERO }
+    }
+}
+
+impl Taylor<ComplexBall> {
+    /// The function 0.
+    pub(crate) fn zero(terms: usize) -> Self {
+        Taylor::polynomial(vec![ComplexBall::zero(); terms])
+    }
+
+    /// `f(x₀ + hu)`, with so many terms. O(terms · degree) operations.
+    pub(crate) fn of(
+        function: &Transform<ComplexBall>,
+        x: &ComplexBall,
+        h: &ComplexBall,
+        terms: usize,
+        numbers: &Numbers,
+        bits: u64,
+    ) -> Result<Self, EvaluateError> {
+        let mut sum = Taylor::zero(terms);
+        let scales = divided_powers(h, terms, bits);
+        for (pole, coefficients) in function.poles() {
+            let part = polynomial(coefficients, x, &scales, h, bits);
+            let part = match pole.is_zero() {
+                true => part,
+                false => part.times_exponential(pole, x, h, numbers, bits)?,
+            };
+            sum.add_scaled(&part, &ComplexBall::one(), bits);
+        }
+        Ok(sum)
+    }
+
+    /// Adds `factor · other`.
+    pub(crate) fn add_scaled(&mut self, other: &Self, factor: &ComplexBall, bits: u64) {
+        for (sum, coefficient) in self.coefficients.iter_mut().zip(&other.coefficients) {
+            *sum = sum.add(&coefficient.multiply(factor, bits), bits);
+        }
+        self.remainder = self.remainder.add(&other.remainder.multiply(&factor.magnitude()));
+    }
+
+    /// Times `e^{λ(x₀ + hu)}`.
+    fn times_exponential(
+        &self,
+        pole: &Fraction,
+        x: &ComplexBall,
+        h: &ComplexBall,
+        numbers: &Numbers,
+        bits: u64,
+    ) -> Result<Self, EvaluateError> {
+        let terms = self.coefficients.len();
+        let rate = numbers.field(bits).embed(&pole.clone().into())?.multiply(h, bits);
+        let series = divided_powers(&rate, terms, bits);
+        let eta = rate.magnitude();
+        if eta.scale(1) > Magnitude::from_u64(terms as u64 + 1) {
+            // Too few terms for this width: nothing is known.
+            return Ok(Taylor { remainder: Magnitude::power_of_two(WIDE), ..self.clone() });
+        }
+        let rest = (1..=terms as u64)
+            .fold(Magnitude::power_of_two(1), |rest, m| rest.multiply(&eta).divide(m));
+        let factor = exponential(pole, x, numbers, bits)?;
+        let mut coefficients = Vec::with_capacity(terms);
+        for k in 0..terms {
+            let mut sum = ComplexBall::zero();
+            for i in 0..=k {
+                sum = sum.add(&self.coefficients[i].multiply(&series[k - i], bits), bits);
+            }
+            coefficients.push(sum.multiply(&factor, bits));
+        }
+        // above[i]: the sum of |e_j| from j = terms − i on, the rest included.
+        let mut above = vec![rest];
+        for term in series.iter().rev() {
+            above.push(above[above.len() - 1].add(&term.magnitude()));
+        }
+        let products = self.coefficients.iter().zip(&above).map(|(c, a)| c.magnitude().multiply(a));
+        let products = products.fold(Magnitude::ZERO, |sum, product| sum.add(&product));
+        let whole = &above[terms];
+        let remainder = products.add(&self.remainder.multiply(whole)).multiply(&factor.magnitude());
+        Ok(Taylor { coefficients, remainder })
+    }
+
+    /// The real part of a real function.
+    pub(crate) fn real(self) -> Result<Taylor, EnclosureError> {
+        let real: Result<_, _> = self.coefficients.into_iter().map(real_part).collect();
+        Ok(Taylor { coefficients: real?, remainder: self.remainder })
+    }
+}
+
+/// `P(x₀ + hu)` with `P = Σ_j c_j x^j/j!`; `scales` are `h^m/m!`.
+fn polynomial(
+    coefficients: &[ComplexBall],
+    x: &ComplexBall,
+    scales: &[ComplexBall],
+    h: &ComplexBall,
+    bits: u64,
+) -> Taylor<ComplexBall> {
+    let powers = divided_powers(x, coefficients.len(), bits);
+    let term = |(m, scale): (usize, &ComplexBall)| match coefficients.get(m..) {
+        Some(rest) => dot(rest, &powers, bits).multiply(scale, bits),
+        None => ComplexBall::zero(),
+    };
+    let remainder = tail(coefficients, &x.magnitude(), &h.magnitude(), scales.len());
+    Taylor { coefficients: scales.iter().enumerate().map(term).collect(), remainder }
+}
+
+/// `min_θ θ^M Σ_{N≥M} |c_N|/N! (|x| + |h|/θ)^N`.
+fn tail(coefficients: &[ComplexBall], x: &Magnitude, h: &Magnitude, terms: usize) -> Magnitude {
+    if coefficients.len() <= terms {
+        return Magnitude::ZERO;
+    }
+    let bound = |shift: i64| {
+        let base = x.add(&h.scale(shift));
+        let mut power = Magnitude::power_of_two(-shift * terms as i64);
+        let mut sum = Magnitude::ZERO;
+        for (order, coefficient) in coefficients.iter().enumerate() {
+            if order >= terms {
+                sum = sum.add(&coefficient.magnitude().multiply(&power));
+            }
+            power = power.multiply(&base).divide(order as u64 + 1);
+        }
+        sum
+    };
+    TAIL_SHIFTS.into_iter().map(bound).min().expect("some are tried")
+}
+
+impl Taylor {
+    /// Adds another one.
+    pub(crate) fn add(&mut self, other: Taylor, bits: u64) {
+        let length = self.coefficients.len().max(other.coefficients.len());
+        self.coefficients.resize(length, Ball::zero());
+        for (sum, coefficient) in self.coefficients.iter_mut().zip(&other.coefficients) {
+            *sum = sum.add(coefficient, bits);
+        }
+        self.remainder = self.remainder.add(&other.remainder);
+    }
+
+    /// The product, with as many terms as the longer factor has: what either leaves out times all of the
+    /// other, and the products of terms of too high a degree, are the remainder.
+    pub(crate) fn multiply(&self, other: &Taylor, bits: u64) -> Taylor {
+        let terms = self.coefficients.len().max(other.coefficients.len());
+        let mut coefficients = vec![Ball::zero(); terms];
+        let is_zero = |c: &Ball| c.is_exact() && c.contains_zero();
+        let others = || other.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c));
+        let mut remainder =
+            self.tail(0).multiply(&other.remainder).add(&self.remainder.multiply(&other.tail(0)));
+        for (i, own) in self.coefficients.iter().enumerate().filter(|(_, c)| !is_zero(c)) {
+            let mut high = Magnitude::ZERO;
+            for (j, c) in others() {
+                match coefficients.get_mut(i + j) {
+                    Some(sum) => *sum = sum.add(&own.multiply(c, bits), bits),
+                    None => high = high.add(&c.magnitude()),
+                }
+            }
+            remainder = remainder.add(&own.magnitude().multiply(&high));
+        }
+        Taylor { coefficients, remainder }
+    }
+
+    /// `∫_0^u p`, with one more term. The remainder is the same, since `|u| ≤ 1`.
+    pub(crate) fn antiderivative(mut self, bits: u64) -> Taylor {
+        for (k, c) in self.coefficients.iter_mut().enumerate() {
+            *c = c.multiply_rational(&Rational::new(1.into(), (k + 1).into()), bits);
+        }
+        self.coefficients.insert(0, Ball::zero());
+        self
+    }
+
+    /// The same function where `u` is known but for an error of this size.
+    pub(crate) fn blurred(mut self, by: &Magnitude) -> Taylor {
+        let slopes = self.coefficients.iter().enumerate();
+        let slope = slopes.fold(Magnitude::ZERO, |sum, (k, c)| {
+            sum.add(&c.magnitude().multiply(&Magnitude::from_u64(k as u64)))
+        });
+        self.remainder = self.remainder.add(&slope.multiply(by));
+        self
+    }
+
+    /// Times a number.
+    pub(crate) fn scaled(mut self, factor: &Ball, bits: u64) -> Taylor {
+        for coefficient in &mut self.coefficients {
+            *coefficient = coefficient.multiply(factor, bits);
+        }
+        self.remainder = self.remainder.multiply(&factor.magnitude());
+        self
+    }
+
+    /// An enclosure of the function at all `u` of a ball within `|u| ≤ 1`.
+    pub(crate) fn value(&self, u: &Ball, bits: u64) -> Ball {
+        let horner = |value: Ball, c: &Ball| value.multiply(u, bits).add(c, bits);
+        let value = self.coefficients.iter().rev().fold(Ball::zero(), horner);
+        value.widened(&self.remainder)
+    }
+
+    /// A bound on what the terms from the `m`-th on, and what is left out, add up to.
+    pub(crate) fn tail(&self, m: usize) -> Magnitude {
+        let terms = self.coefficients.iter().skip(m).map(Ball::magnitude);
+        terms.fold(self.remainder, |sum, term| sum.add(&term))
+    }
+
+    /// About what Horner's scheme loses in doubles: `2^−53 Σ_k T_k` for products and sums, with
+    /// `T_k = Σ_{j≥k} |c_j|`.
+    pub(crate) fn rounding(&self) -> Magnitude {
+        let mut tail = Magnitude::ZERO;
+        let mut sum = Magnitude::ZERO;
+        for coefficient in self.coefficients.iter().rev() {
+            tail = tail.add(&coefficient.magnitude());
+            sum = sum.add(&tail.scale(1));
+        }
+        // The constant is not multiplied any more.
+        let twice = sum.to_double() - tail.to_double();
+        Magnitude::from_double(twice).scale(-53)
+    }
+
+    /// In units `by` times as long: `c_m ← c_m by^m`. The remainder holds where it did, for
+    /// `|u| ≤ 1/by`.
+    pub(crate) fn stretch(&mut self, by: &Rational, bits: u64) {
+        let mut power = Ball::from_integer(&1.into());
+        for coefficient in &mut self.coefficients {
+            *coefficient = coefficient.multiply(&power, bits);
+            power = power.multiply_rational(by, bits);
+        }
+    }
+
+    /// `p(a + bu)` for numbers `|a| + |b| ≤ 1`, exactly those points: the function on a part of where
+    /// it is known. O(terms²) operations.
+    pub(crate) fn part(&self, a: &Rational, b: &Rational, bits: u64) -> Taylor {
+        let mut coefficients = self.coefficients.clone();
+        let a = Ball::from_rational(a, bits);
+        for start in 0..coefficients.len() {
+            for m in (start..coefficients.len().saturating_sub(1)).rev() {
+                let shifted = coefficients[m + 1].multiply(&a, bits);
+                coefficients[m] = coefficients[m].add(&shifted, bits);
+            }
+        }
+        let scale = Ball::from_rational(b, bits);
+        let mut power = Ball::from_integer(&1.into());
+        for coefficient in &mut coefficients {
+            *coefficient = coefficient.multiply(&power, bits);
+            power = power.multiply(&scale, bits);
+        }
+        Taylor { coefficients, remainder: self.remainder }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expression::Expression;
+    use crate::signal::transforms::value_at;
+    use wavestep_polynomial::Symbol;
+
+    const BITS: u64 = 200;
+
+    /// However few the terms, what they leave out is within the remainder, and the remainder is not
+    /// much more than that.
+    #[test]
+    fn what_is_left_out_is_within_the_remainder() {
+        let numbers = Numbers::new(&[]);
+        let field = numbers.field(BITS);
+        let rational = |n: i64, d: i64| Rational::new(n.into(), d.into());
+        let ball = |value: &Rational| field.embed(&Fraction::constant(value).into()).unwrap();
+        let symbol = Symbol::new("x").unwrap();
+        let mut compared = 0;
+        let x = Fraction::symbol(&symbol);
+        let whole = |value: i64| Fraction::constant(&rational(value, 1));
+        let times = |factor: Fraction, rate: Rational| {
+            Expression::from(factor).times_exponential(&x.scale(&rate))
+        };
+        let mut sum = times(&(&whole(1) - &x.scale(&rational(3, 1))) + &x.pow(4), rational(-2, 1));
+        sum += &Expression::from(x.pow(3));
+        for (text, expression) in [
+            ("exp(-x)", times(whole(1), rational(-1, 1))),
+            ("x^5 - 2*x", Expression::from(&x.pow(5) - &x.scale(&rational(2, 1)))),
+            ("(1 - 3*x + x^4)*exp(-2*x) + x^3", sum),
+            ("x^6*exp(x/3)", times(x.pow(6), rational(1, 3))),
+        ] {
+            let exact = Transform::of(&expression, &symbol);
+            let function = Transform::<ComplexBall>::embedded(&exact, &field).unwrap();
+            for (terms, half) in [(1, (1, 9)), (2, (1, 2)), (3, (1, 1)), (5, (1, 2)), (6, (3, 2))] {
+                for centre in [rational(1, 3), rational(5, 2), rational(7, 1)] {
+                    let half = rational(half.0, half.1);
+                    let (x, h) = (ball(&centre), ball(&half));
+                    let taylor = Taylor::of(&function, &x, &h, terms, &numbers, BITS).unwrap();
+                    let taylor = taylor.real().unwrap();
+                    let known = Taylor { remainder: Magnitude::ZERO, ..taylor.clone() };
+                    let mut worst = Magnitude::ZERO;
+                    for u in [-4, -3, -1, 0, 2, 4].map(|u| rational(u, 4)) {
+                        let at = ball(&(&centre + &half * &u));
+                        let value = value_at(&function, &at, &numbers, BITS).unwrap();
+                        let rest = known.value(&Ball::from_rational(&u, BITS), BITS);
+                        let rest = rest.subtract(value.real(), BITS).magnitude();
+                        assert!(
+                            rest <= taylor.remainder.add(&Magnitude::power_of_two(-150)),
+                            "{text} with {terms} terms about {centre}, at {u}"
+                        );
+                        worst = worst.max(rest);
+                        compared += 1;
+                    }
+                    let most = worst.add(&Magnitude::power_of_two(-150)).scale(12);
+                    assert!(taylor.remainder <= most, "{text} with {terms} terms about {centre}");
+                }
+            }
+        }
+        assert_eq!(compared, 360);
+    }
+}
