@@ -267,11 +267,11 @@ fn breaches_are_found() {
         ("src/export/text.rs", "fn f() { crate::language::parse() }", "not use language"),
         (
             "src/language/x.rs",
-            "use crate::{\n    recurrence::A,\n    evaluate::{B, C},\n};",
-            "not use evaluate",
+            "use crate::{\n    recurrence::A,\n    signal::{B, C},\n};",
+            "not use signal",
         ),
         ("src/field/x.rs", "            bits *= 2;", "bits *= belongs to ball"),
-        ("src/evaluate/x.rs", "    println!(\"x\");", "println! belongs to no layer"),
+        ("src/signal/x.rs", "    println!(\"x\");", "println! belongs to no layer"),
         ("src/novel/x.rs", "", "`novel` is no known layer"),
     ] {
         let found = complaints(path, text);
@@ -280,8 +280,8 @@ fn breaches_are_found() {
     for (path, text) in [
         ("src/ball/x.rs", "// use crate::expression::X;\nuse super::binary::Binary;"),
         ("src/solution/x.rs", "use crate::{expression::{A, B}, recurrence::C};"),
-        ("src/evaluate/x.rs", "let f = format!(\"sprintln!\"); // eprintln!"),
-        ("src/evaluate/x.rs", "#[cfg(test)]\nmod tests {\n    use crate::scenes::SCENES;\n}"),
+        ("src/signal/x.rs", "let f = format!(\"sprintln!\"); // eprintln!"),
+        ("src/signal/x.rs", "#[cfg(test)]\nmod tests {\n    use crate::scenes::SCENES;\n}"),
     ] {
         assert_eq!(complaints(path, text), [""; 0], "{path}");
     }
