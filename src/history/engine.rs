@@ -50,6 +50,16 @@ pub(crate) struct Load {
     pub until: Option<Fraction>,
 }
 
+/// How far a cell reaches, and what acts on the node there.
+struct Reach {
+    end: Moment,
+    /// Whether nothing changes at its end: it is as long as the rates allow.
+    is_step: bool,
+    length: Number,
+    norm: CellNorm,
+    inputs: Vec<Series>,
+}
+
 /// What a node does on a cell, before it is taken over.
 struct Planned {
     inputs: Vec<Series>,
@@ -425,30 +435,40 @@ impl Engine {
         Ok(())
     }
 
+    /// How far the next cell of a node reaches. Where the rate of its free motion is what ends the cell, and the
+    /// fastest of that has died out, a second look finds a longer one.
+    fn next_cell(&mut self, node: usize, share: &Rational) -> Outcome<Reach> {
+        let fastest = self.states[node].passivity.rate();
+        let reach = self.reach(node, fastest, share)?;
+        if !reach.is_step {
+            return Ok(reach);
+        }
+        let state = &self.states[node];
+        let known = (&state.state[..], &state.errors[..]);
+        let cell = (&reach.norm, &self.cut);
+        let free = state.system.free_rate(&state.passivity, known, &reach.inputs, cell);
+        match free.scale(1) < fastest {
+            true => self.reach(node, free, share),
+            false => Ok(reach),
+        }
+    }
+
+    /// How far a cell reaches whose free motion has this rate.
+    fn reach(&mut self, node: usize, rate: Magnitude, share: &Rational) -> Outcome<Reach> {
+        let (end, is_step) = self.next_change(node, rate, share)?;
+        let length = self.clock.since(&self.states[node].now, &end)?;
+        self.cut.longest = self.cut.longest.max(length.magnitude());
+        let norm = CellNorm::new(length.magnitude(), &self.cut);
+        let inputs = self.inputs(node, &norm)?;
+        Ok(Reach { end, is_step, length, norm, inputs })
+    }
+
     /// What a node does on its next cell, no longer than this share of the longest. The inner error is that
     /// of a cell that a shorter one may mend.
     fn plan(&mut self, node: usize, share: &Rational) -> Outcome<Outcome<Planned>> {
         let mut changed = 0;
         loop {
-            let mut rate = self.states[node].passivity.rate();
-            let (end, is_step, length, norm, inputs) = loop {
-                let (end, is_step) = self.next_change(node, rate, share)?;
-                let state = &self.states[node];
-                let length = self.clock.since(&state.now, &end)?;
-                self.cut.longest = self.cut.longest.max(length.magnitude());
-                let norm = CellNorm::new(length.magnitude(), &self.cut);
-                let inputs = self.inputs(node, &norm)?;
-                if is_step && rate == state.passivity.rate() {
-                    let known = (&state.state[..], &state.errors[..]);
-                    let cell = (&norm, &self.cut);
-                    let free = state.system.free_rate(&state.passivity, known, &inputs, cell);
-                    if free.scale(1) < rate {
-                        rate = free;
-                        continue;
-                    }
-                }
-                break (end, is_step, length, norm, inputs);
-            };
+            let Reach { end, is_step, length, norm, inputs } = self.next_cell(node, share)?;
             let state = &self.states[node];
             let (system, cut) = (&state.system, &self.cut);
             let known = (&state.state[..], &state.errors[..]);

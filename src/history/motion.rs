@@ -192,8 +192,8 @@ impl System<Number> {
         self.enclosed_course(block, own, error, given)
     }
 
-    /// The largest rate of the blocks that move freely; those that no longer do are where their forced motion is, as
-    /// far as anybody can tell.
+    /// The largest rate of the blocks that move freely; the others are at their forced motion, as far as the precision
+    /// tells.
     pub fn free_rate(
         &self,
         passivity: &Passivity,
@@ -203,9 +203,11 @@ impl System<Number> {
     ) -> Magnitude {
         let given = Given::new(input, norm, cut);
         passivity.rate_of(|place, block| {
+            if !block.forgets() {
+                return true;
+            }
             let own: Vec<Number> = block.members.iter().map(|i| state[*i].clone()).collect();
-            let forced = self.forced_columns(block, &given).filter(|_| block.forgets());
-            forced.is_none_or(|columns| {
+            self.forced_columns(block, &given).is_none_or(|columns| {
                 let free = free_motion(block, &own, &columns, cut);
                 free > errors[place].size().max(cut.largest.scale(ROUNDING - cut.bits as i64))
             })
