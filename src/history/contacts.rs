@@ -4,8 +4,8 @@
 //! A contact pushes and never pulls, and a gap is never negative. Whatever enclosures do not decide is
 //! refused by name.
 
-use crate::ball::Number;
-use crate::history::crossing::{Beginning, Course, Errors, beginning, follow};
+use crate::ball::{Ball, Magnitude, Number};
+use crate::history::crossing::{Beginning, Course, Errors, beginning, follow, tied_beginning};
 use crate::history::engine::Engine;
 use crate::history::error::{HistoryError, Question};
 use crate::history::moment::Moment;
@@ -105,6 +105,13 @@ impl Guard {
         (Series::new(kept, self.series.rest), errors)
     }
 
+    /// The size of the first derivatives that may be zero, besides those that are, in the norm of cells.
+    fn undecided_at_start(&self, rate: i64) -> Magnitude {
+        let left = self.starts.iter().zip(0_i64..).skip_while(|(c, _)| c.is_zero());
+        let open = left.take_while(|(c, _)| c.sign().is_none());
+        open.map(|(c, k)| c.magnitude().scale(-rate * k)).fold(Magnitude::ZERO, Magnitude::max)
+    }
+
     fn quantity(&self) -> &'static str {
         if self.is_closed() { "the force" } else { "the gap" }
     }
@@ -164,57 +171,95 @@ impl Engine {
                 Beginning::Negative => changes.push(contact),
                 Beginning::Undecided => {
                     let (quantity, place) = (guard.quantity(), self.between(contact));
-                    let what = Question::Sign { quantity, place };
-                    return self.undecided(what, &self.states[node].now, None);
+                    let now = self.clock.time(&self.states[node].now)?;
+                    let size = guard.undecided_at_start(self.cut.rate);
+                    self.clock.tie(Question::Sign { quantity, place }, &now, &size)?;
+                    if tied_beginning(&guard.starts) == Beginning::Negative {
+                        changes.push(contact);
+                    }
                 }
             }
         }
         Ok(changes)
     }
 
+    /// What becomes of a force or a gap on a cell of its node that begins now. What may be negative by no more
+    /// than a tie is taken not to be.
+    fn course(
+        &self,
+        contact: usize,
+        guard: &Guard,
+        (now, length): (&Number, &Number),
+        norm: &CellNorm,
+    ) -> Outcome<Course> {
+        let cut = &self.cut;
+        let (series, errors) = guard.skipped(norm, cut);
+        let at = match follow(&series, (&errors, &Magnitude::ZERO), length, cut) {
+            Course::Undecided(at) => now.add(&Number::Enclosed(at), cut.bits),
+            course => return Ok(course),
+        };
+        let what = Question::Zero { quantity: guard.quantity(), place: self.between(contact) };
+        let course = match self.clock.tie_size() {
+            Some(tie) => follow(&series, (&errors, &tie), length, cut),
+            None => Course::Undecided(Ball::zero()),
+        };
+        match course {
+            Course::Undecided(_) => Err(self.clock.undecided(what, &at)),
+            _ => self.clock.tie(what, &at, &Magnitude::ZERO).map(|()| course),
+        }
+    }
+
     /// Which contact of a node changes first on a cell of this length, by its force or its gap coming to
-    /// zero, and how long after the start of the cell.
+    /// zero, and how long after the start of the cell. Where nothing changes at its end, a shorter one
+    /// tells what becomes zero just there.
     pub fn first_change(
         &self,
         node: usize,
         guards: &[Guard],
-        length: &Number,
+        (length, is_step): (&Number, bool),
         norm: &CellNorm,
     ) -> Outcome<Option<(usize, Number)>> {
-        let now = &self.states[node].now;
+        let bits = self.cut.bits;
+        let now = self.clock.time(&self.states[node].now)?;
+        let after = |time: &Number| now.add(time, bits);
         let mut first: Option<(usize, Number)> = None;
         for (guard, (contact, _)) in guards.iter().zip(self.nodes[node].contacts()) {
             if guard.series.is_zero() {
                 continue;
             }
-            let (quantity, place) = (guard.quantity(), self.between(contact));
-            let (series, errors) = guard.skipped(norm, &self.cut);
-            let at = match follow(&series, &errors, length, &self.cut) {
-                Course::Positive => continue,
+            let at = match self.course(contact, guard, (&now, length), norm)? {
                 Course::Falls(at) => at,
-                Course::Undecided(at) => {
-                    let what = Question::Zero { quantity, place };
-                    return self.undecided(what, now, Some(&at));
-                }
+                _ => continue,
             };
-            match at.subtract(length, self.cut.bits).sign() {
+            let before = at.subtract(length, bits);
+            match before.sign() {
                 Some(Ordering::Less) => {}
                 Some(_) => continue,
                 None => {
+                    let (quantity, place) = (guard.quantity(), self.between(contact));
                     let what = Question::ZeroBeforeArrival { quantity, place };
-                    return self.undecided(what, now, Some(&at.ball(self.cut.bits)));
+                    if is_step {
+                        return Err(self.clock.undecided(what, &after(&at)));
+                    }
+                    self.clock.tie(what, &after(&at), &before.magnitude())?;
+                    continue;
                 }
             }
             first = Some(match first {
                 None => (contact, at),
-                Some((other, earliest)) => match at.subtract(&earliest, self.cut.bits).sign() {
-                    Some(Ordering::Less) => (contact, at),
-                    Some(Ordering::Greater) => (other, earliest),
-                    _ => {
-                        let what = Question::First([other, contact].map(|one| self.between(one)));
-                        return self.undecided(what, now, Some(&at.ball(self.cut.bits)));
+                Some((other, earliest)) => {
+                    let before = at.subtract(&earliest, bits);
+                    match before.sign() {
+                        Some(Ordering::Less) => (contact, at),
+                        Some(Ordering::Greater) => (other, earliest),
+                        _ => {
+                            let both = [other, contact].map(|one| self.between(one));
+                            let what = Question::First(both);
+                            self.clock.tie(what, &after(&at), &before.magnitude())?;
+                            (other, earliest)
+                        }
                     }
-                },
+                }
             });
         }
         Ok(first)
@@ -226,8 +271,8 @@ impl Engine {
         let now = self.states[node].now.clone();
         let own = &self.nodes[node];
         if self.happenings.len() + changes.len() > MAX_EVENTS {
-            let at = self.ball_at(&now);
-            return Err(HistoryError::TooManyEvents { limit: MAX_EVENTS, at });
+            let (at, unit) = self.clock.told(&self.clock.time(&now)?);
+            return Err(HistoryError::TooManyEvents { limit: MAX_EVENTS, at, unit });
         }
         for contact in changes {
             let known = &mut self.open[*contact];

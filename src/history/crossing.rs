@@ -38,6 +38,16 @@ pub(crate) fn beginning(f: &Series, starts: &[Number]) -> Beginning {
     }
 }
 
+/// The same where coefficients that may be zero are taken to be; all of them: the function is.
+pub(crate) fn tied_beginning(starts: &[Number]) -> Beginning {
+    let mut signs = starts.iter().filter_map(Number::sign);
+    match signs.find(|sign| *sign != Ordering::Equal) {
+        Some(Ordering::Less) => Beginning::Negative,
+        Some(_) => Beginning::Positive,
+        None => Beginning::Zero,
+    }
+}
+
 /// What the polynomial of `f = x^j g` leaves out of `g`, for a function with `j` zeros at the start.
 ///
 /// Its error is `e/x^j`, `e` that of `f` with as many zeros: at most `sup |e^(j)|/j!`, and `sup |e|/x^j` further
@@ -81,11 +91,17 @@ pub(crate) enum Course {
     Undecided(Ball),
 }
 
-/// Follows a function that begins positive, until a time `length` after the start of the cell.
+/// Follows a function that begins positive, until a time `length` after the start of the cell. What is above
+/// `−tie` counts as positive.
 ///
 /// # Cost
 /// Doubles decide most cells; else a shift of the series, `N²/2` products, for each part of what they leave.
-pub(crate) fn follow(f: &Series, errors: &Errors, length: &Number, cut: &Truncation) -> Course {
+pub(crate) fn follow(
+    f: &Series,
+    (errors, tie): (&Errors, &Magnitude),
+    length: &Number,
+    cut: &Truncation,
+) -> Course {
     if let (true, Some(length)) = (f.is_exact(), length.exact())
         && let Some(course) = follow_exactly(f, length)
     {
@@ -96,16 +112,32 @@ pub(crate) fn follow(f: &Series, errors: &Errors, length: &Number, cut: &Truncat
     let end = Rational::from(&size);
     let mut parts = vec![(&end * rational(until), end.clone())];
     let two = Rational::from_integer(2.into());
+    let tie = Ball::from_rational(&tie.into(), cut.bits);
     let narrowest = &end * Rational::from(&Magnitude::power_of_two(-(cut.bits as i64) / 2));
+    let is_positive = |value: &Ball| sign(&value.add(&tie, cut.bits)) == Some(Ordering::Greater);
+    // Whether `f(0)` is positive and `(f(x) − f(0))/x` is until there: a tie begins near zero.
+    let rises = |until: &Rational| {
+        let [value, slope] =
+            [0, 1].map(|k| f.coefficient(k).ball(cut.bits).widened(&errors.near[k]));
+        let reach = Magnitude::from_rational(until);
+        let bend = f.size_from(2, &reach).multiply(&reach);
+        is_positive(&value) && sign(&slope.widened(&bend)) == Some(Ordering::Greater)
+    };
     while let Some((lower, upper)) = parts.pop() {
         let half = (&upper - &lower) / &two;
         let middle = &lower + &half;
         let near = f.shift(&Number::Exact(middle.clone()), cut);
         let w = Magnitude::from_rational(&half);
-        let value = near.coefficient(0).ball(cut.bits).widened(&errors.from(&lower)[0]);
+        let here = errors.from(&lower);
+        let value = near.coefficient(0).ball(cut.bits).widened(&here[0]);
         let lowest = value.clone().widened(&near.size_from(1, &w).multiply(&w));
-        if sign(&lowest) == Some(Ordering::Greater) {
+        if is_positive(&lowest) || lower.is_zero() && rises(&upper) {
             continue;
+        }
+        let slope = near.coefficient(1).ball(cut.bits).widened(&here[1]);
+        // Where neither value nor slope is told from zero, no shorter part tells more.
+        if sign(&value).is_none() && sign(&slope).is_none() {
+            return Course::Undecided(Ball::between(&lower, &upper, cut.bits));
         }
         // The series converges everywhere, so that a root is also found a little beyond the part.
         let reach = &half * &two;
@@ -234,7 +266,8 @@ mod tests {
     /// With the zeros at the start taken away.
     fn follow(f: &Series, length: &Number, cut: &Truncation) -> Course {
         let kept = f.coefficients.iter().skip_while(|c| c.is_zero()).cloned().collect();
-        super::follow(&Series::new(kept, f.rest), &Errors::new(0, |_| Magnitude::ZERO), length, cut)
+        let none = (&Errors::new(0, |_| Magnitude::ZERO), &Magnitude::ZERO);
+        super::follow(&Series::new(kept, f.rest), none, length, cut)
     }
 
     fn rational(numerator: i64, denominator: i64) -> Rational {
@@ -290,13 +323,13 @@ mod tests {
         let (end, third) = (Number::integer(1), rational(1, 3));
         let f = product(-1, std::slice::from_ref(&third), true);
         let small = Magnitude::power_of_two(-90);
-        let found = super::follow(&f, &Errors::new(0, |_| small), &end, &cut);
+        let found = super::follow(&f, (&Errors::new(0, |_| small), &Magnitude::ZERO), &end, &cut);
         let Course::Falls(root) = found else { panic!("{found:?}") };
         let root = root.ball(160);
         assert!(root.contains(&third) && *root.radius() >= small);
         let large = Magnitude::power_of_two(-1);
         let value = |order: usize| if order == 0 { large } else { small };
-        let found = super::follow(&f, &Errors::new(0, value), &end, &cut);
+        let found = super::follow(&f, (&Errors::new(0, value), &Magnitude::ZERO), &end, &cut);
         assert!(matches!(found, Course::Undecided(_)), "{found:?}");
         // Of x f: near the start by its slope, further on by its value.
         let errors = Errors::new(1, |order| Magnitude::power_of_two(10 * order as i64 - 90));

@@ -5,7 +5,7 @@
 //! would become negative closes; the cell ends there, and the next one begins with other equations.
 //! Every node has a time of its own and is at most a travel time ahead of its neighbours.
 
-use crate::ball::{Ball, Magnitude, Number};
+use crate::ball::{Magnitude, Number};
 use crate::expression::Fraction;
 use crate::history::contacts::{Cause, Contact, Guard, Happening};
 use crate::history::error::{HistoryError, NotFollowed, Question};
@@ -17,7 +17,7 @@ use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
 use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS};
 use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
-use crate::scene::{Drive, ElementIndex};
+use crate::scene::{Dimension, Drive, ElementIndex};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use wavestep_polynomial::{Rational, Symbol};
@@ -144,7 +144,7 @@ impl Engine {
         if let Some(symbol) = symbols.find(|symbol: &&Symbol| numbers.value(symbol, 64).is_none()) {
             return Err(HistoryError::MissingValue(symbol.clone()));
         }
-        let clock = Clock::new(numbers, bits);
+        let clock = Clock::new(numbers, bits, &network.assumed);
         let layout = Layout::of(network.scene(), network.model(), Contacts::Links);
         let nodes = layout.nodes.iter().map(|node| node.map(|value| clock.number(value)));
         let nodes = nodes.collect::<Result<Vec<_>, _>>()?;
@@ -176,6 +176,8 @@ impl Engine {
             places,
             count: 0,
         };
+        let seconds = if network.scene().dimensional { " s" } else { "" };
+        engine.clock.tell_in(engine.unit(network, Dimension::TIME)?, seconds);
         engine.set_rate()?;
         engine.begin()?;
         Ok(engine)
@@ -322,19 +324,6 @@ impl Engine {
         }
     }
 
-    pub fn ball_at(&self, moment: &Moment) -> Box<Ball> {
-        let ball = self.clock.time(moment).map(|time| time.ball(self.cut.bits));
-        Box::new(ball.unwrap_or_else(|_| Ball::zero()))
-    }
-
-    pub fn undecided<T>(&self, what: Question, at: &Moment, by: Option<&Ball>) -> Outcome<T> {
-        let mut at = self.ball_at(at);
-        if let Some(by) = by {
-            *at = at.add(by, self.cut.bits);
-        }
-        Err(HistoryError::Undecided { what, at, bits: self.cut.bits })
-    }
-
     /// When the inputs of a node change next, but no later than this share of the longest cell that a rate allows; and
     /// whether that is what ends the cell.
     fn next_change(
@@ -415,8 +404,8 @@ impl Engine {
     pub fn advance(&mut self, node: usize) -> Outcome<()> {
         self.count += 1;
         if self.count > MAX_HISTORY_CELLS {
-            let at = self.ball_at(&self.states[node].now);
-            return Err(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, at });
+            let (at, unit) = self.clock.told(&self.clock.time(&self.states[node].now)?);
+            return Err(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, at, unit });
         }
         let whole = Rational::from_integer(1.into());
         let planned = match self.plan(node, &whole)? {
@@ -476,7 +465,7 @@ impl Engine {
             let guards = self.guards(node, &motion, &inputs, &norm);
             let changes = self.changes(node, &guards)?;
             if changes.is_empty() {
-                return Ok(match self.first_change(node, &guards, &length, &norm) {
+                return Ok(match self.first_change(node, &guards, (&length, is_step), &norm) {
                     Ok(None) => Ok(Planned { inputs, motion, guards, end, length, first: None }),
                     Ok(Some((contact, length))) => {
                         let end = self.clock.later(&self.states[node].now, &length)?;
@@ -488,7 +477,8 @@ impl Engine {
             }
             changed += changes.len();
             if changed > MAX_CHANGES {
-                return self.undecided(Question::Simultaneous, &self.states[node].now, None);
+                let now = self.clock.time(&self.states[node].now)?;
+                return Err(self.clock.undecided(Question::Simultaneous, &now));
             }
             self.change(node, &changes, Cause::Jump)?;
         }

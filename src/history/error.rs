@@ -19,30 +19,36 @@ pub enum HistoryError {
     #[error(transparent)]
     Refused(#[from] NotFollowed),
     /// Something that the precision allowed does not decide.
-    #[error("undecided {what}, at t = {} with {bits} bits", at.to_decimal(20))]
+    #[error("undecided {what}, at t = {}{unit} with {bits} bits", at.to_decimal(20))]
     Undecided {
         /// What is not decided.
         what: Question,
-        /// About when, in the scale of the scene.
+        /// About when.
         at: Box<Ball>,
+        /// The unit of time after a space, empty where there is none.
+        unit: &'static str,
         /// The precision in bits.
         bits: u64,
     },
     /// More events than are followed.
-    #[error("more than {limit} events, the last of them followed at t = {}", at.to_decimal(8))]
+    #[error("more than {limit} events, the last of them followed at t = {}{unit}", at.to_decimal(8))]
     TooManyEvents {
         /// How many are followed.
         limit: usize,
-        /// About when the last one was, in the scale of the scene.
+        /// About when the last one was.
         at: Box<Ball>,
+        /// As in [`HistoryError::Undecided`].
+        unit: &'static str,
     },
     /// More cells than are worked out.
-    #[error("more than {limit} cells of waves; followed until t = {}", at.to_decimal(8))]
+    #[error("more than {limit} cells of waves; followed until t = {}{unit}", at.to_decimal(8))]
     TooManyCells {
         /// How many are worked out.
         limit: usize,
-        /// How far the history was followed, in the scale of the scene.
+        /// How far the history was followed.
         at: Box<Ball>,
+        /// As in [`HistoryError::Undecided`].
+        unit: &'static str,
     },
     /// A time after the last one that was asked for.
     #[error("a time after the last one that was followed")]
@@ -126,6 +132,27 @@ pub enum Question {
     /// Which of two contacts changes first.
     #[error("whether the contact {} or {} changes first", .0[0], .0[1])]
     First([String; 2]),
+}
+
+impl Question {
+    /// The answer that is taken for granted where nothing decides it, at a time in words: the case on the
+    /// border.
+    pub(crate) fn tied(&self, at: &str) -> String {
+        match self {
+            Question::Order => format!("two instants at t = {at} are one"),
+            Question::Simultaneous => format!("nothing more changes at t = {at}"),
+            Question::Sign { quantity, place } => format!("{quantity} {place} is zero at t = {at}"),
+            Question::Zero { quantity, place } => {
+                format!("{quantity} {place} falls to zero at t = {at} and not below")
+            }
+            Question::ZeroBeforeArrival { quantity, place } => {
+                format!("{quantity} {place} becomes zero when something arrives there, at t = {at}")
+            }
+            Question::First([one, other]) => {
+                format!("the contacts {one} and {other} change at the same instant, t = {at}")
+            }
+        }
+    }
 }
 
 impl HistoryError {

@@ -180,6 +180,8 @@ pub struct History {
     pub contacts: Vec<ContactSummary>,
     /// How it ends.
     pub ending: Ending,
+    /// What was taken for granted, in words, because no precision decides it; mostly nothing.
+    pub assumptions: Vec<String>,
     /// The precision that did, in bits.
     #[doc(hidden)]
     pub bits: u64,
@@ -386,7 +388,8 @@ impl Story<'_> {
             }
         };
         let (bits, cells) = (self.engine.cut.bits, self.engine.count());
-        Ok(History { events, contacts, ending, bits, cells })
+        let assumptions = self.network.assumed.all();
+        Ok(History { events, contacts, ending, assumptions, bits, cells })
     }
 
     /// A number of the scene's scale as a value in the user's units.

@@ -4,13 +4,18 @@
 //! of the start, and an exact delay. Instants of the same event compare exactly; those of different
 //! events by enclosures.
 
-use crate::ball::{Ball, Number};
+use crate::ball::{Ball, Magnitude, Number, Value};
 use crate::enclosure::{EnclosureError, Numbers};
 use crate::expression::Fraction;
 use crate::history::error::{HistoryError, Question};
+use crate::network::Assumed;
 use num_traits::Zero;
+use std::cell::RefCell;
 use std::cmp::Ordering;
 use wavestep_polynomial::Rational;
+
+/// Digits of the times in assumptions.
+const TOLD_DIGITS: usize = 12;
 
 /// An instant in the scale of the scene.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -38,17 +43,68 @@ impl Moment {
     }
 }
 
+/// From so many bits on what is undecided by no more than `2^(−bits/2)`, in the scale of the scene, is a tie.
+const TIE_BITS: u64 = 512;
+
 /// Instants as numbers.
 pub(crate) struct Clock {
     pub numbers: Numbers,
     pub bits: u64,
     /// When events without an exact instant are.
     events: Vec<Ball>,
+    /// The unit of time, and its name after a space, for what is told.
+    unit: (Number, &'static str),
+    assumed: Assumed,
+    /// The questions that were ties, each told when it is met first.
+    ties: RefCell<Vec<Question>>,
 }
 
 impl Clock {
-    pub fn new(numbers: Numbers, bits: u64) -> Clock {
-        Clock { numbers, bits, events: Vec::new() }
+    /// The clock of a scene, which tells what it takes for granted.
+    pub fn new(numbers: Numbers, bits: u64, assumed: &Assumed) -> Clock {
+        let (unit, assumed) = ((Number::one(), ""), assumed.clone());
+        Clock { numbers, bits, events: Vec::new(), unit, assumed, ties: RefCell::default() }
+    }
+
+    /// Tells times in this unit from now on.
+    pub fn tell_in(&mut self, unit: Number, name: &'static str) {
+        self.unit = (unit, name);
+    }
+
+    /// A time of the scene as it is told, with its unit.
+    pub fn told(&self, time: &Number) -> (Box<Ball>, &'static str) {
+        let (unit, name) = &self.unit;
+        (Box::new(time.multiply(unit, self.bits).ball(self.bits)), name)
+    }
+
+    /// That a question about a time is not decided.
+    pub fn undecided(&self, what: Question, at: &Number) -> HistoryError {
+        let (at, unit) = self.told(at);
+        HistoryError::Undecided { what, at, unit, bits: self.bits }
+    }
+
+    /// How far from zero a tie may be; `None` where more bits are to be tried first.
+    pub fn tie_size(&self) -> Option<Magnitude> {
+        (self.bits >= TIE_BITS).then(|| Magnitude::power_of_two(-(self.bits as i64) / 2))
+    }
+
+    /// Takes the case on the border for granted, where what is undecided is a tie. Motion depends continuously
+    /// on the data: what comes next is near on either side.
+    ///
+    /// # Errors
+    /// [`HistoryError::Undecided`].
+    pub fn tie(&self, what: Question, at: &Number, size: &Magnitude) -> Result<(), HistoryError> {
+        if self.tie_size().is_none_or(|tie| *size > tie) {
+            return Err(self.undecided(what, at));
+        }
+        if !self.ties.borrow().contains(&what) {
+            let (unit, name) = &self.unit;
+            let at = Value::of(&at.multiply(unit, self.bits), TOLD_DIGITS).to_text(TOLD_DIGITS);
+            let assumption = what.tied(&format!("{at}{name}"));
+            self.assumed.add(format!("{assumption}, which {} bits do not decide", self.bits));
+            self.ties.borrow_mut().push(what);
+        }
+        Ok(())
     }
 
     /// An instant of which an enclosure is known.
@@ -100,11 +156,13 @@ impl Clock {
             return Ok(self.numbers.compare(&left.delay, &right.delay)?);
         }
         let difference = self.since(right, left)?;
-        difference.sign().ok_or_else(|| HistoryError::Undecided {
-            what: Question::Order,
-            at: Box::new(self.time(left).map_or_else(|_| Ball::zero(), |t| t.ball(self.bits))),
-            bits: self.bits,
-        })
+        match difference.sign() {
+            Some(order) => Ok(order),
+            None => {
+                self.tie(Question::Order, &self.time(left)?, &difference.magnitude())?;
+                Ok(Ordering::Equal)
+            }
+        }
     }
 
     /// The earlier of two instants.

@@ -235,7 +235,7 @@ mod tests {
             cells in cells(),
             windows in prop::collection::vec((-8_i64..50, -8_i64..50), 1..8),
         ) {
-            let clock = Clock::new(Numbers::new(&[]), 128);
+            let clock = Clock::new(Numbers::new(&[]), 128, &crate::network::Assumed::default());
             let cut = truncation(128, 2);
             let mut track = Track::new(Number::integer(2), &Fraction::one(), &clock).unwrap();
             let mut last = 0;

@@ -14,7 +14,7 @@ use crate::network::observed::{FieldBar, Observed};
 use crate::network::scaled::ScaledScene;
 use crate::recurrence::{Fault, InvalidRecurrence, LinearForm, Recurrence, WaveIndex};
 use crate::scene::{ElementIndex, Scene};
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use wavestep_polynomial::Rational;
 
 /// The meaning of a wave of a network.
@@ -53,6 +53,26 @@ pub struct Network {
     pub(super) derived: OnceLock<Result<Recurrence, NetworkError>>,
     /// The bars with their waves, once fields were asked for.
     pub(super) fields: OnceLock<Result<Box<FieldBars>, NetworkError>>,
+    pub(crate) assumed: Assumed,
+}
+
+/// What is taken for granted of a scene because no precision decides it, in words; shared by all copies of its
+/// network.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct Assumed(Arc<Mutex<Vec<String>>>);
+
+impl Assumed {
+    /// All of it, in the order in which it was met.
+    pub fn all(&self) -> Vec<String> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    pub fn add(&self, assumption: String) {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if !all.contains(&assumption) {
+            all.push(assumption);
+        }
+    }
 }
 
 /// The bars of a scene, from left to right, and its network with the integrals of their waves.
@@ -76,6 +96,7 @@ impl ScaledScene {
             observables: Vec::new(),
             derived: OnceLock::new(),
             fields: OnceLock::new(),
+            assumed: Assumed::default(),
         };
         network.name_waves();
         network.set_observables()?;

@@ -33,7 +33,7 @@ mod system;
 mod unfold;
 
 pub use delay::Lattice;
-pub(crate) use equations::{FieldBars, WaveRole};
+pub(crate) use equations::{Assumed, FieldBars, WaveRole};
 pub use equations::{Network, Role};
 pub use error::NetworkError;
 pub(crate) use laws::{Law, Rule};

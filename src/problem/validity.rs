@@ -54,6 +54,14 @@ impl Problem {
         }
     }
 
+    /// What the answers so far took for granted, because no precision decides it.
+    pub fn assumptions(&self) -> Vec<String> {
+        match &self.kind {
+            Kind::Line { network, .. } => network.assumed.all(),
+            _ => Vec::new(),
+        }
+    }
+
     /// How long forms with closed contacts are true; `None` where there are no contacts.
     pub fn holds(&self, digits: usize) -> Option<Holds> {
         let network = self.with_contacts()?;

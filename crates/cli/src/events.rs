@@ -191,6 +191,7 @@ impl Told<'_> {
             "events": events.collect::<Vec<_>>(),
             "contacts": contacts.collect::<Vec<_>>(),
             "ending": ending,
+            "assumptions": self.history.assumptions,
         });
         if self.problem.has_units() {
             document["units"] = json!({

@@ -3,20 +3,40 @@
 use super::arguments::Scene;
 use super::failure::Failure;
 use std::io::Read as _;
+use std::ops::Deref;
 use wavestep::language;
 use wavestep::limits::{MAX_DIGITS, MAX_SOURCE_BYTES};
 use wavestep::problem::{Problem, ProblemError, Values, number};
 use wavestep::scenes;
 
+/// A problem that says on standard error, when all is answered, what answers took for granted.
+pub struct Asked(Problem);
+
+impl Deref for Asked {
+    type Target = Problem;
+
+    fn deref(&self) -> &Problem {
+        &self.0
+    }
+}
+
+impl Drop for Asked {
+    fn drop(&mut self) {
+        for assumption in self.0.assumptions() {
+            eprintln!("note: assuming that {assumption}");
+        }
+    }
+}
+
 /// Reads what the arguments name, with the values put in.
-pub fn problem(arguments: &Scene) -> Result<Problem, Failure> {
+pub fn problem(arguments: &Scene) -> Result<Asked, Failure> {
     problem_with(&arguments.scene, &values(&arguments.set)?)
 }
 
 /// Reads a built-in scene or a file, with these values put in.
-pub fn problem_with(scene: &str, values: &Values) -> Result<Problem, Failure> {
+pub fn problem_with(scene: &str, values: &Values) -> Result<Asked, Failure> {
     if let Some(scene) = scenes::find(scene) {
-        return Ok(Problem::of_text(scene.name, scene.text, values)?);
+        return Ok(Asked(Problem::of_text(scene.name, scene.text, values)?));
     }
     let bytes = bytes(scene, MAX_SOURCE_BYTES).map_err(|error| {
         let names: Vec<&str> = scenes::SCENES.iter().map(|scene| scene.name).collect();
@@ -26,7 +46,7 @@ pub fn problem_with(scene: &str, values: &Values) -> Result<Problem, Failure> {
         };
         Failure::usage(format!("the scene `{scene}` cannot be read: {error}"), remedy)
     })?;
-    Ok(Problem::of_text(scene, bytes, values)?)
+    Ok(Asked(Problem::of_text(scene, bytes, values)?))
 }
 
 pub fn built_in(name: &str) -> Result<&'static scenes::Scene, Failure> {
