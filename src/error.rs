@@ -215,7 +215,9 @@ fn kind_of_evaluate(error: &EvaluateError) -> Kind {
 fn kind_of_history(error: &HistoryError) -> Kind {
     match error {
         HistoryError::Undecided { .. } => Kind::AccuracyNotReached,
-        HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => Kind::TooMuchWork,
+        HistoryError::TooManyEvents { .. }
+        | HistoryError::TooManyCells { .. }
+        | HistoryError::TooMuchMemory { .. } => Kind::TooMuchWork,
         HistoryError::Value(error) => kind_of_evaluate(&error.clone().into()),
         HistoryError::Refused(_) => Kind::NotSupported,
         _ => Kind::BadInput,
@@ -362,7 +364,7 @@ fn remedy_of_evaluate(error: &EvaluateError) -> &'static str {
         }
         EvaluateError::NotReal => "observe a wave in which both poles of each complex pair occur",
         EvaluateError::TooMuchMemory { .. } => {
-            "ask for an earlier time, or for doubles by the method marched"
+            "ask for an earlier time, allow more with --memory, or take doubles by the method marched"
         }
         EvaluateError::AccuracyNotReached { .. } => "allow more bits, or ask for fewer digits",
         _ => "ask for an earlier time",
@@ -375,6 +377,7 @@ fn remedy_of_history(error: &HistoryError) -> &'static str {
         HistoryError::TooManyEvents { .. } | HistoryError::TooManyCells { .. } => {
             "ask for an earlier end"
         }
+        HistoryError::TooMuchMemory { .. } => "ask for an earlier end, or allow more with --memory",
         HistoryError::Refused(_) => "docs/scene-language.md says under `Contacts` what is followed",
         _ => "ask for an earlier time",
     }

@@ -1,5 +1,7 @@
 //! How much is done at most. Where a limit is met the error names it.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 // ---- Texts ---------------------------------------------------------------------------------------
 
 /// Bytes of a text: no scene comes near it.
@@ -77,8 +79,31 @@ pub const MAX_ECHOES: usize = 20_000;
 /// Periods whose pieces are held: their coefficients grow with the square of that.
 pub const MAX_PIECES: usize = 2_000;
 
-/// Bytes of the echoes or pieces of a scene at one precision, as foreseen when the first are known.
-pub const MAX_WAVE_BYTES: u64 = 2_000_000_000;
+/// Bytes that the waves of a scene at one precision may take: what [`set_memory`] says; without that a quarter
+/// of the machine's memory, or 2 GB where that is not known.
+pub fn memory() -> u64 {
+    let known = MEMORY.load(Ordering::Relaxed);
+    if known > 0 {
+        return known;
+    }
+    let memory = machine().map_or(2_000_000_000, |bytes| bytes / 4);
+    MEMORY.store(memory, Ordering::Relaxed);
+    memory
+}
+
+/// Allows so many bytes for waves, for all that is asked for from now on.
+pub fn set_memory(bytes: u64) {
+    MEMORY.store(bytes, Ordering::Relaxed);
+}
+
+static MEMORY: AtomicU64 = AtomicU64::new(0);
+
+/// The memory of the machine, where Linux tells.
+fn machine() -> Option<u64> {
+    let told = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let total = told.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    Some(total.trim().strip_suffix(" kB")?.parse::<u64>().ok()? * 1024)
+}
 
 /// Echoes that are summed for a value in doubles: the cost grows with the square.
 pub const MAX_SUMMED_ECHOES: usize = 5_000;

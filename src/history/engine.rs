@@ -15,7 +15,7 @@ use crate::history::motion::Motion;
 use crate::history::passivity::{Passivity, StateError};
 use crate::history::series::{CellNorm, LONGEST_CELL, Series, Truncation};
 use crate::history::track::{Arriving, Track};
-use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS};
+use crate::limits::{MAX_CONTACTS, MAX_HISTORY_CELLS, memory};
 use crate::network::{Contacts, ElementLaw, Layout, Network, Node, Side, System, Unresisted};
 use crate::scene::{Dimension, Drive, ElementIndex};
 use std::cmp::Ordering;
@@ -27,6 +27,9 @@ const TOLD_APART: f64 = 1e-12;
 
 /// The most changes of contacts of one node at one instant.
 const MAX_CHANGES: usize = 16;
+
+/// What a number takes beside its bits where it is allocated.
+const HEAP_BYTES: u64 = 24;
 
 /// What a node did on one cell.
 pub(crate) struct Cell {
@@ -41,6 +44,17 @@ pub(crate) struct Cell {
     pub forces: Vec<Series>,
     /// Gaps of its contacts, zero where they are closed.
     pub gaps: Vec<Series>,
+}
+
+impl Cell {
+    /// How many coefficients are held of it, with those of the waves that leave.
+    fn coefficients(&self) -> usize {
+        let all =
+            [&self.velocities, &self.displacements, &self.compressions, &self.forces, &self.gaps];
+        let held = all.into_iter().flatten().map(|series| series.coefficients.len() + 1);
+        held.sum::<usize>()
+            + self.velocities.iter().map(|series| series.coefficients.len()).sum::<usize>()
+    }
 }
 
 /// A force that acts for a while.
@@ -101,6 +115,8 @@ pub(crate) struct Engine {
     pub open: Vec<Contact>,
     pub places: Vec<String>,
     count: usize,
+    /// What the cells hold, about.
+    bytes: u64,
 }
 
 type Outcome<T> = Result<T, HistoryError>;
@@ -175,6 +191,7 @@ impl Engine {
             open: Vec::new(),
             places,
             count: 0,
+            bytes: 0,
         };
         let seconds = if network.scene().dimensional { " s" } else { "" };
         engine.clock.tell_in(engine.unit(network, Dimension::TIME)?, seconds);
@@ -299,6 +316,7 @@ impl Engine {
     /// # Errors
     /// [`HistoryError`], all kinds but [`HistoryError::AfterLast`].
     pub fn follow_until(&mut self, until: &Moment) -> Outcome<()> {
+        self.foresee_cells(until)?;
         while let Some((node, now)) = self.behind() {
             if self.clock.compare(now, until)? == Ordering::Greater {
                 return Ok(());
@@ -306,6 +324,33 @@ impl Engine {
             self.advance(node)?;
         }
         Ok(())
+    }
+
+    /// Refuses at once what takes too many cells: a node is at most a travel time ahead of its neighbours, so that
+    /// none of its cells is longer than two of these.
+    fn foresee_cells(&self, until: &Moment) -> Outcome<()> {
+        let mut cells = self.count as f64;
+        for (node, state) in self.nodes.iter().zip(&self.states) {
+            let left = self.clock.since(&state.now, until)?;
+            let mut most = 0.0_f64;
+            for side in [node.left, node.right] {
+                let Side::Bar(bar) = side else { continue };
+                let Some(travel) = &self.bars[bar].1 else { continue };
+                let rate = self.clock.number(travel)?.reciprocal(self.cut.bits)?;
+                let passages = left.multiply(&rate, self.cut.bits).ball(64).to_double().0;
+                most = most.max(passages / 2.0);
+            }
+            cells += most;
+        }
+        match (cells > MAX_HISTORY_CELLS as f64, self.behind()) {
+            (true, Some((node, _))) => Err(self.too_many_cells(node)?),
+            _ => Ok(()),
+        }
+    }
+
+    fn too_many_cells(&self, node: usize) -> Outcome<HistoryError> {
+        let (at, unit) = self.clock.told(&self.clock.time(&self.states[node].now)?);
+        Ok(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, at, unit })
     }
 
     /// The node that was followed the least far, and how far. What arrives there has left the others:
@@ -404,8 +449,12 @@ impl Engine {
     pub fn advance(&mut self, node: usize) -> Outcome<()> {
         self.count += 1;
         if self.count > MAX_HISTORY_CELLS {
+            return Err(self.too_many_cells(node)?);
+        }
+        if self.bytes > memory() {
             let (at, unit) = self.clock.told(&self.clock.time(&self.states[node].now)?);
-            return Err(HistoryError::TooManyCells { limit: MAX_HISTORY_CELLS, at, unit });
+            let megabytes = memory() / 1_000_000;
+            return Err(HistoryError::TooMuchMemory { megabytes, at, unit });
         }
         let whole = Rational::from_integer(1.into());
         let planned = match self.plan(node, &whole)? {
@@ -542,6 +591,8 @@ impl Engine {
         let velocities = motion.velocities;
         let (forces, gaps) = guards.into_iter().map(Guard::into_force_and_gap).unzip();
         let cell = Cell { velocities, displacements, compressions, forces, gaps };
+        self.bytes +=
+            cell.coefficients() as u64 * (size_of::<Number>() as u64 + cut.bits / 8 + HEAP_BYTES);
         self.cells[node].push((now, cell));
         self.states[node].now = end;
         Ok(())

@@ -50,6 +50,16 @@ pub enum HistoryError {
         /// As in [`HistoryError::Undecided`].
         unit: &'static str,
     },
+    /// More memory than is allowed.
+    #[error("the waves until t = {}{unit} take more than {megabytes} MB of memory", at.to_decimal(8))]
+    TooMuchMemory {
+        /// How much is allowed.
+        megabytes: u64,
+        /// How far the history was followed.
+        at: Box<Ball>,
+        /// As in [`HistoryError::Undecided`].
+        unit: &'static str,
+    },
     /// A time after the last one that was asked for.
     #[error("a time after the last one that was followed")]
     AfterLast,

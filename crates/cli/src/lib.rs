@@ -54,6 +54,9 @@ pub fn run() -> ExitCode {
             };
         }
     };
+    if let Some(memory) = arguments.memory {
+        wavestep::limits::set_memory(memory);
+    }
     let result = match &arguments.subcommand {
         Subcommand::Derive(options) => derive::run(options),
         Subcommand::Eval(options) => eval::run(options),

@@ -4,7 +4,7 @@
 //! of the number to the next, which tells what all of them will take when little of the work is done.
 
 use crate::ball::ComplexBall;
-use crate::limits::MAX_WAVE_BYTES;
+use crate::limits;
 use crate::signal::error::EvaluateError;
 
 /// From so many steps on a growth is told.
@@ -30,7 +30,7 @@ impl Memory {
         Memory { bytes_each, steps: 0, coefficients: 0, before: 0 }
     }
 
-    /// Adds what one step of so many made; refuses where all would take more than [`MAX_WAVE_BYTES`].
+    /// Adds what one step of so many made; refuses where all would take more than is allowed.
     pub fn add(&mut self, coefficients: usize, last: usize) -> Result<(), EvaluateError> {
         self.steps += 1;
         self.coefficients += coefficients as u64;
@@ -45,7 +45,7 @@ impl Memory {
         let power = (self.coefficients as f64 / before as f64).log2().max(f64::MIN_POSITIVE);
         let rest = last as f64 / self.steps as f64;
         let bytes = taken * rest.powf(power);
-        let limit = MAX_WAVE_BYTES as f64;
+        let limit = limits::memory() as f64;
         if bytes <= limit {
             return Ok(());
         }
@@ -66,7 +66,8 @@ mod tests {
             let mut memory = Memory::of(1000);
             (0..last).find_map(|step| memory.add(step + 1, last).err().map(|error| (step, error)))
         };
-        let fits = (2.0 * MAX_WAVE_BYTES as f64 / 1000.0).sqrt() as usize;
+        let allowed = limits::memory();
+        let fits = (2.0 * allowed as f64 / 1000.0).sqrt() as usize;
         assert_eq!(steps(fits * 9 / 10), None);
         let Some((step, EvaluateError::TooMuchMemory { gigabytes, percent })) = steps(10 * fits)
         else {
@@ -74,6 +75,6 @@ mod tests {
         };
         assert!(step < 64 && (9..=11).contains(&percent), "{step} {percent}");
         // A power read off the first echoes is a little low: 32·33/(16·17) is 2^1.96.
-        assert!((75..=100).contains(&(gigabytes * 1_000_000_000 / MAX_WAVE_BYTES)), "{gigabytes}");
+        assert!((75..=100).contains(&(gigabytes * 1_000_000_000 / allowed)), "{gigabytes}");
     }
 }

@@ -77,6 +77,22 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub subcommand: Subcommand,
+    /// How much memory waves may take, such as 500MB or 2GB [default: a quarter of the machine's]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = bytes, value_hint = ValueHint::Other)]
+    pub memory: Option<u64>,
+}
+
+/// A number of bytes with its unit.
+fn bytes(text: &str) -> Result<u64, String> {
+    let units = [("GB", 1e9), ("MB", 1e6), ("kB", 1e3)];
+    let given = units.iter().find_map(|(unit, size)| {
+        let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
+        Some(number * size)
+    });
+    match given {
+        Some(bytes) if bytes >= 1e6 && bytes < 1e18 => Ok(bytes as u64),
+        _ => Err("give at least 1 MB, with its unit, such as 500MB or 2GB".to_owned()),
+    }
 }
 
 /// What the command can do.

@@ -312,6 +312,7 @@ fn bad_arguments_are_explained() {
         ("piece-most", "derive two-bars --piece 18446744073709551615".to_owned()),
         ("piece-and-general", "derive rigid-mass --general --piece 3".to_owned()),
         ("form-unknown", "derive rigid-mass --form foo".to_owned()),
+        ("memory-without-unit", "derive rigid-mass --memory 500".to_owned()),
     ] {
         assert_fails(&folder, name, &words(&line), 2);
     }
@@ -340,6 +341,9 @@ fn what_cannot_be_computed_is_explained() {
         ("division", 1, "derive resonance.wave".into()),
         ("bits-few", 3, format!("{eval} --at 33/10 --max-bits 16")),
         ("bits-none", 3, format!("{eval} --at 33/10 --max-bits 0")),
+        ("memory-of-echoes", 1, "eval hopkinson --quantity force --at 50ms --memory 10MB".into()),
+        ("memory-of-cells", 1, "events hopkinson-with-release --memory 1MB".into()),
+        ("cells-many", 1, "eval hopkinson-with-release --quantity force --at 1000s".into()),
     ] {
         assert_fails(&folder, name, &words(&line), code);
     }
