@@ -28,10 +28,10 @@ pub enum EvaluateError {
     #[error("{}", too_many_echoes(*echoes, *limit))]
     TooManyEchoes { echoes: u128, limit: usize },
     #[error(
-        "the waves until this time would take about {gigabytes} GB of memory; until about {percent} % of \
+        "the waves until this time would take about {megabytes} MB of memory; until about {percent} % of \
          it they fit"
     )]
-    TooMuchMemory { gigabytes: u64, percent: u64 },
+    TooMuchMemory { megabytes: u64, percent: u64 },
     #[error("the time is after the last one that was prepared for")]
     AfterLast,
     /// Waves that are followed from event to event, where sums of echoes or steps of periods are asked for.

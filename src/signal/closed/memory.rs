@@ -50,8 +50,8 @@ impl Memory {
             return Ok(());
         }
         let share = (limit / bytes).powf(power.recip());
-        let (gigabytes, percent) = ((bytes / 1e9).ceil() as u64, (100.0 * share) as u64);
-        Err(EvaluateError::TooMuchMemory { gigabytes, percent })
+        let (megabytes, percent) = ((bytes / 1e6).ceil() as u64, (100.0 * share) as u64);
+        Err(EvaluateError::TooMuchMemory { megabytes, percent })
     }
 }
 
@@ -69,12 +69,12 @@ mod tests {
         let allowed = limits::memory();
         let fits = (2.0 * allowed as f64 / 1000.0).sqrt() as usize;
         assert_eq!(steps(fits * 9 / 10), None);
-        let Some((step, EvaluateError::TooMuchMemory { gigabytes, percent })) = steps(10 * fits)
+        let Some((step, EvaluateError::TooMuchMemory { megabytes, percent })) = steps(10 * fits)
         else {
             panic!("ten times as many take a hundred times as much")
         };
         assert!(step < 64 && (9..=11).contains(&percent), "{step} {percent}");
         // A power read off the first echoes is a little low: 32·33/(16·17) is 2^1.96.
-        assert!((75..=100).contains(&(gigabytes * 1_000_000_000 / allowed)), "{gigabytes}");
+        assert!((75..=100).contains(&(megabytes * 1_000_000 / allowed)), "{megabytes}");
     }
 }

@@ -342,7 +342,7 @@ fn what_cannot_be_computed_is_explained() {
         ("bits-few", 3, format!("{eval} --at 33/10 --max-bits 16")),
         ("bits-none", 3, format!("{eval} --at 33/10 --max-bits 0")),
         ("memory-of-echoes", 1, "eval hopkinson --quantity force --at 50ms --memory 10MB".into()),
-        ("memory-of-cells", 1, "events hopkinson-with-release --memory 1MB".into()),
+        ("memory-of-cells", 1, "events mass-that-bounces --memory 1MB".into()),
         ("cells-many", 1, "eval hopkinson-with-release --quantity force --at 1000s".into()),
     ] {
         assert_fails(&folder, name, &words(&line), code);
