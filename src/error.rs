@@ -293,7 +293,6 @@ fn usual_remedy(error: &ProblemError) -> Option<&'static str> {
             "ask for an observable, or leave out `contacts open`"
         }
         ProblemError::Equations(_) | ProblemError::EquationsHaveNoContacts => DESCRIBE,
-        ProblemError::NoContact => "write `|` in its line where bodies only touch",
         ProblemError::ModelOfLocalContact(_)
         | ProblemError::NoProof(..)
         | ProblemError::NoDigits(_) => "ask for tested values, by the method of steps",
@@ -390,6 +389,7 @@ fn remedy_of_way(error: &WayError) -> &'static str {
         WayError::Model(_) => "use another model, or a method on the exact solution",
         WayError::NeedsRecurrence(_) => "use the method of steps",
         WayError::NeedsScene(_) => DESCRIBE,
+        WayError::NeedsClosedContacts(_) => "use the method compiled or certified",
         WayError::LeftLimit(_) => "ask for the limit from the right",
         WayError::NoNumber(..) | WayError::TooSmall(_) | WayError::NotMet { .. } => {
             "ask for digits instead"
@@ -416,9 +416,7 @@ fn remedy_of_lock(refusal: &LockRefusal) -> &'static str {
     match refusal {
         LockRefusal::PeriodsWhereContactsOpen => "lock events, until a time",
         LockRefusal::NoEvents => "lock pieces through a period, and values at times",
-        LockRefusal::ValuesWithUnits => "lock pieces, without units",
-        LockRefusal::ValuesWithConstants(_) => "lock pieces, with their symbols",
-        LockRefusal::NoLastPeriod => "give the last period",
+        LockRefusal::NoLastPeriod => "give the last period, or times",
         LockRefusal::PiecesLocked | LockRefusal::EventsLocked => "lock it again",
     }
 }

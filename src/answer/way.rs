@@ -23,6 +23,9 @@ pub enum WayError {
     /// A model has no scene to be made of.
     #[error("{0} models a scene of bars, and this is a recurrence")]
     NeedsScene(&'static str),
+    /// A model knows no contacts that open, as those of this scene do.
+    #[error("{0} is a model of contacts that stay closed, and in this scene they open")]
+    NeedsClosedContacts(&'static str),
     /// A method computes from the recurrence of a scene that has none.
     #[error("{0} computes from the exact solution, and none is known with a local contact")]
     NeedsRecurrence(&'static str),
@@ -88,9 +91,8 @@ impl<'a> Way<'a> {
             | Method::Leapfrog { .. }
             | Method::Steps { .. } => {
                 let (network, place) = question.scene.ok_or(WayError::NeedsScene(method.name()))?;
-                // Models know no contacts that open.
                 if network.scene().contacts_open {
-                    return Err(EvaluateError::NoClosedForm.into());
+                    return Err(WayError::NeedsClosedContacts(method.name()));
                 }
                 return Way::of_model(method, network, place);
             }

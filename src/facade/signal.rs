@@ -264,7 +264,7 @@ impl Signal<'_> {
     ) -> Result<R, Error> {
         let (from, to) = times.into_inner();
         let window = window(self.problem.time("from", from)?, self.problem.time("to", to)?)?;
-        let signal = self.problem.signal_on(&self.wanted, window.each_ref(), Purpose::Stretches)?;
+        let signal = self.problem.signal_on(&self.wanted, window.each_ref(), Purpose::Search)?;
         ask(&*signal)
     }
 }

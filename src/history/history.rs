@@ -161,6 +161,8 @@ pub enum Ending {
     Parted,
     /// It was followed to this instant; what comes later is not known.
     Followed(Value),
+    /// The line has no contact that could open.
+    NoContact,
 }
 
 /// The history of a scene.
@@ -223,6 +225,12 @@ pub(crate) fn undecided<T>(error: HistoryError) -> Outcome<Attempt<Outcome<T>>> 
 
 #[doc(hidden)]
 impl History {
+    /// That of a line without contacts.
+    pub fn without_contacts() -> History {
+        let (events, contacts) = (Vec::new(), Vec::new());
+        History { events, contacts, ending: Ending::NoContact, bits: 0, cells: 0 }
+    }
+
     /// Follows a scene until a time in the user's units or until nothing can meet again; without a time for
     /// a hundred of the longest travel times at most. Instants have the digits asked for, unless they are exact.
     ///

@@ -67,22 +67,14 @@ impl Lock {
 
 /// The values of all observables, from enclosures with so many digits.
 fn values(network: &Network, request: &Request, digits: u64) -> Result<Values, LockError> {
-    let mut values = Values::new();
-    let (Some(first), Some(last)) = (request.times.first(), request.times.last()) else {
-        return Ok(values);
-    };
     let writer = Writer { digits: request.digits };
-    for observed in network.observables() {
-        let name = &observed.name;
-        let signal = planner::of_scene(network, observed, [first, last], Purpose::Values)?;
-        for time in &request.times {
-            let value = value(&*signal, time, Limit::Right, digits as usize, LIMIT_BITS);
-            let value = value.map_err(HistoryError::from)?;
-            let value = writer.number(&value, || format!("{name}({time})"))?;
-            values.insert((name.clone(), time.clone()), value);
-        }
-    }
-    Ok(values)
+    let observables = network.observables().iter().map(|observed| (&observed.name, observed));
+    let signal =
+        |observed, window| Ok(planner::of_scene(network, observed, window, Purpose::Values)?);
+    request.values(observables, signal, |name, signal, time| {
+        let value = value(&**signal, time, Limit::Right, digits as usize, LIMIT_BITS);
+        writer.number(&value.map_err(HistoryError::from)?, || format!("{name}({time})"))
+    })
 }
 
 impl Events {
@@ -105,6 +97,7 @@ impl Events {
         }
         let ending = match &history.ending {
             Ending::Parted => "parted".to_owned(),
+            Ending::NoContact => "no contact".to_owned(),
             Ending::Followed(time) => {
                 format!("followed until {}", writer.number(time, || "the end".to_owned())?)
             }

@@ -21,6 +21,7 @@ use wavestep_polynomial::Rational;
 
 pub use difference::Difference;
 pub use error::LockError;
+pub use pieces::Derivable;
 
 /// The highest precision of a value.
 const LIMIT_BITS: u64 = 1 << 18;
@@ -58,8 +59,8 @@ pub struct Request {
 /// How much is locked besides values.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Extent {
-    /// The pieces on the periods from 0 through this one.
-    Pieces { through: usize },
+    /// The pieces on the periods from 0 through this one; none where values alone are locked.
+    Pieces { through: Option<usize> },
     /// The events of contacts.
     Events {
         /// The scene time until which contacts are followed; without it until nothing can meet again, as
@@ -84,6 +85,27 @@ impl Request {
         request.times.sort();
         request.times.dedup();
         Ok(request)
+    }
+
+    /// The values of quantities, by their names, at the times of the request: of each its signal, and how a
+    /// value of that is written.
+    fn values<'r, 'n, Q, S>(
+        &'r self,
+        quantities: impl Iterator<Item = (&'n String, Q)>,
+        signal: impl Fn(Q, [&'r Rational; 2]) -> Result<S, LockError>,
+        written: impl Fn(&str, &S, &Rational) -> Result<String, LockError>,
+    ) -> Result<Values, LockError> {
+        let mut values = Values::new();
+        let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else {
+            return Ok(values);
+        };
+        for (name, quantity) in quantities {
+            let signal = signal(quantity, [first, last])?;
+            for time in &self.times {
+                values.insert((name.clone(), time.clone()), written(name, &signal, time)?);
+            }
+        }
+        Ok(values)
     }
 }
 

@@ -1,11 +1,13 @@
-//! Locked pieces of the waves of a recurrence.
+//! Locked pieces of the waves of a recurrence, and values without events.
 
 use crate::export::expression_text;
 use crate::expression::{Expression, Fraction};
 use crate::lock::difference::{Difference, compared};
-use crate::lock::stated::of_recurrence;
+use crate::lock::stated::{of_recurrence, of_scene};
 use crate::lock::{Contents, LIMIT_BITS, Lock, LockError, Request, Values};
-use crate::signal::{ClosedSignal, Limit, digits};
+use crate::network::Network;
+use crate::planner::{self, Purpose};
+use crate::signal::{ClosedSignal, Limit, Signal, digits};
 use crate::solution::Solution;
 use std::collections::{BTreeMap, BTreeSet};
 use wavestep_polynomial::{Polynomial, Rational, Symbol};
@@ -13,8 +15,8 @@ use wavestep_polynomial::{Polynomial, Rational, Symbol};
 /// Pieces by wave and period.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(super) struct Pieces {
-    /// The last period of which pieces are locked.
-    pub through: usize,
+    /// The last period of which pieces are locked; none where values alone are.
+    pub through: Option<usize>,
     pub all: BTreeMap<(String, usize), Piece>,
 }
 
@@ -25,47 +27,83 @@ pub(super) struct Piece {
     pub expression: Expression,
 }
 
+/// What pieces and values are derived from.
+#[derive(Clone, Copy)]
+pub enum Derivable<'a> {
+    /// Equations between periods.
+    Equations(&'a Solution),
+    /// A scene, with its solution where it has periods.
+    Scene(&'a Network, Option<&'a Solution>),
+}
+
 impl Lock {
-    /// Derives the pieces of all waves on the periods from 0 through `through`, and values of all waves
-    /// and observables.
+    /// Derives the pieces of all waves on the periods from 0 through `through`, and values: of all waves and
+    /// observables; of the observables alone where a scene has units, constants or no periods.
     pub fn of_pieces(
-        solution: &Solution,
-        through: usize,
+        from: Derivable<'_>,
+        through: Option<usize>,
         request: &Request,
     ) -> Result<Lock, LockError> {
         let request = request.in_order()?;
-        let statement = solution.recurrence().statement();
+        let solution = match from {
+            Derivable::Equations(solution) => Some(solution),
+            Derivable::Scene(_, solution) => solution,
+        };
         let mut all = BTreeMap::new();
-        for (wave, name) in statement.waves.iter().enumerate() {
-            for (n, expression) in solution.pieces(wave, 0, through)?.into_iter().enumerate() {
-                let piece = Piece { variable: statement.local.clone(), expression };
-                all.insert((name.clone(), n), piece);
+        if let (Some(solution), Some(through)) = (solution, through) {
+            let statement = solution.recurrence().statement();
+            for (wave, name) in statement.waves.iter().enumerate() {
+                for (n, expression) in solution.pieces(wave, 0, through)?.into_iter().enumerate() {
+                    let piece = Piece { variable: statement.local.clone(), expression };
+                    all.insert((name.clone(), n), piece);
+                }
             }
         }
-        let values = values(solution, &request)?;
+        let values = match from {
+            Derivable::Equations(solution) => of_solution(solution, &request)?,
+            Derivable::Scene(network, Some(solution))
+                if !network.scene().dimensional && solution.recurrence().constants().is_empty() =>
+            {
+                of_solution(solution, &request)?
+            }
+            Derivable::Scene(network, _) => of_observables(network, &request)?,
+        };
+        let stated = match from {
+            Derivable::Scene(network, None) => of_scene(network.scene()),
+            Derivable::Equations(solution) | Derivable::Scene(_, Some(solution)) => {
+                of_recurrence(solution.recurrence().statement())
+            }
+        };
         let contents = Contents::Pieces(Pieces { through, all });
-        Ok(Lock { stated: of_recurrence(statement), request, contents, values })
+        Ok(Lock { stated, request, contents, values })
     }
 }
 
-/// The values of all waves and observables.
-fn values(solution: &Solution, request: &Request) -> Result<Values, LockError> {
-    let mut values = Values::new();
-    let (Some(first), Some(last)) = (request.times.first(), request.times.last()) else {
-        return Ok(values);
-    };
+/// The values of all waves and observables of a recurrence.
+fn of_solution(solution: &Solution, request: &Request) -> Result<Values, LockError> {
     let statement = solution.recurrence().statement();
     let observables = statement.observables.iter().map(|observable| &observable.name);
-    for name in statement.waves.iter().chain(observables) {
+    let names = statement.waves.iter().chain(observables);
+    let signal = |name: &String, window| {
         let quantity = solution.recurrence().observation(name).expect("a known name");
-        let signal = ClosedSignal::of_recurrence(solution, &quantity, [first, last])?;
-        for time in &request.times {
-            let value = digits(&signal, time, Limit::Right, request.digits, LIMIT_BITS)?;
-            let decimal = value.decimal(request.digits).0.to_string();
-            values.insert((name.clone(), time.clone()), decimal);
-        }
-    }
-    Ok(values)
+        Ok(ClosedSignal::of_recurrence(solution, &quantity, window)?)
+    };
+    request.values(names.map(|name| (name, name)), signal, |_, signal, time| {
+        rounded(signal, time, request)
+    })
+}
+
+/// The values of all observables of a scene, in its units.
+fn of_observables(network: &Network, request: &Request) -> Result<Values, LockError> {
+    let observables = network.observables().iter().map(|observed| (&observed.name, observed));
+    let signal =
+        |observed, window| Ok(planner::of_scene(network, observed, window, Purpose::Values)?);
+    request.values(observables, signal, |_, signal, time| rounded(&**signal, time, request))
+}
+
+fn rounded(signal: &dyn Signal, time: &Rational, request: &Request) -> Result<String, LockError> {
+    let value = digits(signal, time, Limit::Right, request.digits, LIMIT_BITS)?;
+    Ok(value.decimal(request.digits).0.to_string())
 }
 
 impl Pieces {

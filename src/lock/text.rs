@@ -92,9 +92,10 @@ impl Lock {
     pub fn to_text(&self) -> String {
         let mut text = String::from(HEADING);
         let _ = match &self.contents {
-            Contents::Pieces(Pieces { through, .. }) => {
+            Contents::Pieces(Pieces { through: Some(through), .. }) => {
                 writeln!(text, "{PIECES}\nthrough {through}")
             }
+            Contents::Pieces(_) => writeln!(text, "{PIECES}"),
             Contents::Events(Events { until: Some(until), .. }) => {
                 writeln!(text, "{EVENTS}\nuntil {until}")
             }
@@ -200,8 +201,8 @@ impl Lock {
                 self.values.insert((quantity, time), value).is_none()
             }
             ("through", Contents::Pieces(pieces)) => {
-                pieces.through = line.count(rest)?;
-                true
+                let through = line.count(rest)?;
+                pieces.through.replace(through).is_none()
             }
             (_, Contents::Events(events)) => match events.read_line(line, word, rest)? {
                 Some(is_new) => is_new,
@@ -222,6 +223,9 @@ impl Pieces {
             Formula::piece(wave, *n, &piece.expression, &piece.variable)
         };
         let formulas: Vec<Formula> = self.all.iter().map(formula).collect();
+        if formulas.is_empty() {
+            return;
+        }
         text.push('\n');
         text.push_str(&export::text(&formulas, TEXT_WIDTH));
     }

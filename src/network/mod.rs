@@ -15,6 +15,7 @@
 //! A [`ScaledScene`] comes before the network: it is all that models of a scene need, and all that
 //! there is of one with a local contact, whose law is not linear.
 
+mod balance;
 mod clocks;
 mod delay;
 mod equations;

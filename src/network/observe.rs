@@ -5,6 +5,7 @@
 //! the start.
 
 use crate::expression::{Expression, Fraction, Root};
+use crate::network::balance::{at_start, is_conserved};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
@@ -19,25 +20,33 @@ use wavestep_polynomial::Rational;
 impl Network {
     /// Forms all observables of the scene.
     pub(crate) fn set_observables(&mut self) -> Result<(), NetworkError> {
-        for measured in self.scaled.measures.clone() {
-            let (value, readings) = match measured.value {
+        for (place, measured) in self.scaled.measures.clone().into_iter().enumerate() {
+            let value = match &measured.value {
                 MeasuredValue::Linear(terms) => {
                     let mut sum = Observation::default();
-                    for term in &terms {
+                    for term in terms {
                         add(&mut sum, &self.reading(&term.of), &term.coefficient);
                     }
-                    (ObservedValue::Linear(sum), terms)
+                    ObservedValue::Linear(sum)
                 }
                 MeasuredValue::Energy(elements) => {
                     let mut parts = Vec::new();
                     for (coefficient, element) in elements {
-                        parts.extend(self.energy(&measured.name, &coefficient, element)?);
+                        parts.extend(self.energy(&measured.name, coefficient, *element)?);
                     }
-                    (ObservedValue::Energy(parts), Vec::new())
+                    ObservedValue::Energy(parts)
                 }
             };
+            let scene = &self.scaled.scene;
+            let conserved = is_conserved(scene, &scene.observables[place])
+                .then(|| at_start(&self.scaled, &measured.value, &value));
+            let readings = match measured.value {
+                MeasuredValue::Linear(terms) => terms,
+                MeasuredValue::Energy(_) => Vec::new(),
+            };
             let (name, unit, dimension) = (measured.name, measured.unit, measured.dimension);
-            self.observables.push(Observed { name, value, readings, unit, dimension });
+            let observed = Observed { name, value, readings, conserved, unit, dimension };
+            self.observables.push(observed);
         }
         Ok(())
     }

@@ -14,6 +14,8 @@ pub struct Observed {
     pub value: ObservedValue,
     /// The readings that it is the sum of, where it is linear in the motion of a scene.
     pub(crate) readings: Vec<Term>,
+    /// What it is for ever, where it is a momentum or an energy that nothing changes.
+    pub(crate) conserved: Option<Fraction>,
     /// The unit of its values, in metres, kilograms and seconds.
     pub unit: Root,
     /// The dimension of the unit; none for scenes without units.

@@ -31,14 +31,30 @@ pub enum Purpose {
     Values,
     /// Values at times, from echoes that are counted one by one.
     Echoes,
-    /// Stretches between breaks, for roots, extrema and polynomials.
+    /// Stretches between breaks, for polynomials.
     Stretches,
+    /// The same for roots and extrema: what nothing changes has one stretch, and one value.
+    Search,
 }
 
 /// Whether the waves of a scene have periods and echoes, which can be counted; else it is followed, and has
 /// events.
 pub fn has_periods(network: &Network) -> bool {
     !network.scene().contacts_open
+}
+
+/// Where the values of a quantity come from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum Source {
+    #[error("in closed form: the echoes that have arrived are added up")]
+    Closed,
+    #[error("followed from cell to cell, since contacts open")]
+    Followed,
+}
+
+/// Where the values of all quantities of a scene come from.
+pub fn source(network: &Network) -> Source {
+    if has_periods(network) { Source::Closed } else { Source::Followed }
 }
 
 /// An observable of a scene on a window of the user's time.
@@ -48,6 +64,9 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
+    if let (Purpose::Search, Some(value)) = (purpose, &observed.conserved) {
+        return energy::conserved(network, value, &observed.unit, window);
+    }
     if let ObservedValue::Energy(terms) = &observed.value {
         return energy::of_scene(network, terms, &observed.unit, window);
     }
@@ -55,13 +74,13 @@ pub fn of_scene<'a>(
         let signal = ClosedSignal::of_scene(network, observed, window)?;
         return Ok(Box::new(match purpose {
             Purpose::Echoes => signal.echo_by_echo(),
-            Purpose::Values | Purpose::Stretches => signal,
+            Purpose::Values | Purpose::Stretches | Purpose::Search => signal,
         }));
     }
     let followed = FollowedSignal::of_scene(network, observed, window)?;
     Ok(match purpose {
         Purpose::Values | Purpose::Echoes => Box::new(followed),
-        Purpose::Stretches => Box::new(followed.cut_at_breaks()?),
+        Purpose::Stretches | Purpose::Search => Box::new(followed.cut_at_breaks()?),
     })
 }
 

@@ -3,8 +3,9 @@
 use super::constants::rates;
 use super::{Kind, Problem, ProblemError};
 use crate::expression::{Condition, Expression};
-use crate::network::Network;
+use crate::network::{Network, NetworkError};
 use crate::recurrence::Statement;
+use crate::scene::PI;
 use crate::signal::arrivals;
 use crate::solution::{EchoByEcho, GeneralForm, PeriodByPeriod, Solution};
 use wavestep_polynomial::Symbol;
@@ -21,7 +22,7 @@ const MAX_TERMS: usize = 10_000;
 /// How many periods of a lattice are followed in a check.
 const FIRST_ECHOES: usize = 3;
 
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Debug)]
 pub enum Checked {
     /// A recurrence, stated or derived.
     Periods(Box<Periods>),
@@ -32,6 +33,13 @@ pub enum Checked {
     },
     /// A scene with a local contact of this name.
     LocalContact(String),
+    /// A scene that is derived only once its symbols have values.
+    NeedsValues {
+        /// Its symbols, with what is known of them.
+        symbols: Vec<(Symbol, Option<Condition>)>,
+        /// What cannot be derived without.
+        reason: Box<ProblemError>,
+    },
 }
 
 /// What was found of a recurrence.
@@ -86,7 +94,27 @@ impl Problem {
         match &self.kind {
             Kind::LocalContact(_) => Ok(Checked::LocalContact(self.local_contact())),
             Kind::Line { network, .. } if self.on_lattice() => on_lattice(network),
-            _ => Ok(Checked::Periods(Box::new(self.check_periods()?))),
+            _ => match self.check_periods() {
+                Ok(periods) => Ok(Checked::Periods(Box::new(periods))),
+                Err(reason) => self.needs_values(reason),
+            },
+        }
+    }
+
+    /// A check that ends where rates are those of symbols; other reasons are handed on.
+    fn needs_values(&self, reason: ProblemError) -> Result<Checked, ProblemError> {
+        let is_rates = matches!(
+            reason,
+            ProblemError::Rates { .. } | ProblemError::Network(NetworkError::Rates { .. })
+        );
+        match self.network() {
+            Ok(network) if is_rates && !self.symbols().is_empty() => {
+                let symbols = network.scene().assumptions.symbols();
+                let symbols = symbols.filter(|(symbol, _)| symbol.name() != PI);
+                let symbols = symbols.map(|(symbol, known)| (symbol.clone(), known.cloned()));
+                Ok(Checked::NeedsValues { symbols: symbols.collect(), reason: Box::new(reason) })
+            }
+            _ => Err(reason),
         }
     }
 

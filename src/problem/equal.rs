@@ -110,7 +110,7 @@ impl EqualExtrema<'_> {
         }
         let windows = [[one, two], [two, three]];
         let [first, second] =
-            windows.map(|window| problem.signal_on(&wanted, window, Purpose::Stretches));
+            windows.map(|window| problem.signal_on(&wanted, window, Purpose::Search));
         let (first, second) = (first?, second?);
         let (first, second) =
             (Search::new(&*first)?.half_open(), Search::new(&*second)?.half_open());

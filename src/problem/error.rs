@@ -70,8 +70,6 @@ pub enum ProblemError {
     Undecided { name: String, time: Rational, best: String },
     #[error("a recurrence has no contacts")]
     EquationsHaveNoContacts,
-    #[error("this scene has no contact that could open")]
-    NoContact,
     #[error("this would have about {} terms; at most {MAX_DERIVED_TERMS} are derived at once", in_powers(*.0))]
     TooManyTerms(f64),
     #[error("this would be about {echoes} echoes; at most {limit} are derived at once")]
@@ -159,11 +157,7 @@ pub enum LockRefusal {
     PeriodsWhereContactsOpen,
     #[error("there are no events here: no contacts open")]
     NoEvents,
-    #[error("values are not locked in scenes with units")]
-    ValuesWithUnits,
-    #[error("values are not locked in scenes with constants such as {0}")]
-    ValuesWithConstants(Symbol),
-    #[error("it is not said through which period the pieces are to be locked")]
+    #[error("it is not said through which period the pieces are to be locked, nor when values")]
     NoLastPeriod,
     #[error("pieces are locked, and contacts open now")]
     PiecesLocked,

@@ -7,7 +7,7 @@ use crate::answer::{self, Accuracy, Doubles, Method, Question, Remark, Tested, W
 use crate::expression::Fraction;
 use crate::field::FieldEvaluator;
 use crate::model::ModelError;
-use crate::planner::{self, Purpose};
+use crate::planner::{self, Purpose, Source};
 use crate::signal::{self, ClosedSignal, EvaluateError, Limit, Signal, Value, reaching_a_double};
 use num_traits::Signed as _;
 use wavestep_polynomial::Rational;
@@ -76,6 +76,11 @@ impl Problem {
         let signal = self.signal_on(wanted, [from, to], purpose)?;
         let values = all(&*signal)?;
         Ok(Proven { values, echoes: if count_echoes { signal.echoes() } else { None } })
+    }
+
+    /// Where values with proven digits come from.
+    pub fn source(&self) -> Source {
+        self.network().map_or(Source::Closed, planner::source)
     }
 
     /// The method for values in doubles where digits cannot be proven and none is named.

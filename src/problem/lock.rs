@@ -1,8 +1,8 @@
 //! Locks of a problem: pieces and values, or events where contacts open.
 
 use super::bounds::refuse_pieces;
-use super::{Kind, LockRefusal, Problem, ProblemError};
-use crate::lock::{Difference, Extent, Lock, Request};
+use super::{Kind, LockRefusal, Missing, Problem, ProblemError};
+use crate::lock::{Derivable, Difference, Extent, Lock, Request};
 use wavestep_polynomial::Rational;
 
 /// The results to lock.
@@ -33,15 +33,10 @@ impl Problem {
         if until.is_some() {
             return Err(LockRefusal::NoEvents.into());
         }
-        if self.has_units() && !request.times.is_empty() {
-            return Err(LockRefusal::ValuesWithUnits.into());
+        match through.is_none() && request.times.is_empty() {
+            true => Err(LockRefusal::NoLastPeriod.into()),
+            false => self.pieces_to_lock(through, &request),
         }
-        let through = through.ok_or(LockRefusal::NoLastPeriod)?;
-        let constant = self.recurrence()?.constants().first();
-        if let Some(constant) = constant.filter(|_| !request.times.is_empty()) {
-            return Err(LockRefusal::ValuesWithConstants(constant.symbol.clone()).into());
-        }
-        self.pieces_to_lock(through, &request)
     }
 
     /// How the problem, derived now, differs from a lock.
@@ -55,10 +50,27 @@ impl Problem {
         Ok(locked.differences(&now))
     }
 
-    fn pieces_to_lock(&self, through: usize, request: &Request) -> Result<Lock, ProblemError> {
+    fn pieces_to_lock(
+        &self,
+        through: Option<usize>,
+        request: &Request,
+    ) -> Result<Lock, ProblemError> {
+        let network = self.network().ok();
+        if let (Some(network), true) = (network, self.on_lattice()) {
+            if through.is_some() {
+                return Err(ProblemError::NoCommonMeasure(Missing::Pieces));
+            }
+            return Ok(Lock::of_pieces(Derivable::Scene(network, None), None, request)?);
+        }
         let solution = self.solution()?;
-        refuse_pieces(solution.recurrence(), through)?;
-        Ok(Lock::of_pieces(solution, through, request)?)
+        if let Some(through) = through {
+            refuse_pieces(solution.recurrence(), through)?;
+        }
+        let from = match network {
+            Some(network) => Derivable::Scene(network, Some(solution)),
+            None => Derivable::Equations(solution),
+        };
+        Ok(Lock::of_pieces(from, through, request)?)
     }
 
     fn events_to_lock(

@@ -1,9 +1,10 @@
 //! Times, with units where the scene has them.
 
 use super::{Given, Kind, Problem, ProblemError, number};
+use crate::enclosure::Numbers;
 use crate::expression::Fraction;
 use crate::language::{self, Source};
-use crate::network::{Network, ObservedValue};
+use crate::network::{Model, Network, ObservedValue};
 use crate::scene::Dimension;
 use crate::signal::{ClosedForm, EvaluateError};
 use num_integer::Integer as _;
@@ -103,9 +104,13 @@ impl Problem {
             Kind::Equations(_) => {
                 return Ok(self.shortest_period().ok_or(ProblemError::NoEnd)? * periods);
             }
-            Kind::Line { network, .. } if !self.on_lattice() => network,
-            _ => return Err(ProblemError::NoEnd),
+            Kind::Line { network, .. } => network,
+            Kind::LocalContact(_) => return Err(ProblemError::NoEnd),
         };
+        if self.on_lattice() {
+            let passages = travel_time(network)? * PASSAGES as f64;
+            return two_figures(passages);
+        }
         let periods = periods.max(passages(network));
         if let Some(period) = self.shortest_period() {
             return Ok(period * periods);
@@ -120,17 +125,18 @@ impl Problem {
         two_figures(period * periods.to_f64().unwrap_or(f64::NAN))
     }
 
-    /// So many of the shortest period.
+    /// So many of the shortest period; where there is none, of the time that a wave needs for the line.
     pub fn some_periods(&self, count: i64) -> Result<Rational, ProblemError> {
         if let Some(period) = self.shortest_period() {
             return Ok(period * Rational::from_integer(count.into()));
         }
-        if !self.on_lattice()
-            && let Some(symbol) = self.recurrence()?.symbols().next()
-        {
-            return Err(EvaluateError::MissingValue(symbol.clone()).into());
+        match self.network() {
+            Ok(network) if self.on_lattice() => two_figures(travel_time(network)? * count as f64),
+            _ => match self.recurrence()?.symbols().next() {
+                Some(symbol) => Err(EvaluateError::MissingValue(symbol.clone()).into()),
+                None => Err(ProblemError::NoEnd),
+            },
         }
-        Err(ProblemError::NoEnd)
     }
 }
 
@@ -140,6 +146,24 @@ pub fn two_figures(length: f64) -> Result<Rational, ProblemError> {
     let steps = (length / step).ceil().to_i64().ok_or(ProblemError::NoEnd)?;
     let step = Rational::from_float(step).ok_or(ProblemError::NoEnd)?;
     Ok(step * Rational::from_integer(steps.into()))
+}
+
+/// How long a wave needs to pass the whole line, in the user's time.
+fn travel_time(network: &Network) -> Result<f64, ProblemError> {
+    let Model { bars, constants, slowness, .. } = network.model();
+    let numbers = Numbers::new(constants);
+    let double = |value: &Fraction| -> Result<f64, ProblemError> {
+        Ok(numbers
+            .enclose(value, f64::MANTISSA_DIGITS.into())
+            .map_err(EvaluateError::from)?
+            .to_double()
+            .0)
+    };
+    let mut travel = Fraction::zero();
+    for own in bars.values().filter_map(|bar| bar.travel.as_ref()) {
+        travel = &travel + own;
+    }
+    Ok(double(&travel)? / double(slowness)?)
 }
 
 /// In how many periods a wave has passed the whole line twice and come to all places observed; none where

@@ -41,8 +41,9 @@ impl Wanted {
     fn linear(name: &str, observation: Observation) -> Wanted {
         let value = ObservedValue::Linear(observation);
         let (name, readings, unit) = (name.to_owned(), Vec::new(), Root::from(Fraction::one()));
-        let dimension = Dimension::NONE;
-        Wanted::of_observed(Observed { name, value, readings, unit, dimension }, None)
+        let (conserved, dimension) = (None, Dimension::NONE);
+        let observed = Observed { name, value, readings, conserved, unit, dimension };
+        Wanted::of_observed(observed, None)
     }
 }
 

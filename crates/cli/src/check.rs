@@ -7,7 +7,9 @@ use super::input;
 use super::lock;
 use super::progress;
 use std::fmt::Write as _;
+use wavestep::expression::Condition;
 use wavestep::problem::{Checked, Derivations, General, Periods, Solved};
+use wavestep_polynomial::Symbol;
 
 pub fn run(options: &Check) -> Result<String, Failure> {
     if let Some(file) = &options.locked {
@@ -35,9 +37,25 @@ pub fn run(options: &Check) -> Result<String, Failure> {
                  derived echo by echo: {echoes} echoes"
             );
         }
+        Checked::NeedsValues { symbols, reason } => {
+            add_symbols(&mut report, &symbols);
+            let _ = writeln!(report, "  waves: {}", problem.waves().join(", "));
+            add_observables(&mut report, &problem.observables());
+            let _ = writeln!(report, "  not derived without values: {reason}");
+            let needed: Vec<String> =
+                symbols.iter().map(|(symbol, _)| format!("--set {symbol}=…")).collect();
+            let _ = writeln!(report, "  for pieces, values and events give {}", needed.join(" "));
+        }
         Checked::Periods(periods) => add_periods(&mut report, &periods, &problem.observables()),
     }
     Ok(report)
+}
+
+fn add_symbols(report: &mut String, symbols: &[(Symbol, Option<Condition>)]) {
+    for (symbol, condition) in symbols {
+        let condition = condition.as_ref().map_or_else(String::new, |known| format!(" {known}"));
+        let _ = writeln!(report, "  symbol {symbol}{condition}");
+    }
 }
 
 fn add_observables<T: std::borrow::Borrow<str>>(report: &mut String, observables: &[T]) {
@@ -47,10 +65,7 @@ fn add_observables<T: std::borrow::Borrow<str>>(report: &mut String, observables
 }
 
 fn add_periods(report: &mut String, found: &Periods, observables: &[&str]) {
-    for (symbol, condition) in &found.symbols {
-        let condition = condition.as_ref().map_or_else(String::new, |known| format!(" {known}"));
-        let _ = writeln!(report, "  symbol {symbol}{condition}");
-    }
+    add_symbols(report, &found.symbols);
     if !found.factors.is_empty() {
         let _ = writeln!(report, "  taken to be non-zero: {}", found.factors.join(", "));
     }

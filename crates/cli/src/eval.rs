@@ -4,10 +4,12 @@ use super::arguments::Eval;
 use super::doubles;
 use super::failure::Failure;
 use super::input;
+use super::output::plural;
 use super::progress;
 use super::rows::{times, written};
 use super::validity::note_search;
 use num_rational::BigRational;
+use std::time::Instant;
 use wavestep::answer::Accuracy;
 use wavestep::problem::{Digits, Problem};
 
@@ -32,10 +34,6 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     let accuracy = match (method, tolerance) {
         (Some(method), tolerance) => Accuracy::Method(method, tolerance),
         (None, Some(tolerance)) => Accuracy::Within(tolerance),
-        (None, None) if options.explain => {
-            let message = "--explain tells how values in doubles are computed";
-            return Err(Failure::usage(message, "give --tol or --method as well"));
-        }
         (None, None) => Accuracy::Digits,
     };
     let (name, limit) = (&options.quantity, options.side);
@@ -52,9 +50,17 @@ pub fn run(options: &Eval) -> Result<String, Failure> {
     let times = times(&problem, options)?;
     let (count, max_bits) = (options.digits, options.max_bits);
     let digits = Digits { count, max_bits, limit, count_echoes: options.stats };
-    let progress = progress::counted(times.len());
+    let (progress, begin) = (progress::counted(times.len()), Instant::now());
     let found = problem.proven(&wanted, &times, digits, &|| progress.inc(1))?;
     drop(progress);
+    if options.explain {
+        let (source, took) = (problem.source(), begin.elapsed().as_secs_f64());
+        let several = plural(times.len(), "value");
+        eprintln!(
+            "{several} with {count} proven digits, {took:.1} s\n  {source}\n  bound: enclosed more and \
+             more narrowly, until the last digit is rounded correctly"
+        );
+    }
     note_pulling(&problem, &times);
     if let Some((expanded, needed)) = found.echoes {
         eprintln!("echoes expanded: {expanded} of {needed} that can reach what is observed");

@@ -8,6 +8,7 @@ use super::json::SCHEMA_VERSION;
 use super::progress;
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
+use std::time::{Duration, Instant};
 use wavestep::ball::in_decimals;
 use wavestep::export::expression_text;
 use wavestep::history::{Body, Ending, Event, EventKind, History};
@@ -20,16 +21,34 @@ pub fn run(options: &Events) -> Result<String, Failure> {
     let problem = input::problem(&options.scene)?;
     let until = options.until.as_deref();
     let until = until.map(|until| problem.time("--until", until)).transpose()?;
+    let begin = Instant::now();
     let history = {
         let _progress = progress::spinner("following contacts");
         problem.history(until.as_ref(), options.digits)?
     };
+    if options.explain {
+        explain(&history, begin.elapsed(), options.digits);
+    }
     let told = Told { options, problem: &problem, history: &history };
     Ok(match options.format {
         Format::Json => told.json(),
         Format::Latex => told.latex(),
         _ => told.text(),
     })
+}
+
+/// Says on standard error how events were found, at which cost, and how sure they are.
+fn explain(history: &History, took: Duration, digits: usize) {
+    if history.ending == Ending::NoContact {
+        eprintln!("nothing to follow: no contact can open");
+        return;
+    }
+    let History { cells, bits, .. } = history;
+    eprintln!(
+        "followed from cell to cell: {cells} cells with {bits} bits, {:.1} s\n         bound: on every cell it is proven that nothing else happens; numbers are correctly rounded to \
+         {digits} digits",
+        took.as_secs_f64()
+    );
 }
 
 struct Told<'a> {
@@ -124,6 +143,7 @@ impl Told<'_> {
                 let end = self.value(end, Dimension::TIME);
                 format!("Followed until t = {end}; what comes later is not known.")
             }
+            Ending::NoContact => "Nothing can open: the line has no contact.".to_owned(),
         }
     }
 
@@ -181,6 +201,7 @@ impl Told<'_> {
         let ending: Json = match &self.history.ending {
             Ending::Parted => json!({ "kind": "parted" }),
             Ending::Followed(time) => json!({ "kind": "followed", "until": number(time) }),
+            Ending::NoContact => json!({ "kind": "no contact" }),
         };
         let mut document = json!({
             "schema_version": SCHEMA_VERSION,

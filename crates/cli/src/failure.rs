@@ -265,11 +265,7 @@ fn for_lock(refusal: &LockRefusal) -> Option<&'static str> {
             "leave out --through: events are locked, until --until T"
         }
         LockRefusal::NoEvents => "give --through N for pieces and --at T for values",
-        LockRefusal::ValuesWithUnits => "leave out --at: pieces are locked, without units",
-        LockRefusal::ValuesWithConstants(_) => {
-            "leave out --at: pieces are locked with their symbols"
-        }
-        LockRefusal::NoLastPeriod => "give --through N, for the periods 0 … N",
+        LockRefusal::NoLastPeriod => "give --through N, for the periods 0 … N, or --at T",
         LockRefusal::PiecesLocked | LockRefusal::EventsLocked => return None,
     })
 }

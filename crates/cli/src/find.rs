@@ -26,7 +26,7 @@ pub fn run(options: &Find) -> Result<String, Failure> {
     let level = problem.quantity("--level", written, wanted.dimension)?;
     let told =
         Told { options, name, level: written, problem: &problem, wanted: &wanted, window: &window };
-    let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Stretches)?;
+    let signal = problem.signal_on(&wanted, window.each_ref(), Purpose::Search)?;
     let search = Search::new(&*signal)?;
     let progress = progress::spinner("searching");
     let (digits, limit_bits) = (options.digits, options.max_bits);

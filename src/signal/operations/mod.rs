@@ -6,9 +6,11 @@
 //! of it.
 
 mod combination;
+mod constant;
 mod integral;
 
 pub(crate) use combination::{Combination, Product};
+pub(crate) use constant::Constant;
 pub(crate) use integral::Integral;
 
 use crate::ball::{Attempt, Ball, Magnitude, Precisions};

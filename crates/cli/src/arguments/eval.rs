@@ -61,7 +61,7 @@ pub struct Eval {
     /// double-double, plain, expanded; rigid, third, modes[:N], leapfrog[:CELLS[,CFL]], steps[:TOL]
     #[arg(long, value_name = "NAME", conflicts_with_all = ["digits", "stats", "max_bits", "piece"])]
     pub method: Option<String>,
-    /// Say on standard error which method was picked, and why
+    /// Say on standard error how values are found, at which cost, and how sure they are
     #[arg(long)]
     pub explain: bool,
     /// Written how

@@ -20,6 +20,9 @@ pub struct Events {
     /// How many significant digits
     #[arg(long, value_name = "D", default_value_t = 12)]
     pub digits: usize,
+    /// Say on standard error how events were found, at which cost, and how sure they are
+    #[arg(long)]
+    pub explain: bool,
     /// Written how
     #[arg(long, default_value = "text", value_parser = named([
         ("text", Format::Text, "A paragraph an event"),

@@ -252,12 +252,6 @@ const REFUSALS: [(&str, i32, &str, &str); 18] = [
         "give it one: --set mu=1",
     ),
     (
-        "eval rigid-mass --set mu=1 --quantity f --at 2 --explain",
-        2,
-        "--explain tells how values in doubles are computed",
-        "give --tol or --method as well",
-    ),
-    (
         "export rigid-mass --set mu=1 --as c --quantity f --from 3 --to 2",
         2,
         "the window from 3 to 2 is empty",

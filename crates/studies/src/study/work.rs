@@ -150,8 +150,12 @@ pub fn work_precision(
         let speed_up = certified.map(|certified| certified.seconds / seconds);
         rows.push(Row { method: line, setting, error, bound, seconds, speed_up });
     }
-    let chart =
-        WorkPrecision::new(title, methods, caption)?.reference_radius(reference.radius())?;
+    let chart = WorkPrecision::new(title, methods, caption)?;
+    let chart = match reference.radius() {
+        // Exact values have no radius to show.
+        0.0 => chart,
+        radius => chart.reference_radius(radius)?,
+    };
     Ok((chart, Table { compared_with: "certified".to_owned(), rows }))
 }
 
