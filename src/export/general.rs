@@ -226,7 +226,7 @@ pub fn operator_of(recurrence: &Recurrence, unknown: &Unknown) -> String {
             power = &power * &delay;
         }
         let text = write_flat(&arrange(&sum, Some(&q)), Text);
-        parts.push(format!("({text})*{}", recurrence.statement().waves[wave]));
+        parts.push(format!("({text})*{}", recurrence.wave_name(wave)));
     }
     let forcing = unknown.equation.forcing_terms().iter().any(|function| !function.is_zero());
     parts.extend(forcing.then(|| "forcing".to_owned()));

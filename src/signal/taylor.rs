@@ -164,7 +164,9 @@ fn tail(coefficients: &[ComplexBall], x: &Magnitude, h: &Magnitude, terms: usize
         }
         sum
     };
-    TAIL_SHIFTS.into_iter().map(bound).min().expect("some are tried")
+    // Where h is tiny, h/θ as large as x is about the best.
+    let level = x.top().zip(h.top()).map(|(x, h)| x - h).filter(|shift| *shift > 0);
+    TAIL_SHIFTS.into_iter().chain(level).map(bound).min().expect("some are tried")
 }
 
 impl Taylor {
