@@ -1,23 +1,30 @@
-//! Energies and momenta that nothing changes.
+//! What changes energies and momenta: the power or the force that flows in.
 //!
-//! What a part of the line holds changes by what flows through its ends and by what acts within it: by the
-//! power `X v` and the loss in dampers, or by the force `X`. In a sum over the whole line with one
-//! coefficient all that flows from one element to the next cancels. At an open contact `X = 0`, at a closed
-//! one both sides move together; bars and springs give way, so that no motion is lost where these meet.
+//! What a bar holds changes by what enters at its left and leaves at its right: its energy by the power
+//! `X v`, its momentum by the force `X`. In a sum over the whole line with one coefficient all that flows
+//! from one element to the next cancels: at an open contact `X = 0`, at a closed one both sides move
+//! together, and where bars or springs meet something else no motion is lost at once. What is left is the loss in
+//! dampers, or the force of walls and supports.
 
 use crate::expression::Fraction;
-use crate::network::measures::MeasuredValue;
+use crate::network::layout::Layout;
+use crate::network::measures::{MeasuredValue, vanishes};
 use crate::network::node::ElementLaw;
 use crate::network::observed::{ObservedValue, Squared, Window};
-use crate::network::reading::Reading;
+use crate::network::reading::{Face, Field, Lump, Reading, section};
 use crate::network::scaled::ScaledScene;
 use crate::scene::{ElementIndex, End, Kind, Measure, Observable, Scene};
 
-/// Whether the balance of an observable says that it keeps its value for ever.
-pub(super) fn is_conserved(scene: &Scene, observable: &Observable) -> bool {
-    let Some(measure) = observable.terms.first().map(|seen| seen.measure) else { return false };
+/// A coefficient times the product of one or two readings.
+pub(super) type Flow = (Fraction, Vec<Reading>);
+
+/// The terms of the derivative of an observable with respect to time, in the scales of the scene, where it
+/// is an energy or a momentum whose balance is known.
+pub(super) fn flow(scaled: &ScaledScene, observable: &Observable) -> Option<Vec<Flow>> {
+    let scene = &scaled.scene;
+    let measure = observable.terms.first()?.measure;
     if observable.terms.iter().any(|seen| seen.measure != measure) {
-        return false;
+        return None;
     }
     let coefficient = |element: &ElementIndex| {
         let mut sum = Fraction::zero();
@@ -29,37 +36,147 @@ pub(super) fn is_conserved(scene: &Scene, observable: &Observable) -> bool {
         sum
     };
     let elements = &scene.line.elements;
-    let coefficients: Vec<Fraction> = elements.iter().map(coefficient).collect();
-    if coefficients.iter().any(|own| *own != coefficients[0]) {
-        return false;
+    let own: Vec<(ElementIndex, Fraction)> =
+        elements.iter().map(|element| (*element, coefficient(element))).collect();
+    let balance = Balance { scaled, measure };
+    if own.iter().all(|(_, coefficient)| *coefficient == own[0].1) {
+        let terms = match measure {
+            Measure::Energy => balance.losses()?,
+            Measure::Momentum => balance.outer_forces()?,
+            _ => return None,
+        };
+        return Some(times(terms, &own[0].1));
     }
-    let kinds = || elements.iter().map(|element| &scene.elements[*element].kind);
-    match measure {
-        Measure::Energy => !kinds().any(acts) && !is_rigid(scene, kinds()),
-        Measure::Momentum => {
-            let is_fixed = [scene.line.left, scene.line.right].contains(&End::Fixed);
-            !is_fixed && !kinds().any(|kind| matches!(kind, Kind::Load(_) | Kind::Support(_)))
-        }
-        _ => false,
+    let mut all = Vec::new();
+    for (element, coefficient) in own.iter().filter(|(_, coefficient)| !coefficient.is_zero()) {
+        all.extend(times(balance.through_bar(*element)?, coefficient));
     }
+    Some(all)
 }
 
-/// Whether an element adds energy to the line, or takes it away.
-fn acts(kind: &Kind) -> bool {
-    match kind {
-        Kind::Load(_) => true,
-        Kind::Spring(spring) | Kind::Support(spring) => !spring.damping.is_zero(),
-        Kind::Bar(_) | Kind::Mass(_) | Kind::Hertz(_) => false,
+fn times(terms: Vec<Flow>, coefficient: &Fraction) -> Vec<Flow> {
+    terms.into_iter().map(|(own, factors)| (&own * coefficient, factors)).collect()
+}
+
+struct Balance<'a> {
+    scaled: &'a ScaledScene,
+    measure: Measure,
+}
+
+impl Balance<'_> {
+    fn layout(&self) -> &Layout {
+        &self.scaled.layout
+    }
+
+    /// The lumped elements with their laws.
+    fn lumps(&self) -> impl Iterator<Item = (Lump, &ElementLaw<Fraction>)> {
+        (0..).zip(&self.layout().nodes).flat_map(|(node, own)| {
+            let lump = move |place| Lump { node, place };
+            (0..).zip(&own.elements).map(move |(place, own)| (lump(place), &own.law))
+        })
+    }
+
+    /// What dampers take from the energy of the line; none where loads act, or where a mass may meet another
+    /// or a wall with nothing between them that gives way.
+    fn losses(&self) -> Option<Vec<Flow>> {
+        if is_rigid(&self.scaled.scene) {
+            return None;
+        }
+        let mut terms = Vec::new();
+        for (lump, law) in self.lumps() {
+            let [left, right] = [Face::Left(lump), Face::Right(lump)].map(Reading::Velocity);
+            match law {
+                ElementLaw::Load(_) => return None,
+                ElementLaw::Support { damping, .. } => {
+                    terms.push((-damping, vec![left.clone(), left]));
+                }
+                ElementLaw::Spring { damping, .. } => {
+                    terms.push((-damping, vec![left.clone(), left.clone()]));
+                    terms.push((damping + damping, vec![left, right.clone()]));
+                    terms.push((-damping, vec![right.clone(), right]));
+                }
+                ElementLaw::Mass { .. } | ElementLaw::LocalContact { .. } => {}
+            }
+        }
+        terms.retain(|(coefficient, _)| !coefficient.is_zero());
+        Some(terms)
+    }
+
+    /// The forces of walls and supports on the line; none where loads act.
+    fn outer_forces(&self) -> Option<Vec<Flow>> {
+        let line = &self.scaled.scene.line;
+        let mut terms = Vec::new();
+        for (side, end, element) in
+            [(0, line.left, line.elements.first()), (1, line.right, line.elements.last())]
+        {
+            if end == End::Fixed {
+                let sign = if side == 0 { Fraction::one() } else { -&Fraction::one() };
+                terms.push((sign, vec![self.force_at_end(*element?, side)?]));
+            }
+        }
+        for (lump, law) in self.lumps() {
+            match law {
+                ElementLaw::Load(_) => return None,
+                ElementLaw::Support { .. } => {
+                    terms.push((-&Fraction::one(), vec![Reading::Force(lump)]));
+                }
+                _ => {}
+            }
+        }
+        Some(terms)
+    }
+
+    /// The force at the left (0) or right (1) side of a bar or a spring.
+    fn force_at_end(&self, element: ElementIndex, side: usize) -> Option<Reading> {
+        if let Some(bar) = self.layout().bar(element) {
+            return Some(self.in_bar(Field::Force, bar, side));
+        }
+        let node = self.layout().node_of(element)?;
+        let place = self.layout().nodes[node].place(element)?;
+        let is_spring = matches!(self.scaled.scene.elements[element].kind, Kind::Spring(_));
+        is_spring.then_some(Reading::Force(Lump { node, place }))
+    }
+
+    fn in_bar(&self, field: Field, bar: usize, side: usize) -> Reading {
+        let travel = &self.scaled.model.bars[&self.layout().bars[bar]].travel;
+        let time = travel.clone().filter(|_| side == 1).unwrap_or_else(Fraction::zero);
+        Reading::InBar(field, section(self.layout(), &self.scaled.model, bar, time))
+    }
+
+    /// What enters a bar at its left and leaves at its right.
+    fn through_bar(&self, element: ElementIndex) -> Option<Vec<Flow>> {
+        let bar = self.layout().bar(element)?;
+        let fields: &[Field] = match self.measure {
+            Measure::Energy => &[Field::Force, Field::Velocity],
+            Measure::Momentum => &[Field::Force],
+            _ => return None,
+        };
+        let mut terms = Vec::new();
+        for side in (0..2).filter(|side| self.layout().ends[bar][*side].is_some()) {
+            let factors: Vec<Reading> =
+                fields.iter().map(|field| self.in_bar(*field, bar, side)).collect();
+            let is_zero = |factor: &Reading| match factor {
+                Reading::InBar(field, section) => {
+                    vanishes(&self.scaled.scene, self.layout(), *field, section)
+                }
+                _ => false,
+            };
+            if !factors.iter().any(is_zero) {
+                let sign = if side == 0 { Fraction::one() } else { -&Fraction::one() };
+                terms.push((sign, factors));
+            }
+        }
+        Some(terms)
     }
 }
 
 /// Whether two masses, or a mass and a wall, have nothing between them that gives way: where they meet,
 /// energy is lost at once.
-fn is_rigid<'a>(scene: &Scene, kinds: impl Iterator<Item = &'a Kind>) -> bool {
+fn is_rigid(scene: &Scene) -> bool {
     let is_wall = |end| usize::from(end == End::Fixed);
     let mut met = is_wall(scene.line.left);
-    for kind in kinds {
-        match kind {
+    for element in &scene.line.elements {
+        match &scene.elements[*element].kind {
             Kind::Bar(_) | Kind::Spring(_) | Kind::Hertz(_) => met = 0,
             Kind::Mass(_) => met += 1,
             Kind::Support(_) | Kind::Load(_) => {}
@@ -71,7 +188,7 @@ fn is_rigid<'a>(scene: &Scene, kinds: impl Iterator<Item = &'a Kind>) -> bool {
     met + is_wall(scene.line.right) > 1
 }
 
-/// A momentum or an energy that is conserved, as at the start, when springs are relaxed.
+/// A momentum or an energy at the start, when springs are relaxed.
 pub(super) fn at_start(
     scaled: &ScaledScene,
     value: &MeasuredValue,

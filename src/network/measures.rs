@@ -175,28 +175,11 @@ impl<'a> Table<'a> {
             Measure::Strain | Measure::Stress => (-1, Field::Force),
             _ => return Err(Mistake::NotMeasurable),
         };
-        if self.vanishes(field, &section) {
+        if vanishes(self.scene, self.layout, field, &section) {
             return Ok(Vec::new());
         }
         let coefficient = Fraction::constant(&Rational::from_integer(sign.into()));
         Ok(vec![Term { coefficient, of: Reading::InBar(field, section) }])
-    }
-
-    /// Whether a boundary condition alone makes a field zero: the force at a free end, the motion at a fixed
-    /// one that cannot open.
-    fn vanishes(&self, field: Field, section: &Section) -> bool {
-        let Some(side) = section.end(Fraction::is_zero) else { return false };
-        let Some(node) = self.layout.ends[section.bar][side] else { return false };
-        let node = &self.layout.nodes[node];
-        let joints = &self.scene.line.joints;
-        let joint = if side == 0 { joints.first() } else { joints.last() };
-        let may_open = self.scene.contacts_open && joint == Some(&Joint::Contact);
-        let beyond = [node.left, node.right][side];
-        node.elements.is_empty()
-            && match field {
-                Field::Force => beyond == Side::Free,
-                Field::Velocity | Field::Displacement => beyond == Side::Fixed && !may_open,
-            }
     }
 
     fn body(&self, element: ElementIndex) -> Option<&'a Body> {
@@ -233,6 +216,23 @@ impl<'a> Table<'a> {
         };
         Ok(Some(section(self.layout, self.model, bar, time)))
     }
+}
+
+/// Whether a boundary condition alone makes a field zero: the force at a free end, the motion at a fixed
+/// one that cannot open.
+pub(super) fn vanishes(scene: &Scene, layout: &Layout, field: Field, section: &Section) -> bool {
+    let Some(side) = section.end(Fraction::is_zero) else { return false };
+    let Some(node) = layout.ends[section.bar][side] else { return false };
+    let node = &layout.nodes[node];
+    let joints = &scene.line.joints;
+    let joint = if side == 0 { joints.first() } else { joints.last() };
+    let may_open = scene.contacts_open && joint == Some(&Joint::Contact);
+    let beyond = [node.left, node.right][side];
+    node.elements.is_empty()
+        && match field {
+            Field::Force => beyond == Side::Free,
+            Field::Velocity | Field::Displacement => beyond == Side::Fixed && !may_open,
+        }
 }
 
 /// The time in which a wave goes a distance; in bars given by impedance distances are times.

@@ -43,7 +43,7 @@ pub(crate) use measures::{Measured, MeasuredValue};
 pub use model::{Model, ModelBar, ModelLoad, Scale};
 pub use node::ElementLaw;
 pub(crate) use node::{Acting, Link, Lumped, Node, Side};
-pub(crate) use observed::{EnergyTerm, Extent, FieldBar, Squared};
+pub(crate) use observed::{Balance, EnergyTerm, Extent, FieldBar, FlowTerm, Squared};
 pub use observed::{Observed, ObservedValue, Window};
 pub(crate) use reading::{Elements, Energy, Face, Field, Lump, Reading, Section, Term};
 pub use scaled::ScaledScene;

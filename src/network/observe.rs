@@ -5,12 +5,14 @@
 //! the start.
 
 use crate::expression::{Expression, Fraction, Root};
-use crate::network::balance::{at_start, is_conserved};
+use crate::network::balance::{Flow, at_start, flow};
 use crate::network::equations::{Network, Role};
 use crate::network::error::NetworkError;
 use crate::network::measures::MeasuredValue;
 use crate::network::node::{ElementLaw, Node, Side};
-use crate::network::observed::{EnergyTerm, Observed, ObservedValue, Squared, Window};
+use crate::network::observed::{
+    Balance, EnergyTerm, FlowTerm, Observed, ObservedValue, Squared, Window,
+};
 use crate::network::reading::{Elements, Energy, Face, Field, Lump, Reading, Section, section};
 use crate::recurrence::{Observation, ObservedWave, WaveIndex};
 use crate::scene::ElementIndex;
@@ -37,18 +39,31 @@ impl Network {
                     ObservedValue::Energy(parts)
                 }
             };
-            let scene = &self.scaled.scene;
-            let conserved = is_conserved(scene, &scene.observables[place])
-                .then(|| at_start(&self.scaled, &measured.value, &value));
+            let at_start = at_start(&self.scaled, &measured.value, &value);
+            let flow = flow(&self.scaled, &self.scaled.scene.observables[place]);
+            let balance = flow.map(|flow| Balance { at_start, flow: self.flowing(flow) });
             let readings = match measured.value {
                 MeasuredValue::Linear(terms) => terms,
                 MeasuredValue::Energy(_) => Vec::new(),
             };
             let (name, unit, dimension) = (measured.name, measured.unit, measured.dimension);
-            let observed = Observed { name, value, readings, conserved, unit, dimension };
+            let observed = Observed { name, value, readings, balance, unit, dimension };
             self.observables.push(observed);
         }
         Ok(())
+    }
+
+    fn flowing(&mut self, flow: Vec<Flow>) -> Vec<FlowTerm> {
+        let mut terms = Vec::new();
+        for (coefficient, readings) in flow {
+            let with_waves = |reading| {
+                let waves = self.reading(&reading);
+                (reading, waves)
+            };
+            let factors = readings.into_iter().map(with_waves).collect();
+            terms.push(FlowTerm { coefficient, factors });
+        }
+        terms
     }
 
     fn elements(&self) -> Elements<'_> {

@@ -14,8 +14,8 @@ pub struct Observed {
     pub value: ObservedValue,
     /// The readings that it is the sum of, where it is linear in the motion of a scene.
     pub(crate) readings: Vec<Term>,
-    /// What it is for ever, where it is a momentum or an energy that nothing changes.
-    pub(crate) conserved: Option<Fraction>,
+    /// What changes it, where that is known of a momentum or an energy.
+    pub(crate) balance: Option<Balance>,
     /// The unit of its values, in metres, kilograms and seconds.
     pub unit: Root,
     /// The dimension of the unit; none for scenes without units.
@@ -53,6 +53,22 @@ pub struct EnergyTerm {
     pub before: Fraction,
     /// Over which time it is integrated.
     pub window: Window,
+}
+
+/// An energy or a momentum by what it is at the start, and what flows in.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Balance {
+    pub at_start: Fraction,
+    /// What its derivative with respect to the time of the scene is the sum of; nothing for what is
+    /// conserved.
+    pub flow: Vec<FlowTerm>,
+}
+
+/// A coefficient times the product of readings, each of them also in waves.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct FlowTerm {
+    pub coefficient: Fraction,
+    pub factors: Vec<(Reading, Observation)>,
 }
 
 /// The time over which the square of a wave is integrated.

@@ -5,7 +5,7 @@ use crate::expression::{Fraction, Root};
 use crate::history::{FollowedSignal, Follower};
 use crate::network::{EnergyTerm, Network, Window};
 use crate::signal::{
-    ClosedSignal, Combination, Constant, EvaluateError, Integral, Operation, Product, Scale, Signal,
+    ClosedSignal, Combination, EvaluateError, Integral, Operation, Product, Scale, Signal,
 };
 use num_traits::{Signed as _, Zero as _};
 use std::rc::Rc;
@@ -50,18 +50,6 @@ pub(super) fn of_scene<'a>(
     }
     let sum = combination(&scale, operands, products);
     Ok(Box::new(Operation::new(&scale, sum, unit.clone(), [from, to])))
-}
-
-/// An energy or a momentum that nothing changes.
-pub(super) fn conserved<'a>(
-    network: &'a Network,
-    value: &Fraction,
-    unit: &Root,
-    window: [&Rational; 2],
-) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    let scale = Scale::of(network);
-    let rule = Constant { scale: Rc::clone(&scale), value: value.clone() };
-    Ok(Box::new(Operation::new(&scale, rule, unit.clone(), window)))
 }
 
 fn one_root() -> Root {

@@ -5,6 +5,7 @@
 //! over the last travel time. Who has a signal need not know which it is; what is no signal, such as a lock,
 //! asks whether there are periods.
 
+mod balance;
 mod energy;
 
 use crate::history::{FollowedSignal, Follower, HistoryError};
@@ -33,7 +34,7 @@ pub enum Purpose {
     Echoes,
     /// Stretches between breaks, for polynomials.
     Stretches,
-    /// The same for roots and extrema: what nothing changes has one stretch, and one value.
+    /// The same for roots and extrema: energies and momenta with what flows in.
     Search,
 }
 
@@ -64,8 +65,8 @@ pub fn of_scene<'a>(
     window: [&Rational; 2],
     purpose: Purpose,
 ) -> Result<Box<dyn Signal + 'a>, SignalError> {
-    if let (Purpose::Search, Some(value)) = (purpose, &observed.conserved) {
-        return energy::conserved(network, value, &observed.unit, window);
+    if let (Purpose::Search, Some(known)) = (purpose, &observed.balance) {
+        return balance::of_scene(network, observed, known, window);
     }
     if let ObservedValue::Energy(terms) = &observed.value {
         return energy::of_scene(network, terms, &observed.unit, window);

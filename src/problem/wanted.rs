@@ -41,8 +41,8 @@ impl Wanted {
     fn linear(name: &str, observation: Observation) -> Wanted {
         let value = ObservedValue::Linear(observation);
         let (name, readings, unit) = (name.to_owned(), Vec::new(), Root::from(Fraction::one()));
-        let (conserved, dimension) = (None, Dimension::NONE);
-        let observed = Observed { name, value, readings, conserved, unit, dimension };
+        let (balance, dimension) = (None, Dimension::NONE);
+        let observed = Observed { name, value, readings, balance, unit, dimension };
         Wanted::of_observed(observed, None)
     }
 }

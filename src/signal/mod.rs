@@ -32,7 +32,7 @@ pub use method::{
     Certified, Compiled, Evaluator, Marched, MethodError, StablePrecision, Summation, Summed,
     instructions,
 };
-pub(crate) use operations::{Combination, Constant, Integral, Operation, Product, Scale};
+pub(crate) use operations::{Balanced, Combination, Constant, Integral, Operation, Product, Scale};
 pub use signal::{At, Effort, Instant, Limit, Point, Signal};
 pub(crate) use signal::{Enclosure, Known, has_begun, last_begun};
 pub use taps::{NoTaps, Taps};

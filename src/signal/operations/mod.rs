@@ -5,10 +5,12 @@
 //! narrowed until they part. A [`Rule`] says what the result is on a stretch; [`Operation`] makes a signal
 //! of it.
 
+mod balanced;
 mod combination;
 mod constant;
 mod integral;
 
+pub(crate) use balanced::Balanced;
 pub(crate) use combination::{Combination, Product};
 pub(crate) use constant::Constant;
 pub(crate) use integral::Integral;
